@@ -1,0 +1,1 @@
+"""Measure and print tables; never asserted in tests."""

@@ -1,0 +1,1 @@
+"""Say where the robot is. Imports wire only."""

@@ -1,0 +1,1 @@
+"""Offer the command line: up, say, stop, status and the rest."""

@@ -1,0 +1,1 @@
+"""Stand in for a robot and a home that are not there. Imports wire only."""
