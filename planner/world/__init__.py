@@ -1,0 +1,23 @@
+"""Know a site: its map, its rooms and places, its fence. The one door of this package."""
+
+from planner.world.errors import SiteError
+from planner.world.fence import Fence, SpeedZone
+from planner.world.grid import FREE, OCCUPIED, UNKNOWN, GridMap
+from planner.world.map_file import LoadedMap, load_map
+from planner.world.places import Place, normalised
+from planner.world.site import Site
+
+__all__ = [
+    "FREE",
+    "OCCUPIED",
+    "UNKNOWN",
+    "Fence",
+    "GridMap",
+    "LoadedMap",
+    "Place",
+    "Site",
+    "SiteError",
+    "SpeedZone",
+    "load_map",
+    "normalised",
+]

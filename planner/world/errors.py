@@ -1,0 +1,40 @@
+"""Say why a site cannot be used, with a code that stays. Knows no files and no formats."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+
+REASONS = MappingProxyType(
+    {
+        "site_file_missing": "缺少站点文件",
+        "yaml_malformed": "YAML 文件格式错误",
+        "json_malformed": "JSON 文件格式错误",
+        "unknown_key": "文件中有未知的键",
+        "value_malformed": "文件中的值不合要求",
+        "map_image_missing": "地图图像不存在",
+        "map_image_malformed": "地图图像无法读取",
+        "map_image_too_large": "地图图像过大",
+        "map_rotated": "不支持旋转的地图原点",
+        "map_mode_unsupported": "不支持的地图模式",
+        "map_thresholds_crossed": "地图阈值顺序错误",
+        "fence_map_mismatch": "围栏属于另一张地图",
+        "polygon_degenerate": "多边形面积为零",
+        "place_duplicate_id": "地点编号重复",
+        "place_alias_clash": "两个地点使用同一名称",
+        "place_outside_map": "地点在地图之外",
+        "place_in_obstacle": "地点在障碍物或未知区域内",
+        "place_outside_fence": "地点在围栏之外",
+        "home_unknown": "未知的起始地点",
+    }
+)
+"""Every code, with its sentence in Chinese; the English sentence carries the particulars."""
+
+
+class SiteError(Exception):
+    """Report a site that must not be used. Ours or the owner's to mend: refuse to start."""
+
+    def __init__(self, code: str, message: str) -> None:
+        """Keep the code and the sentence: what came, what was expected, what exists."""
+        super().__init__(f"{code}: {message}")
+        self.code = code
+        self.message = {"en": message, "zh": f"{REASONS[code]}：{message}"}
