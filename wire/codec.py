@@ -1,0 +1,43 @@
+"""Turn messages into bytes and back. The one place where bytes are believed or not.
+
+JSON by pydantic: in schema, in bounds, nothing extra, no NaN, no infinity, within the key's size.
+Refusals are values, not exceptions: with the collector off in the bridge, a ValidationError kept
+alive by a traceback would leak.
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+from pydantic import ValidationError
+
+from wire.base import Record
+from wire.errors import Rejected
+from wire.keys import Key
+
+M = TypeVar("M", bound=Record)
+
+
+def encode(message: Record) -> bytes:
+    """Return compact JSON; the message was checked at birth."""
+    return message.__pydantic_serializer__.to_json(message)
+
+
+def decode(key: Key[M], payload: bytes) -> M | Rejected:
+    """Return the message, or why these bytes are none."""
+    size = len(payload)
+    if not size <= key.max_bytes:
+        return Rejected("too_large", f"{key.path}: {size} bytes, at most {key.max_bytes}")
+    try:
+        return key.message.__pydantic_validator__.validate_json(payload, strict=True)  # type: ignore[no-any-return]  # pydantic types this Any; the validator is the message's own
+    except ValidationError as error:
+        return Rejected("invalid", f"{key.path}: {_first(error)}")
+    except RecursionError:
+        return Rejected("invalid", f"{key.path}: nested too deeply")
+
+
+def _first(error: ValidationError) -> str:
+    """Name the first fault and its place, never the offending bytes: they may be hostile."""
+    item = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    where = ".".join(str(part)[:32] for part in item["loc"][:4]) or "message"
+    return f"{where}: {item['msg']}"[:200]

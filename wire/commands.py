@@ -1,0 +1,118 @@
+"""Define what is said to the bridge. All of it may be late, wrong or hostile.
+
+``seen`` is the seq of the newest ``bridge/status`` that the origin had when it made the message; the
+bridge knows when it sent that status, so no sender can make a message look younger than it is.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from wire.base import Record
+from wire.geometry import Metres, Mps, Radps, Yaw
+from wire.scalars import MAX_POINTS, MAX_TTL_S, Count, Epoch, Fingerprint, Name
+
+OwnerKind = Literal["planner", "external"]
+
+
+class Hello(Record):
+    """Ask to own the robot. Sent on each status until answered there."""
+
+    planner_id: Name
+    kind: OwnerKind
+    seen: Count
+    protocol: Annotated[int, Field(ge=0, le=1_000_000)]
+    robot_hash: Fingerprint
+    fence_hash: Fingerprint
+    map_id: Fingerprint
+
+
+class Grant(Record):
+    """Say how far and how long one mission may move. What is left outlives epochs."""
+
+    planner_id: Name
+    epoch: Epoch
+    seen: Count
+    mission: Name
+    metres: Annotated[float, Field(gt=0.0, le=60.0)]
+    seconds: Annotated[float, Field(gt=0.0, le=600.0)]
+
+
+class Waypoint(Record):
+    """Give one point in ``map``, the speed to pass it at (its sign is the direction)."""
+
+    x_m: Metres
+    y_m: Metres
+    speed_mps: Mps
+    heading_rad: Yaw | None = None
+
+
+class Waypoints(Record):
+    """Stream a rolling horizon of one leg. No points: ramp to a stop, no fault."""
+
+    planner_id: Name
+    epoch: Epoch
+    seq: Count
+    seen: Count
+    mission: Name
+    leg: Count
+    map_id: Fingerprint
+    ttl_s: Annotated[float, Field(gt=0.0, le=MAX_TTL_S)]
+    points: Annotated[tuple[Waypoint, ...], Field(max_length=MAX_POINTS)]
+    final: bool
+    """The last point is where the leg ends."""
+
+
+class Heartbeat(Record):
+    """Show that the owner lives (``seen``) and that its mission loop thinks (``used``)."""
+
+    planner_id: Name
+    epoch: Epoch
+    seen: Count
+    used: Count
+
+
+class Stop(Record):
+    """Stop now and hold. Anyone may say it and it is never refused."""
+
+    id: Name
+    source: Name
+
+
+class Velocity(Record):
+    """Steer by hand (``cmd/teleop``) or by another brain (``cmd/external``)."""
+
+    source_id: Name
+    epoch: Epoch
+    seq: Count
+    seen: Count
+    v_mps: Mps
+    w_radps: Radps
+    dead_man: bool
+
+
+OpKind = Literal["arm", "disarm", "estop", "reset", "resume"]
+
+
+class Proof(Record):
+    """Show that somebody with the operator's key means this request now."""
+
+    nonce: Name
+    mac: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+
+
+class OpRequest(Record):
+    """Ask as the operator; the key says what for. Arm, reset and resume count only with a proof."""
+
+    id: Name
+    source: Name
+    proof: Proof | None = None
+
+
+class EstopLink(Record):
+    """Tell the state of a wired stop button. Silence for 0.5 s counts as pressed."""
+
+    seq: Count
+    pressed: bool

@@ -1,0 +1,152 @@
+"""List every key: who may say it, who hears it, how often, how large, and how it is buffered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Generic, TypeVar
+
+from wire.base import Record
+from wire.commands import (
+    EstopLink,
+    Grant,
+    Heartbeat,
+    Hello,
+    OpRequest,
+    Stop,
+    Velocity,
+    Waypoints,
+)
+from wire.sensors import (
+    DriveCommand,
+    DriveState,
+    ImageHeader,
+    Imu,
+    Localization,
+    Odometry,
+    Scan,
+    SimControl,
+    SimTruth,
+)
+from wire.status import Event, Status
+
+LATEST = 1
+"""Ring size for state: only the newest counts."""
+SEQUENCED = 64
+"""Ring size for what is numbered or must each be answered."""
+
+SMALL = 4_096
+MEDIUM = 32_768
+IMAGE = 4_194_304
+
+
+class Party(StrEnum):
+    """Name the processes of the key table."""
+
+    PLANNER = "planner"
+    BRIDGE = "bridge"
+    LOCALIZATION = "localization"
+    ROBOT = "robot"
+    OPERATOR = "operator"
+    JUDGE = "judge"
+
+
+M = TypeVar("M", bound=Record)
+
+
+@dataclass(frozen=True, slots=True)
+class Key(Generic[M]):
+    """Describe one key expression below ``pons/<robot>/``."""
+
+    path: str
+    message: type[M]
+    senders: frozenset[Party]
+    receivers: frozenset[Party]
+    rate: str
+    ring: int
+    max_bytes: int
+    purpose: str
+
+    def expression(self, robot_id: str) -> str:
+        """Return the full key expression for one robot."""
+        return f"pons/{robot_id}/{self.path}"
+
+
+P, B, L, R, O, J = Party  # one letter each, for the table below
+_ALL = frozenset(Party)
+
+
+def _op(kind: str, purpose: str) -> Key[OpRequest]:
+    senders = frozenset({O, P})
+    rate = "20 Hz until echoed or 2 s"
+    return Key(f"op/{kind}", OpRequest, senders, frozenset({B}), rate, SEQUENCED, SMALL, purpose)
+
+
+def _from(
+    sender: Party,
+    path: str,
+    message: type[M],
+    receivers: frozenset[Party],
+    rate: str,
+    purpose: str,
+    *,
+    ring: int = LATEST,
+    max_bytes: int = SMALL,
+) -> Key[M]:
+    others = receivers - {sender}
+    return Key(path, message, frozenset({sender}), others, rate, ring, max_bytes, purpose)
+
+
+_TO_B = frozenset({B})
+
+HELLO = _from(P, "cmd/hello", Hello, _TO_B, "on each status until answered",
+              "ask to own the robot", ring=SEQUENCED)  # fmt: skip
+GRANT = _from(P, "cmd/grant", Grant, _TO_B, "on each status until answered",
+              "allow one mission so many metres and seconds", ring=SEQUENCED)  # fmt: skip
+WAYPOINTS = _from(P, "cmd/waypoints", Waypoints, _TO_B, "10 Hz while moving",
+                  "rolling horizon of one leg", ring=SEQUENCED, max_bytes=MEDIUM)  # fmt: skip
+HEARTBEAT = _from(P, "cmd/heartbeat", Heartbeat, _TO_B, "on each status",
+                  "the owner lives and thinks", ring=SEQUENCED)  # fmt: skip
+STOP = Key("cmd/stop", Stop, _ALL - {B}, _TO_B, "20 Hz until echoed or 2 s", SEQUENCED, SMALL,
+           "stop now and hold; never refused")  # fmt: skip
+TELEOP = Key("cmd/teleop", Velocity, frozenset({P, O}), _TO_B, "20 Hz while held", SEQUENCED,
+             SMALL, "steer by hand")  # fmt: skip
+EXTERNAL = Key("cmd/external", Velocity, frozenset({P}), _TO_B, "20 Hz while held", SEQUENCED,
+               SMALL, "another brain steers by velocity")  # fmt: skip
+
+ARM = _op("arm", "power the drive, standing")
+DISARM = _op("disarm", "ramp to zero, then torque off")
+ESTOP = _op("estop", "protective stop, latched until reset")
+RESET = _op("reset", "leave a latched state; never moves the robot")
+RESUME = _op("resume", "clear held; an operator act")
+ESTOP_LINK = Key("op/estop_link", EstopLink, frozenset({O}), _TO_B, "10 Hz where configured",
+                 LATEST, SMALL, "a wired stop button's state")  # fmt: skip
+
+STATUS = _from(B, "bridge/status", Status, _ALL, "20 Hz and on change, at most 40/s",
+               "the only word on what really happened", max_bytes=MEDIUM)  # fmt: skip
+EVENT = _from(B, "bridge/event", Event, _ALL, "on each event",
+              "transitions and refusals, for people", ring=SEQUENCED)  # fmt: skip
+ODOM = _from(B, "bridge/odom", Odometry, _ALL, "50 Hz", "base in odom", ring=SEQUENCED)
+LOCALIZATION = _from(L, "localization", Localization, frozenset({B, P, J}), "10 Hz or more",
+                     "odom in map")  # fmt: skip
+DRIVE_COMMAND = _from(B, "drive/command", DriveCommand, frozenset({R}), "100 Hz",
+                      "wheel speeds, one per tick")  # fmt: skip
+DRIVE_STATE = _from(R, "drive/state", DriveState, frozenset({B, J}), "100 Hz",
+                    "what the drive does", ring=SEQUENCED)  # fmt: skip
+SCAN = _from(R, "scan", Scan, _ALL, "10 Hz", "planar lidar", max_bytes=MEDIUM)
+IMU = _from(R, "imu", Imu, _ALL, "100 Hz", "rate of turn, acceleration")
+CAMERA_COLOR = _from(R, "camera/color", ImageHeader, frozenset({P, J}), "10 Hz",
+                     "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
+CAMERA_DEPTH = _from(R, "camera/depth", ImageHeader, frozenset({P, J}), "10 Hz",
+                     "16-bit PNG in millimetres, header attached", max_bytes=IMAGE)  # fmt: skip
+SIM_TRUTH = _from(R, "sim/truth", SimTruth, frozenset({L, J}), "50 Hz",
+                  "where the simulated robot really is", ring=SEQUENCED)  # fmt: skip
+SIM_CONTROL = Key("sim/control", SimControl, frozenset({J}), frozenset({R}), "by tests", SEQUENCED,
+                  SMALL, "a test moves the simulated robot or its spare obstacle")  # fmt: skip
+
+OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
+COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
+KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
+    *COMMANDS, *OPS, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, DRIVE_COMMAND, DRIVE_STATE,
+    SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_CONTROL,
+)  # fmt: skip

@@ -1,0 +1,156 @@
+"""Describe a robot: one frozen record read from robot.toml, checked at birth.
+
+Owned by the bridge, which loads it while DISARMED and publishes its hash; planner and sim take
+limits from the same record. Unknown keys and unsafe values refuse to start: there is no default for
+a value that somebody wrote wrongly.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from math import pi
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field, ValidationError, model_validator
+
+from wire.base import Record
+from wire.errors import Misconfigured
+from wire.fingerprint import fingerprint
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+RobotId = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,31}$")]
+
+
+class Base(Record):
+    """Give the geometry of a differential base: a disc on the floor with two driven wheels."""
+
+    wheel_radius_m: float = Field(default=0.1, ge=0.01, le=1.0)
+    wheel_separation_m: float = Field(default=0.5, ge=0.05, le=3.0)
+    radius_m: float = Field(default=0.30, ge=0.05, le=3.0)
+    """The disc that holds the whole robot, centred on ``base``."""
+
+
+class Limits(Record):
+    """Bound what the bridge may ever send. Each bound has its reason beside it."""
+
+    max_speed_mps: float = Field(default=0.5, ge=0.05, le=2.0)
+    """Forward and back; a walking person is 1.4."""
+    max_turn_radps: float = Field(default=1.0, ge=0.1, le=4.0)
+    max_accel_mps2: float = Field(default=0.5, ge=0.05, le=3.0)
+    """At the wheels, away from zero."""
+    max_decel_mps2: float = Field(default=1.0, ge=0.2, le=5.0)
+    """At the wheels, towards zero; an ordinary stop."""
+    hardest_decel_mps2: float = Field(default=2.5, ge=0.2, le=10.0)
+    """At the wheels, towards zero; FAST1. Beyond it wheels slip or the robot tips."""
+    max_jerk_mps3: float = Field(default=2.0, ge=0.1, le=50.0)
+    stop_jerk_mps3: float = Field(default=10.0, ge=1.0, le=200.0)
+    max_lateral_mps2: float = Field(default=0.5, ge=0.05, le=5.0)
+    max_wheel_radps: float = Field(default=10.0, ge=0.5, le=100.0)
+
+    @model_validator(mode="after")
+    def _hardest_is_hardest(self) -> Limits:
+        if not self.hardest_decel_mps2 >= self.max_decel_mps2:
+            raise ValueError("hardest_decel_mps2 must not be below max_decel_mps2")
+        return self
+
+
+class DriveConfig(Record):
+    """Choose the drive and state what is known of its dynamics."""
+
+    kind: Literal["sim"] = "sim"
+    lag_s: float = Field(default=0.06, ge=0.005, le=0.5)
+    """Command to wheel response, never assumed better than this."""
+    timeout_s: float = Field(default=0.2, ge=0.05, le=0.5)
+    """The drive's own dead-man: without a command for this long it stops by itself."""
+    dead_zone_radps: float = Field(default=0.0, ge=0.0, le=2.0)
+
+    @property
+    def virtual(self) -> bool:
+        """Say whether no metal moves. Derived from the kind, so that no setting can claim it."""
+        return self.kind == "sim"
+
+
+class LidarConfig(Record):
+    """Place the planar lidar on the robot and state its range."""
+
+    x_m: float = Field(default=0.0, ge=-2.0, le=2.0)
+    y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
+    yaw_rad: float = Field(default=0.0, ge=-pi, le=pi)
+    range_min_m: float = Field(default=0.12, ge=0.0, le=1.0)
+    range_max_m: float = Field(default=8.0, ge=1.0, le=100.0)
+    scan_s: float = Field(default=0.1, ge=0.01, le=0.2)
+    """Period of a scan; LIDAR_STALE allows 0.25 s, so a slower lidar could never be fresh."""
+
+
+class RealTime(Record):
+    """Ask for the loop's place on the machine."""
+
+    priority: int = Field(default=60, ge=1, le=80)
+    cpu: int | None = Field(default=None, ge=0, le=1023)
+    """None: the highest-numbered CPU that this process may use."""
+
+
+class Inputs(Record):
+    """Name the safety inputs that are wired up."""
+
+    estop_link: bool = False
+    """A stop button's node speaks on op/estop_link; silence then counts as pressed."""
+    imu: bool = True
+
+
+class RobotDescription(Record):
+    """Hold all that is particular to one robot."""
+
+    id: RobotId = "r1"
+    base: Base = Base()
+    limits: Limits = Limits()
+    drive: DriveConfig = DriveConfig()
+    lidar: LidarConfig = LidarConfig()
+    realtime: RealTime = RealTime()
+    inputs: Inputs = Inputs()
+
+    @model_validator(mode="after")
+    def _wheels_reach_the_speed(self) -> RobotDescription:
+        reach_mps = self.limits.max_wheel_radps * self.base.wheel_radius_m
+        if not self.limits.max_speed_mps <= reach_mps:
+            raise ValueError(
+                f"limits.max_speed_mps {self.limits.max_speed_mps} cannot be reached: "
+                f"max_wheel_radps x wheel_radius_m is {reach_mps}"
+            )
+        return self
+
+    @property
+    def hash(self) -> str:
+        """Return the fingerprint that status publishes and hello must match."""
+        return fingerprint(self.model_dump_json().encode())
+
+
+def load_robot(path: Path) -> RobotDescription:
+    """Read robot.toml.
+
+    Raises:
+        Misconfigured: the file is missing, is not TOML, has an unknown key or an unsafe value;
+            the message names every such key, what came and what is allowed.
+    """
+    try:
+        return RobotDescription.model_validate(tomllib.loads(path.read_text("utf-8")), strict=True)
+    except OSError as error:
+        raise Misconfigured("robot_toml_missing", f"{path}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise Misconfigured("robot_toml_syntax", f"{path}: {error}") from None
+    except ValidationError as error:
+        raise Misconfigured("robot_toml_invalid", f"{path}: {explain(error)}") from None
+
+
+def explain(error: ValidationError) -> str:
+    """Say in one line what came and what was expected, field by field."""
+    lines = []
+    for item in error.errors(include_url=False):
+        where = ".".join(str(part) for part in item["loc"]) or "whole file"
+        if item["type"] == "extra_forbidden":
+            lines.append(f"unknown key '{where}'")
+        else:
+            lines.append(f"{where}: got {item['input']!r}; {item['msg']}")
+    return "; ".join(lines)

@@ -1,0 +1,132 @@
+"""Define what robot, localization and simulator say. ``stamp_s`` is the sender's monotonic clock."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from wire.base import Record
+from wire.geometry import Metres, Pose2, Radps, Twist2, Yaw
+from wire.scalars import MAX_BEAMS, Count, Fingerprint, Name, Ratio, Seconds, WheelAngle, WheelSpeed
+
+Range = Annotated[float, Field(ge=0.0, le=1_000.0)]
+
+
+class DriveState(Record):
+    """Report what the drive does and what is wired to it."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    echo_boot: Name | None
+    """Which bridge the echoed command came from; none since this boot if null."""
+    echo_seq: Count
+    enabled: bool
+    timed_out: bool
+    """The drive's own dead-man has fired: it had no command for its time-out."""
+    left_rad: WheelAngle
+    right_rad: WheelAngle
+    left_radps: WheelSpeed
+    right_radps: WheelSpeed
+    current_a: Annotated[float, Field(ge=-1_000.0, le=1_000.0)] | None = None
+    battery: Ratio | None = None
+    estop_pressed: bool = False
+    bumper_front: bool = False
+    bumper_rear: bool = False
+    cliff: bool = False
+
+
+class DriveCommand(Record):
+    """Set both wheel speeds [rad/s]; ``enable`` false takes the torque away."""
+
+    boot: Name
+    seq: Count
+    left_radps: WheelSpeed
+    right_radps: WheelSpeed
+    enable: bool
+
+
+class Scan(Record):
+    """Give one planar scan, beam by beam from ``angle_min_rad``, in the lidar's frame.
+
+    A beam is null where nothing came back; a value under ``range_min_m`` means too near to measure.
+    """
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    angle_min_rad: Yaw
+    angle_increment_rad: Annotated[float, Field(gt=0.0, le=1.0)]
+    range_min_m: Range
+    range_max_m: Range
+    ranges_m: Annotated[tuple[Range | None, ...], Field(max_length=MAX_BEAMS)]
+
+
+class Imu(Record):
+    """Give rate of turn and acceleration in ``base``."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    yaw_rate_radps: Radps
+    accel_x_mps2: Annotated[float, Field(ge=-1_000.0, le=1_000.0)]
+    accel_y_mps2: Annotated[float, Field(ge=-1_000.0, le=1_000.0)]
+
+
+class Odometry(Record):
+    """Integrate the wheels: ``base`` in ``odom``, continuous within one ``odom_id``."""
+
+    odom_id: Name
+    seq: Count
+    stamp_s: Seconds
+    base_in_odom: Pose2
+    twist: Twist2
+    yaw_rate_radps: Radps | None
+    """The gyro's, where there is one."""
+
+
+class Localization(Record):
+    """Place ``odom`` in ``map``, for one ``odom_id``."""
+
+    odom_id: Name
+    seq: Count
+    stamp_s: Seconds
+    odom_in_map: Pose2
+    quality: Ratio
+    map_id: Fingerprint
+
+
+class ImageHeader(Record):
+    """Accompany picture bytes (JPEG colour, 16-bit PNG depth in millimetres) as attachment."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    width: Annotated[int, Field(ge=1, le=8192)]
+    height: Annotated[int, Field(ge=1, le=8192)]
+    focal_px: Annotated[float, Field(gt=0.0, le=100_000.0)]
+
+
+class SimTruth(Record):
+    """Tell judges, tests and the localization stand-in where the simulated robot really is."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    base_in_map: Pose2
+    twist: Twist2
+    contacts: Annotated[int, Field(ge=0, le=10_000)]
+    """Contacts of the robot with anything but the floor, at this instant."""
+    contacts_total: Count
+    """Contact episodes since start."""
+    real_time_factor: Annotated[float, Field(ge=0.0, le=1_000.0)]
+
+
+class SimControl(Record):
+    """Let a test move the simulated robot or its spare obstacle. Heard by the simulator only."""
+
+    id: Name
+    place_robot: Pose2 | None = None
+    place_obstacle: tuple[Metres, Metres] | None = None
+    remove_obstacle: bool = False
