@@ -16,11 +16,13 @@ import zenoh
 from wire.base import Record
 from wire.codec import decode, encode
 from wire.errors import Misconfigured
-from wire.keys import Key
-from wire.sockets import Endpoints
+from wire.keys import IMAGE, Key, Party
+from wire.sockets import DIALS, LISTENERS, Claim, Endpoints
 
 if TYPE_CHECKING:
+    from pathlib import Path
     from types import TracebackType
+    from typing import Self
 
     from wire.errors import Rejected
 
@@ -90,3 +92,87 @@ class Drained(Generic[M]):
     def __init__(self, items: tuple[M | Rejected, ...], arrived: int) -> None:
         self.items = items
         self.arrived = arrived
+
+
+class Session:
+    """Be one process of the key table: listen where it must, dial whom it needs."""
+
+    def __init__(self, zenoh_session: zenoh.Session, robot_id: str, claim: Claim) -> None:
+        self._zenoh = zenoh_session
+        self._robot_id = robot_id
+        self._claim = claim
+
+    def publisher(self, key: Key[M]) -> Publisher[M]:
+        """Declare that this process says ``key``."""
+        return Publisher(self._zenoh, key, self._robot_id)
+
+    def subscriber(self, key: Key[M]) -> Subscriber[M]:
+        """Declare that this process hears ``key``."""
+        return Subscriber(self._zenoh, key, self._robot_id)
+
+    def peers(self) -> int:
+        """Return how many processes are connected now."""
+        return len(self._zenoh.info.peers_zid())
+
+    def close(self) -> None:
+        """Leave; every ring is empty from now on."""
+        self._zenoh.close()
+        self._claim.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def open_session(
+    party: Party, robot_id: str, home: Path, endpoints: Endpoints | None = None
+) -> Session:
+    """Join the others of ``home``.
+
+    Raises:
+        Misconfigured: the same process already runs there, or a socket path is too long.
+    """
+    where = endpoints or Endpoints(home)
+    claim = Claim(home, party, shared=party in (Party.OPERATOR, Party.JUDGE))
+    try:
+        if party in LISTENERS and party not in where.tcp:
+            claim.clear_stale(where.socket(party))
+        return Session(zenoh.open(_config(party, where)), robot_id, claim)
+    except zenoh.ZError as error:
+        claim.close()
+        raise Misconfigured("socket_in_use", f"{party.value}: {error}") from None
+    except Misconfigured:
+        claim.close()
+        raise
+
+
+def _config(party: Party, where: Endpoints) -> zenoh.Config:
+    listens = [where.locator(party)] if party in LISTENERS else []
+    dials = [where.locator(listener) for listener in DIALS[party]]
+    retry = {"period_init_ms": 50, "period_max_ms": 500, "period_increase_factor": 2}
+    settings: dict[str, object] = {
+        "mode": "peer",
+        "listen/endpoints": listens,
+        "connect/endpoints": dials,
+        "connect/timeout_ms": -1,  # never give up
+        "connect/exit_on_failure": False,
+        "connect/retry": retry,
+        "open/return_conditions/connect_scouted": False,  # nobody is scouted: open at once
+        "scouting/delay": 0,
+        "scouting/multicast/enabled": False,
+        "scouting/gossip/enabled": False,
+        "transport/link/tx/queue/congestion_control/drop/wait_before_drop": 0,
+        "transport/link/rx/max_message_size": 2 * IMAGE,  # the default is 1 GiB
+        "transport/shared_memory/enabled": False,
+    }
+    config = zenoh.Config()
+    for path, value in settings.items():
+        config.insert_json5(path, json.dumps(value))
+    return config
