@@ -1,0 +1,61 @@
+# Everything a person or CI does with this checkout. `make` alone lists the targets.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+MAKEFLAGS += --no-print-directory
+
+BIN := .venv/bin
+RUNTIME := .venv/.installed
+DEV := .venv/.installed-dev
+ARGS ?=
+
+.PHONY: help setup dev run test e2e check fmt docs bench bench-long lock clean
+
+help: ## list these targets
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
+
+setup: $(RUNTIME) ## make .venv and install what running needs, from the hash-pinned lock
+
+dev: $(DEV) ## add what testing and checking need
+
+run: $(RUNTIME) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
+	@exec $(BIN)/pons up $(ARGS)
+
+test: $(DEV) ## run the unit tests and the two-room tests with real processes (about 5 min on 2 cores)
+	@exec $(BIN)/python -m pytest -m "not home" $(ARGS)
+
+e2e: $(DEV) ## drive through the whole default home with real processes
+	@exec $(BIN)/python -m pytest -m home --timeout 600 $(ARGS)
+
+check: $(DEV) ## run all that CI runs but e2e: format, lint, types, imports, docs, test; with seconds
+	@exec $(BIN)/python scripts/check.py
+
+fmt: $(DEV) ## format the code and mend what the linter can mend
+	@$(BIN)/ruff format . && $(BIN)/ruff check --fix .
+
+docs: $(DEV) ## write the generated files anew: wire.md, safety.md, sites, openapi.json
+	@$(BIN)/python scripts/generated.py --write
+
+bench: $(RUNTIME) ## measure and print a table (at most 10 min)
+	@exec $(BIN)/python -m bench $(ARGS)
+
+bench-long: $(RUNTIME) ## measure what takes longer; resumable, appends to one file
+	@exec $(BIN)/python -m bench --long $(ARGS)
+
+lock: $(DEV) ## resolve the dependencies anew into requirements.lock and requirements-dev.lock
+	@scripts/lock.sh
+
+clean: ## remove .venv and caches; keeps .pons (recordings, missions, keys)
+	@rm -rf .venv build dist *.egg-info .coverage .coverage.* htmlcov
+	@rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	@find . -name __pycache__ -type d -not -path '*/node_modules/*' -prune -exec rm -rf {} +
+
+$(RUNTIME): requirements.lock pyproject.toml scripts/venv.sh scripts/install.sh
+	@scripts/venv.sh .venv
+	@scripts/install.sh requirements.lock --self
+	@touch $@
+
+$(DEV): requirements-dev.lock $(RUNTIME)
+	@scripts/install.sh requirements-dev.lock
+	@touch $@

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Resolve pyproject.toml anew into both lock files. Knows uv; installs nothing.
+# One lock serves Python 3.11 to 3.13 on every platform; it names no registry (docs/adr/0004).
+set -euo pipefail
+
+compile=(
+  .venv/bin/uv pip compile --quiet --no-config --universal --python-version 3.11
+  --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
+  --upgrade --extra install
+)
+"${compile[@]}" pyproject.toml --output-file requirements.lock
+"${compile[@]}" --extra dev --constraint requirements.lock pyproject.toml \
+  --output-file requirements-dev.lock

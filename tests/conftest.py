@@ -1,0 +1,90 @@
+"""Share fixtures and laws of the test run.
+
+Owns the tests' environment; knows no package of ours.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+from hypothesis import HealthCheck, settings
+
+ROOT = Path(__file__).resolve().parents[1]
+CHILD_GRACE_S = 5.0
+
+# CI repeats the same examples so that a red run can be run again; a developer's run looks further.
+# No deadline: a busy machine must not fail a law.
+settings.register_profile(
+    "ci",
+    deadline=None,
+    derandomize=True,
+    max_examples=100,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.register_profile("dev", deadline=None, max_examples=50)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci" if os.environ.get("CI") else "dev"))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def owner_settings_left_outside() -> Iterator[None]:
+    """Keep the person's own Pons and model settings out of every test, and state in a fresh place.
+
+    The place has a short name because socket paths end at 107 bytes.
+    """
+    with pytest.MonkeyPatch.context() as patch, tempfile.TemporaryDirectory(prefix="pons-") as home:
+        for name in [n for n in os.environ if n.startswith(("PONS_", "OPENAI_", "ANTHROPIC_"))]:
+            patch.delenv(name)
+        patch.setenv("PONS_HOME", home)
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def nothing_left_running() -> Iterator[None]:
+    """Fail the run if a process that a test started outlives it."""
+    yield
+    children = [child for child in psutil.Process().children(recursive=True) if not helper(child)]
+    _, alive = psutil.wait_procs(children, timeout=CHILD_GRACE_S)
+    left = [f"{child.pid} {' '.join(child.cmdline())}" for child in alive if child.is_running()]
+    for child in alive:
+        child.kill()
+    if left:
+        pytest.fail(f"processes left running by tests: {left}")
+
+
+def helper(process: psutil.Process) -> bool:
+    """Tell whether a process is the standard library's own, which ends with its parent."""
+    try:
+        words = " ".join(process.cmdline())
+    except psutil.NoSuchProcess:
+        return True
+    return "resource_tracker" in words or "forkserver" in words
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    """Return the checkout's root folder."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def shared_data() -> Path:
+    """Return the folder of data from outside that may lie beside the checkout, or skip aloud."""
+    folder = ROOT.parent / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip(f"no data from outside at {folder}")
+    return folder
+
+
+@pytest.fixture
+def free_port() -> int:
+    """Return a TCP port of the loopback that nothing listens on now."""
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])

@@ -1,0 +1,73 @@
+"""Hold the lock files to their promises: complete, hashed, and naming no place on the network."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+LOCKS = ("requirements.lock", "requirements-dev.lock")
+PIN = re.compile(r"^(?P<name>[a-z0-9._-]+)==(?P<version>\S+)(?P<marker> ;.*?)? \\$")
+HASH = re.compile(r"^    --hash=sha256:[0-9a-f]{64}( \\)?$")
+
+
+def pins(path: Path) -> dict[str, list[str]]:
+    """Return each pinned name with its versions (one per Python range)."""
+    found: dict[str, list[str]] = {}
+    for line in path.read_text().splitlines():
+        if match := PIN.match(line):
+            found.setdefault(canonicalize_name(match["name"]), []).append(match["version"])
+    return found
+
+
+def wanted(repository: Path, *extras: str) -> list[Requirement]:
+    """Return what pyproject.toml asks for, with the named extras."""
+    project = tomllib.loads((repository / "pyproject.toml").read_text())["project"]
+    lines = list(project["dependencies"])
+    for extra in extras:
+        lines += project["optional-dependencies"][extra]
+    return [Requirement(line) for line in lines]
+
+
+@pytest.mark.parametrize("name", LOCKS)
+def test_every_line_is_a_pin_or_a_hash(repository: Path, name: str) -> None:
+    lines = (repository / name).read_text().splitlines()
+    strange = [line for line in lines if not PIN.match(line) and not HASH.match(line)]
+    assert not strange, "a lock names packages and hashes only: no address, option or local path"
+
+
+@pytest.mark.parametrize("name", LOCKS)
+def test_every_pin_has_hashes(repository: Path, name: str) -> None:
+    lines = (repository / name).read_text().splitlines()
+    bare = [
+        line
+        for line, after in zip(lines, [*lines[1:], ""], strict=True)
+        if PIN.match(line) and not HASH.match(after)
+    ]
+    assert not bare
+
+
+@pytest.mark.parametrize(
+    ("name", "extras"),
+    [("requirements.lock", ("install",)), ("requirements-dev.lock", ("install", "dev"))],
+)
+def test_lock_satisfies_pyproject(repository: Path, name: str, extras: tuple[str, ...]) -> None:
+    locked = pins(repository / name)
+    unmet = [
+        str(requirement)
+        for requirement in wanted(repository, *extras)
+        if not all(
+            requirement.specifier.contains(version)
+            for version in locked.get(canonicalize_name(requirement.name), ["0"])
+        )
+    ]
+    assert not unmet, "pyproject.toml asks for what the lock does not have: run `make lock`"
+
+
+def test_development_runs_on_the_versions_that_users_get(repository: Path) -> None:
+    runtime, dev = (pins(repository / name) for name in LOCKS)
+    assert {name: dev.get(name) for name in runtime} == runtime
