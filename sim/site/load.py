@@ -1,0 +1,79 @@
+"""Read home.yaml. The only file of the simulator that knows YAML.
+
+Refuses what YAML would quietly accept: a key written twice (the first would be lost).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import yaml
+from pydantic import ValidationError
+
+from sim.site.check import check
+from sim.site.spec import Home
+from wire import Misconfigured
+from wire.robot import explain
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+SPEC_FILE = "home.yaml"
+
+
+class _OnceLoader(yaml.SafeLoader):
+    """Build plain values, refusing a repeated key."""
+
+
+def _mapping_once(loader: _OnceLoader, node: yaml.MappingNode) -> dict[Any, Any]:
+    seen: set[str] = set()
+    for key_node, _ in node.value:
+        key = loader.construct_object(key_node)
+        line = key_node.start_mark.line + 1
+        if not isinstance(key, str):
+            raise yaml.YAMLError(f"line {line}: key {key!r} is not text")
+        if key in seen:
+            raise yaml.YAMLError(f"line {line}: key {key!r} stands twice")
+        seen.add(key)
+    return loader.construct_mapping(node, deep=True)
+
+
+_OnceLoader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping_once)
+
+
+def parse_home(text: str, where: str) -> Home:
+    """Turn the text of a home.yaml into a checked home; ``where`` names it in errors.
+
+    Raises:
+        Misconfigured: ``home_syntax``, ``home_invalid`` or one of check.py's codes.
+    """
+    try:
+        raw = yaml.load(text, Loader=_OnceLoader)
+        home = Home.model_validate(raw)
+    except yaml.YAMLError as error:
+        raise Misconfigured("home_syntax", f"{where}: {' '.join(str(error).split())}") from None
+    except ValidationError as error:
+        raise Misconfigured("home_invalid", f"{where}: {explain(error)}") from None
+    check(home, where)
+    return home
+
+
+def load_home(site_dir: Path) -> Home:
+    """Read ``<site_dir>/home.yaml`` and check it.
+
+    Raises:
+        Misconfigured: ``home_missing``, ``home_site_mismatch`` (the folder has another name than
+            the spec says) or what ``parse_home`` raises.
+    """
+    path = site_dir / SPEC_FILE
+    try:
+        text = path.read_text("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise Misconfigured("home_missing", f"{path}: {error}") from None
+    home = parse_home(text, str(path))
+    if home.site != site_dir.resolve().name:
+        raise Misconfigured(
+            "home_site_mismatch",
+            f"{path}: site is {home.site!r} but its folder is {site_dir.resolve().name!r}",
+        )
+    return home
