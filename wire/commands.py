@@ -1,7 +1,7 @@
 """Define what is said to the bridge. All of it may be late, wrong or hostile.
 
-``seen`` is the seq of the newest ``bridge/status`` that the origin had when it made the message; the
-bridge knows when it sent that status, so no sender can make a message look younger than it is.
+``seen`` is the seq of the newest ``bridge/status`` that the origin had when it made the message.
+The bridge knows when it sent that status, so no sender can make a message look younger than it is.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 
 FINGERPRINT_LENGTH = 16
-"""Hex digits kept: 64 bits tell honest configurations apart; they are no defence against forgery."""
+"""Hex digits kept: 64 bits tell honest configurations apart and are no defence against forgery."""
 
 
 def fingerprint(*parts: bytes) -> str:

@@ -72,14 +72,14 @@ class Key(Generic[M]):
         return f"pons/{robot_id}/{self.path}"
 
 
-P, B, L, R, O, J = Party  # one letter each, for the table below
+_P, _B, _L, _R, _O, _J = Party  # one letter each, for the table below
 _ALL = frozenset(Party)
 
 
 def _op(kind: str, purpose: str) -> Key[OpRequest]:
-    senders = frozenset({O, P})
+    senders = frozenset({_O, _P})
     rate = "20 Hz until echoed or 2 s"
-    return Key(f"op/{kind}", OpRequest, senders, frozenset({B}), rate, SEQUENCED, SMALL, purpose)
+    return Key(f"op/{kind}", OpRequest, senders, frozenset({_B}), rate, SEQUENCED, SMALL, purpose)
 
 
 def _from(
@@ -97,21 +97,21 @@ def _from(
     return Key(path, message, frozenset({sender}), others, rate, ring, max_bytes, purpose)
 
 
-_TO_B = frozenset({B})
+_TO_B = frozenset({_B})
 
-HELLO = _from(P, "cmd/hello", Hello, _TO_B, "on each status until answered",
+HELLO = _from(_P, "cmd/hello", Hello, _TO_B, "on each status until answered",
               "ask to own the robot", ring=SEQUENCED)  # fmt: skip
-GRANT = _from(P, "cmd/grant", Grant, _TO_B, "on each status until answered",
+GRANT = _from(_P, "cmd/grant", Grant, _TO_B, "on each status until answered",
               "allow one mission so many metres and seconds", ring=SEQUENCED)  # fmt: skip
-WAYPOINTS = _from(P, "cmd/waypoints", Waypoints, _TO_B, "10 Hz while moving",
+WAYPOINTS = _from(_P, "cmd/waypoints", Waypoints, _TO_B, "10 Hz while moving",
                   "rolling horizon of one leg", ring=SEQUENCED, max_bytes=MEDIUM)  # fmt: skip
-HEARTBEAT = _from(P, "cmd/heartbeat", Heartbeat, _TO_B, "on each status",
+HEARTBEAT = _from(_P, "cmd/heartbeat", Heartbeat, _TO_B, "on each status",
                   "the owner lives and thinks", ring=SEQUENCED)  # fmt: skip
-STOP = Key("cmd/stop", Stop, _ALL - {B}, _TO_B, "20 Hz until echoed or 2 s", SEQUENCED, SMALL,
+STOP = Key("cmd/stop", Stop, _ALL - {_B}, _TO_B, "20 Hz until echoed or 2 s", SEQUENCED, SMALL,
            "stop now and hold; never refused")  # fmt: skip
-TELEOP = Key("cmd/teleop", Velocity, frozenset({P, O}), _TO_B, "20 Hz while held", SEQUENCED,
+TELEOP = Key("cmd/teleop", Velocity, frozenset({_P, _O}), _TO_B, "20 Hz while held", SEQUENCED,
              SMALL, "steer by hand")  # fmt: skip
-EXTERNAL = Key("cmd/external", Velocity, frozenset({P}), _TO_B, "20 Hz while held", SEQUENCED,
+EXTERNAL = Key("cmd/external", Velocity, frozenset({_P}), _TO_B, "20 Hz while held", SEQUENCED,
                SMALL, "another brain steers by velocity")  # fmt: skip
 
 ARM = _op("arm", "power the drive, standing")
@@ -119,29 +119,30 @@ DISARM = _op("disarm", "ramp to zero, then torque off")
 ESTOP = _op("estop", "protective stop, latched until reset")
 RESET = _op("reset", "leave a latched state; never moves the robot")
 RESUME = _op("resume", "clear held; an operator act")
-ESTOP_LINK = Key("op/estop_link", EstopLink, frozenset({O}), _TO_B, "10 Hz where configured",
+ESTOP_LINK = Key("op/estop_link", EstopLink, frozenset({_O}), _TO_B, "10 Hz where configured",
                  LATEST, SMALL, "a wired stop button's state")  # fmt: skip
 
-STATUS = _from(B, "bridge/status", Status, _ALL, "20 Hz and on change, at most 40/s",
+STATUS = _from(_B, "bridge/status", Status, _ALL, "20 Hz and on change, at most 40/s",
                "the only word on what really happened", max_bytes=MEDIUM)  # fmt: skip
-EVENT = _from(B, "bridge/event", Event, _ALL, "on each event",
+EVENT = _from(_B, "bridge/event", Event, _ALL, "on each event",
               "transitions and refusals, for people", ring=SEQUENCED)  # fmt: skip
-ODOM = _from(B, "bridge/odom", Odometry, _ALL, "50 Hz", "base in odom", ring=SEQUENCED)
-LOCALIZATION = _from(L, "localization", Localization, frozenset({B, P, J}), "10 Hz or more",
+ODOM = _from(_B, "bridge/odom", Odometry, _ALL, "50 Hz", "base in odom", ring=SEQUENCED)
+LOCALIZATION = _from(_L, "localization", Localization, frozenset({_B, _P, _J}), "10 Hz or more",
                      "odom in map")  # fmt: skip
-DRIVE_COMMAND = _from(B, "drive/command", DriveCommand, frozenset({R}), "100 Hz",
+DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R}), "100 Hz",
                       "wheel speeds, one per tick")  # fmt: skip
-DRIVE_STATE = _from(R, "drive/state", DriveState, frozenset({B, J}), "100 Hz",
+DRIVE_STATE = _from(_R, "drive/state", DriveState, frozenset({_B, _J}), "100 Hz",
                     "what the drive does", ring=SEQUENCED)  # fmt: skip
-SCAN = _from(R, "scan", Scan, _ALL, "10 Hz", "planar lidar", max_bytes=MEDIUM)
-IMU = _from(R, "imu", Imu, _ALL, "100 Hz", "rate of turn, acceleration")
-CAMERA_COLOR = _from(R, "camera/color", ImageHeader, frozenset({P, J}), "10 Hz",
+_HEARERS = frozenset({_B, _P, _L, _J})
+SCAN = _from(_R, "scan", Scan, _HEARERS, "10 Hz", "planar lidar", max_bytes=MEDIUM)
+IMU = _from(_R, "imu", Imu, _HEARERS, "100 Hz", "rate of turn, acceleration")
+CAMERA_COLOR = _from(_R, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
-CAMERA_DEPTH = _from(R, "camera/depth", ImageHeader, frozenset({P, J}), "10 Hz",
+CAMERA_DEPTH = _from(_R, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "16-bit PNG in millimetres, header attached", max_bytes=IMAGE)  # fmt: skip
-SIM_TRUTH = _from(R, "sim/truth", SimTruth, frozenset({L, J}), "50 Hz",
+SIM_TRUTH = _from(_R, "sim/truth", SimTruth, frozenset({_L, _J}), "50 Hz",
                   "where the simulated robot really is", ring=SEQUENCED)  # fmt: skip
-SIM_CONTROL = Key("sim/control", SimControl, frozenset({J}), frozenset({R}), "by tests", SEQUENCED,
+SIM_CONTROL = Key("sim/control", SimControl, frozenset({_J}), frozenset({_R}), "by tests", SEQUENCED,
                   SMALL, "a test moves the simulated robot or its spare obstacle")  # fmt: skip
 
 OPS = (ARM, DISARM, ESTOP, RESET, RESUME)

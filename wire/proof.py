@@ -1,8 +1,8 @@
 """Prove and check that an operator meant a request, by HMAC-SHA-256 over what it is for.
 
-The bytes signed are kind, robot, nonce and id, each preceded by its length, so that no two different
-requests share them. The key stays with the operator (CLI, page) and the bridge; a planner relays
-proofs that it can't make.
+The bytes signed are kind, robot, nonce and id, each preceded by its length, so that no two
+different requests share them. The key stays with the operator (CLI, page) and the bridge; a planner
+relays proofs that it can't make.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Define what robot, localization and simulator say. ``stamp_s`` is the sender's monotonic clock."""
+"""Define what robot, localization and simulator say; ``stamp_s`` is the sender's own clock."""
 
 from __future__ import annotations
 

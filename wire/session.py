@@ -116,7 +116,7 @@ class Session:
 
     def close(self) -> None:
         """Leave; every ring is empty from now on."""
-        self._zenoh.close()
+        self._zenoh.close()  # type: ignore[no-untyped-call]  # its stub has no annotation
         self._claim.close()
 
     def __enter__(self) -> Self:
