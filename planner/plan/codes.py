@@ -1,0 +1,168 @@
+"""Own the outcome codes and their sentences: one table, both languages, stable codes.
+
+Whatever a goal ends in has one of these codes, and a person reads its sentence. A code is never
+renamed; a sentence may be.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from planner.plan.base import Bilingual
+
+
+class Code(StrEnum):
+    """Why a goal ended, or waits for a person."""
+
+    # Understood or not: said before anything moves.
+    EMPTY_GOAL = "empty_goal"
+    TEXT_TOO_LONG = "text_too_long"
+    BAD_TEXT = "bad_text"
+    NOT_UNDERSTOOD = "not_understood"
+    UNKNOWN_PLACE = "unknown_place"
+    AMBIGUOUS = "ambiguous"
+    NEGATED = "negated"
+    CONDITIONAL = "conditional"
+    OUT_OF_SCOPE = "out_of_scope"
+    NO_CAPABILITY = "no_capability"
+    NO_CAMERA = "no_camera"
+    UNSAFE = "unsafe"
+    BAD_PLAN = "bad_plan"
+    MODEL_UNAVAILABLE = "model_unavailable"
+    NOT_ARMED = "not_armed"
+    # On the way.
+    NO_ROUTE = "no_route"
+    BLOCKED = "blocked"
+    STOPPED = "stopped"
+    FAULT = "fault"
+    OUT_OF_BUDGET = "out_of_budget"
+    # The end.
+    ARRIVED = "arrived"
+    DONE = "done"
+    ANSWERED = "answered"
+    CANCELLED = "cancelled"
+
+
+_SENTENCES: dict[Code, tuple[str, str]] = {
+    Code.EMPTY_GOAL: (
+        "There is no order in this. Tell me where to go, for example: {example}",
+        "没有看到指令。请告诉我要去哪里，例如：{example}",
+    ),
+    Code.TEXT_TOO_LONG: (
+        "The order has {length} characters; at most {limit} are read.",
+        "指令有 {length} 个字符，最多只读 {limit} 个。",
+    ),
+    Code.BAD_TEXT: (
+        "The order holds characters that are not text ({found}). Please write plain words.",
+        "指令里有不是文字的字符（{found}），请用普通文字书写。",
+    ),
+    Code.NOT_UNDERSTOOD: (
+        "I did not understand “{part}”, so I stay where I am. Please say it another way.",
+        "我没听懂“{part}”，所以先不动。请换个说法。",
+    ),
+    Code.UNKNOWN_PLACE: (
+        "I know no place called “{name}”.{near} Known places: {known}.",
+        "我不知道叫“{name}”的地方。{near}已知的地方：{known}。",
+    ),
+    Code.AMBIGUOUS: (
+        "“{part}” can mean more than one thing. Which one?",
+        "“{part}”可能有不止一个意思，您指的是哪一个？",
+    ),
+    Code.NEGATED: (
+        "You said “{part}”: I take that as an order not to do it, and stay where I am.",
+        "您说了“{part}”：我理解为不要这样做，所以不动。",
+    ),
+    Code.CONDITIONAL: (
+        "I can't check the condition “{part}”, so I stay where I am. Give the order without it.",
+        "我无法判断“{part}”这个条件，所以不动。请直接下达不带条件的指令。",
+    ),
+    Code.OUT_OF_SCOPE: (
+        "Speeds and coordinates are not mine to choose (“{part}”). Name a place instead.",
+        "速度和坐标不由指令决定（“{part}”）。请说地点名称。",
+    ),
+    Code.NO_CAPABILITY: (
+        "I can't do “{part}”: this robot drives, and has no means for that.",
+        "我做不到“{part}”：这台机器人只会行驶，没有这个能力。",
+    ),
+    Code.NO_CAMERA: (
+        "I can't do “{part}”: it needs a camera, and there is none.",
+        "我做不到“{part}”：这需要摄像头，而现在没有。",
+    ),
+    Code.UNSAFE: (
+        "I will not do “{part}”: {rule}.",
+        "我不会做“{part}”：{rule}。",
+    ),
+    Code.BAD_PLAN: (
+        "The plan was not usable: {why}.",
+        "计划不可用：{why}。",
+    ),
+    Code.MODEL_UNAVAILABLE: (
+        "The planning model does not answer, and the built-in brain can't do this alone.",
+        "规划模型没有应答，而内置大脑无法独自完成这个任务。",
+    ),
+    Code.NOT_ARMED: (
+        "The robot is not armed. Arm it, then resume the goal.",
+        "机器人未解锁。请先解锁，再继续任务。",
+    ),
+    Code.NO_ROUTE: (
+        "I found no way to {place}.",
+        "找不到去{place}的路。",
+    ),
+    Code.BLOCKED: (
+        "The way to {place} is blocked.",
+        "去{place}的路被挡住了。",
+    ),
+    Code.STOPPED: (
+        "Stopped.",
+        "已停下。",
+    ),
+    Code.FAULT: (
+        "The bridge stopped the robot: {row}.",
+        "安全桥停下了机器人：{row}。",
+    ),
+    Code.OUT_OF_BUDGET: (
+        "The goal used up its {budget}.",
+        "任务的{budget}已用完。",
+    ),
+    Code.ARRIVED: (
+        "Arrived: {place}.",
+        "已到达：{place}。",
+    ),
+    Code.DONE: (
+        "Done.",
+        "已完成。",
+    ),
+    Code.ANSWERED: (
+        "{text}",
+        "{text}",
+    ),
+    Code.CANCELLED: (
+        "Cancelled.",
+        "已取消。",
+    ),
+}
+
+
+def template(code: Code) -> Bilingual:
+    """Return the sentence of a code with its blanks still open."""
+    en, zh = _SENTENCES[code]
+    return Bilingual(en=en, zh=zh)
+
+
+def message(code: Code, **facts: str | int | float | Bilingual) -> Bilingual:
+    """Fill in the sentence of a code; a bilingual fact fills each language with its own words.
+
+    Raises:
+        KeyError: a blank of the sentence was given no fact.
+    """
+    en, zh = _SENTENCES[code]
+    return Bilingual(
+        en=en.format(**{key: _in(fact, "en") for key, fact in facts.items()}),
+        zh=zh.format(**{key: _in(fact, "zh") for key, fact in facts.items()}),
+    )
+
+
+def _in(fact: str | int | float | Bilingual, language: str) -> str:
+    if isinstance(fact, Bilingual):
+        return fact.en if language == "en" else fact.zh
+    return str(fact)

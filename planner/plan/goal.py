@@ -1,0 +1,135 @@
+"""Own the record of a goal as the API shows it: states, reasons, steps and the outcome.
+
+Data only: which change of state is allowed is the mission reducer's business.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from pydantic import AwareDatetime, Field
+
+from planner.plan.base import Bilingual, Frozen, Language
+from planner.plan.codes import Code
+from planner.plan.outcome import Outcome, Spot
+from planner.plan.plans import Answer, Clarify, Option, Refuse, StepPlan
+
+
+class GoalState(StrEnum):
+    """Where a goal stands."""
+
+    QUEUED = "queued"
+    PLANNING = "planning"
+    AWAITING_CONFIRMATION = "awaiting_confirmation"
+    NEEDS_CLARIFICATION = "needs_clarification"
+    RUNNING = "running"
+    PAUSED = "paused"
+    SUCCEEDED = "succeeded"
+    FAILED = "failed"
+    REFUSED = "refused"
+    CANCELLED = "cancelled"
+
+
+ENDED = frozenset({GoalState.SUCCEEDED, GoalState.FAILED, GoalState.REFUSED, GoalState.CANCELLED})
+
+
+class PauseReason(StrEnum):
+    """Why a goal is paused; a fault is written with its row, see `fault`."""
+
+    OPERATOR = "operator"
+    STOP = "stop"
+    TELEOP = "teleop"
+    ESTOP = "estop"
+    BUDGET = "budget"
+    BLOCKED = "blocked"
+    DISARMED = "disarmed"
+    PLANNER_RESTARTED = "planner_restarted"
+
+
+def fault(row: str) -> str:
+    """Write the pause reason of a bridge row: `fault(LIDAR_STALE)`."""
+    return f"fault({row})"
+
+
+class StepState(StrEnum):
+    """Where one step of a goal stands."""
+
+    PENDING = "pending"
+    RUNNING = "running"
+    SUCCEEDED = "succeeded"
+    FAILED = "failed"
+    SKIPPED = "skipped"
+
+
+class StepRecord(Frozen):
+    """Show one step: what it asks, where it stands, what was reached and why not."""
+
+    kind: str
+    place: str | None = None
+    places: tuple[str, ...] = ()
+    object: str | None = None
+    text: str | None = None
+    seconds: float | None = None
+    angle_rad: float | None = None
+    distance_m: float | None = None
+    state: StepState = StepState.PENDING
+    reached: Spot | None = None
+    residual_m: float | None = None  # distance left to the goal when the bridge said "reached"
+    reason: str | None = None
+
+
+class PlanRecord(Frozen):
+    """Show a plan of any kind in one flat shape."""
+
+    kind: str
+    steps: tuple[StepRecord, ...] = ()
+    code: Code | None = None
+    text: Bilingual | None = None  # the answer, the question or the reason
+    options: tuple[Option, ...] = ()
+
+
+class BrainTag(Frozen):
+    """Name the brain that planned, with its version."""
+
+    name: str
+    version: str
+
+
+class Goal(Frozen):
+    """Show a goal whole: what was said, what was understood, where it stands, how it ended."""
+
+    id: str
+    text: str
+    language: Language
+    state: GoalState
+    reason: str | None = None
+    plan: PlanRecord | None = None
+    outcome: Outcome | None = None
+    brain: BrainTag | None = None
+    position: int | None = Field(default=None, ge=0)  # in the queue; 0 is next
+    created: AwareDatetime
+    updated: AwareDatetime
+
+
+def plan_record(plan: StepPlan | Answer | Clarify | Refuse) -> PlanRecord:
+    """Flatten a plan for the goal's record, every step pending."""
+    match plan:
+        case StepPlan():
+            return PlanRecord(kind=plan.kind, steps=tuple(map(_step_record, plan.steps)))
+        case Answer():
+            return PlanRecord(kind=plan.kind, text=plan.text)
+        case Clarify():
+            return PlanRecord(
+                kind=plan.kind, code=plan.code, text=plan.question, options=plan.options
+            )
+        case Refuse():
+            return PlanRecord(kind=plan.kind, code=plan.code, text=plan.reason)
+
+
+def _step_record(step: Frozen) -> StepRecord:
+    fields = step.model_dump()
+    if "question" in fields:
+        fields["text"] = fields.pop("question")
+    if "x" in fields:  # a point of the picture has no place in the record but as words
+        fields["text"] = f"({fields.pop('x')}, {fields.pop('y')})"
+    return StepRecord.model_validate(fields)

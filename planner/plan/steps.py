@@ -1,0 +1,171 @@
+"""Own the closed vocabulary of steps: what a plan may ask of the robot, and nothing else.
+
+No step carries map coordinates or a speed; a place is an id of the vocabulary. Lengths are metres,
+angles radians (counter-clockwise positive), times seconds.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Annotated, Literal
+
+from pydantic import Field, StringConstraints
+
+from planner.plan.base import Frozen
+from planner.plan.vocabulary import PlaceId
+
+Words = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=500)]
+Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
+
+
+class GoTo(Frozen):
+    """Drive to a room or place of the vocabulary."""
+
+    kind: Literal["go_to"] = "go_to"
+    place: PlaceId
+
+
+class ComeBack(Frozen):
+    """Drive back to the pose at which this goal was accepted."""
+
+    kind: Literal["come_back"] = "come_back"
+
+
+class ReturnHome(Frozen):
+    """Drive to the site's home."""
+
+    kind: Literal["return_home"] = "return_home"
+
+
+class Wait(Frozen):
+    """Stand still for a while [s]."""
+
+    kind: Literal["wait"] = "wait"
+    seconds: float = Field(gt=0.0, le=600.0)
+
+
+class Say(Frozen):
+    """Say words to the people near the robot."""
+
+    kind: Literal["say"] = "say"
+    text: Words
+
+
+class Ask(Frozen):
+    """Ask the person a question and wait for the answer."""
+
+    kind: Literal["ask"] = "ask"
+    question: Words
+
+
+class Decide(Frozen):
+    """Think again with what was seen and heard until here."""
+
+    kind: Literal["decide"] = "decide"
+    question: Words
+
+
+class Turn(Frozen):
+    """Turn on the spot by an angle [rad], counter-clockwise positive."""
+
+    kind: Literal["turn"] = "turn"
+    angle_rad: float = Field(ge=-4 * pi, le=4 * pi)
+
+
+class Move(Frozen):
+    """Drive straight by a distance [m] along the heading, backwards where negative."""
+
+    kind: Literal["move"] = "move"
+    distance_m: float = Field(ge=-10.0, le=10.0)
+
+
+class Patrol(Frozen):
+    """Visit places one after the other, looking around."""
+
+    kind: Literal["patrol"] = "patrol"
+    places: Annotated[tuple[PlaceId, ...], Field(min_length=1, max_length=20)]
+
+
+class GoToObject(Frozen):
+    """Drive up to an object that was seen."""
+
+    kind: Literal["go_to_object"] = "go_to_object"
+    object: Label
+    place: PlaceId | None = None
+
+
+class GoToPoint(Frozen):
+    """Drive to what lies at a point of the picture (x right, y down, each 0 to 1000)."""
+
+    kind: Literal["go_to_point"] = "go_to_point"
+    x: int = Field(ge=0, le=1000)
+    y: int = Field(ge=0, le=1000)
+
+
+class Find(Frozen):
+    """Look for an object or a person, in a place where one is named."""
+
+    kind: Literal["find"] = "find"
+    object: Label
+    place: PlaceId | None = None
+
+
+class Count(Frozen):
+    """Count objects or people, in a place where one is named."""
+
+    kind: Literal["count"] = "count"
+    object: Label
+    place: PlaceId | None = None
+
+
+class Look(Frozen):
+    """Look and answer a question about what is seen."""
+
+    kind: Literal["look"] = "look"
+    question: Words
+    place: PlaceId | None = None
+
+
+class Follow(Frozen):
+    """Follow a person at a distance."""
+
+    kind: Literal["follow"] = "follow"
+    object: Label
+
+
+Step = Annotated[
+    GoTo
+    | ComeBack
+    | ReturnHome
+    | Wait
+    | Say
+    | Ask
+    | Decide
+    | Turn
+    | Move
+    | Patrol
+    | GoToObject
+    | GoToPoint
+    | Find
+    | Count
+    | Look
+    | Follow,
+    Field(discriminator="kind"),
+]
+
+RUNNABLE = frozenset(
+    {"go_to", "come_back", "return_home", "wait", "say"}
+)  # what a mission can walk
+NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
+DRIVES = frozenset(
+    {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
+    | {"go_to_object", "go_to_point", "find", "follow"}
+)
+
+
+def places_of(step: Step) -> tuple[str, ...]:
+    """Return the place ids that a step names."""
+    if isinstance(step, Patrol):
+        return step.places
+    place = getattr(step, "place", None)
+    return (place,) if place else ()

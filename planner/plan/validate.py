@@ -1,0 +1,81 @@
+"""Judge a plan against the closed world: the last gate before a mission may walk it.
+
+Trusts no brain, the built-in one included. Collects every reason, then decides once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planner.plan.base import Frozen, same
+from planner.plan.codes import Code, message
+from planner.plan.outcome import Outcome
+from planner.plan.plans import MAX_STEPS, Answer, Clarify, Refuse, StepPlan
+from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step, places_of
+from planner.plan.vocabulary import Vocabulary
+
+
+class Reason(Frozen):
+    """Name one fault of a plan; `repairable` where the model could write it better."""
+
+    code: Code
+    step: int | None  # index into the plan's steps; None where the plan as a whole is meant
+    what: str
+    repairable: bool
+
+
+class Rejection(Frozen):
+    """Refuse a plan, with every reason found and the outcome that a person reads."""
+
+    reasons: tuple[Reason, ...]
+    outcome: Outcome
+
+    @property
+    def repairable(self) -> bool:
+        """Tell whether handing the reasons back to the model could help."""
+        return all(reason.repairable for reason in self.reasons)
+
+
+def validate_plan(
+    plan: StepPlan | Answer | Clarify | Refuse,
+    vocabulary: Vocabulary,
+    runnable: frozenset[str] = RUNNABLE,
+) -> StepPlan | Answer | Clarify | Refuse | Rejection:
+    """Return the plan itself where it may be walked, else every reason why it may not.
+
+    Bounds of numbers hold from birth (the models refuse them), so they are not looked at again.
+    """
+    if not isinstance(plan, StepPlan):
+        return plan
+    reasons = tuple(_faults(plan, vocabulary, runnable))
+    return Rejection(reasons=reasons, outcome=_outcome(reasons, vocabulary)) if reasons else plan
+
+
+def _faults(plan: StepPlan, vocabulary: Vocabulary, runnable: frozenset[str]) -> Iterator[Reason]:
+    count = len(plan.steps)
+    if not 1 <= count <= MAX_STEPS:
+        what = f"{count} steps; expected 1 to {MAX_STEPS}"
+        yield Reason(code=Code.BAD_PLAN, step=None, what=what, repairable=True)
+    for index, step in enumerate(plan.steps):
+        for place in places_of(step):
+            if place not in vocabulary:
+                yield Reason(code=Code.UNKNOWN_PLACE, step=index, what=place, repairable=True)
+        if step.kind not in runnable:
+            yield Reason(code=lacking(step), step=index, what=step.kind, repairable=False)
+
+
+def lacking(step: Step) -> Code:
+    """Name what the robot lacks for a step that it can't run."""
+    return Code.NO_CAMERA if step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY
+
+
+def _outcome(reasons: tuple[Reason, ...], vocabulary: Vocabulary) -> Outcome:
+    # What no repair can mend is what the person must hear first.
+    first = next((reason for reason in reasons if not reason.repairable), reasons[0])
+    if first.code is Code.UNKNOWN_PLACE:
+        said = message(first.code, name=first.what, near="", known=vocabulary.known())
+    elif first.code is Code.BAD_PLAN:
+        said = message(first.code, why=first.what)
+    else:
+        said = message(first.code, part=same(first.what))
+    return Outcome(code=first.code, message=said)

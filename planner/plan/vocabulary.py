@@ -1,0 +1,68 @@
+"""Own the closed world of names: the rooms and places that a plan may mention, and nothing else.
+
+Knows no coordinates: where a place lies is the world's business. A site builds one of these.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cached_property
+from typing import Annotated, Literal, Self
+
+from pydantic import StringConstraints, model_validator
+
+from planner.plan.base import Bilingual, Frozen
+
+PlaceId = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9_]{0,63}$")]
+Alias = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
+
+
+class Entry(Frozen):
+    """Name one room or place: its id, its name in both languages and what else it is called."""
+
+    id: PlaceId
+    kind: Literal["room", "place"]
+    name: Bilingual
+    aliases: tuple[Alias, ...] = ()
+    room: PlaceId | None = None  # the room a place stands in, where the site says so
+
+    @property
+    def spellings(self) -> tuple[str, ...]:
+        """Return every way to write this entry: both names, the aliases and the id in words."""
+        written = (self.name.en, self.name.zh, *self.aliases, self.id.replace("_", " "))
+        return tuple(dict.fromkeys(word for word in written if word.strip()))
+
+
+class Vocabulary(Frozen):
+    """List what exists. An id occurs once; a spelling may be shared, and is then ambiguous."""
+
+    entries: tuple[Entry, ...] = ()
+
+    @model_validator(mode="after")
+    def _ids_once(self) -> Self:
+        twice = [id_ for id_, n in Counter(entry.id for entry in self.entries).items() if n > 1]
+        if twice:
+            raise ValueError(f"place ids must be unique; given twice: {', '.join(sorted(twice))}")
+        return self
+
+    @cached_property
+    def by_id(self) -> dict[str, Entry]:
+        """Return the entries by their id."""
+        return {entry.id: entry for entry in self.entries}
+
+    def __contains__(self, place: object) -> bool:
+        return place in self.by_id
+
+    def name(self, place: str) -> Bilingual:
+        """Return a place's name; an id that is no longer known is its own name."""
+        entry = self.by_id.get(place)
+        return entry.name if entry else Bilingual(en=place, zh=place)
+
+    def known(self, limit: int = 30) -> Bilingual:
+        """List what exists for a message, at most `limit` names."""
+        shown, more = self.entries[:limit], len(self.entries) - limit
+        en, zh = [e.name.en for e in shown], [e.name.zh for e in shown]
+        if more > 0:
+            en.append(f"and {more} more")
+            zh.append(f"等另外 {more} 处")
+        return Bilingual(en=", ".join(en) or "none", zh="、".join(zh) or "无")

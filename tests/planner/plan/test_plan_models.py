@@ -1,0 +1,257 @@
+"""Check the closed vocabulary of plans: what is accepted, what is refused, what survives JSON."""
+
+from __future__ import annotations
+
+import math
+import re
+from datetime import UTC, datetime
+from typing import Any, get_args
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from planner.plan import (
+    DRIVES,
+    NEEDS_CAMERA,
+    PLAN,
+    RUNNABLE,
+    Answer,
+    Bilingual,
+    BrainTag,
+    Clarify,
+    Code,
+    Entry,
+    Goal,
+    GoalState,
+    GoTo,
+    Language,
+    Option,
+    Outcome,
+    PauseReason,
+    Rejection,
+    Spot,
+    Step,
+    StepPlan,
+    Vocabulary,
+    Wait,
+    fault,
+    message,
+    plan_record,
+    template,
+    validate_plan,
+)
+
+
+def entry(id_: str, en: str, zh: str, kind: str = "room", **more: Any) -> Entry:
+    return Entry.model_validate({"id": id_, "kind": kind, "name": {"en": en, "zh": zh}, **more})
+
+
+HOME = Vocabulary(entries=(entry("kitchen", "kitchen", "厨房"), entry("study", "study", "书房")))
+
+STEPS: list[dict[str, Any]] = [
+    {"kind": "go_to", "place": "kitchen"},
+    {"kind": "come_back"},
+    {"kind": "return_home"},
+    {"kind": "wait", "seconds": 5.0},
+    {"kind": "say", "text": "hello <b>you</b>"},
+    {"kind": "ask", "question": "which cup?"},
+    {"kind": "decide", "question": "is it there?"},
+    {"kind": "turn", "angle_rad": 1.5},
+    {"kind": "move", "distance_m": -0.5},
+    {"kind": "patrol", "places": ["kitchen", "study"]},
+    {"kind": "go_to_object", "object": "red cup"},
+    {"kind": "go_to_point", "x": 500, "y": 1000},
+    {"kind": "find", "object": "red cup", "place": "kitchen"},
+    {"kind": "count", "object": "people", "place": None},
+    {"kind": "look", "question": "what do you see?"},
+    {"kind": "follow", "object": "the person"},
+]
+KINDS = [cls.model_fields["kind"].default for cls in get_args(get_args(Step)[0])]
+
+
+def test_every_kind_of_step_is_tried_here() -> None:
+    assert sorted(KINDS) == sorted(step["kind"] for step in STEPS)
+    assert set(KINDS) >= RUNNABLE | NEEDS_CAMERA | DRIVES
+
+
+@pytest.mark.parametrize("step", STEPS, ids=lambda step: str(step["kind"]))
+def test_plan_survives_json(step: dict[str, Any]) -> None:
+    plan = PLAN.validate_python({"kind": "plan", "steps": [step]})
+    assert PLAN.validate_json(PLAN.dump_json(plan)) == plan
+    assert plan_record(plan).steps[0].kind == step["kind"]
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"kind": "wait", "seconds": math.nan},
+        {"kind": "wait", "seconds": math.inf},
+        {"kind": "wait", "seconds": 0},
+        {"kind": "wait", "seconds": 601},
+        {"kind": "turn", "angle_rad": 100},
+        {"kind": "move", "distance_m": -math.inf},
+        {"kind": "go_to", "place": "Kitchen; DROP TABLE"},
+        {"kind": "go_to", "place": ""},
+        {"kind": "go_to", "place": "kitchen", "x": 2.0},
+        {"kind": "go_to", "place": "kitchen", "speed": 9},
+        {"kind": "go_to_point", "x": 1001, "y": 0},
+        {"kind": "say", "text": "  "},
+        {"kind": "patrol", "places": []},
+        {"kind": "fly"},
+        {},
+    ],
+    ids=str,
+)
+def test_bad_step_is_refused(bad: dict[str, Any]) -> None:
+    with pytest.raises(ValidationError):
+        PLAN.validate_python({"kind": "plan", "steps": [bad]})
+
+
+def test_a_plan_cannot_also_refuse() -> None:
+    reason = {"en": "no", "zh": "不"}
+    mixed = {"kind": "refuse", "code": "unsafe", "reason": reason, "steps": [STEPS[0]]}
+    with pytest.raises(ValidationError, match="steps"):
+        PLAN.validate_python(mixed)
+
+
+def rejected(steps: tuple[Any, ...]) -> Rejection:
+    verdict = validate_plan(StepPlan(steps=steps), HOME)
+    assert isinstance(verdict, Rejection)
+    return verdict
+
+
+def test_valid_plan_comes_back_itself() -> None:
+    plan = StepPlan(steps=(GoTo(place="kitchen"), Wait(seconds=1.0)))
+    assert validate_plan(plan, HOME) is plan
+
+
+def test_unknown_place_is_refused_and_names_what_exists() -> None:
+    verdict = rejected((GoTo(place="kitchen"), GoTo(place="garage")))
+    assert [(r.code, r.step) for r in verdict.reasons] == [(Code.UNKNOWN_PLACE, 1)]
+    assert verdict.repairable
+    assert "garage" in verdict.outcome.message.en
+    assert "书房" in verdict.outcome.message.zh
+
+
+@pytest.mark.parametrize("count", [0, 21, 500])
+def test_empty_and_long_plans_are_refused(count: int) -> None:
+    verdict = rejected((GoTo(place="kitchen"),) * count)
+    assert verdict.outcome.code is Code.BAD_PLAN
+    assert str(count) in verdict.outcome.message.en
+
+
+def test_twenty_steps_pass() -> None:
+    plan = StepPlan(steps=(GoTo(place="kitchen"),) * 20)
+    assert validate_plan(plan, HOME) is plan
+
+
+@pytest.mark.parametrize("step", STEPS, ids=lambda step: str(step["kind"]))
+def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
+    plan = PLAN.validate_python({"kind": "plan", "steps": [STEPS[0], step]})
+    verdict = validate_plan(plan, HOME)
+    if step["kind"] in RUNNABLE:
+        assert verdict is plan
+        return
+    assert isinstance(verdict, Rejection)
+    camera = step["kind"] in NEEDS_CAMERA
+    assert verdict.outcome.code is (Code.NO_CAMERA if camera else Code.NO_CAPABILITY)
+    assert not verdict.repairable
+
+
+def test_all_reasons_are_collected_and_the_hopeless_one_is_told() -> None:
+    plan = PLAN.validate_python(
+        {"kind": "plan", "steps": [{"kind": "go_to", "place": "moon"}, STEPS[12]]}
+    )
+    verdict = validate_plan(plan, HOME)
+    assert isinstance(verdict, Rejection)
+    assert [r.code for r in verdict.reasons] == [Code.UNKNOWN_PLACE, Code.NO_CAMERA]
+    assert verdict.outcome.code is Code.NO_CAMERA
+
+
+def test_answers_and_questions_pass_untouched() -> None:
+    answer = Answer(text=Bilingual(en="here", zh="这里"))
+    question = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="?", zh="？"))
+    assert validate_plan(answer, HOME) is answer
+    assert validate_plan(question, HOME) is question
+
+
+@pytest.mark.parametrize("code", list(Code))
+def test_every_code_has_a_sentence_with_the_same_blanks_in_both_languages(code: Code) -> None:
+    sentence = template(code)
+    blanks = [sorted(set(re.findall(r"{(\w+)}", text))) for text in (sentence.en, sentence.zh)]
+    assert blanks[0] == blanks[1]
+    filled = message(code, **dict.fromkeys(blanks[0], "x{y}"))
+    assert filled.en
+    assert filled.zh
+
+
+def test_a_message_without_its_fact_is_an_error() -> None:
+    with pytest.raises(KeyError):
+        message(Code.ARRIVED)
+
+
+def test_ids_must_be_unique() -> None:
+    with pytest.raises(ValidationError, match="given twice: kitchen"):
+        Vocabulary(entries=(entry("kitchen", "a", "b"), entry("kitchen", "c", "d")))
+
+
+def test_a_long_list_of_places_is_cut_in_messages() -> None:
+    many = Vocabulary(entries=tuple(entry(f"p{i}", f"p{i}", f"地{i}") for i in range(50)))
+    assert many.known().en.endswith("p29, and 20 more")
+    assert many.known().zh.endswith("等另外 20 处")
+
+
+def test_goal_record_round_trips() -> None:
+    now = datetime(2030, 1, 2, tzinfo=UTC)
+    plan = StepPlan(steps=(GoTo(place="kitchen"),))
+    spot = Spot(place="kitchen", room="kitchen", x_m=1.0, y_m=2.0, yaw_rad=0.0)
+    goal = Goal(
+        id="g1",
+        text="go to the kitchen",
+        language=Language.EN,
+        state=GoalState.SUCCEEDED,
+        plan=plan_record(plan),
+        outcome=Outcome(
+            code=Code.ARRIVED,
+            message=message(Code.ARRIVED, place=HOME.name("kitchen")),
+            asked=spot,
+            reached=spot,
+            metres=3.5,
+            seconds=9.0,
+            limited_by=("scan",),
+        ),
+        brain=BrainTag(name="offline", version="1"),
+        created=now,
+        updated=now,
+    )
+    assert Goal.model_validate_json(goal.model_dump_json()) == goal
+    assert goal.outcome is not None
+    assert goal.outcome.message == Bilingual(en="Arrived: kitchen.", zh="已到达：厨房。")
+
+
+def test_clarify_record_keeps_its_options() -> None:
+    option = Option(label=Bilingual(en="kitchen", zh="厨房"), text="go to the kitchen")
+    asked = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="?", zh="？"), options=(option,))
+    assert plan_record(asked).options == (option,)
+    assert plan_record(asked).code is Code.AMBIGUOUS
+
+
+def test_pause_reasons_are_the_agreed_words() -> None:
+    assert fault("LIDAR_STALE") == "fault(LIDAR_STALE)"
+    assert set(PauseReason) == {
+        *("operator", "stop", "teleop", "estop", "budget", "blocked", "disarmed"),
+        "planner_restarted",
+    }
+
+
+@given(st.floats(allow_nan=True, allow_infinity=True))
+@settings(max_examples=60)
+def test_wait_accepts_only_its_bounds(seconds: float) -> None:
+    step = {"kind": "wait", "seconds": seconds}
+    if 0.0 < seconds <= 600.0:
+        PLAN.validate_python({"kind": "plan", "steps": [step]})
+    else:
+        with pytest.raises(ValidationError):
+            PLAN.validate_python({"kind": "plan", "steps": [step]})
