@@ -1,0 +1,113 @@
+"""What the codec accepts is in schema and bounds; everything else is refused as a value."""
+
+from __future__ import annotations
+
+import gc
+import json
+from random import Random
+
+import psutil
+import pytest
+
+from tests.wire.examples import EXAMPLES
+from wire import Record, Rejected, Waypoints, decode, encode
+from wire.keys import KEYS, LOCALIZATION, STOP, WAYPOINTS, Key
+
+MUTATIONS = 400
+LEAK_ROUNDS = 20_000
+LEAK_BOUND_BYTES = 8 * 1024 * 1024
+
+
+@pytest.fixture(params=KEYS, ids=lambda key: key.path)
+def key(request: pytest.FixtureRequest) -> Key[Record]:
+    found: Key[Record] = request.param
+    return found
+
+
+def test_every_message_survives_the_round_trip(key: Key[Record]) -> None:
+    message = EXAMPLES[key.message]
+    assert decode(key, encode(message)) == message
+
+
+def test_every_message_fits_its_key(key: Key[Record]) -> None:
+    assert len(encode(EXAMPLES[key.message])) <= key.max_bytes
+
+
+def test_unknown_fields_are_refused(key: Key[Record]) -> None:
+    body = json.loads(encode(EXAMPLES[key.message])) | {"unasked": 1}
+    answer = decode(key, json.dumps(body).encode())
+    assert isinstance(answer, Rejected)
+    assert "unasked" in answer.detail
+
+
+def test_a_missing_field_without_a_default_is_refused(key: Key[Record]) -> None:
+    body = json.loads(encode(EXAMPLES[key.message]))
+    for name, field in key.message.model_fields.items():
+        if field.is_required():
+            short = {k: v for k, v in body.items() if k != name}
+            assert isinstance(decode(key, json.dumps(short).encode()), Rejected), name
+
+
+@pytest.mark.parametrize("literal", [b"NaN", b"Infinity", b"-Infinity", b"1e999", b"-1e999"])
+def test_numbers_that_are_none_are_refused(literal: bytes) -> None:
+    good = encode(EXAMPLES[LOCALIZATION.message])
+    assert isinstance(decode(LOCALIZATION, good.replace(b"0.9", literal)), Rejected)
+
+
+@pytest.mark.parametrize(
+    "payload",
+    [b"", b"\x00", b"{}", b"null", b"[]", b"\xff\xfe", b'{"id":', b"[" * 4000, b'{"a":' * 800],
+)
+def test_what_is_no_message_is_refused(payload: bytes) -> None:
+    answer = decode(STOP, payload)
+    assert isinstance(answer, Rejected)
+    assert answer.code == "invalid"
+
+
+def test_size_is_judged_before_parsing() -> None:
+    answer = decode(STOP, b" " * (STOP.max_bytes + 1))
+    assert answer == Rejected("too_large", "cmd/stop: 4097 bytes, at most 4096")
+
+
+def test_a_string_is_no_number_and_a_number_no_flag() -> None:
+    good = encode(EXAMPLES[Waypoints])
+    assert isinstance(decode(WAYPOINTS, good.replace(b'"seq":5', b'"seq":"5"')), Rejected)
+    assert isinstance(decode(WAYPOINTS, good.replace(b'"final":true', b'"final":1')), Rejected)
+
+
+def test_too_many_points_are_refused() -> None:
+    body = json.loads(encode(EXAMPLES[Waypoints]))
+    body["points"] = [{"x_m": 0.1 * n, "y_m": 0.0, "speed_mps": 0.3} for n in range(51)]
+    assert isinstance(decode(WAYPOINTS, json.dumps(body).encode()), Rejected)
+    body["points"].pop()
+    assert isinstance(decode(WAYPOINTS, json.dumps(body).encode()), Waypoints)
+
+
+def test_damaged_bytes_are_refused_or_still_a_message(key: Key[Record]) -> None:
+    chance = Random(f"{key.path} damaged")
+    good = encode(EXAMPLES[key.message])
+    for _ in range(MUTATIONS):
+        damaged = bytearray(good)
+        for _ in range(chance.randint(1, 4)):
+            damaged[chance.randrange(len(damaged))] ^= 1 << chance.randrange(8)
+        answer = decode(key, bytes(damaged[: chance.randint(0, len(good))]) or bytes(damaged))
+        assert isinstance(answer, Rejected | key.message)
+        if isinstance(answer, key.message):
+            assert decode(key, encode(answer)) == answer
+
+
+def test_refusals_leave_nothing_behind_with_the_collector_off() -> None:
+    bad = encode(EXAMPLES[Waypoints]).replace(b'"seq":5', b'"seq":NaN')
+    process = psutil.Process()
+    gc.collect()
+    gc.disable()
+    try:
+        for _ in range(2_000):
+            decode(WAYPOINTS, bad)
+        before = process.memory_info().rss
+        for _ in range(LEAK_ROUNDS):
+            decode(WAYPOINTS, bad)
+        grown = process.memory_info().rss - before
+    finally:
+        gc.enable()
+    assert grown < LEAK_BOUND_BYTES

@@ -1,0 +1,77 @@
+"""robot.toml is read whole or refused with every reason."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from wire import Misconfigured, RobotDescription, load_robot
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "robot.toml"
+    path.write_text(text, "utf-8")
+    return path
+
+
+def test_an_empty_file_is_the_default_robot(tmp_path: Path) -> None:
+    assert load_robot(written(tmp_path, "")) == RobotDescription()
+
+
+def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
+    robot = load_robot(written(tmp_path, "[limits]\nmax_speed_mps = 0.3\n"))
+    assert robot.limits.max_speed_mps == 0.3
+    assert robot.hash != RobotDescription().hash
+    assert robot.hash == load_robot(tmp_path / "robot.toml").hash
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "named"),
+    [
+        ("max_sped_mps = 1", "robot_toml_invalid", "unknown key 'max_sped_mps'"),
+        ("[limits]\nmax_sped_mps = 1", "robot_toml_invalid", "unknown key 'limits.max_sped_mps'"),
+        ("[limits]\nmax_speed_mps = 50.0", "robot_toml_invalid", "limits.max_speed_mps: got 50.0"),
+        ("[limits]\nmax_speed_mps = nan", "robot_toml_invalid", "limits.max_speed_mps"),
+        ("[limits]\nmax_speed_mps = inf", "robot_toml_invalid", "limits.max_speed_mps"),
+        ("[limits]\nmax_decel_mps2 = 0.0", "robot_toml_invalid", "limits.max_decel_mps2"),
+        ("[limits]\nmax_decel_mps2 = '1'", "robot_toml_invalid", "limits.max_decel_mps2"),
+        ("[limits]\nhardest_decel_mps2 = 0.5", "robot_toml_invalid", "hardest_decel_mps2"),
+        ("[limits]\nmax_wheel_radps = 1.0", "robot_toml_invalid", "cannot be reached"),
+        ("[drive]\ntimeout_s = 0.0", "robot_toml_invalid", "drive.timeout_s"),
+        ("[drive]\ntimeout_s = 10.0", "robot_toml_invalid", "drive.timeout_s"),
+        ("[drive]\nkind = 'warp'", "robot_toml_invalid", "drive.kind"),
+        ("[drive]\nvirtual = true", "robot_toml_invalid", "unknown key 'drive.virtual'"),
+        ("[lidar]\nscan_s = 1.0", "robot_toml_invalid", "lidar.scan_s"),
+        ("id = 'r1/../x'", "robot_toml_invalid", "id"),
+        ("[limits", "robot_toml_syntax", "robot.toml"),
+    ],
+)
+def test_what_is_unknown_or_unsafe_refuses(
+    tmp_path: Path, text: str, code: str, named: str
+) -> None:
+    with pytest.raises(Misconfigured) as refused:
+        load_robot(written(tmp_path, text))
+    assert refused.value.code == code
+    assert named in refused.value.detail
+
+
+def test_every_fault_is_named_at_once(tmp_path: Path) -> None:
+    with pytest.raises(Misconfigured) as refused:
+        load_robot(written(tmp_path, "a = 1\nb = 2\n[limits]\nmax_speed_mps = -1.0"))
+    for name in ("'a'", "'b'", "limits.max_speed_mps"):
+        assert name in refused.value.detail
+
+
+def test_a_missing_file_is_said(tmp_path: Path) -> None:
+    with pytest.raises(Misconfigured) as refused:
+        load_robot(tmp_path / "robot.toml")
+    assert refused.value.code == "robot_toml_missing"
+
+
+def test_bytes_that_are_no_text_are_said(tmp_path: Path) -> None:
+    path = tmp_path / "robot.toml"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(Misconfigured) as refused:
+        load_robot(path)
+    assert refused.value.code == "robot_toml_syntax"

@@ -1,0 +1,125 @@
+"""A session never blocks, never raises for an absent peer, and finds its peers again."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from tests.wire.examples import EXAMPLES
+from wire import Misconfigured, Scan, Stop
+from wire.keys import SCAN, STOP, Party
+from wire.session import Publisher, Subscriber, open_session
+
+LIMIT_S = 10.0
+
+
+def until(done: Callable[[], bool]) -> bool:
+    end_s = time.monotonic() + LIMIT_S
+    while time.monotonic() < end_s:
+        if done():
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def stop(number: int) -> Stop:
+    return Stop(id=f"s{number}", source="test")
+
+
+def say_and_hear(mouth: Publisher[Stop], ears: Subscriber[Stop], message: Stop) -> bool:
+    mouth.put(message)
+    return message in ears.drain().items
+
+
+def test_publishing_to_nobody_is_no_error(tmp_path: Path) -> None:
+    with open_session(Party.PLANNER, "r1", tmp_path) as planner:
+        publisher = planner.publisher(STOP)
+        for number in range(1_000):
+            publisher.put(stop(number))
+
+
+def test_a_second_process_of_a_kind_is_refused(tmp_path: Path) -> None:
+    with open_session(Party.BRIDGE, "r1", tmp_path):
+        with pytest.raises(Misconfigured) as refused:
+            open_session(Party.BRIDGE, "r1", tmp_path)
+        assert refused.value.code == "already_running"
+    open_session(Party.BRIDGE, "r1", tmp_path).close()
+
+
+def test_a_restarted_listener_is_found_again(tmp_path: Path) -> None:
+    with open_session(Party.PLANNER, "r1", tmp_path) as planner:
+        publisher = planner.publisher(STOP)
+        for life in range(3):
+            with open_session(Party.BRIDGE, "r1", tmp_path) as bridge:
+                subscriber = bridge.subscriber(STOP)
+
+                heard = partial(say_and_hear, publisher, subscriber, stop(life))
+                assert until(heard)
+
+
+def test_another_robots_messages_are_not_heard(tmp_path: Path) -> None:
+    with (
+        open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
+        open_session(Party.PLANNER, "r2", tmp_path) as stranger,
+    ):
+        assert until(lambda: bridge.peers() == 1)
+        ears = bridge.subscriber(STOP)
+        mouth = stranger.publisher(STOP)
+        for number in range(50):
+            mouth.put(stop(number))
+            time.sleep(0.002)
+        assert ears.drain().arrived == 0
+
+
+def test_state_keeps_only_the_newest(tmp_path: Path) -> None:
+    example = EXAMPLES[Scan]
+    assert isinstance(example, Scan)
+    with (
+        open_session(Party.ROBOT, "r1", tmp_path) as robot,
+        open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
+    ):
+        ears, mouth = bridge.subscriber(SCAN), robot.publisher(SCAN)
+        mouth.put(example)
+        assert until(lambda: bridge.peers() == 1)
+        newest = example.model_copy(update={"seq": 99})
+
+        def heard() -> bool:
+            mouth.put(example)
+            mouth.put(newest)
+            time.sleep(0.01)
+            drained = ears.drain()
+            return drained.arrived == 1 and drained.items == (newest,)
+
+        assert until(heard)
+
+
+def test_a_drain_parses_the_four_newest_and_counts_all(tmp_path: Path) -> None:
+    with (
+        open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
+        open_session(Party.PLANNER, "r1", tmp_path) as planner,
+    ):
+        ears, mouth = bridge.subscriber(STOP), planner.publisher(STOP)
+
+        def heard() -> bool:
+            mouth.put(stop(0))
+            return ears.drain().arrived > 0
+
+        assert until(heard)
+        for number in range(200):
+            mouth.put(stop(number))
+            time.sleep(0.001)  # a burst would be thinned by the sender, which never waits
+        time.sleep(0.2)
+        drained = ears.drain()
+        assert 0 < drained.arrived <= STOP.ring
+        assert drained.items == tuple(stop(number) for number in range(196, 200))
+
+
+def test_a_closed_session_gives_nothing(tmp_path: Path) -> None:
+    session = open_session(Party.BRIDGE, "r1", tmp_path)
+    ears = session.subscriber(STOP)
+    session.close()
+    assert ears.newest() is None
