@@ -143,7 +143,8 @@ CAMERA_DEPTH = _from(_R, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 H
 SIM_TRUTH = _from(_R, "sim/truth", SimTruth, frozenset({_L, _J}), "50 Hz",
                   "where the simulated robot really is", ring=SEQUENCED)  # fmt: skip
 SIM_CONTROL = Key("sim/control", SimControl, frozenset({_J}), frozenset({_R}), "by tests",
-                  SEQUENCED, SMALL, "a test moves the simulated robot or its spare obstacle")  # fmt: skip
+                  SEQUENCED, SMALL,
+                  "a test moves the simulated robot or its spare obstacle")  # fmt: skip
 
 OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
