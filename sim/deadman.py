@@ -1,0 +1,74 @@
+"""Be the drive's own dead-man: no fresh command for the time-out, no motion. Pure; told the time.
+
+Law: an old command can never keep wheels turning, whatever its sender believes. Age runs from
+RECEIPT on the drive's own clock; a command whose seq does not rise within its boot is no sign of
+life. On expiry the wheels ramp to zero and the torque goes off; the next command starts afresh.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from wire import DriveCommand
+
+
+@dataclass(frozen=True, slots=True)
+class Wheels:
+    """Ask both motors for speeds; without torque they are braked."""
+
+    left_radps: float
+    right_radps: float
+    torque: bool
+    timed_out: bool
+
+
+def towards_zero(value: float, step: float) -> float:
+    """Move a value towards zero by at most ``step``, never through it."""
+    return max(0.0, value - step) if value >= 0.0 else min(0.0, value + step)
+
+
+class DeadMan:
+    """Turn received commands into what the motors get, tick by tick."""
+
+    def __init__(self, timeout_s: float, ramp_radps2: float) -> None:
+        self._timeout_s = timeout_s
+        self._ramp_radps2 = ramp_radps2
+        self._command: DriveCommand | None = None
+        self._received_s = 0.0
+        self._asked_s = 0.0
+        self._wheels = Wheels(0.0, 0.0, torque=False, timed_out=True)
+
+    @property
+    def echo(self) -> tuple[str | None, int]:
+        """Return boot and seq of the newest accepted command."""
+        return (None, 0) if self._command is None else (self._command.boot, self._command.seq)
+
+    def receive(self, command: DriveCommand, now_s: float) -> bool:
+        """Take a command that arrived at ``now_s``; False when it is a repeat or from the past."""
+        last = self._command
+        if last is not None and command.boot == last.boot and command.seq <= last.seq:
+            return False
+        self._command, self._received_s = command, now_s
+        return True
+
+    def wheels(self, now_s: float) -> Wheels:
+        """Say what the motors get now. Call once per tick with a clock that never goes back."""
+        elapsed_s, self._asked_s = now_s - self._asked_s, now_s
+        command = self._command
+        if command is not None and 0.0 <= now_s - self._received_s <= self._timeout_s:
+            on = command.enable
+            speeds = (command.left_radps, command.right_radps) if on else (0.0, 0.0)
+            self._wheels = Wheels(*speeds, torque=on, timed_out=False)
+        else:
+            self._wheels = self._expired(elapsed_s)
+        return self._wheels
+
+    def _expired(self, elapsed_s: float) -> Wheels:
+        """Ramp down by the time that really passed: after a freeze this ends at once."""
+        step = self._ramp_radps2 * max(0.0, elapsed_s)
+        left = towards_zero(self._wheels.left_radps, step)
+        right = towards_zero(self._wheels.right_radps, step)
+        moving = left != 0.0 or right != 0.0
+        return Wheels(left, right, torque=self._wheels.torque and moving, timed_out=True)

@@ -1,0 +1,238 @@
+"""Be a robot in a home: commands in, sensor messages out, tick by tick.
+
+The one object that the process shell and the lockstep harness both drive. Deterministic: the same
+site, seed and calls give the same messages. It owns no clock; it is told the time of each receipt
+and tick, and simulated time advances by one period per tick, however late the tick came.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sim.contacts import Episodes
+from sim.deadman import DeadMan, Wheels
+from sim.hardware import PERIODS, Hardware
+from sim.mjcf import OBSTACLES
+from sim.sensors import Encoder, ImuModel, LidarModel
+from sim.site import Home, load_home, pose2, solids
+from sim.world import World
+from wire import (
+    DriveState,
+    Imu,
+    Pose2,
+    RobotDescription,
+    Scan,
+    SimTruth,
+    Twist2,
+    compose,
+)
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from wire import DriveCommand, SimControl
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Give what the robot says after one tick; None where nothing was due."""
+
+    drive: DriveState
+    imu: Imu | None
+    scan: Scan | None
+    truth: SimTruth | None
+
+
+class SimRobot:
+    """Simulate one robot in one home."""
+
+    def __init__(
+        self,
+        site_dir: Path,
+        robot: RobotDescription | None = None,
+        *,
+        seed: int = 0,
+        start: Pose2 | None = None,
+        hardware: Hardware | None = None,
+        boot_id: str = "sim",
+    ) -> None:
+        """Build the home of ``site_dir`` and stand the robot at its dock, or at ``start``.
+
+        Raises:
+            Misconfigured: the site's home.yaml is refused.
+        """
+        self.robot = robot or RobotDescription()
+        self.home: Home = load_home(site_dir)
+        self.boot_id = boot_id
+        self._hardware = hardware or Hardware()
+        self._world = World(solids(self.home), self.robot.base, self._hardware, PERIODS.step_s)
+        self._steps = round(PERIODS.tick_s / PERIODS.step_s)
+        self._scan_ticks = max(1, round(self.robot.lidar.scan_s / PERIODS.tick_s))
+        self._dead_man = DeadMan(self.robot.drive.timeout_s, self._hardware.timeout_ramp_radps2)
+        self._world.place_robot(start or pose2(self.home.places[self.home.dock].pose))
+        counts = self._hardware.encoder_counts
+        self._encoders = tuple(
+            Encoder(counts, PERIODS.tick_s, angle) for angle in self._world.wheel_angles()
+        )
+        # One stream per sensor: adding a beam must not change the gyro.
+        imu_seed, lidar_seed = np.random.SeedSequence(seed).spawn(2)
+        self._imu = ImuModel(self._hardware, PERIODS.tick_s, np.random.default_rng(imu_seed))
+        self._lidar = LidarModel(
+            self.robot.lidar, self._hardware, np.random.default_rng(lidar_seed)
+        )
+        self._contacts = Episodes(PERIODS.tick_s)
+        self._ticks = 0
+        self._scans = 0
+        self._wheels = Wheels(0.0, 0.0, torque=False, timed_out=True)
+
+    @property
+    def time_s(self) -> float:
+        """Return how much time was simulated [s]."""
+        return self._ticks * PERIODS.tick_s
+
+    @property
+    def base_in_map(self) -> Pose2:
+        """Return where the robot truly is."""
+        return self._world.pose()
+
+    @property
+    def twist(self) -> Twist2:
+        """Return how the robot truly moves."""
+        return self._world.twist()
+
+    @property
+    def contacts_total(self) -> int:
+        """Return how often the robot began to touch something since start."""
+        return self._contacts.total
+
+    def command(self, command: DriveCommand, now_s: float) -> bool:
+        """Receive a drive command; False for a repeated seq, which counts for nothing."""
+        return self._dead_man.receive(command, now_s)
+
+    def tick(self, now_s: float, *, real_time_factor: float = 1.0) -> Report:
+        """Advance one period and report, stamped ``now_s`` on the caller's clock."""
+        self._wheels = self._dead_man.wheels(now_s)
+        self._world.step(
+            self._past_dead_zone(self._wheels.left_radps),
+            self._past_dead_zone(self._wheels.right_radps),
+            braked=not self._wheels.torque,
+            steps=self._steps,
+        )
+        self._ticks += 1
+        self._contacts.sample(self._world.contacts())
+        for encoder, angle in zip(self._encoders, self._world.wheel_angles(), strict=True):
+            encoder.sample(angle)
+        due = self._ticks % PERIODS.truth_ticks == 0
+        return Report(
+            self._drive_state(now_s),
+            self._imu_message(now_s),
+            self._scan(now_s) if self._ticks % self._scan_ticks == 0 else None,
+            self._truth(now_s, real_time_factor) if due else None,
+        )
+
+    def step_to(self, time_s: float) -> list[Report]:
+        """Tick on simulated time alone until it reaches ``time_s``."""
+        reports = []
+        while self.time_s < time_s - PERIODS.step_s / 2:
+            reports.append(self.tick(self.time_s + PERIODS.tick_s))
+        return reports
+
+    def place_robot(self, base_in_map: Pose2) -> None:
+        """Carry the robot to a pose; wheels and odometry notice nothing."""
+        self._world.place_robot(base_in_map)
+
+    def place_obstacle(
+        self, x_m: float, y_m: float, yaw_rad: float = 0.0, name: str = OBSTACLES[0]
+    ) -> None:
+        """Stand a spare obstacle (a person or a crate) in the home.
+
+        Raises:
+            Misconfigured: ``obstacle_unknown``; sim.OBSTACLES lists them.
+        """
+        self._world.place_obstacle(name, x_m, y_m, yaw_rad)
+
+    def remove_obstacle(self, name: str = OBSTACLES[0]) -> None:
+        """Take a spare obstacle out of the home."""
+        self._world.remove_obstacle(name)
+
+    def control(self, control: SimControl) -> None:
+        """Do what a test asked over the wire."""
+        if control.place_robot is not None:
+            self.place_robot(control.place_robot)
+        if control.place_obstacle is not None:
+            self.place_obstacle(*control.place_obstacle)
+        if control.remove_obstacle:
+            self.remove_obstacle()
+
+    def _past_dead_zone(self, wheel_radps: float) -> float:
+        """Return what the motor follows; friction swallows a small wish."""
+        if abs(wheel_radps) < self._hardware.dead_zone_radps:
+            return 0.0
+        most_radps = self._hardware.motor_max_radps
+        return max(-most_radps, min(most_radps, wheel_radps))
+
+    def _drive_state(self, now_s: float) -> DriveState:
+        echo_boot, echo_seq = self._dead_man.echo
+        left, right = self._encoders
+        return DriveState(
+            boot_id=self.boot_id,
+            seq=self._ticks,
+            stamp_s=now_s,
+            echo_boot=echo_boot,
+            echo_seq=echo_seq,
+            enabled=self._wheels.torque,
+            timed_out=self._wheels.timed_out,
+            left_rad=left.angle_rad,
+            right_rad=right.angle_rad,
+            left_radps=left.speed_radps,
+            right_radps=right.speed_radps,
+        )
+
+    def _imu_message(self, now_s: float) -> Imu | None:
+        if not self.robot.inputs.imu:
+            return None
+        sample = self._imu.sample(self._world.twist())
+        return Imu(
+            boot_id=self.boot_id,
+            seq=self._ticks,
+            stamp_s=now_s,
+            yaw_rate_radps=sample.yaw_rate_radps,
+            accel_x_mps2=sample.accel_x_mps2,
+            accel_y_mps2=sample.accel_y_mps2,
+        )
+
+    def _scan(self, now_s: float) -> Scan:
+        config = self.robot.lidar
+        lidar_in_base = Pose2(config.x_m, config.y_m, config.yaw_rad)
+        lidar_in_map = compose(self._world.pose(), lidar_in_base)
+        true_m = self._world.rays(
+            (lidar_in_map.x_m, lidar_in_map.y_m),
+            self._lidar.directions(lidar_in_map),
+            config.range_max_m + 0.1,
+        )
+        self._scans += 1
+        return Scan(
+            boot_id=self.boot_id,
+            seq=self._scans,
+            stamp_s=now_s,
+            angle_min_rad=self._lidar.angle_min_rad,
+            angle_increment_rad=self._lidar.angle_increment_rad,
+            range_min_m=config.range_min_m,
+            range_max_m=config.range_max_m,
+            ranges_m=self._lidar.measured(true_m),
+        )
+
+    def _truth(self, now_s: float, real_time_factor: float) -> SimTruth:
+        return SimTruth(
+            boot_id=self.boot_id,
+            seq=self._ticks // PERIODS.truth_ticks,
+            stamp_s=now_s,
+            base_in_map=self._world.pose(),
+            twist=self._world.twist(),
+            contacts=self._contacts.now,
+            contacts_total=self._contacts.total,
+            real_time_factor=real_time_factor,
+        )

@@ -1,0 +1,111 @@
+"""Spoil the truth the way sensors do: quantised, biased, noisy. Pure given a seeded generator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+    from numpy.typing import NDArray
+
+    from sim.hardware import Hardware
+    from wire import Pose2, Twist2
+    from wire.robot import LidarConfig
+
+Ranges = tuple[float | None, ...]
+
+
+class Encoder:
+    """Count a wheel's turn in whole steps, and give its speed as the drive sees it."""
+
+    def __init__(self, counts_per_turn: int, period_s: float, angle_rad: float) -> None:
+        self._step_rad = 2 * pi / counts_per_turn
+        self._period_s = period_s
+        self._zero_rad = angle_rad
+        self._count = 0
+        self.speed_radps = 0.0
+
+    @property
+    def angle_rad(self) -> float:
+        """Return the angle of the last whole count [rad]."""
+        return self._count * self._step_rad
+
+    def sample(self, angle_rad: float) -> None:
+        """Read the shaft; speed is the count's change over one period."""
+        count = int((angle_rad - self._zero_rad) // self._step_rad)
+        self.speed_radps = (count - self._count) * self._step_rad / self._period_s
+        self._count = count
+
+
+@dataclass(frozen=True, slots=True)
+class ImuSample:
+    """Hold one reading in ``base``."""
+
+    yaw_rate_radps: float
+    accel_x_mps2: float
+    accel_y_mps2: float
+
+
+class ImuModel:
+    """Measure turn and acceleration with a constant bias and white noise."""
+
+    def __init__(self, hardware: Hardware, period_s: float, random: Generator) -> None:
+        self._random = random
+        self._period_s = period_s
+        self._bias_radps = float(random.normal(0.0, hardware.gyro_bias_radps))
+        self._sigmas = np.array(
+            [hardware.gyro_noise_radps, hardware.accel_noise_mps2, hardware.accel_noise_mps2]
+        )
+        self._noise: list[list[float]] = []
+        self._last_v_mps = 0.0
+
+    def sample(self, twist: Twist2) -> ImuSample:
+        """Read once per period."""
+        if not self._noise:  # drawn by the block: one call per reading costs 10 us
+            self._noise = (self._random.standard_normal((100, 3)) * self._sigmas).tolist()
+        noise = self._noise.pop()
+        forward_mps2 = (twist.v_mps - self._last_v_mps) / self._period_s
+        self._last_v_mps = twist.v_mps
+        return ImuSample(
+            twist.w_radps + self._bias_radps + noise[0],
+            forward_mps2 + noise[1],
+            twist.v_mps * twist.w_radps + noise[2],
+        )
+
+
+class LidarModel:
+    """Aim the beams and spoil what comes back.
+
+    A scan is taken in one instant and level, though a real one sweeps for 0.1 s and tilts with the
+    robot: at 0.5 m/s that is up to 0.05 m, which the bridge's margins must hold anyway.
+    """
+
+    def __init__(self, config: LidarConfig, hardware: Hardware, random: Generator) -> None:
+        self._random = random
+        self._hardware = hardware
+        self.config = config
+        self.angle_increment_rad = 2 * pi / hardware.lidar_beams
+        self.angle_min_rad = -pi
+        self._angles = self.angle_min_rad + self.angle_increment_rad * np.arange(
+            hardware.lidar_beams
+        )
+
+    def directions(self, lidar_in_map: Pose2) -> NDArray[np.float64]:
+        """Return each beam's unit vector in ``map``, shape (beams, 3)."""
+        angles = self._angles + lidar_in_map.yaw_rad
+        return np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
+
+    def measured(self, true_m: NDArray[np.float64]) -> Ranges:
+        """Turn true distances (-1: nothing there) into ranges; millimetres, None for no return."""
+        count = len(true_m)
+        noisy = true_m + self._random.normal(0.0, self._hardware.lidar_noise_m, count)
+        lost = self._random.random(count) < self._hardware.lidar_dropout
+        lost |= (true_m < 0.0) | (noisy > self.config.range_max_m)
+        millimetres = np.round(np.maximum(noisy, 0.0), 3).tolist()
+        return tuple(
+            None if gone else value for value, gone in zip(millimetres, lost.tolist(), strict=True)
+        )

@@ -1,0 +1,126 @@
+"""Be the physics: floor, walls, furniture and a differential robot in MuJoCo.
+
+The only file that calls MuJoCo. Knows metres, radians and newtons; no messages, no noise, no clock
+beyond the step. Frame: ``map`` is the world frame.
+"""
+
+from __future__ import annotations
+
+from math import atan2
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.mjcf import OBSTACLES, PARKED_Z_M, SETTLE_STEPS, quaternion, world_mjcf
+from wire import Misconfigured, Pose2, Twist2
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from sim.hardware import Hardware
+    from sim.site import Solid
+    from wire.robot import Base
+
+_SEEN_BY_LIDAR = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)  # geom groups, see sim.mjcf
+
+
+class World:
+    """Hold one MuJoCo model and its state."""
+
+    def __init__(
+        self, solids: Iterable[Solid], base: Base, hardware: Hardware, step_s: float
+    ) -> None:
+        xml = world_mjcf(solids, base, hardware, step_s)
+        # mujoco-core carries no type information: Any ends at this class.
+        self._model: Any = mujoco.MjModel.from_xml_string(xml)
+        self._data: Any = mujoco.MjData(self._model)
+        self._chassis: int = self._model.geom("chassis").id
+        self._wheels = [self._model.joint(f"wheel_{side}").id for side in ("left", "right")]
+        self._angle_at = [int(self._model.jnt_qposadr[joint]) for joint in self._wheels]
+        self._height_m = hardware.lidar_height_m
+        # Views into MuJoCo's memory: reading them costs no call.
+        self._qpos: NDArray[np.float64] = self._data.qpos
+        self._qvel: NDArray[np.float64] = self._data.qvel
+        self._ctrl: NDArray[np.float64] = self._data.ctrl
+        self._act: NDArray[np.float64] = self._data.act
+
+    def step(self, left_radps: float, right_radps: float, *, braked: bool, steps: int) -> None:
+        """Advance by whole physics steps under one wish for the wheels; braked ignores the wish."""
+        self._ctrl[0] = 0.0 if braked else left_radps
+        self._ctrl[1] = 0.0 if braked else right_radps
+        if braked:
+            self._act[:] = 0.0  # a brake grips without the motor's lag
+        mujoco.mj_step(self._model, self._data, steps)
+
+    def pose(self) -> Pose2:
+        """Return the robot's pose in ``map``."""
+        w, x, y, z = self._qpos[3:7].tolist()
+        yaw_rad = atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+        return Pose2(float(self._qpos[0]), float(self._qpos[1]), yaw_rad)
+
+    def twist(self) -> Twist2:
+        """Return the robot's forward speed and rate of turn."""
+        w, x, y, z = self._qpos[3:7].tolist()
+        vx, vy, _, _, _, turn_radps = self._qvel[:6].tolist()
+        # The first two elements of the rotation's first column: cos and sin of the heading.
+        forward_mps = vx * (1.0 - 2.0 * (y * y + z * z)) + vy * 2.0 * (w * z + x * y)
+        return Twist2(forward_mps, turn_radps)
+
+    def wheel_angles(self) -> tuple[float, float]:
+        """Return how far the left and right wheel have turned [rad]."""
+        left, right = self._angle_at
+        return float(self._qpos[left]), float(self._qpos[right])
+
+    def contacts(self) -> int:
+        """Count the robot's contacts with anything but the floor, now."""
+        if self._data.ncon == 0:
+            return 0
+        pairs: NDArray[np.int32] = self._data.contact.geom
+        return int(np.count_nonzero(pairs == self._chassis))
+
+    def place_robot(self, pose: Pose2) -> None:
+        """Put the robot down at rest. Wheels keep their angles, as when somebody carries it."""
+        self._qpos[0:3] = (pose.x_m, pose.y_m, 0.0)
+        self._qpos[3:7] = quaternion(pose.yaw_rad)
+        self._qvel[:] = 0.0
+        self._act[:] = 0.0
+        self.step(0.0, 0.0, braked=True, steps=SETTLE_STEPS)
+
+    def place_obstacle(self, name: str, x_m: float, y_m: float, yaw_rad: float) -> None:
+        """Stand a movable obstacle on the floor."""
+        self._move(name, (x_m, y_m, 0.0), yaw_rad)
+
+    def remove_obstacle(self, name: str) -> None:
+        """Park a movable obstacle below the floor."""
+        self._move(name, (0.0, 0.0, PARKED_Z_M), 0.0)
+
+    def _move(self, name: str, at: tuple[float, float, float], yaw_rad: float) -> None:
+        if name not in OBSTACLES:
+            known = ", ".join(OBSTACLES)
+            raise Misconfigured("obstacle_unknown", f"no obstacle {name!r}; there are: {known}")
+        slot = int(self._model.body(name).mocapid[0])
+        self._data.mocap_pos[slot] = at
+        self._data.mocap_quat[slot] = quaternion(yaw_rad)
+        mujoco.mj_kinematics(self._model, self._data)  # rays see it before the next step
+
+    def rays(
+        self, origin: tuple[float, float], directions: NDArray[np.float64], cutoff_m: float
+    ) -> NDArray[np.float64]:
+        """Cast horizontal rays at lidar height; -1 where nothing lies within the cutoff.
+
+        Args:
+            origin: x and y in ``map`` [m].
+            directions: unit vectors in ``map``, shape (n, 3).
+            cutoff_m: longest distance of interest [m].
+        """
+        count = len(directions)
+        found = np.empty(count)
+        hit = np.empty(count, dtype=np.int32)
+        start = np.array([origin[0], origin[1], self._height_m])
+        mujoco.mj_multiRay(
+            self._model, self._data, start, directions.reshape(-1),
+            _SEEN_BY_LIDAR, True, -1, hit, found, None, count, cutoff_m,
+        )  # fmt: skip
+        return found
