@@ -1,0 +1,1 @@
+"""Think: what a brain is, and where the built-in ones are."""

@@ -1,0 +1,208 @@
+"""Check the stop lane: the table of what stops and what does not, in both languages."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planner.brain.stoplane import is_stop
+
+STOPS = [
+    # plain
+    *("stop", "Stop!", "STOP", "stop.", "Stop?", "stop...", "  stop  ", "\tstop\n", "stop!!!!11"),
+    *("halt", "Freeze!", "HALT HALT", "stop stop stop", "stop, stop, stop!", "stop halt"),
+    # polite, urgent, addressed
+    *("stop please", "STOP please", "please stop", "Please, stop.", "stop now", "stop right now"),
+    *("robot, stop", "Robot stop!", "hey robot, stop", "ok stop", "no, stop!", "No! Stop!"),
+    *("wait, stop", "stop at once", "stop immediately", "can you stop", "could you please stop?"),
+    *("you can stop now", "I said stop", "quick, stop", "stop thanks", "let's stop", "just stop"),
+    # what to stop
+    *("stop moving", "stop driving", "stop the robot", "stop it", "stop there", "stop right there"),
+    *("stop where you are", "stop everything", "stop following me", "come to a stop", "e-stop"),
+    *("emergency stop", "hold still", "stay put", "do not move", "don't move", "Don’t move!"),
+    *("dont move", "stay where you are", "abort", "cancel", "cancel the goal", "pause"),
+    # the first clause decides, whatever follows
+    *("stop, go to the kitchen", "stop and go to the kitchen", "stop then go home", "Stop. Wait."),
+    *(
+        "stop — the cat!",
+        "stop; I need to pass",
+        "stop because I say so",
+        "stop\ngo to the kitchen",
+    ),
+    # forms of writing
+    *(
+        "ｓｔｏｐ",
+        "ＳＴＯＰ！",
+        "stop！",
+        "stop。",
+        "🛑",
+        "stop 🛑",
+        "🛑🛑🛑",
+        "✋ stop ✋",
+        "stop😡",
+    ),
+    *("stoooop", "STOPPP!!", "sstop", "s t o p", "S.T.O.P.", "sotp", "stpo", "“stop”", "**stop**"),
+    *("st\u200bop", "\ufeffstop", "(stop)", "stop - now", "... stop", "!stop"),
+    # Chinese
+    *("停", "停！", "停下", "停下来", "停车", "停止", "停一下", "停住", "别动", "不要动", "站住"),
+    *(
+        "快停",
+        "快停下",
+        "快快停下",
+        "请停",
+        "请停下",
+        "请你停下来",
+        "小车停下",
+        "机器人，停！",
+        "停停停",
+    ),
+    *("停！停！停！", "停吧", "停了", "停下好吗", "停下，谢谢", "立刻停止", "马上停车", "现在停下"),
+    *(
+        "停止移动",
+        "停止前进",
+        "停止一切动作",
+        "急停",
+        "紧急停止",
+        "刹车",
+        "住手",
+        "打住",
+        "别走",
+        "别再走",
+    ),
+    *(
+        "不许动",
+        "原地不动",
+        "站着别动",
+        "能不能停下",
+        "可以停了",
+        "不，停",
+        "等等，停下",
+        "喂，别动",
+    ),
+    *("停，去厨房", "停下然后去厨房", "停。去厨房", "取消任务", "取消", "暂停", "中止", "终止任务"),
+    *("停 停 停", " 停 ", "停\u3000下", "停🛑", "停~", "停…", "「停」", "停\n去厨房", "給我停下"),
+    *(
+        "別動",
+        "停車",
+        "請停下",
+        "站住別動",
+        "立刻停止移動",
+        "stop吧",
+        "please停",
+        "停stop",
+        "robot 停下",
+    ),
+]
+
+GOES_ON = [
+    # the word inside another clause
+    *("bus stop", "go to the bus stop", "the bus stop", "don't stop", "do not stop", "Don’t stop!"),
+    *("dont stop", "never stop", "please don't stop", "no, don't stop", "stop at the kitchen"),
+    *("stop by the sofa", "stop by the kitchen", "stop in front of the tv", "stop for 5 seconds"),
+    *("stop when you see me", "stop if it is blocked", "stop 2 m before the wall", "stop 2"),
+    *(
+        "stop talking",
+        "stop the music",
+        "stop sign",
+        "stop-sign",
+        "find the stop sign",
+        "stopwatch",
+    ),
+    *("why did you stop", "how do I stop you", "did you stop?", "you stopped", "stopping", "stops"),
+    *("non-stop", "nonstop", "one-stop shop", "go to the kitchen and stop", "go, then stop"),
+    *("go to the kitchen, stop", "the next stop", "say stop", "full stop sign", "unstoppable"),
+    # neighbours that are words of their own
+    *("shop", "step", "top", "slop", "stomp", "halter", "freezer", "go to the freezer", "freezing"),
+    *("wait", "wait 5 seconds", "wait, go to the kitchen", "hold the door", "cancel culture"),
+    *("pause for 5 seconds", "stay in the kitchen", "move", "do not move to the kitchen"),
+    # nothing at all
+    *("", "   ", "!!!", "please", "robot", "hey, robot", "no", "🙂", "🚏", "\x00", "...", "now"),
+    # Chinese
+    *(
+        "停车位",
+        "去停车位",
+        "停车场",
+        "停车位在哪",
+        "停在厨房",
+        "停到厨房",
+        "停在沙发旁边",
+        "不要停",
+    ),
+    *("别停", "别停下", "不停", "不要停下来", "千万别停", "不准停", "停不停", "停不下来", "停了吗"),
+    *(
+        "停下没有",
+        "停电了",
+        "停留",
+        "停留在厨房",
+        "停靠",
+        "停好车",
+        "停5秒",
+        "停一会儿再走",
+        "公交站",
+    ),
+    *("不要去厨房", "别去厨房", "去厨房停下", "去厨房，停", "然后停下", "如果停下", "停止键在哪"),
+    *("等一下", "等等", "请", "小车", "机器人", "快点", "别动厨房的东西", "别走厨房", "取消静音"),
+    *(
+        "他停下了吗",
+        "什么时候停",
+        "为什么停下",
+        "到站停",
+        "暂停键",
+        "不停地走",
+        "別停",
+        "不",
+        "你好",
+    ),
+]
+
+
+@pytest.mark.parametrize("text", STOPS)
+def test_stops(text: str) -> None:
+    assert is_stop(text)
+
+
+@pytest.mark.parametrize("text", GOES_ON)
+def test_goes_on(text: str) -> None:
+    assert not is_stop(text)
+
+
+def test_the_tables_hold_no_sentence_twice() -> None:
+    assert len(set(STOPS) | set(GOES_ON)) == len(STOPS) + len(GOES_ON) >= 80
+
+
+@given(st.text(max_size=200))
+@settings(max_examples=150)
+def test_any_text_gets_an_answer(text: str) -> None:
+    assert is_stop(text) in {True, False}
+
+
+@given(
+    st.sampled_from(["go", "to", "the", "kitchen", "don't", "never", "why did you", "bus"]),
+    st.sampled_from(["stop", "halt", "Stop!", "stop moving"]),
+)
+def test_a_word_before_that_is_no_courtesy_makes_it_another_sentence(
+    before: str, rest: str
+) -> None:
+    assert not is_stop(f"{before} {rest}")
+
+
+@pytest.mark.parametrize(
+    "piece",
+    ["stop ", "please ", "停", "快停", "麻烦你", "you can ", "stop it ", "can you ", "好了", "s"],
+)
+def test_endless_repetition_is_answered(piece: str) -> None:
+    """A repeated courtesy must not make the pattern backtrack (the time-out would catch it)."""
+    assert is_stop(piece * 25_000 + "x") in {True, False}
+
+
+def test_importing_the_stop_lane_brings_in_neither_pydantic_nor_numpy() -> None:
+    code = (
+        "import sys; from planner.brain.stoplane import is_stop; assert is_stop('stop');"
+        "sys.exit(','.join({'pydantic', 'numpy', 'rapidfuzz', 'asyncio'} & set(sys.modules)) or 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
