@@ -75,3 +75,39 @@ def test_make_help_lists_every_target(repository: Path) -> None:
         ["make"], cwd=repository, capture_output=True, text=True, check=True
     ).stdout
     assert re.findall(r"^  make (\S+)", printed, re.MULTILINE) == phony.group(1).split()
+
+
+def test_each_decision_record_is_whole(repository: Path) -> None:
+    records = sorted((repository / "docs" / "adr").glob("[0-9]*.md"))
+    numbers = [int(path.name[:4]) for path in records]
+    assert numbers == list(range(len(records))), "numbered without gap or double"
+    for path in records:
+        text = path.read_text()
+        missing = [
+            part
+            for part in ("Status:", "## Context", "## Decision", "## Consequences")
+            if part not in text
+        ]
+        assert not missing, f"{path.name} lacks {missing}"
+
+
+def test_links_in_our_pages_lead_somewhere(repository: Path, tracked: list[Path]) -> None:
+    pages = [path for path in tracked if path.suffix == ".md"]
+    links = [
+        (page, target)
+        for page in pages
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text())
+    ]
+    broken = [
+        f"{page.relative_to(repository)} -> {target}"
+        for page, target in links
+        if not (page.parent / target).exists()
+    ]
+    assert not broken
+
+
+def test_ci_runs_the_two_commands_that_the_readme_gives(repository: Path) -> None:
+    script = (repository / ".ci" / "run").read_text().splitlines()
+    assert [line for line in script if line.startswith("make ")] == ["make check", "make e2e"]
+    assert 'Step("test", ("make", "test"))' in (repository / "scripts" / "check.py").read_text()
+    assert "make test" in (repository / "README.md").read_text()
