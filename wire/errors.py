@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
-class Misconfigured(Exception):  # noqa: N818  # reads as a sentence where it is raised
+class Misconfigured(Exception):
     """Refuse to start: ours or the owner's fault, never a silent default."""
 
     def __init__(self, code: str, detail: str) -> None:
