@@ -1,0 +1,23 @@
+"""Hold what is fixed while the bridge runs. Read once by ``__main__`` and bound to every step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wire import RobotDescription
+
+
+@dataclass(frozen=True, slots=True)
+class CoreConfig:
+    """Describe robot, site and run. No key material: proofs are verified where bytes are read."""
+
+    robot: RobotDescription
+    robot_hash: str
+    fence: object | None
+    """None: nothing is fenced, which SELFTEST refuses."""
+    fence_hash: str
+    map_id: str
+    """The map that the fence was drawn on; hello and waypoints must name it."""
+    boot: str
+    """This run's nonce, [A-Za-z0-9]{1,32}: prefix of epochs and nonces, and the odom_id."""
+    period_s: float = 0.01

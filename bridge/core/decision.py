@@ -1,0 +1,22 @@
+"""Hold what one tick decided: the next state, at most one command, and what to tell the others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bridge.core.state import BridgeState
+from wire import DriveCommand, Event, Odometry, Status
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """Answer one step. The shell sends what is not None and feeds ``state`` to the next step."""
+
+    state: BridgeState
+    command: DriveCommand | None
+    """Exactly one per tick; None only while SELFTEST proves the drive's own time-out."""
+    status: Status | None
+    odometry: Odometry | None
+    events: tuple[Event, ...]
+    reasons: tuple[str, ...]
+    """What bounded the command and why anything was refused or dropped, for the record."""

@@ -1,0 +1,100 @@
+"""Hold what arrived since the last tick, already parsed. All of it may be late, wrong or hostile.
+
+The time of receipt of everything in here is the ``now_s`` of the step that is given it. Whether a
+proof's HMAC fits was judged where the bytes were read, so that no key ever reaches the core or a
+recording; whether its nonce still counts is judged in the core.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wire import (
+    DriveState,
+    EstopLink,
+    Grant,
+    Heartbeat,
+    Hello,
+    Imu,
+    Localization,
+    OpKind,
+    OpRequest,
+    Rejected,
+    Scan,
+    Stop,
+    Velocity,
+    Waypoints,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class OpArrived:
+    """Give an operator's request, the key it came by, and whether its proof's HMAC fits."""
+
+    kind: OpKind
+    request: OpRequest
+    authentic: bool
+
+
+@dataclass(frozen=True, slots=True)
+class RejectedAt:
+    """Tell that bytes on a key did not become a message, by the key's path (``cmd/waypoints``)."""
+
+    key: str
+    why: Rejected
+
+
+@dataclass(frozen=True, slots=True)
+class ArrivedAt:
+    """Count all payloads that came on one command key, parsed or not, for the flood detector."""
+
+    key: str
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class LoopFacts:
+    """Tell what the shell measured of its own loop; the core cannot look at a clock."""
+
+    late_s: float = 0.0
+    """How long after its time this tick started."""
+    missed_ticks: int = 0
+    """Whole periods skipped just before this tick."""
+    late_p50_us: float = 0.0
+    late_max_us: float = 0.0
+    step_max_us: float = 0.0
+    record_gaps: int = 0
+
+
+ON_TIME = LoopFacts()
+
+
+@dataclass(frozen=True, slots=True)
+class Inbox:
+    """Give one tick's arrivals. Tuples are in order of arrival, oldest first."""
+
+    stops: tuple[Stop, ...] = ()
+    ops: tuple[OpArrived, ...] = ()
+    hellos: tuple[Hello, ...] = ()
+    grants: tuple[Grant, ...] = ()
+    heartbeats: tuple[Heartbeat, ...] = ()
+    localization: Localization | None = None
+    teleop: tuple[Velocity, ...] = ()
+    external: tuple[Velocity, ...] = ()
+    waypoints: tuple[Waypoints, ...] = ()
+    drive: tuple[DriveState, ...] = ()
+    scan: Scan | None = None
+    imu: Imu | None = None
+    estop_link: EstopLink | None = None
+    rejected: tuple[RejectedAt, ...] = ()
+    arrived: tuple[ArrivedAt, ...] = ()
+    loop: LoopFacts = ON_TIME
+    real_time: bool = False
+    """Scheduling and memory rights were granted as asked."""
+    recorder_ok: bool = False
+    sensors_same_host: bool = True
+    """Drive, lidar and IMU stamp with this host's monotonic clock: stamps may age them further."""
+    localization_same_host: bool = True
+
+
+EMPTY = Inbox()

@@ -1,0 +1,141 @@
+"""Hold all that one tick hands to the next. Nothing else survives a tick, so a run can be replayed.
+
+``draft`` copies the records that a step writes into; all others are frozen and replaced. Everything below is JSON without NaN or
+infinity: what is unknown is None.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from bridge.core.draft import copier
+from bridge.core.odometry import OdometryState
+from bridge.core.state_orders import Grants, Leg, Operator, Ownership, Stick
+from bridge.core.state_senses import (
+    ButtonMemory,
+    DriveMemory,
+    LidarMemory,
+    LoopMemory,
+    PoseMemory,
+)
+from wire import STILL, Action, Held, Mode, Twist2
+
+
+@dataclass(frozen=True, slots=True)
+class RowUp:
+    """Keep one stage of one row that is up."""
+
+    since_s: float
+    dirty_s: float
+    """Newest time at which its detector saw the trouble."""
+    evidence: str
+
+
+@dataclass(frozen=True, slots=True)
+class Stopping:
+    """Remember the stop in progress, to judge whether the robot really slows down."""
+
+    action: Action = Action.NONE
+    """NONE: no stop is in progress."""
+    cause: str = ""
+    """Row or order, in lower case."""
+    since_s: float = 0.0
+    planned_s: float = 0.0
+    still_since_s: float | None = None
+    slow_since_s: float | None = None
+    reset_needed: bool = False
+    plan_mps: tuple[float, ...] = ()
+    """Speeds asked of the faster wheel in the last ticks, oldest first: the delayed plan."""
+
+
+@dataclass(frozen=True, slots=True)
+class SelfTest:
+    """Remember how far the self test got."""
+
+    phase: str = "echo"
+    """echo -> withhold -> return -> done."""
+    since_s: float = 0.0
+    passed: bool = False
+    problem: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """Remember the obstacle gate."""
+
+    shut_since_s: float | None = None
+    blocked: bool = False
+    free_scans: int = 0
+    judged_scan: int = -1
+
+
+@dataclass(slots=True)
+class Motion:
+    """Remember what was asked and what was really sent."""
+
+    asked: Twist2 = STILL
+    sent: Twist2 = STILL
+    powered: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Voice:
+    """Remember what was said last, and when."""
+
+    status_seq: int = 0
+    ring: tuple[float, ...] = ()
+    """Sending times of the last 256 statuses; the newest is ``status_seq``."""
+    event_seq: int = 0
+    odom_seq: int = 0
+    dropped: int = 0
+    said: str = ""
+    """Digest of what must be told at once, as of the last status."""
+
+
+@dataclass(slots=True)
+class BridgeState:
+    """Hold the bridge between two ticks. Written only inside ``step``, and there only in a copy."""
+
+    now_s: float
+    tick: int = 0
+    command_seq: int = 0
+    started_s: float = 0.0
+    mode: Mode = Mode.BOOT
+    mode_since_s: float = 0.0
+    epoch_no: int = 1
+    held: Held | None = None
+    source: str = ""
+    """Who moves the robot: W waypoints, X external, T teleop, or nobody."""
+    bad_bucket: float = 0.0
+    bad_s: float = 0.0
+    rows: dict[str, RowUp] = field(default_factory=dict)
+    """Stages that are up, by name; never written to, replaced when one rises or clears."""
+    odometry: OdometryState = field(default_factory=OdometryState)
+    drive: DriveMemory = field(default_factory=DriveMemory)
+    lidar: LidarMemory = field(default_factory=LidarMemory)
+    pose: PoseMemory = field(default_factory=PoseMemory)
+    buttons: ButtonMemory = field(default_factory=ButtonMemory)
+    loop: LoopMemory = field(default_factory=LoopMemory)
+    ownership: Ownership = field(default_factory=Ownership)
+    grants: Grants = field(default_factory=Grants)
+    operator: Operator = field(default_factory=Operator)
+    leg: Leg = field(default_factory=Leg)
+    stick: Stick = field(default_factory=Stick)
+    stopping: Stopping = field(default_factory=Stopping)
+    selftest: SelfTest = field(default_factory=SelfTest)
+    gate: Gate = field(default_factory=Gate)
+    motion: Motion = field(default_factory=Motion)
+    voice: Voice = field(default_factory=Voice)
+
+
+_copy_state = copier(BridgeState)
+_copy_drive = copier(DriveMemory)
+_copy_motion = copier(Motion)
+
+
+def draft(state: BridgeState) -> BridgeState:
+    """Return a copy that may be written to without changing the argument."""
+    copy = _copy_state(state)
+    copy.drive = _copy_drive(state.drive)
+    copy.motion = _copy_motion(state.motion)
+    return copy

@@ -1,0 +1,97 @@
+"""Hold what the core remembers of owner, grants, operator, leg and stick."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wire import Answer, Owner, Waypoint, Waypoints
+
+
+@dataclass(frozen=True, slots=True)
+class Ownership:
+    """Remember who owns the robot, and the newest status that the owner has shown to have seen."""
+
+    owner: Owner | None = None
+    last_owner_id: str | None = None
+    echo_s: float | None = None
+    """When the newest echoed status was sent; outlives the loss of the owner."""
+    used_s: float | None = None
+    waypoints_seq: int | None = None
+    external_seq: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MissionLeft:
+    """Keep what one mission id may still use; no later grant adds to it."""
+
+    mission: str
+    metres: float
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Grants:
+    """Meter the mission granted in this epoch, and the distance since the last operator act."""
+
+    mission: str | None = None
+    metres: float = 0.0
+    seconds: float = 0.0
+    book: tuple[MissionLeft, ...] = ()
+    """Other missions' remainders, oldest first."""
+    operator_metres: float = 0.0
+    operator_seconds: float = 0.0
+    since_arm: bool = False
+    """A grant was given since arming: the brain's death then disarms."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """Keep one verdict for as long as its request may be repeated."""
+
+    at_s: float
+    answer: Answer
+
+
+@dataclass(frozen=True, slots=True)
+class Operator:
+    """Remember nonces and verdicts."""
+
+    nonce_no: int = 0
+    nonce_made_s: float = 0.0
+    old_nonce_no: int | None = None
+    old_until_s: float = 0.0
+    answers: tuple[Answered, ...] = ()
+    """Verdicts on requests by id: one id, one verdict."""
+    refusals: tuple[Answered, ...] = ()
+    """Newest refusal per sender of hello and per mission of grant; overwritten and let go."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """Remember the newest leg and the horizon that is followed."""
+
+    mission: str | None = None
+    leg: int = 0
+    reached: bool = False
+    goal: Waypoint | None = None
+    """Where the leg ends, once a final horizon said so."""
+    refusal: str | None = None
+    horizon: Waypoints | None = None
+    sent_s: float = 0.0
+    """When the status that this horizon was cut on was sent."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stick:
+    """Remember the hand on the stick; it must be seen released, then neutral, to take over."""
+
+    source_id: str | None = None
+    seq: int = -1
+    epoch_no: int = 0
+    released: bool = False
+    neutral: bool = False
+    dead_man: bool = False
+    v_mps: float = 0.0
+    w_radps: float = 0.0
+    received_s: float | None = None
+    sent_s: float | None = None

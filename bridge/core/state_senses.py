@@ -1,0 +1,74 @@
+"""Hold what the core remembers of drive, lidar, pose, buttons and its own loop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wire import IDENTITY, DriveState, Imu, Localization, Pose2, Scan
+
+
+@dataclass(slots=True)
+class DriveMemory:
+    """Remember the drive's newest report and how far its echo lags behind."""
+
+    newest: DriveState | None = None
+    received_s: float | None = None
+    behind: int = 0
+    """Commands sent since the one echoed, judged when a state is received."""
+    behind_base: int = 0
+    """The command seq before which no echo can be asked for (start of this drive's life)."""
+    still_since_s: float | None = None
+    moving_since_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LidarMemory:
+    """Remember the newest scan, where the robot was when it came, and what is normal for it."""
+
+    newest: Scan | None = None
+    received_s: float | None = None
+    base_in_odom: Pose2 = IDENTITY
+    equal: int = 0
+    """Scans in a row that equal the newest, itself included."""
+    equal_from_m: float = 0.0
+    """Odometer reading when the first of them came."""
+    baseline_scans: int = 0
+    baseline_returns: float = 0.0
+    """Mean number of returns in the first 20 scans."""
+
+
+@dataclass(frozen=True, slots=True)
+class PoseMemory:
+    """Remember what says where ``odom`` lies in ``map``, and the gyro."""
+
+    localization: Localization | None = None
+    """The newest of this odom_id and map, good or poor."""
+    received_s: float | None = None
+    jumped_s: float | None = None
+    imu: Imu | None = None
+    imu_received_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ButtonMemory:
+    """Remember the protective-stop inputs."""
+
+    link_pressed: bool = False
+    link_received_s: float | None = None
+    ordered: bool = False
+    """op/estop was said since the last reset."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoopMemory:
+    """Remember when the loop was late."""
+
+    late_at_s: tuple[float, ...] = ()
+    """The last five ticks that started over 5 ms late."""
+    capped_s: float | None = None
+    """Newest time at which the milder window was full."""
+    gaps_at_s: tuple[float, ...] = ()
+    """The last three gaps over 100 ms."""
+    missed: int = 0
+    real_time: bool = False
+    recorder_ok: bool = False
