@@ -43,7 +43,7 @@ def world_mjcf(solids: Iterable[Solid], base: Base, hardware: Hardware, step_s: 
     return f"""<mujoco model="home">
   <compiler angle="radian" inertiafromgeom="true"/>
   <option timestep="{step_s}" integrator="implicitfast" cone="elliptic" impratio="10">
-    <flag island="disable" midphase="disable"/>
+    <flag island="disable" midphase="disable" autoreset="disable"/>
   </option>
   <worldbody>
     <geom name="floor" type="plane" size="0 0 1" condim="1" friction="1 0 0" group="2"

@@ -6,6 +6,7 @@ beyond the step. Frame: ``map`` is the world frame.
 
 from __future__ import annotations
 
+import logging
 from math import atan2
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from sim.hardware import Hardware
     from sim.site import Solid
     from wire.robot import Base
+
+log = logging.getLogger("sim")
+# MuJoCo would write its warnings to a file in the working directory.
+mujoco.set_mju_user_warning(lambda text: log.error("physics: %s", text))
 
 _SEEN_BY_LIDAR = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)  # geom groups, see sim.mjcf
 

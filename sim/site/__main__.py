@@ -6,27 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from sim.site import load_home, site_files
+from sim.site import stale, write
 from wire import Misconfigured
-
-
-def stale(site_dir: Path) -> list[str]:
-    """Return the names of generated files that are missing or differ from the declaration."""
-    wanted = site_files(load_home(site_dir))
-    return [
-        name
-        for name, data in wanted.items()
-        if not (site_dir / name).is_file() or (site_dir / name).read_bytes() != data
-    ]
-
-
-def write(site_dir: Path) -> list[str]:
-    """Write what is stale and return its names."""
-    names = stale(site_dir)
-    wanted = site_files(load_home(site_dir))
-    for name in names:
-        (site_dir / name).write_bytes(wanted[name])
-    return names
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -1,0 +1,64 @@
+"""Start the simulator: ``python -m sim --site sites/home [--robot robot.toml] [--home DIR]``."""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import logging
+import os
+import secrets
+import signal
+import sys
+import threading
+from pathlib import Path
+
+from sim.robot import SimRobot
+from sim.shell import Shell
+from sim.site import check_fresh
+from wire import Misconfigured, RobotDescription, load_robot
+from wire.keys import Party
+from wire.session import open_session
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m sim", description=__doc__)
+    parser.add_argument("--site", type=Path, required=True, help="folder with a home.yaml")
+    parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
+    parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
+    parser.add_argument("--seed", type=int, default=0, help="seed of all noise (default 0)")
+    return parser.parse_args(arguments)
+
+
+def _serve(options: argparse.Namespace) -> None:
+    # Handlers first: a signal during the slow part of the start must end the process cleanly too.
+    stopped = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stopped.set())
+    check_fresh(options.site)
+    description = load_robot(options.robot) if options.robot else RobotDescription()
+    boot_id = f"sim-{secrets.token_hex(4)}"
+    robot = SimRobot(options.site, description, seed=options.seed, boot_id=boot_id)
+    home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+    with open_session(Party.ROBOT, description.id, home) as session:
+        shell = Shell(robot, session)
+        gc.collect()
+        gc.freeze()
+        logging.getLogger("sim").info(
+            "%s drives in %s, seed %d", boot_id, options.site, options.seed
+        )
+        shell.run(stopped.is_set)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Return 0 after a clean end, 2 when refused."""
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    try:
+        _serve(_options(arguments))
+    except Misconfigured as error:
+        print(f"sim: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
