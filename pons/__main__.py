@@ -1,0 +1,84 @@
+"""Be the command ``pons``: read the words, load only what they need, return an exit status."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from pons.settings import BadSetting, Settings, load
+
+EXIT_USAGE = 2
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the whole grammar of the command."""
+    top = argparse.ArgumentParser(prog="pons", description="A sentence moves the robot.")
+    words = top.add_subparsers(dest="word", required=True, metavar="COMMAND")
+    words.add_parser("up", help="start simulator, localization, bridge and planner")
+    said = words.add_parser("say", help="give a goal, in English or Chinese, and follow it")
+    said.add_argument("text", nargs="+")
+    said.add_argument("--no-wait", action="store_true", help="return when the goal is accepted")
+    said.add_argument("--replace", action="store_true", help="forget the running goal")
+    words.add_parser("stop", help="stop now and hold, with or without a planner")
+    shown = words.add_parser("status", help="show the robot and its goals")
+    shown.add_argument("--json", action="store_true")
+    for verb in ("cancel", "pause"):
+        word = words.add_parser(verb, help=f"{verb} a goal: the running one unless named")
+        word.add_argument("goal", nargs="?")
+    word = words.add_parser("resume", help="resume the paused goal, or clear what is held")
+    word.add_argument("goal", nargs="?")
+    for kind, what in _OPERATOR.items():
+        words.add_parser(kind, help=what)
+    again = words.add_parser("replay", help="run a recording again and compare every command")
+    again.add_argument("file")
+    return top
+
+
+_OPERATOR = {
+    "arm": "power the drive, standing",
+    "disarm": "ramp to zero, then torque off",
+    "estop": "protective stop, latched until reset",
+    "reset": "leave a latched state; never moves the robot",
+}
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command."""
+    words = sys.argv[1:] if arguments is None else arguments
+    try:
+        settings = load()
+    except BadSetting as wrong:
+        print(wrong, file=sys.stderr)
+        return EXIT_USAGE
+    if words == ["stop"]:  # before argparse: nothing may slow this down
+        from pons import stop
+
+        return stop.run(settings)
+    return _dispatch(settings, parser().parse_args(words))
+
+
+def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
+    if said.word == "up":
+        from pons import up
+
+        return up.run(settings)
+    if said.word == "replay":
+        from pons import replay
+
+        return replay.run(said.file)
+    if said.word in _OPERATOR or said.word == "status":
+        from pons import operator
+
+        if said.word == "status":
+            return operator.status(settings, as_json=said.json)
+        return operator.ask(settings, said.word)
+    from pons import goals
+
+    if said.word == "say":
+        text = " ".join(said.text)
+        return goals.say(settings, text, wait=not said.no_wait, replace=said.replace)
+    return goals.act(settings, said.word, said.goal)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,122 @@
+"""Give the robot a goal from a shell and tell how it went: say, cancel, pause, resume."""
+
+from __future__ import annotations
+
+import re
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from pons.http import PlannerDown, Refused, call
+from pons.texts import FINAL_STATES, WAITING_STATES, figures, goal_line, message, step_line
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+
+POLL_S = 0.2
+LOST_LIMIT_S = 15.0
+"""How long a planner may be away, restarting, before we stop waiting for it."""
+
+EXIT = {"succeeded": 0, "failed": 1, "refused": 3, "cancelled": 4}
+EXIT_WAITING = 5
+EXIT_UNREACHED = 6
+
+
+def say(settings: Settings, text: str, *, wait: bool, replace: bool = False) -> int:
+    """Give the goal; follow it to its end unless told not to."""
+    body: dict[str, Any] = {"text": text}
+    if replace:
+        body["replace"] = True
+    try:
+        goal = call(settings, "POST", "/v1/goals", body)
+    except (PlannerDown, Refused) as trouble:
+        return _trouble(trouble)
+    print(goal_line(goal), flush=True)
+    return _follow(settings, goal["id"], language_of(text)) if wait else 0
+
+
+def language_of(text: str) -> str:
+    """Return zh where any Chinese character stands, else en."""
+    return "zh" if re.search(r"[\u3400-\u9fff]", text) else "en"
+
+
+def act(settings: Settings, verb: str, goal_id: str | None) -> int:
+    """Cancel, pause or resume a goal: the named one, else the one that it must mean."""
+    try:
+        chosen = goal_id or _meant(settings, verb)
+        if chosen is None:
+            print(f"no_goal: there is nothing to {verb}", file=sys.stderr)
+            return 1
+        goal = call(settings, "POST", f"/v1/goals/{chosen}/{verb}", {})
+    except (PlannerDown, Refused) as trouble:
+        return _trouble(trouble)
+    print(goal_line(goal))
+    return 0
+
+
+_MEANT = {
+    "cancel": ("running", "planning", "paused", "needs_clarification", "queued"),
+    "pause": ("running",),
+    "resume": ("paused",),
+}
+
+
+def _meant(settings: Settings, verb: str) -> str | None:
+    goals = call(settings, "GET", "/v1/goals")["goals"]
+    for state in _MEANT[verb]:
+        for goal in sorted(goals, key=lambda goal: str(goal["created"]), reverse=True):
+            if goal["state"] == state:
+                return str(goal["id"])
+    return None
+
+
+def _follow(settings: Settings, goal_id: str, language: str) -> int:
+    """Print each change until the goal ends or needs a person."""
+    shown: list[str] = []
+    heard_s = time.monotonic()
+    try:
+        while True:
+            try:
+                goal = call(settings, "GET", f"/v1/goals/{goal_id}")
+                heard_s = time.monotonic()
+            except PlannerDown as trouble:
+                if time.monotonic() - heard_s > LOST_LIMIT_S:
+                    return _trouble(trouble)
+                time.sleep(POLL_S)
+                continue
+            except Refused as trouble:
+                return _trouble(trouble)
+            _print_new(goal, shown)
+            if goal["state"] in FINAL_STATES | WAITING_STATES:
+                return _conclude(goal, language)
+            time.sleep(POLL_S)
+    except KeyboardInterrupt:
+        print(f"\n{goal_id} goes on; `pons stop` stops the robot, `pons cancel` ends the goal")
+        return 130
+
+
+def _print_new(goal: dict[str, Any], shown: list[str]) -> None:
+    steps = (goal.get("plan") or {}).get("steps") or []
+    lines = [step_line(number, step) for number, step in enumerate(steps, 1)]
+    lines.append(f"  {goal['state']}" + (f" ({goal['reason']})" if goal.get("reason") else ""))
+    for line in lines:
+        if line not in shown:
+            shown.append(line)
+            print(line, flush=True)
+
+
+def _conclude(goal: dict[str, Any], language: str) -> int:
+    outcome = goal.get("outcome") or {}
+    for line in (message(outcome, language), figures(outcome)):
+        if line:
+            print(f"  {line}")
+    plan = goal.get("plan") or {}
+    for option in plan.get("options") or []:
+        print(f"    - {option if isinstance(option, str) else option.get('text', option)}")
+    return EXIT.get(str(goal["state"]), EXIT_WAITING)
+
+
+def _trouble(trouble: Exception) -> int:
+    hint = " Is `pons up` running?" if isinstance(trouble, PlannerDown) else ""
+    print(f"{trouble}{hint}", file=sys.stderr)
+    return EXIT_UNREACHED

@@ -1,0 +1,67 @@
+"""Talk to the planner's API with the standard library alone: small, quick to import, bounded."""
+
+from __future__ import annotations
+
+import http.client
+import json
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+
+MAX_REPLY_BYTES = 4_000_000
+DEFAULT_TIMEOUT_S = 5.0
+
+
+class PlannerDown(Exception):
+    """The planner did not answer; nothing is known of whether it acted."""
+
+
+class Refused(Exception):
+    """The planner answered with a problem."""
+
+    def __init__(self, status: int, code: str, detail: str) -> None:
+        super().__init__(f"{code}: {detail}")
+        self.status = status
+        self.code = code
+        self.detail = detail
+
+
+def call(
+    settings: Settings,
+    method: str,
+    path: str,
+    body: dict[str, Any] | None = None,
+    timeout_s: float = DEFAULT_TIMEOUT_S,
+    headers: dict[str, str] | None = None,
+) -> Any:
+    """Return the JSON of the answer.
+
+    Raises:
+        PlannerDown: no connection, no answer in time, or no JSON.
+        Refused: a problem+json answer, with its stable code.
+    """
+    connection = http.client.HTTPConnection(settings.host, settings.port, timeout=timeout_s)
+    try:
+        sent = {"Content-Type": "application/json", **(headers or {})} if method != "GET" else {}
+        payload = json.dumps(body or {}).encode() if method != "GET" else None
+        connection.request(method, path, body=payload, headers=sent)
+        answer = connection.getresponse()
+        status, raw = answer.status, answer.read(MAX_REPLY_BYTES)
+    except (OSError, http.client.HTTPException) as error:
+        raise PlannerDown(f"{settings.url}{path}: {str(error) or type(error).__name__}") from None
+    finally:
+        connection.close()
+    return _judge(status, raw)
+
+
+def _judge(status: int, raw: bytes) -> Any:
+    try:
+        content = json.loads(raw) if raw else {}
+    except ValueError:
+        raise PlannerDown(f"an answer that is no JSON, status {status}") from None
+    if status >= 400:
+        problem = content if isinstance(content, dict) else {}
+        code = str(problem.get("code", f"http_{status}"))
+        raise Refused(status, code, str(problem.get("detail", problem.get("title", ""))))
+    return content

@@ -1,0 +1,53 @@
+"""Act as the operator from a shell: arm, disarm, estop, reset, and see the robot's status.
+
+Goes through the planner when it answers, else straight to the bridge: who wants the torque off must
+not need a planner.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import TYPE_CHECKING
+
+from pons.http import PlannerDown, Refused, call
+from pons.texts import goal_line, robot_lines
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+    from wire import OpKind
+
+
+def ask(settings: Settings, kind: OpKind) -> int:
+    """Make the request at the bridge itself and print its verdict."""
+    from pons.direct import NoBridge, ask_direct
+    from wire import Misconfigured
+
+    try:
+        answer = ask_direct(settings, kind)
+    except (NoBridge, Misconfigured) as trouble:
+        print(str(trouble), file=sys.stderr)
+        return 6
+    if answer.accepted:
+        print(f"{kind}: accepted {answer.detail}".rstrip())
+        return 0
+    print(f"{kind}: refused, {answer.code}: {answer.detail}", file=sys.stderr)
+    return 3
+
+
+def status(settings: Settings, *, as_json: bool) -> int:
+    """Show the robot and its goals."""
+    try:
+        robot = call(settings, "GET", "/v1/robot")
+        goals = call(settings, "GET", "/v1/goals")["goals"]
+    except (PlannerDown, Refused) as trouble:
+        print(f"{trouble} Is `pons up` running?", file=sys.stderr)
+        return 6
+    if as_json:
+        print(json.dumps({"robot": robot, "goals": goals}, ensure_ascii=False, indent=2))
+        return 0
+    for line in robot_lines(robot):
+        print(line)
+    for goal in goals[:10]:
+        print(goal_line(goal))
+    return 0

@@ -1,0 +1,110 @@
+"""Keep one child process running: start, notice its death, wait longer each time, start again.
+
+Told the time; knows nothing of what the child does.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections import deque
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+FIRST_PAUSE_S = 0.5
+LONGEST_PAUSE_S = 10.0
+STEADY_S = 30.0
+"""A child that lived so long starts with the shortest pause again."""
+REFUSED_TO_START = 78
+"""EX_CONFIG of sysexits(3): a restart would meet the same wrong setting."""
+
+
+@dataclass(slots=True)
+class Backoff:
+    """Double the pause after each early death."""
+
+    pause_s: float = FIRST_PAUSE_S
+
+    def after(self, lived_s: float) -> float:
+        """Return how long to wait, given how long the child lived."""
+        if lived_s >= STEADY_S:
+            self.pause_s = FIRST_PAUSE_S
+        now, self.pause_s = self.pause_s, min(2.0 * self.pause_s, LONGEST_PAUSE_S)
+        return now
+
+
+@dataclass(slots=True)
+class Child:
+    """Supervise one process."""
+
+    name: str
+    arguments: list[str]
+    log: Path
+    environment: dict[str, str] = field(default_factory=dict)
+    process: subprocess.Popen[bytes] | None = None
+    starts: int = 0
+    started_s: float = 0.0
+    next_start_s: float = 0.0
+    backoff: Backoff = field(default_factory=Backoff)
+
+    def start(self, now_s: float) -> None:
+        """Start it in a process group of its own, bound to this process, logging to its file."""
+        command = [sys.executable, "-m", "pons.child", str(os.getpid()), *self.arguments]
+        with self.log.open("ab") as log:
+            self.process = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
+                start_new_session=True,
+                env={**os.environ, **self.environment},
+            )
+        self.starts += 1
+        self.started_s = now_s
+
+    def died(self, now_s: float) -> int | None:
+        """Return the exit status of a death not yet noticed and plan the next start."""
+        status = self.process.poll() if self.process else None
+        if status is None:
+            return None
+        self.process = None
+        self.next_start_s = now_s + self.backoff.after(now_s - self.started_s)
+        return status
+
+    def due(self, now_s: float) -> bool:
+        """Say whether it should be started now."""
+        return self.process is None and now_s >= self.next_start_s
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal to the whole group; a group that is gone already is no error."""
+        if self.process is not None:
+            try:
+                os.killpg(self.process.pid, number)
+            except ProcessLookupError:
+                return
+
+    def stop(self, patience_s: float) -> None:
+        """End it: SIGTERM, then SIGKILL for what is left of its group."""
+        if self.process is None:
+            return
+        self.signal(signal.SIGTERM)
+        try:
+            self.process.wait(timeout=patience_s)
+        except subprocess.TimeoutExpired:
+            self.signal(signal.SIGKILL)
+            self.process.wait()
+        self.signal(signal.SIGKILL)
+        self.process = None
+
+    def last_words(self, lines: int = 8) -> str:
+        """Return the end of its log."""
+        try:
+            with self.log.open(encoding="utf-8", errors="replace") as text:
+                return "".join(deque(text, maxlen=lines)).rstrip()
+        except OSError:
+            return ""

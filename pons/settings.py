@@ -1,0 +1,56 @@
+"""Read where things are, once: environment first, then the checkout's defaults. Stdlib only.
+
+``pons stop`` imports this, so it must stay light.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+CHECKOUT = Path(__file__).resolve().parents[1]
+DEFAULT_HOST = "127.0.0.1"
+DEFAULT_PORT = 8420
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Say where state, robot and site are, and where the planner answers."""
+
+    home: Path
+    robot: Path
+    site: Path
+    host: str
+    port: int
+
+    @property
+    def url(self) -> str:
+        """Return the base URL of page and API."""
+        return f"http://{self.host}:{self.port}"
+
+
+class BadSetting(Exception):
+    """A setting cannot be used; nothing was started."""
+
+
+def load() -> Settings:
+    """Read PONS_HOME, PONS_ROBOT, PONS_SITE, PONS_HOST and PONS_PORT.
+
+    Raises:
+        BadSetting: the port is no port.
+    """
+    given = os.environ
+    return Settings(
+        home=Path(given.get("PONS_HOME", ".pons")).absolute(),
+        robot=Path(given.get("PONS_ROBOT", CHECKOUT / "robot.toml")).absolute(),
+        site=Path(given.get("PONS_SITE", CHECKOUT / "sites" / "home")).absolute(),
+        host=given.get("PONS_HOST", DEFAULT_HOST),
+        port=_port(given.get("PONS_PORT", str(DEFAULT_PORT))),
+    )
+
+
+def _port(text: str) -> int:
+    if text.isdecimal() and 1 <= int(text) <= 65_535:
+        return int(text)
+    raise BadSetting(f"bad_port: PONS_PORT is {text!r}; expected a number from 1 to 65535")

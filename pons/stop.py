@@ -1,0 +1,64 @@
+"""Stop the robot from a shell, as fast as a process can start: neither numpy nor pydantic loads.
+
+The planner is asked over HTTP. If it has not confirmed within a short time, dead, hung or slow, the
+same stop goes straight to the bridge over the wire, which needs no planner at all.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from typing import TYPE_CHECKING
+
+from pons.http import PlannerDown, Refused, call
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+
+HTTP_HEAD_START_S = 0.15
+HTTP_TIMEOUT_S = 2.5
+
+
+def run(settings: Settings) -> int:
+    """Stop; say how; return 0 only when the bridge itself has confirmed."""
+    by_http = _Attempt(settings)
+    by_http.start()
+    by_http.join(HTTP_HEAD_START_S)
+    if by_http.confirmed:
+        print("stopped / 已停止 (bridge confirmed)")
+        return 0
+    from pons.direct import stop_direct
+
+    confirmed = stop_direct(settings, f"cli-{os.getpid()}-direct")
+    by_http.join(0.0 if confirmed else HTTP_TIMEOUT_S)
+    if confirmed or by_http.confirmed:
+        print("stopped / 已停止 (bridge confirmed)")
+        return 0
+    print(
+        "no_bridge: neither the planner nor the bridge confirmed the stop / 没有得到确认. "
+        "Without a bridge the drive's own time-out stops the wheels; use the robot's stop button. "
+        f"Planner: {by_http.trouble or 'no answer yet'}",
+        file=sys.stderr,
+    )
+    return 1
+
+
+class _Attempt(threading.Thread):
+    """Ask the planner, beside the main thread."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(daemon=True)
+        self._settings = settings
+        self.confirmed = False
+        self.trouble = ""
+
+    def run(self) -> None:
+        try:
+            answer = call(
+                self._settings, "POST", "/v1/stop", {"source": "cli"}, timeout_s=HTTP_TIMEOUT_S
+            )
+            self.confirmed = bool(answer.get("confirmed"))
+            self.trouble = "" if self.confirmed else "the bridge did not confirm"
+        except (PlannerDown, Refused) as trouble:
+            self.trouble = str(trouble)

@@ -1,0 +1,205 @@
+"""Start the whole robot, keep it running, take it all down: ``pons up``.
+
+Starts simulator (on a virtual drive), localization, bridge and planner; restarts what dies, waiting
+longer each time; arms the simulator once; prints the one URL when the planner says it is ready. On
+Ctrl-C, SIGTERM or its own death nothing is left running.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import signal
+import socket
+import sys
+import threading
+import time
+from typing import TYPE_CHECKING
+
+from pons.http import PlannerDown, Refused, call
+from pons.processes import REFUSED_TO_START, Child
+from wire import Misconfigured, RobotDescription, load_robot
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+    from pons.settings import Settings
+
+POLL_S = 0.05
+PATIENCE_S = 4.0
+READY_LIMIT_S = 60.0
+ARM_RETRY_S = 0.5
+MIN_FREE_BYTES = 200 * 1024 * 1024
+
+
+class CannotStart(Exception):
+    """Something outside must change first; nothing was left running."""
+
+
+class Supervisor:
+    """Own the children of one ``pons up``."""
+
+    def __init__(self, settings: Settings, robot: RobotDescription) -> None:
+        self._settings = settings
+        self._robot = robot
+        self._ending = threading.Event()
+        self._children = children(settings, robot)
+        self._said_ready = False
+        self._armed = not robot.drive.virtual  # on metal a person arms
+        self._next_arm_s = 0.0
+
+    def end(self, *_: object) -> None:
+        """Ask the loop to finish; safe in a signal handler."""
+        self._ending.set()
+
+    def run(self) -> int:
+        """Supervise until asked to end; return the exit status."""
+        began_s = time.monotonic()
+        try:
+            while not self._ending.is_set():
+                now_s = time.monotonic()
+                self._tend(now_s)
+                self._greet(now_s, began_s)
+                self._ending.wait(POLL_S)
+        finally:
+            self._take_down()
+        return 0
+
+    def _tend(self, now_s: float) -> None:
+        for child in self._children:
+            status = child.died(now_s)
+            if status == REFUSED_TO_START:
+                raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
+            if status is not None:
+                wait_s = child.next_start_s - now_s
+                say(f"{child.name} ended ({describe(status)}); again in {wait_s:.1f} s. "
+                    f"Its log: {child.log}")  # fmt: skip
+            if child.due(now_s):
+                child.start(now_s)
+
+    def _greet(self, now_s: float, began_s: float) -> None:
+        """Arm the simulator once, then print the URL once."""
+        if self._said_ready:
+            return
+        if now_s >= self._next_arm_s:
+            self._next_arm_s = now_s + ARM_RETRY_S
+            if self._ready() and self._arm():
+                self._said_ready = True
+                say(f"ready after {now_s - began_s:.1f} s: {self._settings.url}")
+                say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
+        if now_s - began_s > READY_LIMIT_S:
+            raise CannotStart(
+                f"not_ready: the planner was not ready within {READY_LIMIT_S:.0f} s; logs are in "
+                f"{self._settings.home / 'logs'}"
+            )
+
+    def _ready(self) -> bool:
+        try:
+            call(self._settings, "GET", "/readyz", timeout_s=1.0)
+        except (PlannerDown, Refused):
+            return False
+        return True
+
+    def _arm(self) -> bool:
+        if self._armed:
+            return True
+        try:
+            answer = call(self._settings, "POST", "/v1/arm", {}, timeout_s=3.0)
+        except (PlannerDown, Refused):
+            return False
+        self._armed = bool(answer.get("accepted"))
+        return self._armed
+
+    def _take_down(self) -> None:
+        """End the planner first, so that the bridge still brakes; the drive last."""
+        for child in reversed(self._children):
+            child.stop(PATIENCE_S)
+
+
+def children(settings: Settings, robot: RobotDescription) -> list[Child]:
+    """Return the processes in the order of their start."""
+    logs = settings.home / "logs"
+    common = ["--home", str(settings.home), "--robot", str(settings.robot)]
+    common += ["--site", str(settings.site)]
+    wanted = [("bridge", common), ("planner", [*common, *_address(settings)])]
+    if robot.drive.virtual:
+        wanted = [("sim", common), ("localization", common), *wanted]
+    return [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
+
+
+def _address(settings: Settings) -> list[str]:
+    return ["--host", settings.host, "--port", str(settings.port)]
+
+
+def describe(status: int) -> str:
+    """Say how a process ended."""
+    return f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
+
+
+def say(text: str) -> None:
+    """Print one line for the person, at once."""
+    print(f"pons: {text}", flush=True)
+
+
+def check(settings: Settings) -> RobotDescription:
+    """Look for what would fail later and less clearly.
+
+    Raises:
+        CannotStart: the port is taken, a file is missing or wrong, or the disk is full.
+    """
+    try:
+        robot = load_robot(settings.robot)
+    except Misconfigured as wrong:
+        raise CannotStart(str(wrong)) from None
+    if not (settings.site / "map.yaml").is_file():
+        known = sorted(path.parent.name for path in settings.site.parent.glob("*/map.yaml"))
+        raise CannotStart(
+            f"site_missing: {settings.site} has no map.yaml; sites beside it: "
+            f"{', '.join(known) or 'none'}"
+        )
+    (settings.home / "logs").mkdir(parents=True, exist_ok=True)
+    free = shutil.disk_usage(settings.home).free
+    if not free >= MIN_FREE_BYTES:
+        raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
+    _check_port(settings)
+    return robot
+
+
+def _check_port(settings: Settings) -> None:
+    with contextlib.closing(socket.socket()) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((settings.host, settings.port))
+        except OSError as error:
+            raise CannotStart(
+                f"port_in_use: {settings.host}:{settings.port}: {error.strerror}; stop what "
+                "listens there or set PONS_PORT"
+            ) from None
+
+
+def run(settings: Settings) -> int:
+    """Be ``pons up``."""
+    try:
+        robot = check(settings)
+        supervisor = Supervisor(settings, robot)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, _handler(supervisor))
+        say(f"starting {robot.id} in {settings.site.name} (state in {settings.home})")
+        return supervisor.run()
+    except CannotStart as why:
+        print(f"pons up: {why}", file=sys.stderr)
+        return REFUSED_TO_START
+
+
+def _handler(supervisor: Supervisor) -> _Handler:
+    def handle(number: int, _frame: FrameType | None) -> None:
+        say(f"{signal.Signals(number).name}: taking everything down")
+        supervisor.end()
+
+    return handle
+
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    _Handler = Callable[[int, FrameType | None], None]

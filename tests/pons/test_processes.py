@@ -1,0 +1,132 @@
+"""A child is started, noticed dead, started again later each time, and never outlives us."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+
+from pons.processes import FIRST_PAUSE_S, LONGEST_PAUSE_S, STEADY_S, Backoff, Child
+
+SLEEPER = "import time\nprint('awake', flush=True)\ntime.sleep(60)\n"
+STUBBORN = (
+    "import signal, time\nsignal.signal(signal.SIGTERM, signal.SIG_IGN)\n"
+    "print('deaf', flush=True)\ntime.sleep(60)\n"
+)
+FAILING = "import sys\nprint('my last words')\nsys.exit(7)\n"
+PARENT = """
+import sys, time
+from pathlib import Path
+from pons.processes import Child
+child = Child("sleeper", ["sleeper"], Path(sys.argv[1]) / "log")
+child.start(0.0)
+print(child.process.pid, flush=True)
+time.sleep(60)
+"""
+
+
+@pytest.fixture
+def modules(tmp_path: Path) -> Path:
+    for name, body in (("sleeper", SLEEPER), ("stubborn", STUBBORN), ("failing", FAILING)):
+        (tmp_path / f"{name}.py").write_text(body)
+    return tmp_path
+
+
+@pytest.fixture
+def child(modules: Path, request: pytest.FixtureRequest) -> Iterator[Child]:
+    module = str(request.param)
+    made = Child(
+        module, [module], modules / "log", {"PYTHONPATH": f"{modules}:{Path(__file__).parents[2]}"}
+    )
+    yield made
+    made.stop(0.1)
+
+
+def gone(pid: int, limit_s: float = 10.0) -> bool:
+    try:
+        psutil.Process(pid).wait(timeout=limit_s)
+    except psutil.NoSuchProcess:
+        return True
+    except psutil.TimeoutExpired:
+        return False
+    return True
+
+
+def wait_for_word(log: Path, word: str) -> None:
+    """Wait for a real process, which needs real time, to have come so far."""
+    end_s = time.monotonic() + 10.0
+    while time.monotonic() < end_s:
+        if log.is_file() and word in log.read_text():
+            return
+        time.sleep(0.02)
+    pytest.fail(f"{word!r} never came")
+
+
+def test_pauses_double_up_to_a_bound() -> None:
+    backoff = Backoff()
+    pauses = [backoff.after(0.1) for _ in range(8)]
+    assert pauses[:3] == [FIRST_PAUSE_S, 2 * FIRST_PAUSE_S, 4 * FIRST_PAUSE_S]
+    assert pauses[-1] == LONGEST_PAUSE_S
+
+
+def test_a_steady_life_forgives() -> None:
+    backoff = Backoff()
+    for _ in range(5):
+        backoff.after(0.1)
+    assert backoff.after(STEADY_S) == FIRST_PAUSE_S
+
+
+@pytest.mark.parametrize("child", ["failing"], indirect=True)
+def test_a_death_is_noticed_once_and_its_words_kept(child: Child) -> None:
+    child.start(100.0)
+    assert child.process is not None
+    child.process.wait()
+    assert child.died(101.0) == 7
+    assert child.died(101.1) is None
+    assert child.last_words() == "my last words"
+    assert not child.due(101.0 + FIRST_PAUSE_S / 2)
+    assert child.due(101.0 + FIRST_PAUSE_S)
+
+
+@pytest.mark.parametrize("child", ["sleeper"], indirect=True)
+def test_stopping_ends_the_process(child: Child) -> None:
+    child.start(0.0)
+    assert child.process is not None
+    pid = child.process.pid
+    child.stop(5.0)
+    assert gone(pid)
+    assert child.process is None
+
+
+@pytest.mark.parametrize("child", ["stubborn"], indirect=True)
+def test_a_child_that_will_not_end_is_killed(child: Child) -> None:
+    child.start(0.0)
+    assert child.process is not None
+    pid = child.process.pid
+    wait_for_word(child.log, "deaf")
+    child.stop(0.2)
+    assert gone(pid)
+
+
+def test_a_killed_parent_takes_its_child_along(modules: Path) -> None:
+    environment = {**os.environ, "PYTHONPATH": f"{modules}:{Path(__file__).parents[2]}"}
+    parent = subprocess.Popen(
+        [sys.executable, "-c", PARENT, str(modules)],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=environment,
+    )
+    assert parent.stdout is not None
+    pid = int(parent.stdout.readline())
+    wait_for_word(modules / "log", "awake")
+    parent.send_signal(signal.SIGKILL)
+    parent.wait()
+    parent.stdout.close()
+    assert gone(pid)
