@@ -1,0 +1,90 @@
+"""Define what is asked of the route search and what comes back. Data only: no numpy, no process."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from wire.geometry import Pose2
+from wire.robot import RobotDescription
+
+REASONS = MappingProxyType(
+    {
+        "no_route": ("there is no way from the start to the goal", "起点与目标之间没有通路"),
+        "start_blocked": ("the robot stands where no way leads out", "机器人所处位置无法离开"),
+        "goal_blocked": ("there is no free floor near the goal", "目标附近没有可停留的空地"),
+        "start_outside_map": ("the robot is not on the map", "机器人不在地图上"),
+        "goal_outside_map": ("the goal is not on the map", "目标不在地图上"),
+        "route_timed_out": ("the route search took too long", "路径搜索超时"),
+        "route_worker_died": ("the route search process died", "路径搜索进程已退出"),
+        "route_worker_unavailable": ("the route search is not running", "路径搜索未运行"),
+        "route_request_malformed": ("the route request is malformed", "路径请求格式错误"),
+    }
+)
+"""Every code with its sentence in English and Chinese."""
+
+
+class RouteFailure(Exception):
+    """Say why there is no route. Nothing was moved and nothing is lost: ask again later."""
+
+    def __init__(self, code: str, detail: str = "") -> None:
+        """Keep the code, and a sentence in both languages with the particulars."""
+        en, zh = REASONS[code]
+        super().__init__(f"{code}: {en}" + (f" ({detail})" if detail else ""))
+        self.code = code
+        self.detail = detail
+        self.message = {
+            "en": f"{en} ({detail})" if detail else en,
+            "zh": f"{zh}（{detail}）" if detail else zh,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class RouteLimits:
+    """Hold what the robot's description says about driving; waypoints never ask for more."""
+
+    radius_m: float = 0.30  # the disc that holds the whole robot
+    max_speed_mps: float = 0.5
+    max_turn_radps: float = 1.0
+    max_decel_mps2: float = 1.0
+    max_lateral_mps2: float = 0.5
+
+    @classmethod
+    def of(cls, robot: RobotDescription) -> RouteLimits:
+        """Take the limits from a robot's description."""
+        return cls(
+            radius_m=robot.base.radius_m,
+            max_speed_mps=robot.limits.max_speed_mps,
+            max_turn_radps=robot.limits.max_turn_radps,
+            max_decel_mps2=robot.limits.max_decel_mps2,
+            max_lateral_mps2=robot.limits.max_lateral_mps2,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class RouteRequest:
+    """Ask for a way between two poses in ``map``."""
+
+    start: Pose2
+    goal: Pose2
+    obstacles: tuple[tuple[float, float], ...] = ()  # recent lidar points in ``map`` [m]
+
+
+@dataclass(frozen=True, slots=True)
+class RoutePoint:
+    """Give one point of a route in ``map`` and the speed to pass it at, always forward."""
+
+    x_m: float
+    y_m: float
+    speed_mps: float
+
+
+@dataclass(frozen=True, slots=True)
+class RouteResult:
+    """Hold a route: from where the robot stood to the goal, or to the nearest free floor."""
+
+    points: tuple[RoutePoint, ...]  # 0.05 to 0.25 m apart; at least one
+    length_m: float
+    moved_goal_m: float  # how far the goal was moved to reach free floor; 0 as asked
+    start_escaped: bool  # the way begins by leaving a place too near to an obstacle
+    took_s: float  # in the search itself
