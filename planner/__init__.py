@@ -1,1 +1,1 @@
-"""Propose: turn a sentence into a plan, a plan into waypoints. Imports wire and never the bridge."""
+"""Propose: a sentence becomes a plan, a plan waypoints. Imports wire and never the bridge."""
