@@ -13,6 +13,7 @@ from planner.route.request import (
     RouteRequest,
     RouteResult,
 )
+from planner.route.worker import RouteWorker
 
 __all__ = [
     "Horizon",
@@ -22,5 +23,6 @@ __all__ = [
     "RoutePoint",
     "RouteRequest",
     "RouteResult",
+    "RouteWorker",
     "cut",
 ]

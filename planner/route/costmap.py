@@ -34,7 +34,7 @@ FENCE_MARGIN_M = 0.15
 """The bridge's FENCE gate slows what would stop nearer than this to the fence."""
 EXPLAINED_M = 0.12
 """A lidar point this near to a mapped obstacle is that obstacle, seen through a pose error of
-0.02 m and 0.5 degrees at 5 m and half a cell. Without it noise at the jambs would close every door."""
+0.02 m and 0.5 degrees at 5 m and half a cell. Without it noise at the jambs would close doors."""
 OWN_BODY_M = 0.20
 """A lidar point this near to the robot's centre is inside the robot."""
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from math import hypot, isfinite
 from time import perf_counter
 
@@ -46,7 +47,14 @@ class Router:
         self._fields: dict[int, array[float]] = {}
 
     def warm(self) -> Iterator[str]:
-        """Work out the exact cost to every place, one at each turn; yield the place's id."""
+        """Work out the exact cost to every place, one at each turn; yield the place's id.
+
+        The first turn drives home in thought, so that the first real request finds all it needs.
+        """
+        home = self._site.home.pose
+        with suppress(RouteFailure):
+            self.route(RouteRequest(self._site.places[0].pose, home))
+        yield self._site.home.id
         size = 8 * len(self._lattice.cost)
         for place in self._site.places[: MAX_FIELD_BYTES // size]:
             column, row = self._site.grid.cell_of(place.pose.x_m, place.pose.y_m)
