@@ -1,0 +1,120 @@
+"""Decide who may ask what: hosts, origins and tokens. Pure; knows no server.
+
+Loopback needs no token, but Host and Origin are judged there too: a web page of another site, or a
+name that somebody points at 127.0.0.1, must not drive the robot.
+"""
+
+from __future__ import annotations
+
+import hmac
+import ipaddress
+from dataclasses import dataclass
+from enum import StrEnum
+from urllib.parse import urlsplit
+
+
+class Role(StrEnum):
+    """Say what somebody may do."""
+
+    VIEWER = "viewer"
+    OPERATOR = "operator"
+
+
+class NotAllowed(Exception):
+    """The request is refused; ``code`` is stable, ``status`` is HTTP's."""
+
+    def __init__(self, status: int, code: str, detail: str) -> None:
+        super().__init__(f"{code}: {detail}")
+        self.status = status
+        self.code = code
+        self.detail = detail
+
+
+LOOPBACK_NAMES = frozenset({"127.0.0.1", "localhost", "::1"})
+SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
+STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
+"""Whoever may look may also stop, and needs no content type to do it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Access:
+    """Hold the rules of one planner."""
+
+    bind_host: str
+    hosts: frozenset[str] = LOOPBACK_NAMES
+    origins: frozenset[str] = frozenset()
+    operator_token: str = ""
+    viewer_token: str = ""
+
+    @property
+    def loopback(self) -> bool:
+        """Say whether only this machine can reach us."""
+        return is_loopback(self.bind_host)
+
+    def judge(
+        self, method: str, path: str, headers: dict[str, str], *, websocket: bool = False
+    ) -> Role:
+        """Return the asker's role.
+
+        Raises:
+            NotAllowed: foreign host or origin, no valid token, a role that may not, or a body of
+                another type than JSON.
+        """
+        host = headers.get("host", "")
+        self._check_host(host)
+        self._check_origin(headers.get("origin"), host)
+        role = self._role(headers.get("authorization", ""))
+        if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
+            _check_type(headers.get("content-type", ""))
+            if role is not Role.OPERATOR:
+                raise NotAllowed(403, "operator_needed", f"a viewer may not {method} {path}")
+        return role
+
+    def _check_host(self, host: str) -> None:
+        name = urlsplit(f"//{host}").hostname or ""
+        if name not in self.hosts:
+            known = ", ".join(sorted(self.hosts))
+            raise NotAllowed(403, "foreign_host", f"host {host[:80]!r}; allowed: {known}")
+
+    def _check_origin(self, origin: str | None, host: str) -> None:
+        if origin is None or origin in self.origins:
+            return
+        parts = urlsplit(origin)
+        if parts.scheme in ("http", "https") and parts.netloc == host:
+            return
+        raise NotAllowed(403, "foreign_origin", f"origin {origin[:80]!r} is not this page's")
+
+    def _role(self, authorization: str) -> Role:
+        if self.loopback and not self.operator_token:
+            return Role.OPERATOR
+        scheme, _, token = authorization.partition(" ")
+        if scheme.lower() == "bearer":
+            if _same(token, self.operator_token):
+                return Role.OPERATOR
+            if _same(token, self.viewer_token):
+                return Role.VIEWER
+        raise NotAllowed(401, "token_needed", "send Authorization: Bearer with a valid token")
+
+
+def is_loopback(host: str) -> bool:
+    """Say whether an address or name is this machine's own."""
+    if host in LOOPBACK_NAMES:
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def _same(given: str, expected: str) -> bool:
+    return bool(expected) and hmac.compare_digest(given.encode(), expected.encode())
+
+
+def _check_type(content_type: str) -> None:
+    kind = content_type.partition(";")[0].strip().lower()
+    if kind != "application/json":
+        raise NotAllowed(
+            415,
+            "unsupported_media_type",
+            f"content type {content_type[:80]!r}; expected application/json",
+        )

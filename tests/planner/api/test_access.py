@@ -1,0 +1,113 @@
+"""Who may ask what: hosts, origins, tokens, roles, content types."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.api.access import Access, NotAllowed, Role, is_loopback
+
+LOCAL = Access("127.0.0.1")
+OPEN = Access(
+    "0.0.0.0",  # the very case: reachable from outside
+    hosts=frozenset({"robot.lan"}),
+    operator_token="op-secret",
+    viewer_token="view-secret",
+)
+JSON = {"content-type": "application/json"}
+
+
+def headers(host: str = "127.0.0.1:8420", **more: str) -> dict[str, str]:
+    return {"host": host, **{name.replace("_", "-"): value for name, value in more.items()}}
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1:8420", "localhost:8420", "localhost", "[::1]:8420"])
+def test_loopback_needs_no_token(host: str) -> None:
+    assert LOCAL.judge("GET", "/v1/robot", headers(host)) is Role.OPERATOR
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "127.0.0.1.evil.example", "", "localhost.evil", "10.0.0.1:8420"]
+)
+@pytest.mark.parametrize("websocket", [False, True])
+def test_a_foreign_host_is_refused_everywhere(host: str, websocket: bool) -> None:
+    with pytest.raises(NotAllowed) as refused:
+        LOCAL.judge("GET", "/v1/events", headers(host), websocket=websocket)
+    assert refused.value.code == "foreign_host"
+
+
+@pytest.mark.parametrize(
+    "origin",
+    [
+        "http://evil.example",
+        "null",
+        "http://127.0.0.1:3000",
+        "http://localhost:8420",
+        "file://",
+        "http://127.0.0.1:8420.evil.example",
+    ],
+)
+@pytest.mark.parametrize("websocket", [False, True])
+def test_a_foreign_origin_is_refused_everywhere(origin: str, websocket: bool) -> None:
+    with pytest.raises(NotAllowed) as refused:
+        LOCAL.judge("GET", "/v1/events", headers(origin=origin), websocket=websocket)
+    assert refused.value.code == "foreign_origin"
+
+
+def test_the_page_itself_may_ask() -> None:
+    asked = headers(origin="http://127.0.0.1:8420")
+    assert LOCAL.judge("GET", "/v1/events", asked, websocket=True) is Role.OPERATOR
+
+
+@pytest.mark.parametrize("content_type", ["", "text/plain", "application/x-www-form-urlencoded"])
+def test_a_change_of_state_needs_json(content_type: str) -> None:
+    with pytest.raises(NotAllowed) as refused:
+        LOCAL.judge("POST", "/v1/goals", headers(content_type=content_type))
+    assert (refused.value.status, refused.value.code) == (415, "unsupported_media_type")
+
+
+def test_json_with_a_charset_is_json() -> None:
+    asked = headers(content_type="application/json; charset=utf-8")
+    assert LOCAL.judge("POST", "/v1/goals", asked) is Role.OPERATOR
+
+
+@pytest.mark.parametrize("path", ["/v1/stop", "/v1/estop", "/v1/disarm"])
+def test_stopping_asks_for_no_ceremony(path: str) -> None:
+    assert LOCAL.judge("POST", path, headers()) is Role.OPERATOR
+
+
+@pytest.mark.parametrize(
+    "authorization", ["", "Bearer", "Bearer ", "Bearer wrong", "Basic op-secret", "op-secret"]
+)
+def test_elsewhere_a_token_is_needed(authorization: str) -> None:
+    with pytest.raises(NotAllowed) as refused:
+        OPEN.judge("GET", "/v1/robot", headers("robot.lan", authorization=authorization))
+    assert (refused.value.status, refused.value.code) == (401, "token_needed")
+
+
+def test_a_viewer_looks_and_stops_but_does_not_drive() -> None:
+    viewer = headers("robot.lan", authorization="Bearer view-secret", **JSON)
+    assert OPEN.judge("GET", "/v1/robot", viewer) is Role.VIEWER
+    assert OPEN.judge("POST", "/v1/stop", viewer) is Role.VIEWER
+    with pytest.raises(NotAllowed) as refused:
+        OPEN.judge("POST", "/v1/goals", viewer)
+    assert refused.value.code == "operator_needed"
+
+
+def test_an_operator_drives() -> None:
+    operator = headers("robot.lan", authorization="Bearer op-secret", **JSON)
+    assert OPEN.judge("POST", "/v1/goals", operator) is Role.OPERATOR
+
+
+def test_an_empty_token_opens_nothing() -> None:
+    nobody = Access("0.0.0.0", hosts=frozenset({"robot.lan"}))
+    with pytest.raises(NotAllowed):
+        nobody.judge("GET", "/v1/robot", headers("robot.lan", authorization="Bearer "))
+
+
+@pytest.mark.parametrize(
+    ("host", "expected"),
+    [("127.0.0.1", True), ("127.9.9.9", True), ("::1", True), ("localhost", True),
+     ("0.0.0.0", False), ("192.168.1.2", False), ("robot.lan", False), ("::", False)],
+)  # fmt: skip
+def test_loopback_is_told_from_the_rest(host: str, expected: bool) -> None:
+    assert is_loopback(host) is expected
