@@ -1,0 +1,259 @@
+"""Say how far the robot may go along the arc of a motion, and how fast that lets it go.
+
+Owns the geometry of a disc swept along an arc among a scan's points. Scaling a motion keeps its
+curve, so one pass over the points gives the free length, and the speed that can still stop within
+it is closed form. Knows one scan; the age of it is an argument.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import acos, asin, atan2, cos, hypot, inf, pi, sin, sqrt, tau
+from typing import TYPE_CHECKING, ClassVar
+
+from pydantic import ConfigDict
+
+from bridge.core.kinematics import fastest_rim
+from bridge.core.odometry import along_arc
+from wire.geometry import Pose2, Twist2, between
+
+if TYPE_CHECKING:
+    from bridge.core.scanpicture import Points, ScanPicture
+    from wire.robot import Base, Limits
+
+MARGIN_M = 0.05
+REACH_M = 2.0
+"""Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
+CREEP_MPS, CREEP_RADPS = 0.1, 0.3
+"""What loses no clearance may move this fast beside or inside the margin."""
+STANDING_MPS = 0.02
+MOVED_M = 1.0
+"""A scan taken further away says nothing of here; LIDAR_STALE holds the robot long before."""
+_STRAIGHT_PER_M = 1e-3  # 2 mm beside a straight line after 2 m
+_ROUNDING_RAD = 1e-6
+_STEPS_M = (0.02, 0.05)  # where clearance is looked at again
+_CLEARANCE_LOST_M = 2e-4  # a wall is seen as beads 6 mm apart: driving along it changes this much
+
+
+@dataclass(frozen=True, slots=True)
+class FreeLength:
+    """Tell how far a motion is free."""
+
+    s_m: float
+    """Along the arc until the disc with its margin touches; at most the reach."""
+    known: bool
+    """At least half of the beams of the sector swept came back; otherwise cap the speed."""
+    covered: bool
+    """The lidar sees that way; otherwise ``s_m`` is 0."""
+    touching: bool
+    """Something is inside the margin already, and this motion loses no clearance to it."""
+    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+NOTHING_KNOWN = FreeLength(0.0, False, False, False)
+
+
+def free_length(
+    picture: ScanPicture,
+    base_in_odom_now: Pose2,
+    twist: Twist2,
+    radius_m: float,
+    reach_m: float = REACH_M,
+) -> FreeLength:
+    """Return how far the arc of a motion is free of the scan's points.
+
+    Args:
+        picture: the newest scan.
+        base_in_odom_now: where odometry says the robot is, in the scan's ``odom``.
+        twist: its direction and curve count, not its size. Turning in place sweeps nothing but
+            the disc itself, so it is always free.
+        radius_m: the disc that holds the robot; the margin is added here.
+        reach_m: how far to look.
+    """
+    robot = between(picture.base_in_odom, base_in_odom_now)
+    disc = radius_m + MARGIN_M
+    if not (
+        abs(twist.v_mps) < inf
+        and abs(twist.w_radps) < inf
+        and hypot(robot.x_m, robot.y_m) <= MOVED_M
+    ):
+        return NOTHING_KNOWN
+    if not abs(twist.v_mps) >= 1e-4:
+        return FreeLength(reach_m, True, True, _touches(picture, robot, disc))
+    curve = twist.w_radps / abs(twist.v_mps)
+    heading = robot.yaw_rad if twist.v_mps > 0.0 else robot.yaw_rad + pi
+    start = Pose2(robot.x_m, robot.y_m, heading)
+    known, covered = _seen(picture, start, curve, disc, reach_m)
+    if not covered:
+        return FreeLength(0.0, known, False, False)
+    touching = _touches(picture, robot, disc)
+    if touching and _loses_clearance(picture.points, start, curve, radius_m):
+        return FreeLength(0.0, known, True, False)
+    if abs(curve) <= _STRAIGHT_PER_M:
+        s = _straight(_ahead(picture, start, disc), start, disc, reach_m)
+    elif abs(curve) * reach_m < pi / 2:
+        s = _arc(_ahead(picture, start, disc), start, curve, disc, reach_m)
+    else:
+        s = _arc(picture.points, start, curve, disc, reach_m)
+    return FreeLength(s, known, True, touching)
+
+
+def _seen(
+    picture: ScanPicture, start: Pose2, curve: float, disc: float, reach: float
+) -> tuple[bool, bool]:
+    """Tell whether the sector that the arc sweeps came back, and whether the lidar covers it.
+
+    The sector spans the directions, seen from the lidar, in which the disc lies half way and at the
+    end of the look ahead, which ends after a quarter turn.
+    """
+    if picture.whole and picture.returns == picture.beams > 0:
+        return True, True
+    look = min(reach, (pi / 2) / abs(curve)) if curve != 0.0 else reach
+    sides = []
+    for part in (look / 2, look):
+        place = along_arc(start, part, curve * part)
+        dx, dy = place.x_m - picture.lidar_x_m, place.y_m - picture.lidar_y_m
+        away = hypot(dx, dy)
+        toward = atan2(dy, dx) - start.yaw_rad if away > disc / 10 else 0.0
+        toward = atan2(sin(toward), cos(toward))
+        half = asin(disc / away) if away > disc else pi / 2
+        sides += [toward - half, toward + half]
+    low, high = min(sides), max(sides)
+    sector = picture.sector(start.yaw_rad + (low + high) / 2, (high - low) / 2)
+    return sector.known, sector.covered
+
+
+def _ahead(picture: ScanPicture, start: Pose2, disc: float) -> Points:
+    """Return the points that may lie ahead of the robot, none left out.
+
+    A point at least a disc away that is ahead of the robot lies, for the lidar, within a quarter
+    turn and what the offset between lidar and robot adds.
+    """
+    offset = hypot(start.x_m - picture.lidar_x_m, start.y_m - picture.lidar_y_m)
+    if not offset < disc:
+        return picture.points
+    half = pi / 2 + asin(offset / disc) + picture.step_rad
+    return picture.points_within(start.yaw_rad, half)
+
+
+def _straight(points: Points, start: Pose2, disc: float, reach: float) -> float:
+    """Return how far a disc goes straight on until it touches a point that is a disc away now."""
+    c, s = cos(start.yaw_rad), sin(start.yaw_rad)
+    off = start.y_m * c - start.x_m * s
+    low, high = off - disc, off + disc
+    free, begin = reach, start.x_m * c + start.y_m * s
+    for x, y in zip(*points, strict=True):
+        if low < y * c - x * s < high:
+            ahead = x * c + y * s - begin
+            if 0.0 < ahead < free + disc:
+                aside = y * c - x * s - off
+                if ahead * ahead + aside * aside >= disc * disc:
+                    free = min(free, ahead - sqrt(disc * disc - aside * aside))
+    return max(0.0, free)
+
+
+def _arc(points: Points, start: Pose2, curve: float, disc: float, reach: float) -> float:
+    """Return how far along a circle a disc goes until it touches a point that is a disc away now.
+
+    About the circle's centre, a point at distance D and angle a ahead of the robot is touched when
+    the robot is acos((D^2 + rho^2 - disc^2) / 2 D rho) short of it (law of cosines). A point is
+    never touched before the path is as long as its distance less the disc.
+    """
+    rho, side = 1.0 / abs(curve), 1.0 if curve > 0.0 else -1.0
+    x0, y0 = start.x_m, start.y_m
+    rx, ry = side * rho * sin(start.yaw_rad), -side * rho * cos(start.yaw_rad)  # from the centre
+    inner = (rho - disc) * (rho - disc) if rho > disc else 0.0
+    outer = (rho + disc) * (rho + disc)
+    disc2, rho2 = disc * disc, rho * rho
+    free, far2 = reach, (reach + disc) * (reach + disc)
+    for x, y in zip(*points, strict=True):
+        px, py = x - x0, y - y0
+        if disc2 <= px * px + py * py < far2:
+            dx, dy = px + rx, py + ry
+            square = dx * dx + dy * dy
+            if inner < square < outer:
+                short = (square + rho2 - disc2) / (2 * sqrt(square) * rho)
+                ahead = side * atan2(rx * dy - ry * dx, rx * dx + ry * dy)
+                turn = (ahead - acos(min(1.0, max(-1.0, short)))) % tau
+                if turn > tau - _ROUNDING_RAD:
+                    turn = 0.0  # at contact now: a rounding below zero is no way round the circle
+                if turn * rho < free:
+                    free = turn * rho
+                    far2 = (free + disc) * (free + disc)
+    return free
+
+
+def _touches(picture: ScanPicture, robot: Pose2, disc: float) -> bool:
+    """Tell whether a point lies within the disc with its margin."""
+    moved = hypot(robot.x_m, robot.y_m)
+    if picture.nearest_m is None or picture.nearest_m > disc + moved:
+        return False
+    return _clearance(picture.points, robot.x_m, robot.y_m) < disc
+
+
+def _clearance(points: Points, x: float, y: float) -> float:
+    """Return the distance of the nearest point [m]; infinite if there is none."""
+    return sqrt(
+        min(
+            [(px - x) * (px - x) + (py - y) * (py - y) for px, py in zip(*points, strict=True)],
+            default=inf,
+        )
+    )
+
+
+def _loses_clearance(points: Points, start: Pose2, curve: float, radius: float) -> bool:
+    """Tell whether going on brings the nearest point nearer; at contact, by whatever little."""
+    now = _clearance(points, start.x_m, start.y_m)
+    lost = _CLEARANCE_LOST_M if now > radius + 0.01 else 0.0
+    return not all(
+        _clearance(points, place.x_m, place.y_m) >= now - lost
+        for place in (along_arc(start, step, curve * step) for step in _STEPS_M)
+    )
+
+
+def reaction_s(scan_age_s: float, scan_s: float, lag_s: float, limits: Limits) -> float:
+    """Return how long the robot goes on before it slows as planned [s].
+
+    Age of the scan, one more scan (what appears just after a beam passed is seen by the next),
+    the drive's lag, and what the jerk limit takes to build the deceleration up: d / 2j.
+    """
+    build_s = limits.max_decel_mps2 / (2 * limits.stop_jerk_mps3)
+    return scan_age_s + scan_s + lag_s + build_s
+
+
+def path_decel_mps2(twist: Twist2, base: Base, limits: Limits) -> float:
+    """Return the deceleration along the path of a twist: d holds at the faster wheel."""
+    rim = fastest_rim(twist, base.wheel_separation_m)
+    return limits.max_decel_mps2 * abs(twist.v_mps) / rim if rim > 0.0 else limits.max_decel_mps2
+
+
+def speed_within(s_m: float, decel_mps2: float, reaction: float) -> float:
+    """Return the speed that still stops within a length: v t + v^2 / 2a = s, solved for v.
+
+    Written as 2s / (t + sqrt(t^2 + 2s/a)), which does not cancel. Accepts only s > 0 and a > 0.
+    """
+    if not (s_m > 0.0 and decel_mps2 > 0.0 and reaction >= 0.0):
+        return 0.0
+    return 2 * s_m / (reaction + sqrt(reaction * reaction + 2 * s_m / decel_mps2))
+
+
+def speed_scale(
+    free: FreeLength, twist: Twist2, base: Base, limits: Limits, reaction: float
+) -> float:
+    """Return the factor in [0, 1] that lets a motion stop within its free length.
+
+    A speed below what counts as standing is none: the gate is then shut, not creeping.
+    """
+    v, w = abs(twist.v_mps), abs(twist.w_radps)
+    creep = min(_ratio(CREEP_MPS, v), _ratio(CREEP_RADPS, w))
+    if not v >= 1e-4:
+        return creep if free.touching else 1.0
+    allowed = speed_within(free.s_m, path_decel_mps2(twist, base, limits), reaction)
+    scale = _ratio(allowed, v)
+    if free.touching:
+        return min(creep, scale)
+    return 0.0 if scale < 1.0 and allowed < STANDING_MPS else scale
+
+
+def _ratio(limit: float, value: float) -> float:
+    return 1.0 if value <= limit else limit / value
