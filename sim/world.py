@@ -45,6 +45,7 @@ class World:
         self._wheels = [self._model.joint(f"wheel_{side}").id for side in ("left", "right")]
         self._angle_at = [int(self._model.jnt_qposadr[joint]) for joint in self._wheels]
         self._height_m = hardware.lidar_height_m
+        mujoco.mj_forward(self._model, self._data)  # places the solids: rays work from the start
         # Views into MuJoCo's memory: reading them costs no call.
         self._qpos: NDArray[np.float64] = self._data.qpos
         self._qvel: NDArray[np.float64] = self._data.qvel

@@ -36,7 +36,7 @@ def check(home: Home, where: str) -> None:
     Raises:
         Misconfigured: with the first finding's code; all findings of that stage stand in the text.
     """
-    for stage in (_names, _plan, _places):
+    for stage in (_names, _plan, _places, _reach):
         findings = list(stage(home))
         if findings:
             text = "; ".join(detail for _, detail in findings)
@@ -106,33 +106,16 @@ def _holds(outer: Rect, inner: Rect) -> bool:
 
 
 def _places(home: Home) -> Iterator[Finding]:
-    grid = draw(home)
-    fence = trace(allowed_rects(home)) + [
-        trace([rect(area.box)])[0] for area in home.fence.keep_outs
-    ]
-    wide = clearance(home, grid) >= ROBOT_RADIUS_M + SPARE_M
-    open_cells = wide & inside(allowed_rects(home), grid)
-    open_cells &= ~inside([rect(area.box) for area in home.fence.keep_outs], grid)
-    dock = home.places[home.dock].pose
-    reach = reachable(open_cells, grid.cell(dock[0], dock[1]))
+    rooms = room_rects(home)
     for spot_id, (x_m, y_m, _) in spots(home).items():
         title = f"{spot_id!r} at ({x_m}, {y_m})"
-        room = home.rooms.get(spot_id)
-        if not any(area.depth(x_m, y_m) > 0 for area in room_rects(home).values()):
+        if not any(area.depth(x_m, y_m) > 0 for area in rooms.values()):
             yield "place_outside", f"{title} lies in no room"
-            continue
-        if room is not None and not rect(room.box).depth(x_m, y_m) > 0:
+        elif spot_id in rooms and not rooms[spot_id].depth(x_m, y_m) > 0:
             yield "pose_outside_room", f"the pose of {title} lies outside the room"
-        yield from _cramped(home, title, (x_m, y_m))
-        if not any(area.depth(x_m, y_m) > 0 for area in allowed_rects(home)) or any(
-            rect(area.box).depth(x_m, y_m) >= 0 for area in home.fence.keep_outs
-        ):
-            yield "place_outside_fence", f"{title} lies outside the fence"
-        elif not edge_distance_m(fence, x_m, y_m) >= PLACE_TO_FENCE_M - EPS_M:
-            found = f"{edge_distance_m(fence, x_m, y_m):.3f} m from the fence"
-            yield "place_near_fence", f"{title} is {found}, at least {PLACE_TO_FENCE_M} m expected"
-        if not reach[grid.cell(x_m, y_m)]:
-            yield "place_unreachable", f"{title} cannot be reached from {home.dock!r}"
+        else:
+            yield from _cramped(home, title, (x_m, y_m))
+            yield from _fenced(home, title, (x_m, y_m))
 
 
 def _cramped(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding]:
@@ -141,3 +124,28 @@ def _cramped(home: Home, title: str, at: tuple[float, float]) -> Iterator[Findin
     if not found_m >= PLACE_TO_OBSTACLE_M - EPS_M:
         found = f"{found_m:.3f} m from {nearest.id!r}"
         yield "place_near_obstacle", f"{title} is {found}, {PLACE_TO_OBSTACLE_M} m expected"
+
+
+def _fenced(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding]:
+    closed = [rect(area.box) for area in home.fence.keep_outs]
+    fence = trace(allowed_rects(home)) + [trace([area])[0] for area in closed]
+    found_m = edge_distance_m(fence, *at)
+    inside_allowed = any(area.depth(*at) > 0 for area in allowed_rects(home))
+    if not inside_allowed or any(area.depth(*at) >= 0 for area in closed):
+        yield "place_outside_fence", f"{title} lies outside the fence"
+    elif not found_m >= PLACE_TO_FENCE_M - EPS_M:
+        found = f"{found_m:.3f} m from the fence"
+        yield "place_near_fence", f"{title} is {found}, at least {PLACE_TO_FENCE_M} m expected"
+
+
+def _reach(home: Home) -> Iterator[Finding]:
+    grid = draw(home)
+    open_cells = clearance(home, grid) >= ROBOT_RADIUS_M + SPARE_M
+    open_cells &= inside(allowed_rects(home), grid)
+    open_cells &= ~inside([rect(area.box) for area in home.fence.keep_outs], grid)
+    dock = home.places[home.dock].pose
+    reached = reachable(open_cells, grid.cell(dock[0], dock[1]))
+    for spot_id, (x_m, y_m, _) in spots(home).items():
+        if not reached[grid.cell(x_m, y_m)]:
+            title = f"{spot_id!r} at ({x_m}, {y_m})"
+            yield "place_unreachable", f"{title} cannot be reached from {home.dock!r}"
