@@ -10,6 +10,7 @@ import asyncio
 import contextlib
 import logging
 import os
+import signal
 import sys
 from asyncio.subprocess import PIPE, Process
 from pathlib import Path
@@ -125,8 +126,7 @@ class RouteWorker:
     def _kill(self) -> None:
         self._ready.clear()  # from now on: who asks next waits for the process that follows
         if self._process is not None:
-            with contextlib.suppress(ProcessLookupError):
-                self._process.kill()
+            _end(self._process)
 
     async def _keep(self) -> None:
         """Keep one process running until cancelled, or until the site itself is refused."""
@@ -135,7 +135,7 @@ class RouteWorker:
                 self._process = await self._spawn()
                 await self._listen(self._process)
             except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
-                log.warning("route process ended: %s", error)
+                log.warning("the route process is started again; its stream ended with: %s", error)
             finally:
                 await self._bury()
             if self._refused is None:
@@ -186,13 +186,19 @@ class RouteWorker:
                 answer.set_exception(RouteFailure("route_worker_died"))
         if process is None:
             return
-        with contextlib.suppress(ProcessLookupError):
-            process.kill()
+        _end(process)
         if process.stdin is not None:
             process.stdin.close()
         if process.stdout is not None:
             await process.stdout.read()  # to its end, so that the pipe is closed with the process
         await process.wait()
+
+
+def _end(process: Process) -> None:
+    # Not process.kill(): it reaps what has died, and asyncio's own watcher then finds no child.
+    if process.returncode is None:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(process.pid, signal.SIGKILL)
 
 
 async def _read(stream: asyncio.StreamReader) -> dict[str, Any]:
