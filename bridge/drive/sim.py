@@ -1,0 +1,79 @@
+"""Drive the simulated robot over its two keys. Knows the wire; not physics, not the core's state.
+
+The motors' dead zone is fed forward here, behind the limiter's memory: the core remembers what it
+meant, so its rates and its stopping distances stay true (FAULTS: limiter).
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from bridge.core.kinematics import Wheels, feed_forward
+from wire import DriveCommand, DriveState, Rejected
+from wire.keys import DRIVE_COMMAND, DRIVE_STATE
+
+if TYPE_CHECKING:
+    from bridge.drive.base import Braking
+    from wire import RobotDescription
+    from wire.session import Session
+
+_HALT_SENDS = 5
+_HALT_GAP_S = 0.01
+"""A command sent once may be dropped on its way; five over 40 ms are not, or the robot is deaf and
+its own dead-man acts."""
+
+
+class SimDrive:
+    """Speak to the simulator's drive; the same keys a remote base would use."""
+
+    kind = "sim"
+    virtual = True
+    braking: Braking = "brake"
+
+    def __init__(self, session: Session, robot: RobotDescription, boot: str) -> None:
+        self._commands = session.publisher(DRIVE_COMMAND)
+        self._states = session.subscriber(DRIVE_STATE)
+        self._dead_zone_radps = robot.drive.dead_zone_radps
+        self._most_radps = robot.limits.max_wheel_radps
+        self._boot = boot
+        self._seq = 0
+
+    def read(self) -> tuple[DriveState | Rejected, ...]:
+        return self._states.drain().items
+
+    def write(self, command: DriveCommand | None) -> None:
+        if command is None:
+            return
+        self._seq = command.seq
+        self._commands.put(self._lifted(command))
+
+    def halt(self) -> None:
+        for _ in range(_HALT_SENDS):
+            self._seq += 1
+            self._send_zero()
+            time.sleep(_HALT_GAP_S)
+
+    def _lifted(self, command: DriveCommand) -> DriveCommand:
+        meant = Wheels(command.left_radps, command.right_radps)
+        fed = feed_forward(meant, self._dead_zone_radps, self._most_radps)
+        if fed is meant:
+            return command
+        return DriveCommand(
+            boot=command.boot,
+            seq=command.seq,
+            left_radps=fed.left_radps,
+            right_radps=fed.right_radps,
+            enable=command.enable,
+        )
+
+    def _send_zero(self) -> None:
+        try:
+            self._commands.put(
+                DriveCommand(
+                    boot=self._boot, seq=self._seq, left_radps=0.0, right_radps=0.0, enable=False
+                )
+            )
+        except Exception as error:  # noqa: BLE001  # the last resort must not fail upwards
+            print(f"halt_not_sent: {error!r}", file=sys.stderr, flush=True)  # noqa: T201
