@@ -1,0 +1,142 @@
+"""Start the bridge: ``python -m bridge --home DIR --robot robot.toml --site sites/home``.
+
+Chooses the concrete classes and the order of the real-time recipe; decides nothing about driving.
+Exit status: 0 left when asked, 2 refused to start, 70 the loop broke.
+"""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import secrets
+import signal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bridge.core import CoreConfig
+from bridge.drive import SimDrive
+from bridge.fence_file import load_fence
+from bridge.link import Link
+from bridge.operator_key import load_operator_key
+from bridge.realtime import (
+    Collector,
+    MonotonicClock,
+    Pacer,
+    Right,
+    Service,
+    all_granted,
+    lock_memory,
+    pin,
+    take_fifo,
+)
+from bridge.recorder import Recorder
+from bridge.shell import Parts, Shell
+from bridge.warmup import warm_up
+from wire import Misconfigured, RobotDescription, load_robot
+from wire.keys import Party
+from wire.session import open_session
+
+if TYPE_CHECKING:
+    from bridge.drive import Drive
+    from wire.robot import RealTime
+    from wire.session import Session
+
+log = logging.getLogger("bridge")
+
+EXIT_REFUSED = 2
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Return the exit status."""
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    options = _options(arguments)
+    try:
+        return _serve(options)
+    except Misconfigured as error:
+        print(f"bridge: {error}", file=sys.stderr)
+        return EXIT_REFUSED
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m bridge", description=__doc__)
+    parser.add_argument("--site", type=Path, required=True, help="folder with a fence.json")
+    parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
+    parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
+    return parser.parse_args(arguments)
+
+
+def _serve(options: argparse.Namespace) -> int:
+    asked = _Asked()  # first: a signal during the slow part of the start must end it cleanly too
+    robot = load_robot(options.robot) if options.robot else RobotDescription()
+    config = _config(robot, options.site)
+    home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+    key = load_operator_key(home, virtual=robot.drive.virtual)
+    with open_session(Party.BRIDGE, robot.id, home) as session:
+        drive = _drive(session, robot, config.boot)
+        link = Link(session, robot.id, key)
+        recorder = Recorder(home.absolute() / "recordings", config)
+        parts = Parts(link, drive, recorder, Collector(), Service())
+        try:
+            return _loop(config, parts, asked)
+        finally:
+            parts.service.stopping()
+            recorder.close()
+
+
+def _config(robot: RobotDescription, site: Path) -> CoreConfig:
+    """Read the site's fence; mint this run's name."""
+    fence, fence_hash = load_fence(site / "fence.json")
+    return CoreConfig(
+        robot=robot,
+        robot_hash=robot.hash,
+        fence=fence,
+        fence_hash=fence_hash,
+        map_id=fence.map_id,
+        boot=secrets.token_hex(6),
+    )
+
+
+def _drive(session: Session, robot: RobotDescription, boot: str) -> Drive:
+    return {"sim": SimDrive}[robot.drive.kind](session, robot, boot)
+
+
+def _loop(config: CoreConfig, parts: Parts, asked: _Asked) -> int:
+    clock = MonotonicClock()
+    warm_up(config, clock.now_s())
+    rights = _rights(config.robot.realtime, parts.collector)
+    for right in rights:
+        level = logging.INFO if right.granted else logging.WARNING
+        log.log(level, "%s %s: %s", right.name, "granted" if right.granted else "refused",
+                right.detail)  # fmt: skip
+    log.info("run %s, %s drive, %s", config.boot, parts.drive.kind, config.robot.id)
+    shell = Shell(config, parts, clock.now_s(), real_time=all_granted(rights))
+    parts.service.ready()
+    return shell.run(Pacer(clock, config.period_s), asked.to_leave)
+
+
+def _rights(wanted: RealTime, collector: Collector) -> tuple[Right, ...]:
+    """Take them in the order that works: memory once all is touched, rank last of all."""
+    memory = lock_memory()
+    collector.freeze()
+    return memory, pin(wanted.cpu), take_fifo(wanted.priority)
+
+
+class _Asked:
+    """Remember that somebody asked us to leave."""
+
+    def __init__(self) -> None:
+        self._by = 0
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, self._note)
+
+    def to_leave(self) -> bool:
+        return self._by != 0
+
+    def _note(self, number: int, _frame: object) -> None:
+        self._by = number
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,182 @@
+"""Take what arrived for the bridge and give out what it says. Owns the keys; decides nothing.
+
+Bounded work whatever comes: each key's ring is bounded, at most the 4 newest of a key are parsed,
+and all that came is counted for the flood detector. Stops are the exception: they are searched from
+the newest back until found, for a readable stop behind 63 unreadable ones is a stop.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeVar
+
+from bridge.core.inbox import ArrivedAt, Inbox, LoopFacts, OpArrived, RejectedAt
+from wire import DriveState, OpRequest, Rejected, Stop, authentic, decode
+from wire.base import Record
+from wire.keys import (
+    ARM,
+    DISARM,
+    DRIVE_STATE,
+    ESTOP,
+    ESTOP_LINK,
+    EVENT,
+    EXTERNAL,
+    GRANT,
+    HEARTBEAT,
+    HELLO,
+    IMU,
+    LOCALIZATION,
+    ODOM,
+    RESET,
+    RESUME,
+    SCAN,
+    STATUS,
+    STOP,
+    TELEOP,
+    WAYPOINTS,
+)
+
+if TYPE_CHECKING:
+    from bridge.core.decision import Decision
+    from wire import OpKind
+    from wire.keys import Key
+    from wire.session import Session, Subscriber
+
+M = TypeVar("M", bound=Record)
+
+STOPS_KEPT = 4
+"""Different stops that one tick answers; any one of them stops."""
+
+_OPS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (
+    ("estop", ESTOP),
+    ("disarm", DISARM),
+    ("arm", ARM),
+    ("reset", RESET),
+    ("resume", RESUME),
+)
+
+
+class Link:
+    """Be all the bridge's keys but the drive's."""
+
+    def __init__(self, session: Session, robot_id: str, operator_key: bytes) -> None:
+        self._robot_id = robot_id
+        self._operator_key = operator_key
+        self._stop = session.subscriber(STOP)
+        self._ops = tuple((kind, key, session.subscriber(key)) for kind, key in _OPS)
+        self._hello = session.subscriber(HELLO)
+        self._grant = session.subscriber(GRANT)
+        self._heartbeat = session.subscriber(HEARTBEAT)
+        self._localization = session.subscriber(LOCALIZATION)
+        self._teleop = session.subscriber(TELEOP)
+        self._external = session.subscriber(EXTERNAL)
+        self._waypoints = session.subscriber(WAYPOINTS)
+        self._estop_link = session.subscriber(ESTOP_LINK)
+        self._scan = session.subscriber(SCAN)
+        self._imu = session.subscriber(IMU)
+        self._status = session.publisher(STATUS)
+        self._odometry = session.publisher(ODOM)
+        self._event = session.publisher(EVENT)
+
+    def drain(
+        self,
+        drive: tuple[DriveState | Rejected, ...],
+        loop: LoopFacts,
+        *,
+        real_time: bool,
+        recorder_ok: bool,
+    ) -> Inbox:
+        """Take one tick's arrivals, in the order in which they count."""
+        took = _Took()
+        stops = self._stops(took)
+        ops = self._operator(took)
+        return Inbox(
+            stops=stops,
+            ops=ops,
+            hellos=took.all(HELLO, self._hello),
+            grants=took.all(GRANT, self._grant),
+            heartbeats=took.all(HEARTBEAT, self._heartbeat),
+            localization=took.newest(LOCALIZATION, self._localization),
+            teleop=took.all(TELEOP, self._teleop),
+            external=took.all(EXTERNAL, self._external),
+            waypoints=took.all(WAYPOINTS, self._waypoints),
+            drive=took.sorted_out(DRIVE_STATE, drive),
+            scan=took.newest(SCAN, self._scan),
+            imu=took.newest(IMU, self._imu),
+            estop_link=took.newest(ESTOP_LINK, self._estop_link),
+            rejected=tuple(took.rejected),
+            arrived=tuple(took.arrived),
+            loop=loop,
+            real_time=real_time,
+            recorder_ok=recorder_ok,
+        )
+
+    def publish(self, decision: Decision) -> None:
+        """Say what was decided."""
+        if decision.status is not None:
+            self._status.put(decision.status)
+        if decision.odometry is not None:
+            self._odometry.put(decision.odometry)
+        for event in decision.events:
+            self._event.put(event)
+
+    def _stops(self, took: _Took) -> tuple[Stop, ...]:
+        payloads = self._stop.drain_bytes()
+        took.count(STOP, len(payloads))
+        found: list[Stop] = []
+        refused: Rejected | None = None
+        for payload in reversed(payloads):
+            item = decode(STOP, payload)
+            if isinstance(item, Rejected):
+                refused = item
+            elif all(item.id != other.id for other in found):
+                found.append(item)
+                if len(found) == STOPS_KEPT:
+                    break
+        if refused is not None:  # one word for all of them: what they say is worth no memory
+            took.rejected.append(RejectedAt(STOP.path, refused))
+        return tuple(reversed(found))
+
+    def _operator(self, took: _Took) -> tuple[OpArrived, ...]:
+        return tuple(
+            OpArrived(kind, request, self._authentic(kind, request))
+            for kind, key, subscriber in self._ops
+            for request in took.all(key, subscriber)
+        )
+
+    def _authentic(self, kind: OpKind, request: OpRequest) -> bool:
+        return authentic(self._operator_key, kind, self._robot_id, request.proof, request.id)
+
+
+class _Took:
+    """Collect what one drain counted and refused."""
+
+    __slots__ = ("arrived", "rejected")
+
+    def __init__(self) -> None:
+        self.arrived: list[ArrivedAt] = []
+        self.rejected: list[RejectedAt] = []
+
+    def count(self, key: Key[M], arrived: int) -> None:
+        if arrived:
+            self.arrived.append(ArrivedAt(key.path, arrived))
+
+    def all(self, key: Key[M], subscriber: Subscriber[M]) -> tuple[M, ...]:
+        drained = subscriber.drain()
+        if not drained.arrived:
+            return ()
+        self.count(key, drained.arrived)
+        return self.sorted_out(key, drained.items)
+
+    def newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
+        items = subscriber.drain().items
+        good = self.sorted_out(key, items) if items else ()
+        return good[-1] if good else None
+
+    def sorted_out(self, key: Key[M], items: tuple[M | Rejected, ...]) -> tuple[M, ...]:
+        good: list[M] = []
+        for item in items:
+            if isinstance(item, Rejected):
+                self.rejected.append(RejectedAt(key.path, item))
+            else:
+                good.append(item)
+        return tuple(good)

@@ -1,0 +1,194 @@
+"""Touch every path of a tick before the first one: imports, validators, serialisers, the step.
+
+What is made here goes nowhere: no key is published, no state is kept. Without it the first scan or
+the first stop pays for what Python and pydantic put off, milliseconds late.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bridge.core import (
+    ArrivedAt,
+    Inbox,
+    LoopFacts,
+    OpArrived,
+    RejectedAt,
+    initial,
+    step,
+)
+from bridge.recorder.format import TickFrame, segment_lines, tick_line
+from wire import (
+    IDENTITY,
+    VIRTUAL_KEY,
+    DriveState,
+    EstopLink,
+    Grant,
+    Heartbeat,
+    Hello,
+    Imu,
+    Localization,
+    OpRequest,
+    Rejected,
+    Scan,
+    Stop,
+    Velocity,
+    Waypoint,
+    Waypoints,
+    authentic,
+    decode,
+    encode,
+    sign,
+)
+from wire.keys import (
+    ARM,
+    DRIVE_STATE,
+    ESTOP_LINK,
+    GRANT,
+    HEARTBEAT,
+    HELLO,
+    IMU,
+    LOCALIZATION,
+    SCAN,
+    STOP,
+    TELEOP,
+    WAYPOINTS,
+)
+from wire.scalars import PROTOCOL
+
+if TYPE_CHECKING:
+    from typing import TypeVar
+
+    from bridge.core import CoreConfig
+    from wire.base import Record
+    from wire.keys import Key
+
+    M = TypeVar("M", bound=Record)
+
+TICKS = 200
+_BEAMS = 360
+_NAME = "warmup"
+
+
+def warm_up(config: CoreConfig, now_s: float) -> int:
+    """Run the core on a made-up world for TICKS ticks; return how many bytes were serialised."""
+    state = initial(config, now_s)
+    size = 0
+    for count in range(TICKS):
+        now_s += config.period_s
+        inbox = _inbox(config, count, now_s, state.command_seq)
+        decision = step(config, state, inbox, now_s)
+        frame = TickFrame(
+            tick=state.tick,
+            now_s=now_s,
+            inbox=inbox,
+            command=decision.command,
+            mode=decision.state.mode,
+            reasons=decision.reasons,
+        )
+        said = (decision.command, decision.status, decision.odometry, *decision.events)
+        size += len(tick_line(frame)) + sum(len(encode(word)) for word in said if word is not None)
+        state = decision.state
+    return size + len(segment_lines(config, 1, state))
+
+
+def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox:
+    """Make what a lively second brings, each message through the codec."""
+    tenth = count % 10 == 0
+    drive = DriveState(
+        boot_id=_NAME, seq=count, stamp_s=now_s, echo_boot=config.boot, echo_seq=echo_seq,
+        enabled=False, timed_out=False, left_rad=0.0, right_rad=0.0, left_radps=0.0,
+        right_radps=0.0,
+    )  # fmt: skip
+    imu = Imu(
+        boot_id=_NAME, seq=count, stamp_s=now_s, yaw_rate_radps=0.0, accel_x_mps2=0.0,
+        accel_y_mps2=0.0,
+    )  # fmt: skip
+    always = Inbox(
+        drive=(_over(DRIVE_STATE, drive),),
+        imu=_over(IMU, imu),
+        loop=LoopFacts(late_s=1e-4),
+        recorder_ok=True,
+    )
+    return _lively(config, count, now_s, always) if tenth else always
+
+
+def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
+    key = VIRTUAL_KEY
+    epoch = f"{config.boot}-1"
+    proof = sign(key, "arm", config.robot.id, _NAME, _NAME)
+    arm = _over(ARM, OpRequest(id=_NAME, source=_NAME, proof=proof))
+    bad = decode(WAYPOINTS, b'{"points":[')
+    points = tuple(Waypoint(x_m=0.1 * n, y_m=0.0, speed_mps=0.3) for n in range(50))
+    return Inbox(
+        stops=(_over(STOP, Stop(id=_NAME, source=_NAME)),) if count % 50 == 0 else (),
+        ops=(OpArrived("arm", arm, authentic(key, "arm", config.robot.id, proof, _NAME)),),
+        hellos=(
+            _over(
+                HELLO,
+                Hello(
+                    planner_id=_NAME, kind="planner", seen=1, protocol=PROTOCOL,
+                    robot_hash=config.robot_hash, fence_hash=config.fence_hash,
+                    map_id=config.map_id,
+                ),
+            ),
+        ),
+        grants=(
+            _over(
+                GRANT,
+                Grant(
+                    planner_id=_NAME, epoch=epoch, seen=1, mission=_NAME, metres=1.0, seconds=1.0
+                ),
+            ),
+        ),
+        heartbeats=(
+            _over(HEARTBEAT, Heartbeat(planner_id=_NAME, epoch=epoch, seen=1, used=1)),
+        ),
+        localization=_over(
+            LOCALIZATION,
+            Localization(
+                odom_id=config.boot, seq=count, stamp_s=now_s, odom_in_map=IDENTITY, quality=1.0,
+                map_id=config.map_id,
+            ),
+        ),
+        teleop=(
+            _over(
+                TELEOP,
+                Velocity(
+                    source_id=_NAME, epoch=epoch, seq=count, seen=1, v_mps=0.0, w_radps=0.0,
+                    dead_man=False,
+                ),
+            ),
+        ),
+        waypoints=(
+            _over(
+                WAYPOINTS,
+                Waypoints(
+                    planner_id=_NAME, epoch=epoch, seq=count, seen=1, mission=_NAME, leg=1,
+                    map_id=config.map_id, ttl_s=0.5, points=points, final=False,
+                ),
+            ),
+        ),
+        drive=base.drive,
+        imu=base.imu,
+        scan=_over(
+            SCAN,
+            Scan(
+                boot_id=_NAME, seq=count, stamp_s=now_s, angle_min_rad=-3.14,
+                angle_increment_rad=0.01745, range_min_m=0.12, range_max_m=8.0,
+                ranges_m=tuple(3.0 + 0.001 * beam for beam in range(_BEAMS)),
+            ),
+        ),
+        estop_link=_over(ESTOP_LINK, EstopLink(seq=count, pressed=False)),
+        rejected=(RejectedAt(WAYPOINTS.path, bad),) if isinstance(bad, Rejected) else (),
+        arrived=(ArrivedAt(WAYPOINTS.path, 1),),
+        recorder_ok=True,
+    )  # fmt: skip
+
+
+def _over(key: Key[M], message: M) -> M:
+    """Send a message through the codec, as if it came over the wire."""
+    back = decode(key, encode(message))
+    if isinstance(back, Rejected):
+        raise TypeError(f"the warm-up's own {key.path} is refused: {back.detail}")
+    return back
