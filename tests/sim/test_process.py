@@ -94,8 +94,7 @@ def bench(sim: subprocess.Popen[str], tmp_path: Path) -> Iterator[Bench]:
 def test_it_obeys_stops_in_silence_and_ends_on_sigterm(
     sim: subprocess.Popen[str], bench: Bench
 ) -> None:
-    bench.until(lambda: bench.moved(0.05), drive=2.0)
-    assert bench.heard == {"scan", "imu"}
+    bench.until(lambda: bench.moved(0.05) and bench.heard == {"scan", "imu"}, drive=2.0)
     assert bench.state is not None
     assert (bench.state.echo_boot, bench.state.enabled) == ("b", True)
     bench.until(lambda: bench.state is not None and bench.state.timed_out)
