@@ -75,7 +75,7 @@ def _checked(value: object, model: type[R], where: Path) -> R:
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         at = ".".join(str(part) for part in first["loc"]) or "the file"
-        if first["type"] == "extra_forbidden":
+        if first["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
             known = ", ".join(sorted(model.model_fields))
             text = f"{where}: unknown key {at!r}; known keys of the file: {known}"
             raise SiteError("unknown_key", text) from None
