@@ -16,7 +16,7 @@ class Hardware:
     motor_lag_s: float = 0.06  # first order: wheel speed reaches 63 % of a step after this long
     motor_torque_nm: float = 4.0  # per wheel, also the brake's: 4 m/s2 for 20 kg
     motor_max_radps: float = 15.0  # 1.5 m/s, whatever is asked
-    dead_zone_radps: float = 0.05  # commands below it do not turn the wheel: 5 mm/s
+    dead_zone_radps: float = 0.05  # swallowed from every command: 5 mm/s; below it nothing turns
     timeout_ramp_radps2: float = 25.0  # how the drive itself stops: 2.5 m/s2
     encoder_counts: int = 16_384  # per turn of the wheel: 0.04 mm, and 4 mm/s at 100 Hz
     gyro_noise_radps: float = 0.003

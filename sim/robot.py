@@ -8,6 +8,7 @@ and tick, and simulated time advances by one period per tick, however late the t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import copysign
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -168,11 +169,9 @@ class SimRobot:
             self.remove_obstacle()
 
     def _past_dead_zone(self, wheel_radps: float) -> float:
-        """Return what the motor follows; friction swallows a small wish."""
-        if abs(wheel_radps) < self._hardware.dead_zone_radps:
-            return 0.0
-        most_radps = self._hardware.motor_max_radps
-        return max(-most_radps, min(most_radps, wheel_radps))
+        """Return what the motor follows: friction swallows the first part of every wish."""
+        left_over = max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
+        return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 
     def _drive_state(self, now_s: float) -> DriveState:
         echo_boot, echo_seq = self._dead_man.echo

@@ -11,6 +11,7 @@ import pytest
 from sim import Hardware, Report, SimRobot
 from wire import DriveCommand, Pose2, RobotDescription, SimControl, distance
 
+DEAD_ZONE_RADPS = Hardware().dead_zone_radps
 MIDDLE = Pose2(1.5, 1.9, pi / 2)
 """In the kitchen of the two-room site, looking through the door."""
 
@@ -53,18 +54,19 @@ def test_it_drives_straight_at_wheel_speed_times_radius(driver: Driver) -> None:
     start = driver.robot.base_in_map
     driver.drive(3.0, 3.0, 2.0)
     end = driver.robot.base_in_map
-    assert end.y_m - start.y_m == pytest.approx(0.3 * 2.0, rel=0.01)
+    assert end.y_m - start.y_m == pytest.approx(0.1 * (3.0 - DEAD_ZONE_RADPS) * 2.0, rel=0.01)
     assert abs(end.x_m - start.x_m) < 0.002
-    assert driver.robot.twist.v_mps == pytest.approx(0.3, rel=0.01)
+    assert driver.robot.twist.v_mps == pytest.approx(0.1 * (3.0 - DEAD_ZONE_RADPS), rel=0.01)
 
 
 def test_it_turns_by_the_difference_over_the_separation(driver: Driver) -> None:
     driver.drive(-2.0, 2.0, 1.0)
     turned = driver.drive(-2.0, 2.0, 2.0)
-    assert driver.robot.twist.w_radps == pytest.approx(4.0 * 0.1 / 0.5, rel=0.01)
+    turn_radps = 2 * (2.0 - DEAD_ZONE_RADPS) * 0.1 / 0.5
+    assert driver.robot.twist.w_radps == pytest.approx(turn_radps, rel=0.01)
     assert distance(driver.robot.base_in_map, MIDDLE) < 0.005
     rates = [report.imu.yaw_rate_radps for report in turned if report.imu]
-    assert np.mean(rates) == pytest.approx(0.8, abs=0.02)
+    assert np.mean(rates) == pytest.approx(turn_radps, abs=0.02)
     assert 0.001 < np.std(rates) < 0.01
 
 
@@ -91,13 +93,16 @@ def test_wheels_lag_behind_a_step_by_first_order(driver: Driver) -> None:
     driver.drive(0.0, 0.0, 0.2)
     speeds = [report.drive.left_radps for report in driver.drive(1.0, 1.0, 0.4)]
     for ticks in (6, 12, 18):
-        expected = 1.0 - exp(-ticks * 0.01 / 0.06)
+        expected = (1.0 - DEAD_ZONE_RADPS) * (1.0 - exp(-ticks * 0.01 / 0.06))
         assert speeds[ticks - 1] == pytest.approx(expected, abs=0.08)
 
 
 def test_a_wish_in_the_dead_zone_does_not_turn_a_wheel(driver: Driver) -> None:
     assert driver.drive(0.04, -0.04, 1.0)[-1].drive.left_rad == pytest.approx(0.0, abs=0.002)
-    assert driver.drive(0.06, 0.06, 1.0)[-1].drive.left_rad > 0.03
+    beyond = DEAD_ZONE_RADPS + 0.1
+    before = driver.drive(beyond, beyond, 0.5)[-1].drive.left_rad
+    after = driver.drive(beyond, beyond, 1.0)[-1].drive.left_rad
+    assert after - before == pytest.approx(0.1, abs=0.005)
 
 
 def test_a_motor_has_a_top_speed(repository: Path) -> None:
