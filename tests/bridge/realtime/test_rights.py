@@ -1,0 +1,104 @@
+"""Every refusal of the system is a value with its reason, never an exception and never a lie."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import resource
+import sys
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any, NoReturn
+
+import pytest
+
+from bridge.realtime import Right, all_granted, lock_memory, pin, take_fifo
+
+
+def refuse(*_: Any) -> NoReturn:
+    raise PermissionError(1, "Operation not permitted")
+
+
+def limit(value: int) -> Callable[[int], tuple[int, int]]:
+    return lambda _: (value, value)
+
+
+def libc(answer: int) -> Callable[..., SimpleNamespace]:
+    return lambda *_, **__: SimpleNamespace(mlockall=lambda _: answer)
+
+
+def test_memory_is_not_locked_under_a_finite_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(resource, "getrlimit", limit(8 << 20))
+    monkeypatch.setattr(ctypes, "CDLL", refuse)  # not even tried
+    assert lock_memory() == Right(
+        "mlockall", granted=False, detail="RLIMIT_MEMLOCK is 8388608 bytes"
+    )
+
+
+def test_a_refused_lock_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(resource, "getrlimit", limit(resource.RLIM_INFINITY))
+    monkeypatch.setattr(ctypes, "CDLL", libc(-1))
+    assert not lock_memory().granted
+
+
+def test_current_future_and_on_fault_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+
+    def mlockall(flags: int) -> int:
+        asked.append(flags)
+        return 0
+
+    monkeypatch.setattr(resource, "getrlimit", limit(resource.RLIM_INFINITY))
+    monkeypatch.setattr(ctypes, "CDLL", lambda *_, **__: SimpleNamespace(mlockall=mlockall))
+    assert lock_memory().granted
+    assert asked == [1 | 2 | 4]
+
+
+def test_the_highest_allowed_cpu_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    taken: list[set[int]] = []
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 2, 5})
+    monkeypatch.setattr(os, "sched_setaffinity", lambda _, cpus: taken.append(cpus))
+    assert pin(None) == Right("affinity", granted=True, detail="cpu 5")
+    assert pin(2) == Right("affinity", granted=True, detail="cpu 2")
+    assert taken == [{5}, {2}]
+
+
+def test_a_cpu_that_is_not_ours_is_refused_with_what_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1})
+    monkeypatch.setattr(os, "sched_setaffinity", refuse)
+    assert pin(7) == Right("affinity", granted=False, detail="cpu 7 not in [0, 1]")
+    assert pin(1) == Right("affinity", granted=False, detail="cpu 1: Operation not permitted")
+
+
+def test_a_refused_priority_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "sched_setscheduler", refuse)
+    assert take_fifo(60) == Right(
+        "fifo", granted=False, detail="priority 60: Operation not permitted"
+    )
+
+
+def test_fifo_is_asked_for_the_calling_thread_and_not_its_children(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[tuple[int, int, int]] = []
+
+    def take(pid: int, policy: int, param: os.sched_param) -> None:
+        asked.append((pid, policy, param.sched_priority))
+
+    monkeypatch.setattr(os, "sched_setscheduler", take)
+    assert take_fifo(60).granted
+    assert asked == [(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, 60)]
+
+
+@pytest.mark.parametrize("ask", [lock_memory, lambda: pin(None), lambda: take_fifo(60)])
+def test_elsewhere_everything_is_refused(
+    ask: Callable[[], Right], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "platform", "darwin")
+    assert not ask().granted
+
+
+def test_one_refusal_is_a_refusal() -> None:
+    given, refused = Right("a", granted=True, detail=""), Right("b", granted=False, detail="")
+    assert all_granted((given, given))
+    assert not all_granted((given, refused))
