@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, compress
-from math import cos, floor, hypot, pi, sin, tau
+from math import ceil, cos, floor, hypot, pi, sin, tau
 from operator import mul
 from typing import TYPE_CHECKING, ClassVar
 
@@ -135,12 +135,12 @@ class ScanPicture:
     def _runs(self, middle_rad: float, half_rad: float) -> list[tuple[int, int]]:
         """Return the runs of beam numbers within a range of directions, none counted twice."""
         count, step = self.beams, self.step_rad
-        width = min(max(half_rad, 0.0), pi)
+        width = min(max(half_rad, 0.0), pi - 1e-9)
         start = _turned(middle_rad - width - self.first_rad)
         runs = []
-        for turn in (0.0, tau, 2 * tau):  # a lidar's field may be longer than one turn
-            low = max(0, floor((start - tau + turn) / step) + 1)
-            high = min(count, floor((start - tau + turn + 2 * width) / step) + 1)
+        for turn in (-tau, 0.0, tau):  # a field may begin anywhere and be longer than one turn
+            low = max(0, ceil((start + turn) / step))
+            high = min(count, floor((start + turn + 2 * width) / step) + 1)
             if high > low:
                 runs.append((low, high))
         return runs
