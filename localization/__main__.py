@@ -1,0 +1,64 @@
+"""Start the localization STAND-IN: ``python -m localization --site sites/home [--home DIR]``.
+
+It passes the simulator's truth on with noise and localizes nothing; see localization.standin.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import logging
+import os
+import signal
+import sys
+import threading
+from pathlib import Path
+
+from localization.shell import Shell
+from localization.site_map import read_map_id
+from localization.standin import StandIn
+from wire import Misconfigured, RobotDescription, load_robot
+from wire.keys import Party
+from wire.session import open_session
+
+log = logging.getLogger("localization")
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m localization", description=__doc__)
+    parser.add_argument("--site", type=Path, required=True, help="folder with map.yaml")
+    parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
+    parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the noise (default 0)")
+    return parser.parse_args(arguments)
+
+
+def _serve(options: argparse.Namespace) -> None:
+    # Handlers first: a signal during the slow part of the start must end the process cleanly too.
+    stopped = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stopped.set())
+    robot_id = (load_robot(options.robot) if options.robot else RobotDescription()).id
+    stand_in = StandIn(read_map_id(options.site), seed=options.seed)
+    home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+    with open_session(Party.LOCALIZATION, robot_id, home) as session:
+        shell = Shell(stand_in, session)
+        gc.collect()
+        gc.freeze()
+        log.warning("STAND-IN: simulator truth plus noise, no localization; seed %d", options.seed)
+        shell.run(stopped.is_set)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Return 0 after a clean end, 2 when refused."""
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    try:
+        _serve(_options(arguments))
+    except Misconfigured as error:
+        print(f"localization: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,72 @@
+"""The stand-in as a real process: truth and odometry in, localization out, a clean end."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from localization import read_map_id
+from wire import IDENTITY, STILL, Localization, Odometry, Pose2, SimTruth, keys
+from wire.keys import Party
+from wire.session import open_session
+
+pytestmark = pytest.mark.e2e
+LIMIT_S = 20.0
+
+
+def test_it_places_odom_in_map_and_says_that_it_is_a_stand_in(
+    repository: Path, tmp_path: Path
+) -> None:
+    command = [sys.executable, "-m", "localization", "--site", "sites/two_room"]
+    process = subprocess.Popen(
+        [*command, "--home", str(tmp_path)], cwd=repository, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        answer = converse(tmp_path)
+        assert answer.map_id == read_map_id(repository / "sites" / "two_room")
+        assert answer.odom_id == "bridge-1"
+        assert answer.odom_in_map.x_m == pytest.approx(1.5, abs=0.1)
+        assert answer.odom_in_map.y_m == pytest.approx(1.9, abs=0.1)
+        process.send_signal(signal.SIGTERM)
+        _, said = process.communicate(timeout=LIMIT_S)
+        assert process.returncode == 0
+        assert "STAND-IN" in said
+    finally:
+        process.kill()
+        process.communicate(timeout=LIMIT_S)
+
+
+def converse(home: Path) -> Localization:
+    """Be simulator and bridge until the process has answered."""
+    with (
+        open_session(Party.ROBOT, "r1", home) as robot,
+        open_session(Party.BRIDGE, "r1", home) as bridge,
+    ):
+        truths, odoms = robot.publisher(keys.SIM_TRUTH), bridge.publisher(keys.ODOM)
+        answers = bridge.subscriber(keys.LOCALIZATION)
+        end_s = time.monotonic() + LIMIT_S
+        for seq in range(10_000):
+            now_s = time.monotonic()
+            assert now_s < end_s, "no answer"
+            truths.put(
+                SimTruth(
+                    boot_id="sim-1", seq=seq, stamp_s=now_s, base_in_map=Pose2(1.5, 1.9, 0.0),
+                    twist=STILL, contacts=0, contacts_total=0, real_time_factor=1.0,
+                )
+            )  # fmt: skip
+            odoms.put(
+                Odometry(
+                    odom_id="bridge-1", seq=seq, stamp_s=now_s, base_in_odom=IDENTITY,
+                    twist=STILL, yaw_rate_radps=None,
+                )
+            )  # fmt: skip
+            answer = answers.newest()
+            if answer is not None:
+                return answer
+            time.sleep(0.02)
+    raise AssertionError("no answer")
