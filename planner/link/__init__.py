@@ -1,0 +1,48 @@
+"""Be the planner's one way to the bridge. The door of this package.
+
+For the API's handlers (``link`` is ``missions.link``):
+
+- ``link.status -> Aged[Status] | None`` (``.value``, ``.age_s``), likewise ``localization``,
+  ``odometry``, ``scan``; ``link.obstacles()`` gives lidar points in ``map``.
+- ``await link.operate(kind, request) -> wire.Answer``: arm, disarm, estop, reset, resume, repeated
+  until echoed; raises ``BridgeSilent`` after 2 s. ``answer.accepted`` is the verdict.
+- ``link.unsigned(source, proof=None, request_id="") -> OpRequest`` relays the caller's own proof or
+  none; ``link.sign_virtual(kind, source) -> OpRequest`` signs on a virtual drive and raises
+  ``OperatorProofNeeded`` (HTTP 403) on any other.
+- ``await link.stop(source) -> StopResult``: never refused, never raises; but handlers call
+  ``missions.stop`` so that the missions hear it too.
+- ``link.teleop(wire.Velocity)``.
+
+``LinkError`` carries ``code`` and ``message`` = {"en", "zh"}.
+"""
+
+from planner.link.bus import Bus, WireBus
+from planner.link.errors import BridgeSilent, LinkError, OperatorProofNeeded
+from planner.link.link import Aged, Link, StopResult
+from planner.link.owner import (
+    STANDING,
+    Course,
+    Identity,
+    OwnerState,
+    on_course,
+    on_status,
+    owns,
+)
+
+__all__ = [
+    "STANDING",
+    "Aged",
+    "BridgeSilent",
+    "Bus",
+    "Course",
+    "Identity",
+    "Link",
+    "LinkError",
+    "OperatorProofNeeded",
+    "OwnerState",
+    "StopResult",
+    "WireBus",
+    "on_course",
+    "on_status",
+    "owns",
+]

@@ -1,0 +1,112 @@
+"""Hold the planner's ends of the wire: what it hears, what it says. No thread, no decision.
+
+Every read is a non-blocking drain of a ring and every send drops rather than waits, so that the
+event loop may do both.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from wire import (
+    Event,
+    Grant,
+    Heartbeat,
+    Hello,
+    Localization,
+    Odometry,
+    OpKind,
+    OpRequest,
+    Record,
+    Scan,
+    Status,
+    Stop,
+    Velocity,
+    Waypoints,
+)
+from wire import keys as k
+
+if TYPE_CHECKING:
+    from wire.session import Session
+
+
+class Bus(Protocol):
+    """Be the wire to the link: a session, or a fake one in tests."""
+
+    def status(self) -> Status | None:
+        """Take the newest bridge status that was not taken yet."""
+
+    def localization(self) -> Localization | None:
+        """Take the newest localization that was not taken yet."""
+
+    def odometry(self) -> Odometry | None:
+        """Take the newest odometry that was not taken yet."""
+
+    def scan(self) -> Scan | None:
+        """Take the newest scan that was not taken yet."""
+
+    def events(self) -> tuple[Event, ...]:
+        """Take the bridge's events that were not taken yet, oldest first."""
+
+    def send(self, message: Record) -> None:
+        """Send a command; its type says on which key."""
+
+    def ask(self, kind: OpKind, request: OpRequest) -> None:
+        """Send a request of the operator."""
+
+    def steer(self, velocity: Velocity) -> None:
+        """Send a velocity by hand."""
+
+
+class WireBus:
+    """Join a wire session's publishers and subscribers."""
+
+    def __init__(self, session: Session) -> None:
+        self._status = session.subscriber(k.STATUS)
+        self._localization = session.subscriber(k.LOCALIZATION)
+        self._odometry = session.subscriber(k.ODOM)
+        self._scan = session.subscriber(k.SCAN)
+        self._events = session.subscriber(k.EVENT)
+        self._hello = session.publisher(k.HELLO)
+        self._grant = session.publisher(k.GRANT)
+        self._heartbeat = session.publisher(k.HEARTBEAT)
+        self._waypoints = session.publisher(k.WAYPOINTS)
+        self._stop = session.publisher(k.STOP)
+        self._teleop = session.publisher(k.TELEOP)
+        self._ops = {key.path.removeprefix("op/"): session.publisher(key) for key in k.OPS}
+
+    def status(self) -> Status | None:
+        return self._status.newest()
+
+    def localization(self) -> Localization | None:
+        return self._localization.newest()
+
+    def odometry(self) -> Odometry | None:
+        return self._odometry.newest()
+
+    def scan(self) -> Scan | None:
+        return self._scan.newest()
+
+    def events(self) -> tuple[Event, ...]:
+        return tuple(item for item in self._events.drain().items if isinstance(item, Event))
+
+    def send(self, message: Record) -> None:
+        match message:
+            case Heartbeat():
+                self._heartbeat.put(message)
+            case Waypoints():
+                self._waypoints.put(message)
+            case Grant():
+                self._grant.put(message)
+            case Hello():
+                self._hello.put(message)
+            case Stop():
+                self._stop.put(message)
+            case _:
+                raise TypeError(f"{type(message).__name__} is no command of an owner")
+
+    def ask(self, kind: OpKind, request: OpRequest) -> None:
+        self._ops[kind].put(request)
+
+    def steer(self, velocity: Velocity) -> None:
+        self._teleop.put(velocity)

@@ -1,0 +1,85 @@
+"""List what the reducer may ask of the world. Motion is not among them: see ``wish``.
+
+What is streamed to the bridge is a level, not an event, so that no lost effect can keep a robot
+moving: after every step the caller reads ``wish(book)`` anew.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planner.mission.records import Mission
+from planner.plan import Language
+from wire import Pose2
+
+
+@dataclass(frozen=True, slots=True)
+class AskBrain:
+    """Have a sentence understood; answer with ``Planned``."""
+
+    id: str
+    text: str
+    language: Language
+    question: str | None = None
+    """What we asked the person last, where ``replies`` answers it."""
+    replies: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class DropBrain:
+    """Nobody waits for this answer any more."""
+
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
+class AskRoute:
+    """Have a way searched; answer with ``Routed``."""
+
+    id: str
+    ticket: int
+    start: Pose2
+    goal: Pose2
+    heading: bool
+    obstacles: bool
+    """Count what the lidar sees now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Journal:
+    """Write these records in one transaction; answer with ``Journalled(entry)``."""
+
+    entry: int
+    missions: tuple[Mission, ...]
+    queue: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SayAloud:
+    """Speak to the people near the robot. At most once, even across a crash."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Changed:
+    """Tell who listens that a goal is not what it was."""
+
+    id: str
+
+
+Effect = AskBrain | DropBrain | AskRoute | Journal | SayAloud | Changed
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """Say what the bridge should be asked for now. Empty: stand, and ask for nothing."""
+
+    mission: str | None = None
+    """Ask for a grant for this mission."""
+    leg: int | None = None
+    """Stream this leg's path; None: stand."""
+
+
+STAND = Wish()

@@ -1,0 +1,141 @@
+"""List what can happen to the missions of a robot. Ids come in; none is minted here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planner.mission.records import Mission
+from planner.plan import Answer, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
+from wire import Status
+
+
+@dataclass(frozen=True, slots=True)
+class Submitted:
+    """Somebody gave a goal. ``stop``: the sentence itself is an order to stop."""
+
+    id: str
+    text: str
+    language: Language
+    confirm: bool = False
+    replace: bool = False
+    operator: bool = True
+    """A person gave it now: the hold that stands is about to be cleared."""
+    stop: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """The brain answered; ``failure`` where there is no usable plan."""
+
+    id: str
+    plan: StepPlan | Answer | Clarify | Refuse | None
+    failure: Outcome | None = None
+    brain: BrainTag | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Routed:
+    """A route came, or the code of why there is none."""
+
+    id: str
+    ticket: int
+    failure: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """The bridge spoke. ``off_path``: the robot is too far from the path that is streamed."""
+
+    status: Status
+    off_path: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Journalled:
+    """All entries up to ``entry`` are on disk."""
+
+    entry: int
+
+
+@dataclass(frozen=True, slots=True)
+class Cancel:
+    """End a goal."""
+
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """Keep a goal's place, standing."""
+
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Resume:
+    """Go on with a paused goal, or let a goal that is kept waiting take its turn."""
+
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Confirm:
+    """Say yes to a plan."""
+
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """Answer a question."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """Put a queued goal before another, or last."""
+
+    id: str
+    before: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Stopped:
+    """Somebody said stop. Running and thinking goals pause, queued ones are kept waiting."""
+
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class Restarted:
+    """A new planner process took up the journal. Nothing moves until a person acts."""
+
+    missions: tuple[Mission, ...]
+    queue: tuple[str, ...]
+    wall_offset_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """Time went by."""
+
+
+Command = Cancel | Pause | Resume | Confirm | Reply | Move
+Event = (
+    Submitted
+    | Planned
+    | Routed
+    | Seen
+    | Journalled
+    | Cancel
+    | Pause
+    | Resume
+    | Confirm
+    | Reply
+    | Move
+    | Stopped
+    | Restarted
+    | Tick
+)

@@ -1,0 +1,213 @@
+"""Take goals in and carry them to the queue: given, understood, asked back, confirmed, stopped."""
+
+from __future__ import annotations
+
+from planner.mission.effects import AskBrain
+from planner.mission.events import Planned, Restarted, Submitted
+from planner.mission.queue import (
+    cancel,
+    enqueue,
+    finish,
+    hold_queue,
+    pardon,
+    pause_planning,
+    pause_running,
+    release_queue,
+)
+from planner.mission.records import Mission
+from planner.mission.turn import Turn
+from planner.plan import (
+    RUNNABLE,
+    Answer,
+    Clarify,
+    Code,
+    GoalState,
+    Outcome,
+    PauseReason,
+    Refuse,
+    StepPlan,
+    message,
+    places_of,
+    plan_record,
+    same,
+)
+
+
+def submit(turn: Turn, event: Submitted) -> None:
+    """Take a goal in. One id is one goal: a repeated id changes nothing."""
+    if event.id in turn.book.missions:
+        return
+    if event.stop:
+        stop(turn)
+    elif event.operator:
+        pardon(turn)
+    order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
+    turn.set(order=order)
+    pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    mission = Mission(
+        id=event.id,
+        order=order,
+        text=event.text,
+        language=event.language,
+        state=GoalState.PLANNING,
+        confirm=event.confirm,
+        replace=event.replace,
+        accepted_at=(pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None,
+        created_unix_s=now_unix_s,
+        updated_unix_s=now_unix_s,
+    )
+    if event.stop:
+        said = Outcome(code=Code.STOPPED, message=message(Code.STOPPED), metres=0.0, seconds=0.0)
+        turn.put(mission, state=GoalState.SUCCEEDED, outcome=said)
+        return
+    _think(turn, mission)
+
+
+def _think(turn: Turn, mission: Mission) -> None:
+    question = mission.plan.text if mission.plan is not None and mission.replies else None
+    turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None)
+    asked = question.of(mission.language) if question is not None else None
+    turn.emit(AskBrain(mission.id, mission.text, mission.language, asked, mission.replies))
+
+
+def planned(turn: Turn, event: Planned) -> None:
+    """Take the brain's answer, if somebody still waits for it."""
+    mission = turn.mission(event.id)
+    if mission is None or mission.state is not GoalState.PLANNING:
+        return
+    plan = event.plan
+    if plan is None:
+        outcome = event.failure or _bad_plan("no answer")
+        state = GoalState.FAILED if outcome.code is Code.MODEL_UNAVAILABLE else GoalState.REFUSED
+        turn.put(mission, brain=event.brain)
+        finish(turn, turn.book.missions[mission.id], state, outcome, outcome.code.value)
+        return
+    mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
+    match plan:
+        case Answer():
+            words = message(Code.ANSWERED, text=plan.text)
+            _done(turn, mission, GoalState.SUCCEEDED, Code.ANSWERED, Outcome(
+                code=Code.ANSWERED, message=words))  # fmt: skip
+        case Refuse():
+            _done(turn, mission, GoalState.REFUSED, plan.code, Outcome(
+                code=plan.code, message=plan.reason))  # fmt: skip
+        case Clarify():
+            said = Outcome(code=plan.code, message=plan.question)
+            turn.put(
+                mission, state=GoalState.NEEDS_CLARIFICATION, reason=plan.code.value, outcome=said
+            )
+        case StepPlan():
+            _walkable(turn, mission, plan)
+
+
+def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: Outcome) -> None:
+    reason = code.value if state is GoalState.REFUSED else None
+    finish(turn, mission, state, outcome, reason)
+
+
+def _walkable(turn: Turn, mission: Mission, plan: StepPlan) -> None:
+    """Be the last gate: what can't be walked is refused before anything moves."""
+    lacking = next((s for s in plan.steps if s.kind not in RUNNABLE), None)
+    targets = turn.book.facts.targets
+    unknown = [p for s in plan.steps for p in places_of(s) if p not in targets]
+    outcome: Outcome | None = None
+    if not plan.steps:
+        outcome = _bad_plan("no steps")
+    elif lacking is not None:
+        said = message(Code.NO_CAPABILITY, part=same(lacking.kind))
+        outcome = Outcome(code=Code.NO_CAPABILITY, message=said)
+    elif unknown:
+        known = same(", ".join(sorted(targets)))
+        said = message(Code.UNKNOWN_PLACE, name=unknown[0], near="", known=known)
+        outcome = Outcome(code=Code.UNKNOWN_PLACE, message=said)
+    if outcome is not None:
+        finish(turn, mission, GoalState.REFUSED, outcome, outcome.code.value)
+    elif mission.confirm:
+        turn.put(mission, state=GoalState.AWAITING_CONFIRMATION)
+    else:
+        ready(turn, mission)
+
+
+def _bad_plan(why: str) -> Outcome:
+    return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
+
+
+def ready(turn: Turn, mission: Mission) -> None:
+    """Let a planned goal wait for the robot, or take it from the one it replaces."""
+    if mission.replace and turn.running is not None:
+        cancel(turn, turn.running)
+    enqueue(turn, mission, first=mission.replace)
+
+
+def confirm(turn: Turn, mission: Mission) -> None:
+    """Take a person's yes."""
+    pardon(turn)
+    ready(turn, mission)
+
+
+def reply(turn: Turn, mission: Mission, text: str) -> None:
+    """Take a person's answer and think again."""
+    pardon(turn)
+    _think(turn, turn.put(mission, replies=(*mission.replies, text)))
+
+
+def pause(turn: Turn, mission: Mission) -> None:
+    """Pause a goal; if it was running, those who wait are kept waiting."""
+    reason = PauseReason.OPERATOR.value
+    if mission.state is GoalState.RUNNING:
+        pause_running(turn, reason)
+    elif mission.state is GoalState.PLANNING:
+        pause_planning(turn, mission, reason)
+    else:
+        turn.put(mission, held=True)
+
+
+def resume(turn: Turn, mission: Mission) -> None:
+    """Go on with a paused goal and let the queue go on; or let one that is kept waiting go."""
+    pardon(turn)
+    if mission.state is GoalState.QUEUED:
+        turn.put(mission, held=False)
+        return
+    release_queue(turn)
+    if mission.plan is None or not mission.steps:
+        _think(turn, mission)
+    else:
+        turn.put(mission, outcome=None)
+        enqueue(turn, turn.book.missions[mission.id], first=True)
+
+
+def stop(turn: Turn) -> None:
+    """Stand. Running and thinking goals pause; those who wait are kept waiting."""
+    reason = PauseReason.STOP.value
+    pause_running(turn, reason)
+    for mission in tuple(turn.book.missions.values()):
+        if mission.state is GoalState.PLANNING:
+            pause_planning(turn, mission, reason)
+    hold_queue(turn)
+    turn.set(pardoned=None, pardon_until_s=float("-inf"))
+
+
+def restart(turn: Turn, event: Restarted) -> None:
+    """Take up the journal of a process that is gone: nothing of it goes on by itself."""
+    missions = {m.id: m for m in sorted(event.missions, key=lambda m: m.order)}
+    order = max((m.order for m in missions.values()), default=0)
+    turn.set(
+        missions=missions,
+        queue=_queue(event, missions),
+        running=None,
+        walk=None,
+        order=order,
+        wall_offset_s=event.wall_offset_s,
+    )
+    for mission in missions.values():
+        if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
+            reason = PauseReason.PLANNER_RESTARTED.value
+            turn.put(mission, state=GoalState.PAUSED, reason=reason)
+    hold_queue(turn)
+
+
+def _queue(event: Restarted, missions: dict[str, Mission]) -> tuple[str, ...]:
+    """Return who waits, in the order that was journalled; whoever is missing there comes last."""
+    waiting = [m.id for m in missions.values() if m.state is GoalState.QUEUED]
+    known = [i for i in dict.fromkeys(event.queue) if i in waiting]
+    return (*known, *(i for i in waiting if i not in known))

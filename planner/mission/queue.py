@@ -1,0 +1,184 @@
+"""Keep the queue: who has the robot, who waits, who is kept waiting until a person acts.
+
+One mission runs at a time. A pause frees the robot but keeps those waiting where they are; only a
+goal that a person gives afterwards, or a resume, goes on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from planner.mission.effects import DropBrain
+from planner.mission.records import Mission
+from planner.mission.turn import Turn
+from planner.mission.verdict import ended, failure
+from planner.plan import Code, GoalState, Outcome, StepState, message
+
+PARDON_S = 2.0
+"""A request that clears the bridge's hold is echoed within 2 s or was not heard."""
+
+
+def enqueue(turn: Turn, mission: Mission, *, first: bool = False) -> None:
+    """Let a planned mission wait for the robot."""
+    waiting = tuple(i for i in turn.book.queue if i != mission.id)
+    turn.put(mission, state=GoalState.QUEUED, reason=None, held=False)
+    turn.set(queue=(mission.id, *waiting) if first else (*waiting, mission.id))
+
+
+def dequeue(turn: Turn, mission_id: str) -> None:
+    """Take a mission out of the queue, if it is there."""
+    turn.set(queue=tuple(i for i in turn.book.queue if i != mission_id))
+
+
+def hold_queue(turn: Turn) -> None:
+    """Keep everyone who waits now waiting until a person acts."""
+    for mission_id in turn.book.queue:
+        mission = turn.book.missions[mission_id]
+        if not mission.held:
+            turn.put(mission, held=True)
+
+
+def release_queue(turn: Turn) -> None:
+    """Let those who were kept waiting take their turns."""
+    for mission_id in turn.book.queue:
+        mission = turn.book.missions[mission_id]
+        if mission.held:
+            turn.put(mission, held=False)
+
+
+def pardon(turn: Turn) -> None:
+    """Note that a person acted: the hold that stands now is about to be cleared."""
+    held = turn.book.status.held if turn.book.status is not None else None
+    turn.set(pardoned=held.id if held else None, pardon_until_s=turn.now_s + PARDON_S)
+
+
+def standing_hold(turn: Turn) -> str | None:
+    """Return the pause reason of a hold that no person has answered, or None."""
+    status = turn.book.status
+    if status is None or status.held is None:
+        return None
+    pardoned = status.held.id == turn.book.pardoned and turn.now_s <= turn.book.pardon_until_s
+    return None if pardoned else status.held.reason.value
+
+
+def settle_walk(turn: Turn) -> Mission | None:
+    """Write what the running step measured into its mission; the robot is free afterwards."""
+    mission, walk = turn.running, turn.book.walk
+    if mission is not None and walk is not None:
+        limited = dict(mission.limited)
+        for name, count in walk.limited.items():
+            limited[name] = limited.get(name, 0) + count
+        metres = round(mission.metres + walk.metres, 4)
+        mission = turn.put(mission, metres=metres, limited=limited)
+    turn.set(walk=None)
+    return mission
+
+
+def pause_running(turn: Turn, reason: str) -> None:
+    """Stand still and keep the running mission's place; those who wait are kept waiting."""
+    mission = settle_walk(turn)
+    if mission is not None:
+        turn.put(mission, state=GoalState.PAUSED, reason=reason, outcome=_hint(reason))
+        turn.set(running=None)
+    hold_queue(turn)
+
+
+def _hint(reason: str) -> Outcome | None:
+    """Tell a person what a paused goal needs, where the reason alone doesn't."""
+    if reason != "disarmed":
+        return None
+    return Outcome(code=Code.NOT_ARMED, message=message(Code.NOT_ARMED))
+
+
+def pause_planning(turn: Turn, mission: Mission, reason: str) -> None:
+    """Stop thinking about a goal; a resume thinks anew."""
+    turn.emit(DropBrain(mission.id))
+    turn.put(mission, state=GoalState.PAUSED, reason=reason)
+
+
+def end_running(
+    turn: Turn, state: GoalState, code: Code, reason: str | None = None, row: str = ""
+) -> None:
+    """End the running mission with its figures; steps never begun are skipped."""
+    mission = settle_walk(turn)
+    if mission is None:
+        return
+    step = mission.steps[mission.step] if mission.step < len(mission.steps) else None
+    said = failure(turn.book.facts, mission, step, code, row)
+    finish(turn, mission, state, ended(
+        turn.book.facts, mission, None, turn.book.status, turn.now_s + turn.book.wall_offset_s,
+        code=code, said=said,
+    ), reason)  # fmt: skip
+
+
+def finish(
+    turn: Turn, mission: Mission, state: GoalState, outcome: Outcome, reason: str | None = None
+) -> None:
+    """Write the end of a mission, wherever it stood, and free what it had."""
+    plan = mission.plan
+    if plan is not None and plan.steps:
+        after = {StepState.RUNNING: StepState.FAILED, StepState.PENDING: StepState.SKIPPED}
+        cancelled = state is GoalState.CANCELLED
+        steps = tuple(
+            s.model_copy(
+                update={
+                    "state": StepState.SKIPPED if cancelled and s.state in after
+                    else after.get(s.state, s.state),
+                    "reason": reason if s.state is StepState.RUNNING else s.reason,
+                }
+            )
+            for s in plan.steps
+        )  # fmt: skip
+        plan = plan.model_copy(update={"steps": steps})
+    turn.put(mission, state=state, outcome=outcome, reason=reason, plan=plan, held=False)
+    dequeue(turn, mission.id)
+    if turn.book.running == mission.id:
+        turn.set(running=None, walk=None)
+
+
+def cancel(turn: Turn, mission: Mission) -> None:
+    """End a goal because somebody asked."""
+    if mission.state is GoalState.PLANNING:
+        turn.emit(DropBrain(mission.id))
+    if turn.book.running == mission.id:
+        end_running(turn, GoalState.CANCELLED, Code.CANCELLED)
+        return
+    outcome = Outcome(code=Code.CANCELLED, message=message(Code.CANCELLED))
+    if mission.metres > 0.0:
+        outcome = ended(
+            turn.book.facts, mission, None, turn.book.status,
+            turn.now_s + turn.book.wall_offset_s, code=Code.CANCELLED, said=outcome.message,
+        )  # fmt: skip
+    finish(turn, mission, GoalState.CANCELLED, outcome)
+
+
+def reorder(turn: Turn, mission_id: str, before: str | None) -> None:
+    """Put a queued mission before another, or last."""
+    others = [i for i in turn.book.queue if i != mission_id]
+    at = others.index(before) if before is not None and before in others else len(others)
+    turn.set(queue=(*others[:at], mission_id, *others[at:]))
+    for moved in turn.book.queue:  # their positions changed: whoever listens must hear it
+        turn.put(turn.book.missions[moved])
+
+
+def next_up(turn: Turn) -> Mission | None:
+    """Return the mission that may have the robot now, or None."""
+    if turn.book.running is not None or standing_hold(turn) is not None:
+        return None
+    waiting = (turn.book.missions[i] for i in turn.book.queue)
+    return next((m for m in waiting if not m.held), None)
+
+
+def note_step(turn: Turn, mission: Mission, **changes: object) -> Mission:
+    """Change the record of the mission's current step."""
+    if mission.plan is None:
+        return mission
+    steps = list(mission.plan.steps)
+    steps[mission.step] = steps[mission.step].model_copy(update=changes)
+    return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
+
+
+def lose_leg(turn: Turn) -> None:
+    """Stand: nothing of the leg is streamed any more."""
+    if turn.book.walk is not None:
+        turn.set(walk=replace(turn.book.walk, leg=None))

@@ -1,0 +1,147 @@
+"""Own what is remembered of missions: one record each, and the book of one robot.
+
+A ``Mission`` is what the journal keeps; it changes only at transitions. ``Walk`` is what the
+running step needs between two statuses and dies with the process. Data only, no clock: ``*_s`` are
+on the caller's monotonic clock, ``*_unix_s`` for people.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from pydantic import Field
+
+from planner.plan import (
+    ENDED,
+    Bilingual,
+    BrainTag,
+    Frozen,
+    GoalState,
+    Language,
+    Outcome,
+    PlanRecord,
+    StepRecord,
+)
+from wire import Pose2, Status
+
+MAX_OPEN = 33
+"""Goals that have not ended: one running and 32 that wait."""
+MAX_ENDED = 200
+"""Ended goals kept at hand; the journal keeps all."""
+
+
+class Mission(Frozen):
+    """Keep one goal whole: enough to show it, and to take it up again after a crash."""
+
+    id: str
+    order: int
+    """Rises with every goal given."""
+    text: str
+    language: Language
+    state: GoalState
+    reason: str | None = None
+    replies: tuple[str, ...] = ()
+    """What the person answered to our questions, in order."""
+    plan: PlanRecord | None = None
+    outcome: Outcome | None = None
+    brain: BrainTag | None = None
+    confirm: bool = False
+    """Wait for a yes before the first step."""
+    replace: bool = False
+    held: bool = False
+    """Queued, and kept there until a person resumes or cancels it."""
+    step: int = 0
+    leg: int = 0
+    """The newest leg of this mission; legs only rise."""
+    accepted_at: tuple[float, float, float] | None = None
+    """Where the robot stood when the goal was accepted: x [m], y [m], yaw [rad] in ``map``."""
+    metres: float = 0.0
+    limited: dict[str, int] = Field(default_factory=dict)
+    """Statuses during which the bridge's limit of that name was the nearest one."""
+    created_unix_s: float
+    updated_unix_s: float
+
+    @property
+    def ended(self) -> bool:
+        return self.state in ENDED
+
+    @property
+    def steps(self) -> tuple[StepRecord, ...]:
+        return self.plan.steps if self.plan is not None else ()
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Describe a room or place that can be driven to."""
+
+    id: str
+    room: bool
+    name: Bilingual
+    pose: Pose2
+    polygon: tuple[tuple[float, float], ...] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Hold what the reducer knows of the site. No map: routes are somebody else's."""
+
+    targets: dict[str, Target]
+    home: str
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """Remember the running step between two statuses."""
+
+    kind: Literal["drive", "wait", "say"]
+    record: int
+    """The journal entry that says this step started; nothing moves or speaks before it is safe."""
+    goal: Pose2 | None = None
+    heading: bool = False
+    """The goal's yaw matters too."""
+    until_s: float | None = None
+    """When a wait ends."""
+    ticket: int | None = None
+    """The route that is being searched."""
+    ticket_obstacles: bool = False
+    leg: int | None = None
+    """The leg that is streamed; None: stand."""
+    route_when_standing: bool = False
+    routes: int = 0
+    """Routes asked for in this step because one was lost or refused, not because of obstacles."""
+    detours_failed: int = 0
+    detours: int = 0
+    retry_s: float | None = None
+    """When the next try is due after a failed route."""
+    blocked_since_s: float | None = None
+    refused_since_s: float | None = None
+    row_since_s: float | None = None
+    idle_since_s: float | None = None
+    jumped: bool = False
+    metres: float = 0.0
+    limited: dict[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Book:
+    """Hold all missions of one robot. Frozen; dictionaries in it are replaced, never changed."""
+
+    facts: Facts
+    wall_offset_s: float = 0.0
+    """Unix time less the monotonic clock that ``now_s`` is on."""
+    missions: dict[str, Mission] = field(default_factory=dict)
+    queue: tuple[str, ...] = ()
+    running: str | None = None
+    walk: Walk | None = None
+    status: Status | None = None
+    status_s: float = float("-inf")
+    pardoned: str | None = None
+    """The bridge's hold that stood when a person last acted; it is given time to clear."""
+    pardon_until_s: float = float("-inf")
+    order: int = 0
+    tickets: int = 0
+    written: int = 0
+    """Journal entries asked for."""
+    safe: int = 0
+    """Journal entries known to be on disk."""

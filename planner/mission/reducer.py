@@ -1,0 +1,116 @@
+"""Advance the missions of one robot by one event. Pure: no clock, no IO, no chance, no ids minted.
+
+Laws, each held by a test: never two missions run; nothing moves or speaks before the journal holds
+its beginning; after a restart nothing moves until a person acts; a stop ends all streaming at once.
+What the bridge should be asked for is a level, read from the book by ``wish``.
+"""
+
+from __future__ import annotations
+
+from planner.mission.effects import STAND, AskBrain, Effect, Wish
+from planner.mission.events import (
+    Cancel,
+    Confirm,
+    Event,
+    Journalled,
+    Move,
+    Pause,
+    Planned,
+    Reply,
+    Restarted,
+    Resume,
+    Routed,
+    Seen,
+    Stopped,
+    Submitted,
+    Tick,
+)
+from planner.mission.goals import (
+    confirm,
+    pause,
+    planned,
+    reply,
+    restart,
+    resume,
+    stop,
+    submit,
+)
+from planner.mission.queue import cancel, reorder
+from planner.mission.records import Book
+from planner.mission.table import refusal
+from planner.mission.turn import Turn
+from planner.mission.verdict import MOTION
+from planner.mission.walk import on_routed, speak_if_safe, start_next
+from planner.mission.watch import on_status, on_tick
+
+__all__ = ["AskBrain", "advance", "wish"]
+
+
+def advance(book: Book, event: Event, now_s: float) -> tuple[Book, tuple[Effect, ...]]:
+    """Return the next book and what to ask of the world. Same arguments, same answer.
+
+    A command that the state doesn't allow changes nothing; ask ``table.refusal`` why.
+    """
+    turn = Turn(book, now_s)
+    if isinstance(event, (Cancel, Pause, Resume, Confirm, Reply, Move)):
+        _command(turn, event)
+    else:
+        _fact(turn, event)
+    start_next(turn)
+    speak_if_safe(turn)
+    return turn.close()
+
+
+def wish(book: Book) -> Wish:
+    """Return what the bridge should be asked for now.
+
+    A grant may be asked for as soon as a mission that drives has the robot; a leg is streamed only
+    once the step's beginning is on disk.
+    """
+    mission = book.missions.get(book.running) if book.running is not None else None
+    if mission is None or not any(s.kind in MOTION for s in mission.steps[mission.step :]):
+        return STAND
+    walk = book.walk
+    moves = walk is not None and walk.kind == "drive" and book.safe >= walk.record
+    return Wish(mission.id, walk.leg if walk is not None and moves else None)
+
+
+def _fact(
+    turn: Turn, event: Submitted | Planned | Routed | Seen | Journalled | Stopped | Restarted | Tick
+) -> None:
+    match event:
+        case Seen():
+            on_status(turn, event.status, event.off_path)
+        case Tick():
+            on_tick(turn)
+        case Journalled():
+            turn.set(safe=max(turn.book.safe, min(event.entry, turn.book.written)))
+        case Routed():
+            on_routed(turn, event.id, event.ticket, event.failure)
+        case Planned():
+            planned(turn, event)
+        case Submitted():
+            submit(turn, event)
+        case Stopped():
+            stop(turn)
+        case Restarted():
+            restart(turn, event)
+
+
+def _command(turn: Turn, event: Cancel | Pause | Resume | Confirm | Reply | Move) -> None:
+    mission = turn.mission(event.id)
+    if mission is None or refusal(turn.book, event) is not None:
+        return
+    match event:
+        case Cancel():
+            cancel(turn, mission)
+        case Pause():
+            pause(turn, mission)
+        case Resume():
+            resume(turn, mission)
+        case Confirm():
+            confirm(turn, mission)
+        case Reply():
+            reply(turn, mission, event.text)
+        case Move():
+            reorder(turn, event.id, event.before)

@@ -1,0 +1,118 @@
+"""Say how a goal ended, with figures: what was asked, what was reached, how far, what limited it.
+
+"Arrived" is what odometry and the bridge say, never a model.
+"""
+
+from __future__ import annotations
+
+from planner.mission.records import Facts, Mission, Walk
+from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message, same
+from planner.world.polygon import area_m2, contains
+from wire import Pose2, Status
+
+MAX_LIMITS_NAMED = 5
+MIN_LIMIT_SHARE = 0.02
+"""A limit that was the nearest one in under 2 % of the statuses explains nothing."""
+MOTION = frozenset({"go_to", "return_home", "come_back"})
+BUDGET = Bilingual(en="distance or time", zh="里程或时间")
+
+
+def spot_at(facts: Facts, pose: Pose2 | None, place: str | None = None) -> Spot:
+    """Name where a pose is: its room and the point itself."""
+    if pose is None:
+        return Spot(place=place)
+    rooms = [
+        (area_m2(t.polygon), t.id)
+        for t in facts.targets.values()
+        if t.room and t.polygon is not None and contains(t.polygon, pose.x_m, pose.y_m)
+    ]
+    return Spot(
+        place=place,
+        room=min(rooms)[1] if rooms else None,
+        x_m=round(pose.x_m, 3),
+        y_m=round(pose.y_m, 3),
+        yaw_rad=round(pose.yaw_rad, 4),
+    )
+
+
+def asked_spot(facts: Facts, mission: Mission, step: StepRecord) -> Spot | None:
+    """Name where a step was to go, or None where it goes nowhere."""
+    if step.kind == "come_back":
+        return spot_at(facts, accepted_at(mission))
+    target = facts.targets.get(facts.home if step.kind == "return_home" else step.place or "")
+    if target is None:
+        return Spot(place=step.place) if step.kind in MOTION else None
+    return spot_at(facts, target.pose, target.id)
+
+
+def accepted_at(mission: Mission) -> Pose2 | None:
+    """Return the pose in ``map`` at which the goal was accepted, where it was known."""
+    return Pose2(*mission.accepted_at) if mission.accepted_at is not None else None
+
+
+def place_name(facts: Facts, mission: Mission, step: StepRecord | None) -> Bilingual:
+    """Name a step's destination for a person."""
+    if step is not None and step.kind == "come_back":
+        return Bilingual(en="where you gave the order", zh="下达指令的地方")
+    wanted = facts.home if step is not None and step.kind == "return_home" else None
+    wanted = wanted or (step.place if step is not None else None) or ""
+    target = facts.targets.get(wanted)
+    return target.name if target is not None else same(wanted or "?")
+
+
+def limits(mission: Mission, walk: Walk | None) -> tuple[str, ...]:
+    """Return the bridge's names for what held the speed down, the longest first."""
+    counts = dict(mission.limited)
+    for name, count in (walk.limited if walk is not None else {}).items():
+        counts[name] = counts.get(name, 0) + count
+    total = sum(counts.values())
+    named = sorted((-n, name) for name, n in counts.items() if n >= MIN_LIMIT_SHARE * total)
+    return tuple(name for _, name in named[:MAX_LIMITS_NAMED])
+
+
+def ended(
+    facts: Facts,
+    mission: Mission,
+    walk: Walk | None,
+    status: Status | None,
+    now_unix_s: float,
+    *,
+    code: Code,
+    said: Bilingual,
+) -> Outcome:
+    """Return the outcome of a mission that had begun, with the bridge's figures."""
+    drives = [s for s in mission.steps if s.kind in MOTION]
+    tried = [s for s in drives if s.state is not StepState.PENDING]
+    last = tried[-1] if tried else (drives[0] if drives else None)
+    pose = status.base_in_map if status is not None else None
+    return Outcome(
+        code=code,
+        message=said,
+        asked=asked_spot(facts, mission, last) if last is not None else None,
+        reached=(last.reached if last is not None and last.reached else None)
+        or (spot_at(facts, pose) if tried else None),
+        metres=round(mission.metres + (walk.metres if walk is not None else 0.0), 3),
+        seconds=round(max(0.0, now_unix_s - mission.created_unix_s), 3),
+        limited_by=limits(mission, walk),
+    )
+
+
+def success(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:
+    """Return the code and sentence of a mission whose every step is done."""
+    drives = [s for s in mission.steps if s.kind in MOTION]
+    if drives:
+        return Code.ARRIVED, message(Code.ARRIVED, place=place_name(facts, mission, drives[-1]))
+    return Code.DONE, message(Code.DONE)
+
+
+def failure(
+    facts: Facts, mission: Mission, step: StepRecord | None, code: Code, row: str
+) -> Bilingual:
+    """Return the sentence of a mission that failed on its way."""
+    if code in (Code.BLOCKED, Code.NO_ROUTE):
+        return message(code, place=place_name(facts, mission, step))
+    if code is Code.OUT_OF_BUDGET:
+        return message(code, budget=BUDGET)
+    if code is Code.FAULT:
+        return message(code, row=row)
+    return message(code)
