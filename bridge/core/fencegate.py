@@ -7,11 +7,12 @@ back in. Knows no lidar, no modes.
 
 from __future__ import annotations
 
-from math import hypot
+from math import inf
 from typing import TYPE_CHECKING
 
-from bridge.core.freespace import STANDING_MPS, path_decel_mps2
+from bridge.core.freespace import TURNING_MPS
 from bridge.core.odometry import along_arc
+from bridge.core.stopping import STANDING_MPS, stop_length_m
 
 if TYPE_CHECKING:
     from bridge.core.fence import Fence
@@ -43,7 +44,9 @@ def fence_scale(
         reaction: how long the robot goes on before it slows [s]: age of the pose, lag, jerk.
     """
     speed = abs(twist.v_mps)
-    if speed == 0.0 and abs(twist.w_radps) < 1e6:
+    if not (speed < inf and abs(twist.w_radps) < inf):
+        return 0.0
+    if speed < TURNING_MPS:
         return 1.0
     length = stop_length_m(twist, base, limits, reaction)
     here = fence.margin_m(base_in_map.x_m, base_in_map.y_m)
@@ -52,12 +55,6 @@ def fence_scale(
     if here < FENCE_MARGIN_M and _inward(fence, base_in_map, twist, here):
         return min(1.0, INWARD_MPS / speed)
     return _largest(fence, base_in_map, twist, base, limits, reaction)
-
-
-def stop_length_m(twist: Twist2, base: Base, limits: Limits, reaction: float) -> float:
-    """Return the path until standstill [m]: v t + v^2 / 2a."""
-    speed = abs(twist.v_mps)
-    return speed * reaction + speed * speed / (2 * path_decel_mps2(twist, base, limits))
 
 
 def _largest(
@@ -99,5 +96,4 @@ def _inward(fence: Fence, start: Pose2, twist: Twist2, here: float) -> bool:
     flow = twist.w_radps / abs(twist.v_mps)
     step = _STEP_M if twist.v_mps > 0.0 else -_STEP_M
     place = along_arc(start, step, flow * _STEP_M)
-    moved = hypot(place.x_m - start.x_m, place.y_m - start.y_m)
-    return moved > 0.0 and fence.margin_m(place.x_m, place.y_m) > here
+    return fence.margin_m(place.x_m, place.y_m) > here

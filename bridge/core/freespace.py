@@ -1,8 +1,7 @@
-"""Say how far the robot may go along the arc of a motion, and how fast that lets it go.
+"""Say how far the robot may go along the arc of a motion.
 
-Owns the geometry of a disc swept along an arc among a scan's points. Scaling a motion keeps its
-curve, so one pass over the points gives the free length, and the speed that can still stop within
-it is closed form. Knows one scan; the age of it is an argument.
+Owns the geometry of a disc swept along an arc among one scan's points. Scaling a motion keeps its
+curve, so one pass over the points serves every speed. Knows no time, no limits and no speeds.
 """
 
 from __future__ import annotations
@@ -13,20 +12,18 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
-from bridge.core.kinematics import fastest_rim
 from bridge.core.odometry import along_arc
-from wire.geometry import Pose2, Twist2, between
+from wire.geometry import Pose2, between
 
 if TYPE_CHECKING:
     from bridge.core.scanpicture import Points, ScanPicture
-    from wire.robot import Base, Limits
+    from wire.geometry import Twist2
 
 MARGIN_M = 0.05
 REACH_M = 2.0
 """Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
-CREEP_MPS, CREEP_RADPS = 0.1, 0.3
-"""What loses no clearance may move this fast beside or inside the margin."""
-STANDING_MPS = 0.02
+TURNING_MPS = 1e-4
+"""Slower than this is turning in place, which sweeps nothing but the disc itself."""
 MOVED_M = 1.0
 """A scan taken further away says nothing of here; LIDAR_STALE holds the robot long before."""
 _STRAIGHT_PER_M = 1e-3  # 2 mm beside a straight line after 2 m
@@ -78,7 +75,7 @@ def free_length(
         and hypot(robot.x_m, robot.y_m) <= MOVED_M
     ):
         return NOTHING_KNOWN
-    if not abs(twist.v_mps) >= 1e-4:
+    if abs(twist.v_mps) < TURNING_MPS:
         return FreeLength(reach_m, True, True, _touches(picture, robot, disc))
     curve = twist.w_radps / abs(twist.v_mps)
     heading = robot.yaw_rad if twist.v_mps > 0.0 else robot.yaw_rad + pi
@@ -209,51 +206,3 @@ def _loses_clearance(points: Points, start: Pose2, curve: float, radius: float) 
         _clearance(points, place.x_m, place.y_m) >= now - lost
         for place in (along_arc(start, step, curve * step) for step in _STEPS_M)
     )
-
-
-def reaction_s(scan_age_s: float, scan_s: float, lag_s: float, limits: Limits) -> float:
-    """Return how long the robot goes on before it slows as planned [s].
-
-    Age of the scan, one more scan (what appears just after a beam passed is seen by the next),
-    the drive's lag, and what the jerk limit takes to build the deceleration up: d / 2j.
-    """
-    build_s = limits.max_decel_mps2 / (2 * limits.stop_jerk_mps3)
-    return scan_age_s + scan_s + lag_s + build_s
-
-
-def path_decel_mps2(twist: Twist2, base: Base, limits: Limits) -> float:
-    """Return the deceleration along the path of a twist: d holds at the faster wheel."""
-    rim = fastest_rim(twist, base.wheel_separation_m)
-    return limits.max_decel_mps2 * abs(twist.v_mps) / rim if rim > 0.0 else limits.max_decel_mps2
-
-
-def speed_within(s_m: float, decel_mps2: float, reaction: float) -> float:
-    """Return the speed that still stops within a length: v t + v^2 / 2a = s, solved for v.
-
-    Written as 2s / (t + sqrt(t^2 + 2s/a)), which does not cancel. Accepts only s > 0 and a > 0.
-    """
-    if not (s_m > 0.0 and decel_mps2 > 0.0 and reaction >= 0.0):
-        return 0.0
-    return 2 * s_m / (reaction + sqrt(reaction * reaction + 2 * s_m / decel_mps2))
-
-
-def speed_scale(
-    free: FreeLength, twist: Twist2, base: Base, limits: Limits, reaction: float
-) -> float:
-    """Return the factor in [0, 1] that lets a motion stop within its free length.
-
-    A speed below what counts as standing is none: the gate is then shut, not creeping.
-    """
-    v, w = abs(twist.v_mps), abs(twist.w_radps)
-    creep = min(_ratio(CREEP_MPS, v), _ratio(CREEP_RADPS, w))
-    if not v >= 1e-4:
-        return creep if free.touching else 1.0
-    allowed = speed_within(free.s_m, path_decel_mps2(twist, base, limits), reaction)
-    scale = _ratio(allowed, v)
-    if free.touching:
-        return min(creep, scale)
-    return 0.0 if scale < 1.0 and allowed < STANDING_MPS else scale
-
-
-def _ratio(limit: float, value: float) -> float:
-    return 1.0 if value <= limit else limit / value
