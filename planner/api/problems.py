@@ -70,7 +70,12 @@ async def _invalid(_: Request, error: Exception) -> JSONResponse:
     return response(422, "invalid_request", f"{where}: {first['msg']}; got {found}")
 
 
-_CODES = {404: "unknown_route", 405: "method_not_allowed", 413: "body_too_large"}
+_CODES = {
+    400: "malformed_json",
+    404: "unknown_route",
+    405: "method_not_allowed",
+    413: "body_too_large",
+}
 
 
 async def _http(request: Request, error: Exception) -> JSONResponse:

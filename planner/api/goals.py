@@ -1,0 +1,95 @@
+"""Serve goals: give one, look, and act on one. Translates; decides nothing."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Header, Query
+
+from planner.api.operator import clear_hold
+from planner.api.ports import Services
+from planner.api.problems import Problem
+from planner.api.requests import GoalOrder, Move, NewGoal, Reply
+from planner.brain.stoplane import is_stop
+from planner.mission.errors import MissionError
+from planner.plan import Goal
+
+STATUS = {
+    "unknown_goal": 404,
+    "bad_state": 409,
+    "nothing_to_resume": 409,
+    "queue_full": 429,
+    "idempotency_conflict": 409,
+    "journal_unavailable": 503,
+}
+
+IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", max_length=200)]
+Limit = Annotated[int, Query(ge=1, le=200)]
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the routes below /v1/goals."""
+    router = APIRouter(prefix="/v1/goals", tags=["goals"])
+    goals = services.goals
+
+    @router.post("", status_code=202, operation_id="give_goal")
+    async def give(new: NewGoal, idempotency_key: IdempotencyKey = None) -> Goal:
+        """Give a goal in words. What is understood but impossible ends refused."""
+        if not is_stop(new.text):
+            await clear_hold(services.robot, new.operator)
+        return await goals.submit(
+            new.text,
+            language=new.language,
+            confirm=new.confirm,
+            replace=new.replace,
+            idempotency_key=idempotency_key,
+        )
+
+    @router.get("", operation_id="list_goals")
+    async def listed(limit: Limit = 50) -> dict[str, Any]:
+        """List the newest goals, newest first."""
+        return {"goals": goals.goals(limit)}
+
+    @router.get("/{goal_id}", operation_id="get_goal")
+    async def one(goal_id: str) -> Goal:
+        """Show one goal whole."""
+        return goals.goal(goal_id)
+
+    @router.post("/{goal_id}/cancel", operation_id="cancel_goal")
+    async def cancel(goal_id: str) -> Goal:
+        """End a goal; a moving robot ramps to a stop."""
+        return await goals.cancel(goal_id)
+
+    @router.post("/{goal_id}/pause", operation_id="pause_goal")
+    async def pause(goal_id: str) -> Goal:
+        """Keep a goal's place, standing."""
+        return await goals.pause(goal_id)
+
+    @router.post("/{goal_id}/resume", operation_id="resume_goal")
+    async def resume(goal_id: str, order: GoalOrder | None = None) -> Goal:
+        """Go on with a paused goal; an operator's act."""
+        await clear_hold(services.robot, order.operator if order else None)
+        return await goals.resume(goal_id)
+
+    @router.post("/{goal_id}/confirm", operation_id="confirm_goal")
+    async def confirm(goal_id: str) -> Goal:
+        """Say yes to a plan."""
+        return await goals.confirm(goal_id)
+
+    @router.post("/{goal_id}/answer", operation_id="answer_goal")
+    async def answer(goal_id: str, reply: Reply) -> Goal:
+        """Answer a goal's question."""
+        return await goals.answer(goal_id, reply.text)
+
+    @router.post("/{goal_id}/move", operation_id="move_goal")
+    async def move(goal_id: str, where: Move) -> Goal:
+        """Put a queued goal before another, or last."""
+        return await goals.move(goal_id, where.before)
+
+    return router
+
+
+def problem(error: MissionError) -> Problem:
+    """Say a mission's refusal over HTTP, in both languages."""
+    status = STATUS.get(error.code, 409)
+    return Problem(status, error.code, error.message.en, message=error.message.model_dump())

@@ -1,0 +1,107 @@
+"""Say whether the planner lives, is ready, and how it does: /healthz, /readyz, /metrics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fastapi import APIRouter
+from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, generate_latest
+from prometheus_client.core import GaugeMetricFamily
+from starlette.responses import Response
+
+from planner.api.ports import Services
+from planner.api.problems import Problem
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+FRESH_S = {"status": 1.0, "localization": 1.0, "scan": 1.0}
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the routes that a supervisor and a monitor ask."""
+    router = APIRouter(tags=["health"])
+    registry = CollectorRegistry()
+    registry.register(_Collector(services))
+
+    @router.get("/healthz", operation_id="healthz")
+    async def alive() -> dict[str, str]:
+        """Answer while the event loop turns."""
+        return {"status": "ok"}
+
+    @router.get("/readyz", operation_id="readyz")
+    async def ready() -> dict[str, str]:
+        """Answer 200 when a goal could be carried out once the robot is armed."""
+        lacking = missing(services)
+        if lacking:
+            raise Problem(503, "not_ready", f"waiting for: {', '.join(lacking)}", waiting=lacking)
+        return {"status": "ready"}
+
+    @router.get("/metrics", operation_id="metrics")
+    async def metrics() -> Response:
+        """Give the figures in Prometheus' text format."""
+        return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
+
+    return router
+
+
+def missing(services: Services) -> list[str]:
+    """Name what is not there yet: a silent process, an owner, the bridge's own wants."""
+    ages = services.robot.ages_s()
+    lacking = [
+        name
+        for name, limit_s in FRESH_S.items()
+        if not ((age_s := ages.get(name)) is not None and age_s <= limit_s)
+    ]
+    status = services.robot.status
+    if status is not None:
+        lacking += [f"bridge:{code}" for code in status.waiting_for]
+        if status.owner is None:
+            lacking.append("owner")
+    return lacking
+
+
+class _Collector:
+    """Read the figures at the moment they are asked for; nothing is counted twice."""
+
+    def __init__(self, services: Services) -> None:
+        self._services = services
+
+    def collect(self) -> Iterable[GaugeMetricFamily]:
+        """Yield every family."""
+        for source, age_s in self._services.robot.ages_s().items():
+            if age_s is not None:
+                yield _gauge(f"pons_{source}_age_seconds", "Age of the newest message", age_s)
+        counts: dict[str, int] = {}
+        for goal in self._services.goals.goals(200):
+            counts[goal.state.value] = counts.get(goal.state.value, 0) + 1
+        family = GaugeMetricFamily("pons_goals", "Newest goals by state", labels=["state"])
+        for state, count in counts.items():
+            family.add_metric([state], count)
+        yield family
+        yield from self._bridge()
+
+    def _bridge(self) -> Iterable[GaugeMetricFamily]:
+        status = self._services.robot.status
+        if status is None:
+            return
+        mode = GaugeMetricFamily("pons_bridge_mode", "1 for the present mode", labels=["mode"])
+        mode.add_metric([status.mode.value], 1)
+        yield mode
+        ticks = status.ticks
+        yield _gauge("pons_bridge_ticks", "Ticks since start", ticks.ticks)
+        yield _gauge("pons_bridge_missed_ticks", "Whole missed periods since start", ticks.missed)
+        yield _gauge(
+            "pons_bridge_late_p50_seconds", "Lateness, last second", ticks.late_p50_us / 1e6
+        )
+        yield _gauge(
+            "pons_bridge_late_max_seconds", "Lateness, last second", ticks.late_max_us / 1e6
+        )
+        yield _gauge("pons_bridge_dropped_messages", "Dropped since start", ticks.dropped)
+        yield _gauge("pons_speed_sent_mps", "Speed sent", status.sent.v_mps)
+        yield _gauge("pons_speed_measured_mps", "Speed measured", status.measured.v_mps)
+        yield _gauge("pons_speed_limit_mps", "Limit in force", status.limits.v_mps)
+
+
+def _gauge(name: str, text: str, value: float) -> GaugeMetricFamily:
+    return GaugeMetricFamily(name, text, value=value)

@@ -1,0 +1,114 @@
+"""Serve the operator's acts: stop, protective stop, arm, disarm, reset, teleop.
+
+The only place in the planner that signs, and only for a drive that the bridge itself calls virtual:
+on metal a proof comes from the person's CLI or page and is relayed as it is.
+"""
+
+from __future__ import annotations
+
+import secrets
+from typing import Any
+
+from fastapi import APIRouter
+
+from planner.api.ports import Robot, Services
+from planner.api.problems import Problem
+from planner.api.requests import OperatorOrder, OperatorProof, Steer, StopOrder
+from wire import VIRTUAL_KEY, Answer, OpKind, Proof, sign
+
+NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the operator's routes."""
+    router = APIRouter(prefix="/v1", tags=["operator"])
+    robot = services.robot
+
+    @router.post("/stop", operation_id="stop")
+    async def stop(order: StopOrder | None = None) -> dict[str, Any]:
+        """Stop now and hold until a person acts. Never refused."""
+        confirmed = await robot.stop((order or StopOrder()).source)
+        status = robot.status
+        return {"confirmed": confirmed, "mode": status.mode if status else None}
+
+    @router.post("/estop", operation_id="estop")
+    async def estop(order: OperatorOrder | None = None) -> Answer:
+        """Make a protective stop, latched until reset."""
+        return await act(robot, "estop", order)
+
+    @router.post("/disarm", operation_id="disarm")
+    async def disarm(order: OperatorOrder | None = None) -> Answer:
+        """Ramp to zero, then take the torque away."""
+        return await act(robot, "disarm", order)
+
+    @router.post("/arm", operation_id="arm")
+    async def arm(order: OperatorOrder | None = None) -> Answer:
+        """Power the drive, standing."""
+        return await act(robot, "arm", order)
+
+    @router.post("/reset", operation_id="reset")
+    async def reset(order: OperatorOrder | None = None) -> Answer:
+        """Leave a latched state; never moves the robot."""
+        return await act(robot, "reset", order)
+
+    @router.post("/resume", operation_id="resume")
+    async def resume(order: OperatorOrder | None = None) -> Answer:
+        """Clear what a stop, a take-over or a restart has held."""
+        return await act(robot, "resume", order)
+
+    @router.post("/teleop", operation_id="teleop", status_code=202)
+    async def teleop(steer: Steer) -> dict[str, Any]:
+        """Steer by hand while the dead-man is held; send at 20 Hz."""
+        robot.steer(steer.source, steer.v_mps, steer.w_radps, dead_man=steer.dead_man)
+        return {"mode": robot.status.mode if robot.status else None}
+
+    return router
+
+
+async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None) -> Answer:
+    """Ask the bridge and return its verdict.
+
+    Raises:
+        Problem: ``bridge_silent``, ``operator_proof_needed`` or the bridge's own refusal code.
+    """
+    asked = order or OperatorOrder()
+    request_id, proof = _proved(robot, kind, asked.operator)
+    answer = await robot.ask(kind, asked.source, request_id, proof)
+    if answer is None:
+        raise Problem(503, "bridge_silent", f"the bridge did not answer {kind} within 2 s")
+    if not answer.accepted:
+        raise Problem(409, answer.code, answer.detail or f"the bridge refused {kind}")
+    return answer
+
+
+async def clear_hold(robot: Robot, given: OperatorProof | None) -> None:
+    """Let a person's own act clear what is held. Does nothing where nothing is held.
+
+    Raises:
+        Problem: on metal without a proof, or the bridge's refusal.
+    """
+    status = robot.status
+    if status is None or status.held is None:
+        return
+    await act(robot, "resume", OperatorOrder(operator=given))
+
+
+def _proved(
+    robot: Robot, kind: OpKind, given: OperatorProof | None
+) -> tuple[str | None, Proof | None]:
+    if given is not None:
+        return given.id, given.proof
+    if kind not in NEEDS_PROOF:
+        return None, None
+    status = robot.status
+    if status is None:
+        raise Problem(503, "bridge_silent", f"no bridge is heard, so nobody can {kind}")
+    if not status.drive.virtual:
+        raise Problem(
+            403,
+            "operator_proof_needed",
+            f"{kind} on this robot needs a proof made with the operator's key; use the page or "
+            f"`pons {kind}` on a machine that holds the key",
+        )
+    request_id = f"api-{secrets.token_hex(8)}"
+    return request_id, sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)

@@ -1,0 +1,79 @@
+"""Say what the routes need of missions, robot and site: three small protocols, so that tests can
+stand behind them and the routes know no zenoh and no journal.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Sequence
+
+    from planner.plan import Goal, Language
+    from planner.world import Site
+    from wire import Answer, OpKind, Proof, Scan, Status
+
+
+class Goals(Protocol):
+    """Keep goals; each method answers at once and raises MissionError with a stable code."""
+
+    async def submit(
+        self,
+        text: str,
+        *,
+        language: Language | None = None,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+    ) -> Goal: ...
+
+    def goal(self, goal_id: str) -> Goal: ...
+
+    def goals(self, limit: int = 50) -> Sequence[Goal]: ...
+
+    async def cancel(self, goal_id: str) -> Goal: ...
+
+    async def pause(self, goal_id: str) -> Goal: ...
+
+    async def resume(self, goal_id: str) -> Goal: ...
+
+    async def confirm(self, goal_id: str) -> Goal: ...
+
+    async def answer(self, goal_id: str, text: str) -> Goal: ...
+
+    async def move(self, goal_id: str, before: str | None = None) -> Goal: ...
+
+    def subscribe(self) -> AsyncIterator[dict[str, Any]]: ...
+
+
+class Robot(Protocol):
+    """Hear the bridge and speak to it."""
+
+    @property
+    def status(self) -> Status | None: ...
+
+    @property
+    def scan(self) -> Scan | None: ...
+
+    def ages_s(self) -> dict[str, float | None]: ...
+
+    async def stop(self, source: str) -> bool: ...
+
+    async def ask(
+        self, kind: OpKind, source: str, request_id: str | None, proof: Proof | None
+    ) -> Answer | None: ...
+
+    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
+
+
+class Services(Protocol):
+    """Hold what one planner is made of."""
+
+    @property
+    def goals(self) -> Goals: ...
+
+    @property
+    def robot(self) -> Robot: ...
+
+    @property
+    def site(self) -> Site: ...

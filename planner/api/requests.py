@@ -1,0 +1,81 @@
+"""Give the bodies that the routes take: closed, bounded, bilingual where a person writes."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from planner.plan import Language
+from wire import Proof
+from wire.geometry import Mps, Radps
+from wire.scalars import Name
+
+MAX_GOAL_CHARACTERS = 200_000
+"""Longer than any order that is read, so that a long one gets an outcome that says so."""
+
+
+class Body(BaseModel):
+    """Refuse unknown fields: a misspelt option must not be ignored."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class OperatorProof(Body):
+    """Carry a proof made in CLI or page; the planner relays what it can't make."""
+
+    id: Name
+    proof: Proof
+
+
+class NewGoal(Body):
+    """Give a goal in words."""
+
+    text: Annotated[str, Field(max_length=MAX_GOAL_CHARACTERS)]
+    language: Language | None = None
+    confirm: bool = False
+    """Show the plan and wait for a yes before the first step."""
+    replace: bool = False
+    """Forget the running goal and the queue."""
+    operator: OperatorProof | None = None
+    """On a robot of metal: a proof of kind resume, which clears what a stop has held."""
+
+
+class GoalOrder(Body):
+    """Act on a goal; resuming may carry a proof."""
+
+    operator: OperatorProof | None = None
+
+
+class Reply(Body):
+    """Answer a goal's question."""
+
+    text: Annotated[str, Field(max_length=MAX_GOAL_CHARACTERS)]
+
+
+class Move(Body):
+    """Put a queued goal before another one; last without ``before``."""
+
+    before: Name | None = None
+
+
+class StopOrder(Body):
+    """Stop now; say who asks, for the record."""
+
+    source: Name = "api"
+
+
+class OperatorOrder(Body):
+    """Arm, disarm, protective stop, reset or resume."""
+
+    source: Name = "api"
+    operator: OperatorProof | None = None
+
+
+class Steer(Body):
+    """Steer by hand while ``dead_man`` is held; send at 20 Hz."""
+
+    source: Name
+    v_mps: Mps
+    w_radps: Radps
+    dead_man: bool

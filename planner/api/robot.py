@@ -1,0 +1,70 @@
+"""Serve what is known: the robot as the bridge reports it, the map, the places. Read only."""
+
+from __future__ import annotations
+
+import base64
+from typing import Any
+
+from fastapi import APIRouter
+
+from planner.api.ports import Services
+from planner.api.problems import Problem
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the reading routes."""
+    router = APIRouter(prefix="/v1", tags=["robot"])
+    site = services.site
+    map_body = _map(services)
+
+    @router.get("/robot", operation_id="get_robot")
+    async def robot() -> dict[str, Any]:
+        """Show the bridge's newest status, where the robot is, and how old everything is."""
+        return robot_view(services)
+
+    @router.get("/map", operation_id="get_map")
+    async def grid() -> dict[str, Any]:
+        """Give the map's cells (0 free, 1 occupied, 2 unknown; row 0 lowest y) and the fence."""
+        return map_body
+
+    @router.get("/places", operation_id="list_places")
+    async def places() -> dict[str, Any]:
+        """List rooms and places with their names in both languages."""
+        return {"home": site.home.id, "places": site.places}
+
+    @router.get("/camera.jpg", operation_id="get_camera")
+    async def camera() -> None:
+        """Give the newest picture; this robot has no camera yet."""
+        raise Problem(503, "no_camera", "this robot has no camera")
+
+    return router
+
+
+def robot_view(services: Services) -> dict[str, Any]:
+    """Return the robot as people see it."""
+    status = services.robot.status
+    pose = status.base_in_map if status else None
+    room = services.site.room_at(pose.x_m, pose.y_m) if pose else None
+    return {
+        "status": status.model_dump(mode="json") if status else None,
+        "room": room.id if room else None,
+        "ages_s": services.robot.ages_s(),
+        "site": services.site.folder.name,
+        "map_id": services.site.map_id,
+        "localization": "stand-in: the simulator's truth plus noise"
+        if status and status.drive.virtual
+        else "external",
+    }
+
+
+def _map(services: Services) -> dict[str, Any]:
+    grid, fence = services.site.grid, services.site.fence
+    return {
+        "map_id": services.site.map_id,
+        "width": grid.width,
+        "height": grid.height,
+        "resolution_m": grid.resolution_m,
+        "origin": {"x_m": grid.origin_x_m, "y_m": grid.origin_y_m},
+        "cells": base64.b64encode(grid.cells).decode("ascii"),
+        "fence": fence.record.model_dump(mode="json"),
+    }

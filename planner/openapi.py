@@ -1,0 +1,49 @@
+"""Print openapi.json, the API's contract: ``python -m planner.openapi [--check]``."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+from planner.api import Access, build
+from planner.world import Site
+
+if TYPE_CHECKING:
+    from planner.api import Services
+
+ROOT = Path(__file__).resolve().parents[1]
+TARGET = ROOT / "openapi.json"
+
+
+class _Unserved:
+    """Stand where services would: the contract is read, no route is called."""
+
+    goals = None
+    robot = None
+
+    def __init__(self) -> None:
+        self.site = Site.load(ROOT / "sites" / "two_room")
+
+
+def render() -> str:
+    """Return the contract as text."""
+    app = build(cast("Services", _Unserved()), Access("127.0.0.1"))
+    return json.dumps(app.openapi(), ensure_ascii=False, indent=1, sort_keys=True) + "\n"
+
+
+def main(arguments: list[str]) -> int:
+    """Write the contract, or with ``--check`` say whether the committed one is fresh."""
+    text = render()
+    if "--check" in arguments:
+        fresh = TARGET.is_file() and TARGET.read_text("utf-8") == text
+        if not fresh:
+            sys.stderr.write("openapi.json is stale: run `make docs`\n")
+        return 0 if fresh else 1
+    TARGET.write_text(text, "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,125 @@
+"""Stand behind the routes: goals and a robot that remember what they were asked."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from planner.mission.errors import BadState, UnknownGoal
+from planner.plan import Goal, GoalState, Language
+from planner.world import Site
+from tests.wire.examples import STATUS
+from wire import Answer, OpKind, Proof, Scan, Status
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def goal(goal_id: str = "g1", text: str = "go", state: GoalState = GoalState.RUNNING) -> Goal:
+    now = datetime(2026, 1, 1, tzinfo=UTC)
+    return Goal(id=goal_id, text=text, language=Language.EN, state=state, created=now, updated=now)
+
+
+class FakeGoals:
+    """Keep one goal and every call."""
+
+    def __init__(self) -> None:
+        self.calls: list[tuple[Any, ...]] = []
+        self.changes: list[dict[str, Any]] = []
+
+    async def submit(
+        self,
+        text: str,
+        *,
+        language: Language | None = None,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+    ) -> Goal:
+        self.calls.append(("submit", text, language, confirm, replace, idempotency_key))
+        return goal(text=text, state=GoalState.PLANNING)
+
+    def goal(self, goal_id: str) -> Goal:
+        if goal_id != "g1":
+            raise UnknownGoal(goal_id, ("g1",))
+        return goal()
+
+    def goals(self, limit: int = 50) -> Sequence[Goal]:
+        return [goal()][:limit]
+
+    async def _act(self, what: str, goal_id: str) -> Goal:
+        self.calls.append((what, goal_id))
+        return self.goal(goal_id)
+
+    async def cancel(self, goal_id: str) -> Goal:
+        return await self._act("cancel", goal_id)
+
+    async def pause(self, goal_id: str) -> Goal:
+        return await self._act("pause", goal_id)
+
+    async def resume(self, goal_id: str) -> Goal:
+        return await self._act("resume", goal_id)
+
+    async def confirm(self, goal_id: str) -> Goal:
+        raise BadState(goal_id, "confirm", GoalState.RUNNING, ("awaiting_confirmation",))
+
+    async def answer(self, goal_id: str, text: str) -> Goal:
+        self.calls.append(("answer", goal_id, text))
+        return self.goal(goal_id)
+
+    async def move(self, goal_id: str, before: str | None = None) -> Goal:
+        self.calls.append(("move", goal_id, before))
+        return self.goal(goal_id)
+
+    async def subscribe(self) -> AsyncIterator[dict[str, Any]]:
+        for change in self.changes:
+            yield change
+        await asyncio.Event().wait()  # a subscription ends with its listener
+
+
+class FakeRobot:
+    """Answer every request as told."""
+
+    def __init__(self, status: Status | None = STATUS) -> None:
+        self._status = status
+        self.asked: list[tuple[OpKind, str, str | None, Proof | None]] = []
+        self.stops: list[str] = []
+        self.steers: list[tuple[str, float, float, bool]] = []
+        self.verdict: Answer | None = Answer(
+            id="x", kind="arm", accepted=True, code="ok", detail=""
+        )
+
+    @property
+    def status(self) -> Status | None:
+        return self._status
+
+    @property
+    def scan(self) -> Scan | None:
+        return None
+
+    def ages_s(self) -> dict[str, float | None]:
+        return {"status": 0.02, "localization": 0.1, "scan": None}
+
+    async def stop(self, source: str) -> bool:
+        self.stops.append(source)
+        return True
+
+    async def ask(
+        self, kind: OpKind, source: str, request_id: str | None, proof: Proof | None
+    ) -> Answer | None:
+        self.asked.append((kind, source, request_id, proof))
+        return self.verdict
+
+    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:
+        self.steers.append((source, v_mps, w_radps, dead_man))
+
+
+class FakeServices:
+    """Hold one of each."""
+
+    def __init__(self, status: Status | None = STATUS) -> None:
+        self.goals = FakeGoals()
+        self.robot = FakeRobot(status)
+        self.site = Site.load(ROOT / "sites" / "two_room")

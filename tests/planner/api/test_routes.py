@@ -1,0 +1,273 @@
+"""The routes translate: bodies are closed and capped, refusals are problems with stable codes."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from planner import openapi
+from planner.api import Access, build
+from tests.planner.api.fakes import FakeServices
+from tests.wire.examples import STATUS
+from wire import VIRTUAL_KEY, Answer, authentic
+
+BASE = "http://127.0.0.1:8420"
+METAL = STATUS.model_copy(
+    update={"drive": STATUS.drive.model_copy(update={"virtual": False, "kind": "serial"})}
+)
+FREE = STATUS.model_copy(update={"held": None})
+JSON = {"content-type": "application/json"}
+
+
+@pytest.fixture
+def services() -> FakeServices:
+    return FakeServices(FREE)
+
+
+@pytest.fixture
+def client(services: FakeServices) -> Iterator[TestClient]:
+    with TestClient(build(services, Access("127.0.0.1")), base_url=BASE) as made:
+        yield made
+
+
+def client_of(services: FakeServices) -> TestClient:
+    return TestClient(build(services, Access("127.0.0.1")), base_url=BASE)
+
+
+def code(answer: Any) -> str:
+    assert answer.headers["content-type"] == "application/problem+json"
+    body = answer.json()
+    assert body["status"] == answer.status_code
+    assert body["detail"]
+    return str(body["code"])
+
+
+def test_a_goal_is_accepted(client: TestClient, services: FakeServices) -> None:
+    answer = client.post("/v1/goals", json={"text": "去厨房"}, headers={"Idempotency-Key": "k1"})
+    assert answer.status_code == 202
+    assert answer.json()["text"] == "去厨房"
+    assert services.goals.calls == [("submit", "去厨房", None, False, False, "k1")]
+    assert services.robot.asked == []
+
+
+def test_a_goal_after_a_stop_clears_the_hold_by_a_proof() -> None:
+    services = FakeServices(STATUS)
+    client_of(services).post("/v1/goals", json={"text": "go on"})
+    ((kind, _, request_id, proof),) = services.robot.asked
+    assert kind == "resume"
+    assert request_id is not None
+    assert authentic(VIRTUAL_KEY, "resume", STATUS.robot, proof, request_id)
+
+
+def test_a_sentence_that_stops_clears_no_hold() -> None:
+    services = FakeServices(STATUS)
+    assert client_of(services).post("/v1/goals", json={"text": "停!"}).status_code == 202
+    assert services.robot.asked == []
+
+
+@pytest.mark.parametrize(
+    ("content", "status", "expected"),
+    [
+        (b"{", 400, "malformed_json"),
+        (b"\x00\xff\x80", 400, "malformed_json"),
+        (b"[]", 422, "invalid_request"),
+        (b"{}", 422, "invalid_request"),
+        (b'{"text": 7}', 422, "invalid_request"),
+        (b'{"text": "go", "speed": 3}', 422, "invalid_request"),
+        (b'{"text": "' + b"a" * 300_000 + b'"}', 413, "body_too_large"),
+    ],
+)
+def test_malformed_goals_are_refused(
+    client: TestClient, services: FakeServices, content: bytes, status: int, expected: str
+) -> None:
+    answer = client.post("/v1/goals", content=content, headers=JSON)
+    assert (answer.status_code, code(answer)) == (status, expected)
+    assert services.goals.calls == []
+
+
+def test_a_long_text_within_the_cap_is_a_goal(client: TestClient) -> None:
+    assert client.post("/v1/goals", json={"text": "a" * 100_000}).status_code == 202
+
+
+def test_deep_nesting_is_refused(client: TestClient) -> None:
+    deep = b'{"text":' + b"[" * 50_000 + b"]" * 50_000 + b"}"
+    answer = client.post("/v1/goals", content=deep, headers=JSON)
+    assert 400 <= answer.status_code < 500
+    assert code(answer) in ("malformed_json", "invalid_request")
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status", "expected"),
+    [
+        ("GET", "/v1/nothing", 404, "unknown_route"),
+        ("GET", "/v1/goals/nope", 404, "unknown_goal"),
+        ("POST", "/v1/goals/nope/cancel", 404, "unknown_goal"),
+        ("POST", "/v1/goals/g1/confirm", 409, "bad_state"),
+        ("DELETE", "/v1/goals", 405, "method_not_allowed"),
+        ("GET", "/v1/stop", 405, "method_not_allowed"),
+        ("GET", "/v1/goals?limit=0", 422, "invalid_request"),
+        ("GET", "/v1/camera.jpg", 503, "no_camera"),
+    ],
+)
+def test_wrong_requests_say_why(
+    client: TestClient, method: str, path: str, status: int, expected: str
+) -> None:
+    answer = client.request(method, path, headers=JSON)
+    assert (answer.status_code, code(answer)) == (status, expected)
+
+
+def test_a_missions_refusal_speaks_both_languages(client: TestClient) -> None:
+    body = client.post("/v1/goals/g1/confirm", json={}).json()
+    assert body["message"]["en"]
+    assert body["message"]["zh"]
+
+
+@pytest.mark.parametrize("content_type", [None, "text/plain", "application/x-www-form-urlencoded"])
+def test_a_goal_needs_json(client: TestClient, content_type: str | None) -> None:
+    headers = {"content-type": content_type} if content_type else {}
+    answer = client.post("/v1/goals", content=b'{"text":"go"}', headers=headers)
+    assert (answer.status_code, code(answer)) == (415, "unsupported_media_type")
+
+
+@pytest.mark.parametrize(
+    ("header", "value", "expected"),
+    [("host", "evil.example", "foreign_host"), ("origin", "http://evil.example", "foreign_origin")],
+)
+@pytest.mark.parametrize("path", ["/", "/v1/robot", "/healthz", "/openapi.json", "/metrics"])
+def test_strangers_are_refused_on_every_route(
+    client: TestClient, path: str, header: str, value: str, expected: str
+) -> None:
+    answer = client.get(path, headers={header: value})
+    assert (answer.status_code, code(answer)) == (403, expected)
+
+
+def test_stop_needs_neither_body_nor_type(client: TestClient, services: FakeServices) -> None:
+    assert client.post("/v1/stop").json() == {"confirmed": True, "mode": "ACTIVE"}
+    assert client.post("/v1/stop", json={"source": "page"}).status_code == 200
+    assert services.robot.stops == ["api", "page"]
+
+
+@pytest.mark.parametrize("kind", ["arm", "reset", "resume"])
+def test_the_api_signs_for_a_virtual_drive(
+    client: TestClient, services: FakeServices, kind: str
+) -> None:
+    assert client.post(f"/v1/{kind}", json={}).status_code == 200
+    ((asked, source, request_id, proof),) = services.robot.asked
+    assert (asked, source) == (kind, "api")
+    assert request_id is not None
+    assert authentic(VIRTUAL_KEY, asked, FREE.robot, proof, request_id)
+
+
+@pytest.mark.parametrize("kind", ["arm", "reset", "resume"])
+def test_on_metal_a_proof_is_needed(kind: str) -> None:
+    services = FakeServices(METAL)
+    answer = client_of(services).post(f"/v1/{kind}", json={})
+    assert (answer.status_code, code(answer)) == (403, "operator_proof_needed")
+    assert services.robot.asked == []
+
+
+def test_on_metal_a_proof_is_relayed_as_it_is() -> None:
+    services = FakeServices(METAL)
+    given = {"id": "op-7", "proof": {"nonce": "boot1.2", "mac": "b" * 64}}
+    assert client_of(services).post("/v1/arm", json={"operator": given}).status_code == 200
+    ((_, _, request_id, proof),) = services.robot.asked
+    assert request_id == "op-7"
+    assert proof is not None
+    assert proof.mac == "b" * 64
+
+
+@pytest.mark.parametrize("kind", ["disarm", "estop"])
+def test_taking_power_away_needs_no_proof(kind: str) -> None:
+    services = FakeServices(METAL)
+    assert client_of(services).post(f"/v1/{kind}").status_code == 200
+
+
+def test_the_bridges_refusal_keeps_its_code(client: TestClient, services: FakeServices) -> None:
+    services.robot.verdict = Answer(
+        id="x", kind="arm", accepted=False, code="lidar_stale", detail="no scan for 400 ms"
+    )
+    answer = client.post("/v1/arm", json={})
+    assert (answer.status_code, code(answer)) == (409, "lidar_stale")
+    services.robot.verdict = None
+    answer = client.post("/v1/arm", json={})
+    assert (answer.status_code, code(answer)) == (503, "bridge_silent")
+
+
+def test_without_a_bridge_nothing_is_signed() -> None:
+    services = FakeServices(None)
+    answer = client_of(services).post("/v1/arm", json={})
+    assert (answer.status_code, code(answer)) == (503, "bridge_silent")
+
+
+def test_teleop_is_passed_on_within_bounds(client: TestClient, services: FakeServices) -> None:
+    body = {"source": "page-1", "v_mps": 0.2, "w_radps": -0.1, "dead_man": True}
+    assert client.post("/v1/teleop", json=body).status_code == 202
+    assert services.robot.steers == [("page-1", 0.2, -0.1, True)]
+    too_fast = client.post("/v1/teleop", json={**body, "v_mps": 1e6})
+    assert code(too_fast) == "invalid_request"
+
+
+def test_the_map_is_whole(client: TestClient) -> None:
+    body = client.get("/v1/map").json()
+    assert len(base64.b64decode(body["cells"])) == body["width"] * body["height"]
+    assert body["fence"]["map_id"] == body["map_id"]
+
+
+def test_places_have_names_in_both_languages(client: TestClient) -> None:
+    body = client.get("/v1/places").json()
+    assert {place["id"] for place in body["places"]} >= {"kitchen", "living_room", body["home"]}
+    assert all(place["name"]["en"] and place["name"]["zh"] for place in body["places"])
+
+
+def test_readiness_names_what_is_missing(client: TestClient) -> None:
+    answer = client.get("/readyz")
+    assert (answer.status_code, code(answer)) == (503, "not_ready")
+    assert "scan" in answer.json()["waiting"]
+    assert client.get("/healthz").status_code == 200
+
+
+def test_metrics_are_prometheus_text(client: TestClient) -> None:
+    text = client.get("/metrics").text
+    assert 'pons_bridge_mode{mode="ACTIVE"} 1.0' in text
+    assert 'pons_goals{state="running"} 1.0' in text
+
+
+def test_pages_may_load_nothing_from_elsewhere(client: TestClient) -> None:
+    policy = client.get("/").headers["content-security-policy"]
+    assert "default-src 'none'" in policy
+    assert "unsafe" not in policy
+    assert "http" not in policy
+
+
+def test_events_begin_with_a_snapshot_and_count(client: TestClient, services: FakeServices) -> None:
+    services.goals.changes = [{"goal": {"id": "g1"}}]
+    with client.websocket_connect("/v1/events", headers={"host": "127.0.0.1:8420"}) as socket:
+        first, second = socket.receive_json(), socket.receive_json()
+    assert (first["seq"], first["kind"]) == (1, "snapshot")
+    assert first["goals"][0]["id"] == "g1"
+    assert first["robot"]["status"]["mode"] == "ACTIVE"
+    assert second["seq"] == 2
+
+
+def test_the_event_socket_stops_the_robot(client: TestClient, services: FakeServices) -> None:
+    with client.websocket_connect("/v1/events", headers={"host": "127.0.0.1:8420"}) as socket:
+        socket.send_text('{"stop": true}')
+        kinds: list[str] = []
+        while "stopped" not in kinds:
+            kinds.append(socket.receive_json()["kind"])
+    assert services.robot.stops == ["page"]
+
+
+def test_the_committed_contract_is_fresh() -> None:
+    assert openapi.main(["--check"]) == 0
+
+
+def test_every_operation_has_its_own_id() -> None:
+    paths = json.loads(openapi.render())["paths"]
+    ids = [operation["operationId"] for path in paths.values() for operation in path.values()]
+    assert len(ids) == len(set(ids))
