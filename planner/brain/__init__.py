@@ -1,1 +1,49 @@
-"""Think: what a brain is, and where the built-in ones are."""
+"""Think: what a brain is, the brains that ship, and the stop lane that asks none of them.
+
+The door opens each name on first use, so that `from planner.brain.stoplane import is_stop` stays
+free of pydantic: a stop must not wait for an import.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from planner.brain.errors import BrainDown, Misconfigured, PlanRejected
+    from planner.brain.offline import OfflineBrain, language_of
+    from planner.brain.protocol import Brain, ThinkRequest, Thought
+    from planner.brain.scripted import ScriptedBrain
+    from planner.brain.stoplane import is_stop
+
+_DOORS = {
+    "Brain": "protocol",
+    "BrainDown": "errors",
+    "Misconfigured": "errors",
+    "OfflineBrain": "offline",
+    "PlanRejected": "errors",
+    "ScriptedBrain": "scripted",
+    "ThinkRequest": "protocol",
+    "Thought": "protocol",
+    "is_stop": "stoplane",
+    "language_of": "offline",
+}
+
+__all__ = [
+    "Brain",
+    "BrainDown",
+    "Misconfigured",
+    "OfflineBrain",
+    "PlanRejected",
+    "ScriptedBrain",
+    "ThinkRequest",
+    "Thought",
+    "is_stop",
+    "language_of",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name not in _DOORS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_DOORS[name]}"), name)

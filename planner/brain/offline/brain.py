@@ -1,0 +1,24 @@
+"""Put the offline grammar behind the brain's door: always there, never slow, costs nothing."""
+
+from __future__ import annotations
+
+from planner.brain.offline.reader import Context, plan
+from planner.brain.protocol import ThinkRequest, Thought
+from planner.plan import BrainTag
+
+VERSION = "1"
+TAG = BrainTag(name="offline", version=VERSION)
+
+
+class OfflineBrain:
+    """Plan by grammar, in this process and without a model."""
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the brain's name and version."""
+        return TAG
+
+    async def think(self, request: ThinkRequest) -> Thought:
+        """Return the plan of a sentence. Pure beneath, and bounded by the length of the text."""
+        context = Context(room=request.room, language=request.language)
+        return Thought(plan=plan(request.text, request.vocabulary, context), brain=TAG)

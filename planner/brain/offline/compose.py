@@ -1,0 +1,203 @@
+"""Make one plan of what the clauses mean: all of them, or a question, or an honest no.
+
+One clause that can't be read or done holds the whole sentence back; what could be done without it
+is offered, never done unasked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from planner.brain.offline.lexicon import Lexicon
+from planner.brain.offline.meaning import About, Meaning, Problem, Steps, Topic
+from planner.brain.offline.render import option, sentence
+from planner.plan import (
+    DRIVES,
+    MAX_STEPS,
+    Answer,
+    Bilingual,
+    Clarify,
+    Code,
+    ComeBack,
+    GoTo,
+    Language,
+    Option,
+    Refuse,
+    ReturnHome,
+    Step,
+    StepPlan,
+    Vocabulary,
+    message,
+    same,
+)
+
+# What no other wording can mend is told first.
+_RANK = (
+    Code.UNSAFE,
+    Code.NO_CAPABILITY,
+    Code.NO_CAMERA,
+    Code.BAD_PLAN,
+    Code.NOT_UNDERSTOOD,
+    Code.UNKNOWN_PLACE,
+    Code.AMBIGUOUS,
+)
+_LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA})
+_SHOWN = 60  # characters of the sentence that a message repeats
+_SPAN = Bilingual(en="a wait is at most 600 seconds", zh="等待时间最多 600 秒")
+_RULE = Bilingual(en="it could hurt somebody or something", zh="可能会伤到人或物")
+_ONLY_DRIVE = Bilingual(en=" Shall I only drive: {order}?", zh="要不要只行驶：{order}？")
+_NO_ROOM = Bilingual(en="I don't know where I am yet.", zh="我还不知道自己在哪里。")
+_I_KNOW = Bilingual(en="I can drive to: {names}.", zh="我可以去：{names}。")
+_I_AM_IN = Bilingual(en="I am in the {name}.", zh="我在{name}。")
+
+Plan = StepPlan | Answer | Clarify | Refuse
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """Carry what plans are made against: the names, the language, and where the robot is."""
+
+    vocabulary: Vocabulary
+    lexicon: Lexicon
+    language: Language
+    room: str | None
+
+    def button(self, steps: Sequence[Step]) -> Option:
+        """Return a button that stands for these steps."""
+        return option(steps, self.vocabulary, self.lexicon, self.language)
+
+
+def compose(meanings: Sequence[Meaning], text: str, setting: Setting) -> Plan:
+    """Return the plan of a sentence from the meanings of its clauses."""
+    problems = [meaning for meaning in meanings if isinstance(meaning, Problem)]
+    if problems:
+        worst = min(problems, key=lambda problem: _RANK.index(problem.code))
+        return _explain(worst, problems, meanings, setting)
+    if len(meanings) == 1 and isinstance(meanings[0], About):
+        return _answer(meanings[0].topic, setting)
+    steps = _steps_of(meanings)
+    if not steps or any(isinstance(meaning, About) for meaning in meanings):
+        return _ask(Problem(Code.NOT_UNDERSTOOD, text), (), setting)
+    return _checked(steps, text, setting)
+
+
+def veto(code: Code, part: str, places: Sequence[str], setting: Setting) -> Plan:
+    """Return the no, or for "or" the question, to a sentence that may not be read as an order."""
+    if code is Code.AMBIGUOUS:
+        buttons = tuple(setting.button((GoTo(place=place),)) for place in dict.fromkeys(places))
+        return _ask(Problem(code, part), buttons, setting)
+    if code is Code.UNSAFE:
+        return Refuse(code=code, reason=message(code, part=_cut(part), rule=_RULE))
+    return Refuse(code=code, reason=message(code, part=_cut(part)))
+
+
+def _checked(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
+    if len(steps) > MAX_STEPS:
+        why = Bilingual(
+            en=f"{len(steps)} steps; at most {MAX_STEPS}",
+            zh=f"{len(steps)} 步，最多 {MAX_STEPS} 步",
+        )
+        return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=why))
+    first = next((step for step in steps if step.kind in DRIVES), None)
+    if isinstance(first, ComeBack):  # back from where? nothing was driven before it
+        home = (setting.button((ReturnHome(),)),)
+        return _ask(Problem(Code.AMBIGUOUS, text), home, setting)
+    return StepPlan(steps=steps)
+
+
+def _explain(
+    worst: Problem, problems: Sequence[Problem], meanings: Sequence[Meaning], setting: Setting
+) -> Plan:
+    alone = len(problems) == 1
+    if worst.code in _LACKING:
+        understood = all(problem.code in _LACKING for problem in problems)
+        return _lacking(worst, _offer(meanings) if understood else (), setting)
+    if worst.code is Code.BAD_PLAN:
+        return Refuse(code=worst.code, reason=message(worst.code, why=_SPAN))
+    if worst.code is Code.NOT_UNDERSTOOD:
+        offered = _offer(meanings)
+        # Of two places the order was not understood either.
+        certain = len(offered) == 1 and _drives(offered)
+        return _ask(worst, (setting.button(offered),) if certain else (), setting)
+    choices = worst.places if alone else ()
+    return _ask(
+        worst,
+        tuple(setting.button(_steps_of(meanings, worst, place)) for place in choices),
+        setting,
+    )
+
+
+def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Plan:
+    said = message(worst.code, part=_cut(worst.part))
+    if not _drives(offered):
+        return Refuse(code=worst.code, reason=said)
+    order = sentence(offered, setting.vocabulary, setting.lexicon)
+    question = Bilingual(
+        en=said.en + _ONLY_DRIVE.en.format(order=order.en),
+        zh=said.zh + _ONLY_DRIVE.zh.format(order=order.zh),
+    )
+    return Clarify(code=worst.code, question=question, options=(setting.button(offered),))
+
+
+def _ask(problem: Problem, options: tuple[Option, ...], setting: Setting) -> Clarify:
+    if problem.code is Code.UNKNOWN_PLACE:
+        question = _unknown(problem, setting.vocabulary)
+    else:
+        question = message(problem.code, part=_cut(problem.part))
+    return Clarify(code=problem.code, question=question, options=options)
+
+
+def _unknown(problem: Problem, vocabulary: Vocabulary) -> Bilingual:
+    names = [vocabulary.name(place) for place in problem.places]
+    near = Bilingual(
+        en=f" Did you mean {', '.join(name.en for name in names)}?" if names else "",
+        zh=f"您是指{'、'.join(name.zh for name in names)}吗？" if names else "",
+    )
+    return message(problem.code, name=_cut(problem.name), near=near, known=vocabulary.known())
+
+
+def _answer(topic: Topic, setting: Setting) -> Answer:
+    if topic is Topic.PLACES:
+        names = setting.vocabulary.known()
+        return Answer(text=_filled(_I_KNOW, "names", names))
+    if setting.room is None:
+        return Answer(text=_NO_ROOM)
+    return Answer(text=_filled(_I_AM_IN, "name", setting.vocabulary.name(setting.room)))
+
+
+def _filled(text: Bilingual, key: str, fact: Bilingual) -> Bilingual:
+    return Bilingual(en=text.en.format(**{key: fact.en}), zh=text.zh.format(**{key: fact.zh}))
+
+
+def _steps_of(
+    meanings: Sequence[Meaning], instead_of: Problem | None = None, place: str = ""
+) -> tuple[Step, ...]:
+    """Return all steps in order, one problem replaced by a drive to a place."""
+    steps: list[Step] = []
+    for meaning in meanings:
+        if isinstance(meaning, Steps):
+            steps.extend(meaning.steps)
+        elif meaning is instead_of:
+            steps.append(GoTo(place=place))
+    return tuple(steps)
+
+
+def _offer(meanings: Sequence[Meaning]) -> tuple[Step, ...]:
+    """Return what could be driven without the parts that can't be done."""
+    steps: list[Step] = []
+    for meaning in meanings:
+        if isinstance(meaning, Steps):
+            steps.extend(meaning.steps)
+        elif isinstance(meaning, Problem):
+            named = meaning.places if meaning.code is not Code.NO_CAPABILITY else ()
+            steps.extend(meaning.before or tuple(GoTo(place=place) for place in named))
+    return tuple(steps[:MAX_STEPS])
+
+
+def _drives(steps: Sequence[Step]) -> bool:
+    return any(isinstance(step, GoTo | ReturnHome) for step in steps)
+
+
+def _cut(part: str) -> Bilingual:
+    return same(part if len(part) <= _SHOWN else part[: _SHOWN - 1] + "…")

@@ -1,0 +1,168 @@
+"""Own the shape of a grammar and the builders that both languages share.
+
+A grammar is data: patterns that veto a sentence, a pattern that ends clauses, words that may stand
+around an order without changing it, and rules that read a clause whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from re import Match, Pattern
+
+from pydantic import ValidationError
+
+from planner.brain.offline.meaning import (
+    About,
+    Clause,
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    Topic,
+    read_by,
+)
+from planner.brain.offline.numbers import seconds
+from planner.brain.offline.places import go_to
+from planner.plan import Code, ComeBack, GoTo, ReturnHome, Say, Wait
+
+FIRST_QUOTE = 0xF800
+QUOTE = "[\uf800-\uf8ff]"
+
+Build = Callable[[Match[str], Reading], Meaning | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Grammar:
+    """Hold one language's patterns. `opening` may only begin the first clause, `closing` the last.
+
+    The order in which clauses stand is the order in which they are done; a word that says otherwise
+    ("first" in a later clause, "before") is read by no rule.
+    """
+
+    vetoes: tuple[tuple[Code, Pattern[str]], ...]
+    asked: Pattern[str]  # an order in the form of a question; group 1 is the order
+    clause_end: Pattern[str]
+    courtesy: Pattern[str]  # at the start of a clause
+    thanks: Pattern[str]  # at the end of a clause
+    opening: Pattern[str]
+    closing: Pattern[str]
+    rules: tuple[Rule, ...]
+
+    def clauses(self, text: str) -> list[Clause]:
+        """Cut a marked sentence into clauses; those of mere courtesy are dropped."""
+        order = self.asked.sub(r"\1", text)
+        parts = [self.plain(part) for part in self.clause_end.split(order)]
+        kept = [part for part in parts if part]
+        last = len(kept) - 1
+        return [Clause(part, at == 0, at == last) for at, part in enumerate(kept)]
+
+    def plain(self, part: str) -> str:
+        """Take the courtesies off both ends of a clause."""
+        before = None
+        while part != before:
+            before = part
+            part = self.thanks.sub("", self.courtesy.sub("", part.strip())).strip()
+        return part
+
+    def read(self, clause: Clause, reading: Reading) -> Meaning:
+        """Read one clause whole, after the words of order that its position allows."""
+        text = clause.text
+        if clause.first:
+            text = self.plain(self.opening.sub("", text))
+        if clause.last:
+            text = self.plain(self.closing.sub("", text))
+        return read_by(self.rules, text, reading)
+
+
+def drive_to(found: Match[str], reading: Reading) -> Meaning:
+    """Read the group `place` as a place to drive to."""
+    return go_to(found["place"], reading)
+
+
+def drive_into(found: Match[str], reading: Reading) -> Meaning:
+    """Read the group `place` as a room: nothing drives into a sofa."""
+    meaning = go_to(found["place"], reading)
+    goals = meaning.steps if isinstance(meaning, Steps) else ()
+    rooms = all(
+        isinstance(goal, GoTo) and reading.vocabulary.by_id[goal.place].kind == "room"
+        for goal in goals
+    )
+    return meaning if rooms else reading.problem(Code.NOT_UNDERSTOOD, found[0])
+
+
+def route(found: Match[str], reading: Reading) -> Meaning:
+    """Read the groups `start` and `place` as two places, one after the other."""
+    start, place = go_to(found["start"], reading), go_to(found["place"], reading)
+    if isinstance(start, Steps) and isinstance(place, Steps):
+        return Steps((*start.steps, *place.steps))
+    return place if isinstance(start, Steps) else start
+
+
+def next_place(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read a bare place after a go-to clause as the next place; elsewhere offer it."""
+    phrase = found["place"]
+    meaning = go_to(phrase, reading)
+    if reading.going and not isinstance(meaning, Problem):
+        return meaning
+    named = reading.going and phrase.startswith(("the ", "my ", "our "))
+    return meaning if named else None
+
+
+def come_back(_found: Match[str], _reading: Reading) -> Meaning:
+    """Read the way back to where the goal was accepted."""
+    return Steps((ComeBack(),))
+
+
+def home(_found: Match[str], _reading: Reading) -> Meaning:
+    """Read the way to the site's home."""
+    return Steps((ReturnHome(),))
+
+
+def stand(_found: Match[str], reading: Reading) -> Meaning | None:
+    """Read "and stop" after a go-to: arriving does that."""
+    return Steps(()) if reading.going else None
+
+
+def wait(found: Match[str], reading: Reading) -> Meaning:
+    """Read the groups `number` and `unit` as a time to stand still."""
+    span_s = seconds(found["number"], found["unit"])
+    if span_s is None:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    try:
+        return Steps((Wait(seconds=span_s),))
+    except ValidationError:
+        return reading.problem(Code.BAD_PLAN, found[0])
+
+
+def say(found: Match[str], reading: Reading) -> Meaning:
+    """Read the group `quote` or `words` as words to say."""
+    groups = found.groupdict()
+    if groups.get("quote"):
+        words = reading.quotes[ord(found["quote"]) - FIRST_QUOTE].strip()
+    else:
+        words = found["words"]
+    if not 1 <= len(words) <= 500:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    return Steps((Say(text=words),))
+
+
+def about(topic: Topic) -> Build:
+    """Return a builder for a question about the robot."""
+    return lambda _found, _reading: About(topic)
+
+
+def lacks(code: Code) -> Build:
+    """Return a builder for an order that is understood and can't be done.
+
+    A group `go` is read first: it is what could be done without the rest.
+    """
+
+    def build(found: Match[str], reading: Reading) -> Meaning:
+        ahead = found.groupdict().get("go")
+        meaning = go_to(ahead, reading) if ahead else Steps(())
+        before = meaning.steps if isinstance(meaning, Steps) else ()
+        return reading.problem(code, found[0], before)
+
+    return build

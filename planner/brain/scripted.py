@@ -1,0 +1,66 @@
+"""Answer from a script: the double for tests and demonstrations of brains that misbehave.
+
+Replies are used in order, the last one again and again. A text is judged like a model's: what is
+no plan is rejected.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from pydantic import ValidationError
+
+from planner.brain.errors import Misconfigured, PlanRejected
+from planner.brain.protocol import ThinkRequest, Thought
+from planner.plan import PLAN, Answer, BrainTag, Clarify, Refuse, StepPlan
+
+Reply = StepPlan | Answer | Clarify | Refuse | str | Exception
+
+
+@dataclass
+class ScriptedBrain:
+    """Give the next reply of a script: a plan, a model's text, or an error to raise.
+
+    `delay_s` passes before each reply; `hangs` never replies at all.
+    """
+
+    replies: Sequence[Reply]
+    delay_s: float = 0.0
+    hangs: bool = False
+    asked: list[ThinkRequest] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if not self.replies and not self.hangs:
+            raise Misconfigured("a scripted brain needs at least one reply; got none")
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the double's name."""
+        return BrainTag(name="scripted", version="1")
+
+    async def think(self, request: ThinkRequest) -> Thought:
+        """Return the next reply of the script.
+
+        Raises:
+            PlanRejected: the reply is a text that is no plan.
+            BrainDown: the script says so.
+        """
+        self.asked.append(request)
+        if self.hangs:
+            await asyncio.Event().wait()
+        await asyncio.sleep(self.delay_s)
+        reply = self.replies[min(len(self.asked), len(self.replies)) - 1]
+        if isinstance(reply, Exception):
+            raise reply
+        plan = _judged(reply) if isinstance(reply, str) else reply
+        return Thought(plan=plan, brain=self.tag, calls=1)
+
+
+def _judged(text: str) -> StepPlan | Answer | Clarify | Refuse:
+    try:
+        return PLAN.validate_json(text)
+    except ValidationError as error:
+        first = error.errors()[0]["msg"]
+        raise PlanRejected(f"the reply is no plan ({first}): {text[:200]!r}") from None
