@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bridge.core.fence import Fence
 from wire import RobotDescription
 
 
@@ -13,7 +14,7 @@ class CoreConfig:
 
     robot: RobotDescription
     robot_hash: str
-    fence: object | None
+    fence: Fence | None
     """None: nothing is fenced, which SELFTEST refuses."""
     fence_hash: str
     map_id: str
