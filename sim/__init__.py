@@ -1,7 +1,9 @@
 """Stand in for a robot and a home that are not there. Imports wire only."""
 
+from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
+from sim.messages import Report
 from sim.mjcf import OBSTACLES
-from sim.robot import Report, SimRobot
+from sim.robot import SimRobot
 
-__all__ = ["OBSTACLES", "PERIODS", "Hardware", "Report", "SimRobot"]
+__all__ = ["OBSTACLES", "PERIODS", "Faults", "Hardware", "Report", "SimRobot"]

@@ -7,44 +7,30 @@ and tick, and simulated time advances by one period per tick, however late the t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import copysign
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from sim.contacts import Episodes
-from sim.deadman import DeadMan, Wheels
+from sim.deadman import DeadMan
+from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
+from sim.messages import Report, Speaker
 from sim.mjcf import OBSTACLES
 from sim.sensors import Encoder, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
 from sim.world import World
-from wire import (
-    DriveState,
-    Imu,
-    Pose2,
-    RobotDescription,
-    Scan,
-    SimTruth,
-    Twist2,
-    compose,
-)
+from wire import Pose2, RobotDescription, Twist2, compose
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from wire import DriveCommand, SimControl
+    from wire import DriveCommand, Imu, Scan, SimControl, SimTruth
 
-
-@dataclass(frozen=True, slots=True)
-class Report:
-    """Give what the robot says after one tick; None where nothing was due."""
-
-    drive: DriveState
-    imu: Imu | None
-    scan: Scan | None
-    truth: SimTruth | None
+_STEPS = round(PERIODS.tick_s / PERIODS.step_s)
+_BEYOND_RANGE_M = 0.1
+"""Rays reach a little further than the lidar, so that noise works on both sides of its range."""
 
 
 class SimRobot:
@@ -68,26 +54,25 @@ class SimRobot:
         self.robot = robot or RobotDescription()
         self.home: Home = load_home(site_dir)
         self.boot_id = boot_id
+        self.faults = Faults()
         self._hardware = hardware or Hardware()
         self._world = World(solids(self.home), self.robot.base, self._hardware, PERIODS.step_s)
-        self._steps = round(PERIODS.tick_s / PERIODS.step_s)
-        self._scan_ticks = max(1, round(self.robot.lidar.scan_s / PERIODS.tick_s))
-        self._dead_man = DeadMan(self.robot.drive.timeout_s, self._hardware.timeout_ramp_radps2)
         self._world.place_robot(start or pose2(self.home.places[self.home.dock].pose))
+        self._dead_man = DeadMan(self.robot.drive.timeout_s, self._hardware.timeout_ramp_radps2)
+        left_rad, right_rad = self._world.wheel_angles()
         counts = self._hardware.encoder_counts
-        self._encoders = tuple(
-            Encoder(counts, PERIODS.tick_s, angle) for angle in self._world.wheel_angles()
+        self._encoders = (
+            Encoder(counts, PERIODS.tick_s, left_rad),
+            Encoder(counts, PERIODS.tick_s, right_rad),
         )
         # One stream per sensor: adding a beam must not change the gyro.
-        imu_seed, lidar_seed = np.random.SeedSequence(seed).spawn(2)
-        self._imu = ImuModel(self._hardware, PERIODS.tick_s, np.random.default_rng(imu_seed))
-        self._lidar = LidarModel(
-            self.robot.lidar, self._hardware, np.random.default_rng(lidar_seed)
-        )
+        streams = [np.random.default_rng(part) for part in np.random.SeedSequence(seed).spawn(2)]
+        self._imu = ImuModel(self._hardware, PERIODS.tick_s, streams[0])
+        self._lidar = LidarModel(self.robot.lidar, self._hardware, streams[1])
+        self._scan_ticks = max(1, round(self.robot.lidar.scan_s / PERIODS.tick_s))
         self._contacts = Episodes(PERIODS.tick_s)
+        self._speaker = Speaker(boot_id)
         self._ticks = 0
-        self._scans = 0
-        self._wheels = Wheels(0.0, 0.0, torque=False, timed_out=True)
 
     @property
     def time_s(self) -> float:
@@ -111,27 +96,27 @@ class SimRobot:
 
     def command(self, command: DriveCommand, now_s: float) -> bool:
         """Receive a drive command; False for a repeated seq, which counts for nothing."""
-        return self._dead_man.receive(command, now_s)
+        return not self.faults.deaf and self._dead_man.receive(command, now_s)
 
     def tick(self, now_s: float, *, real_time_factor: float = 1.0) -> Report:
         """Advance one period and report, stamped ``now_s`` on the caller's clock."""
-        self._wheels = self._dead_man.wheels(now_s)
+        wheels = self._dead_man.wheels(now_s)
         self._world.step(
-            self._past_dead_zone(self._wheels.left_radps),
-            self._past_dead_zone(self._wheels.right_radps),
-            braked=not self._wheels.torque,
-            steps=self._steps,
+            self._past_dead_zone(wheels.left_radps),
+            self._past_dead_zone(wheels.right_radps),
+            braked=not wheels.torque,
+            steps=_STEPS,
         )
         self._ticks += 1
         self._contacts.sample(self._world.contacts())
         for encoder, angle in zip(self._encoders, self._world.wheel_angles(), strict=True):
             encoder.sample(angle)
-        due = self._ticks % PERIODS.truth_ticks == 0
+        state = self._speaker.drive(now_s, self._dead_man, wheels, self._encoders)
         return Report(
-            self._drive_state(now_s),
-            self._imu_message(now_s),
-            self._scan(now_s) if self._ticks % self._scan_ticks == 0 else None,
-            self._truth(now_s, real_time_factor) if due else None,
+            drive=None if self.faults.drive_silent else state,
+            imu=self._imu_due(now_s),
+            scan=self._scan_due(now_s),
+            truth=self._truth_due(now_s, real_time_factor),
         )
 
     def step_to(self, time_s: float) -> list[Report]:
@@ -173,65 +158,28 @@ class SimRobot:
         left_over = max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
         return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 
-    def _drive_state(self, now_s: float) -> DriveState:
-        echo_boot, echo_seq = self._dead_man.echo
-        left, right = self._encoders
-        return DriveState(
-            boot_id=self.boot_id,
-            seq=self._ticks,
-            stamp_s=now_s,
-            echo_boot=echo_boot,
-            echo_seq=echo_seq,
-            enabled=self._wheels.torque,
-            timed_out=self._wheels.timed_out,
-            left_rad=left.angle_rad,
-            right_rad=right.angle_rad,
-            left_radps=left.speed_radps,
-            right_radps=right.speed_radps,
-        )
-
-    def _imu_message(self, now_s: float) -> Imu | None:
+    def _imu_due(self, now_s: float) -> Imu | None:
         if not self.robot.inputs.imu:
             return None
-        sample = self._imu.sample(self._world.twist())
-        return Imu(
-            boot_id=self.boot_id,
-            seq=self._ticks,
-            stamp_s=now_s,
-            yaw_rate_radps=sample.yaw_rate_radps,
-            accel_x_mps2=sample.accel_x_mps2,
-            accel_y_mps2=sample.accel_y_mps2,
-        )
+        message = self._speaker.imu(now_s, self._imu.sample(self._world.twist()))
+        return None if self.faults.imu_silent else message
 
-    def _scan(self, now_s: float) -> Scan:
+    def _scan_due(self, now_s: float) -> Scan | None:
+        if self._ticks % self._scan_ticks != 0:
+            return None
         config = self.robot.lidar
-        lidar_in_base = Pose2(config.x_m, config.y_m, config.yaw_rad)
-        lidar_in_map = compose(self._world.pose(), lidar_in_base)
+        lidar_in_map = compose(self._world.pose(), Pose2(config.x_m, config.y_m, config.yaw_rad))
         true_m = self._world.rays(
             (lidar_in_map.x_m, lidar_in_map.y_m),
             self._lidar.directions(lidar_in_map),
-            config.range_max_m + 0.1,
+            config.range_max_m + _BEYOND_RANGE_M,
         )
-        self._scans += 1
-        return Scan(
-            boot_id=self.boot_id,
-            seq=self._scans,
-            stamp_s=now_s,
-            angle_min_rad=self._lidar.angle_min_rad,
-            angle_increment_rad=self._lidar.angle_increment_rad,
-            range_min_m=config.range_min_m,
-            range_max_m=config.range_max_m,
-            ranges_m=self._lidar.measured(true_m),
-        )
+        message = self._speaker.scan(now_s, self._lidar, self._lidar.measured(true_m))
+        return None if self.faults.lidar_silent else message
 
-    def _truth(self, now_s: float, real_time_factor: float) -> SimTruth:
-        return SimTruth(
-            boot_id=self.boot_id,
-            seq=self._ticks // PERIODS.truth_ticks,
-            stamp_s=now_s,
-            base_in_map=self._world.pose(),
-            twist=self._world.twist(),
-            contacts=self._contacts.now,
-            contacts_total=self._contacts.total,
-            real_time_factor=real_time_factor,
+    def _truth_due(self, now_s: float, real_time_factor: float) -> SimTruth | None:
+        if self._ticks % PERIODS.truth_ticks != 0:
+            return None
+        return self._speaker.truth(
+            now_s, self._world.pose(), self._world.twist(), self._contacts, real_time_factor
         )

@@ -17,7 +17,8 @@ from wire import keys
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from sim.robot import Report, SimRobot
+    from sim.messages import Report
+    from sim.robot import SimRobot
     from wire.session import Session
 
 log = logging.getLogger("sim")
@@ -67,7 +68,8 @@ class Shell:
                 log.warning("sim/control refused: %s", control)
 
     def _say(self, report: Report) -> None:
-        self._drive.put(report.drive)
+        if report.drive is not None:
+            self._drive.put(report.drive)
         if report.imu is not None:
             self._imu.put(report.imu)
         if report.scan is not None:

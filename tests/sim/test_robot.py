@@ -2,18 +2,44 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import cos, exp, pi, sin
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from sim import Hardware, Report, SimRobot
-from wire import DriveCommand, Pose2, RobotDescription, SimControl, distance
+from sim import Faults, Hardware, Report, SimRobot
+from wire import (
+    DriveCommand,
+    DriveState,
+    Imu,
+    Pose2,
+    RobotDescription,
+    Scan,
+    SimControl,
+    SimTruth,
+    distance,
+)
 
 DEAD_ZONE_RADPS = Hardware().dead_zone_radps
 MIDDLE = Pose2(1.5, 1.9, pi / 2)
 """In the kitchen of the two-room site, looking through the door."""
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """Hold the report of a healthy robot, which always tells its drive's state."""
+
+    drive: DriveState
+    imu: Imu | None
+    scan: Scan | None
+    truth: SimTruth | None
+
+
+def told(report: Report) -> Told:
+    assert report.drive is not None
+    return Told(report.drive, report.imu, report.scan, report.truth)
 
 
 class Driver:
@@ -23,7 +49,7 @@ class Driver:
         self.robot = SimRobot(site_dir, seed=seed, start=MIDDLE, hardware=hardware)
         self.seq = 0
 
-    def drive(self, left: float, right: float, seconds: float, *, on: bool = True) -> list[Report]:
+    def drive(self, left: float, right: float, seconds: float, *, on: bool = True) -> list[Told]:
         reports = []
         for _ in range(round(seconds / 0.01)):
             self.seq += 1
@@ -31,7 +57,7 @@ class Driver:
                 DriveCommand(boot="b", seq=self.seq, left_radps=left, right_radps=right, enable=on),
                 self.robot.time_s,
             )
-            reports.append(self.robot.tick(self.robot.time_s))
+            reports.append(told(self.robot.tick(self.robot.time_s)))
         return reports
 
 
@@ -42,7 +68,7 @@ def driver(repository: Path) -> Driver:
 
 def test_it_stands_at_the_dock_until_told_to_move(repository: Path) -> None:
     robot = SimRobot(repository / "sites" / "two_room")
-    reports = robot.step_to(2.0)
+    reports = [told(report) for report in robot.step_to(2.0)]
     assert distance(robot.base_in_map, Pose2(0.9, 0.8, 0.0)) < 1e-3
     last = reports[-1].drive
     assert (last.enabled, last.timed_out, last.echo_boot) == (False, True, None)
@@ -120,7 +146,8 @@ def test_without_torque_it_is_braked(driver: Driver) -> None:
 
 def test_silence_stops_it(driver: Driver) -> None:
     driver.drive(4.0, 4.0, 1.0)
-    reports = driver.robot.step_to(driver.robot.time_s + 1.0)
+    silence = driver.robot.step_to(driver.robot.time_s + 1.0)
+    reports = [told(report) for report in silence]
     assert reports[10].drive.left_radps == pytest.approx(4.0, abs=0.2)
     assert not reports[10].drive.timed_out
     assert all(report.drive.timed_out for report in reports[21:])
@@ -195,7 +222,7 @@ def test_furniture_and_people_stop_it_too(driver: Driver) -> None:
 
 
 def test_the_same_seed_gives_the_same_messages(repository: Path) -> None:
-    def run(seed: int) -> list[Report]:
+    def run(seed: int) -> list[Told]:
         driver = Driver(repository / "sites" / "two_room", seed=seed)
         return driver.drive(2.0, 2.2, 1.0)
 
@@ -210,3 +237,25 @@ def test_a_test_may_carry_it_and_its_wheels_notice_nothing(driver: Driver) -> No
     after = driver.drive(0.0, 0.0, 0.1)[-1].drive
     assert distance(driver.robot.base_in_map, target) < 1e-3
     assert after.left_rad == pytest.approx(before.left_rad, abs=1e-3)
+
+
+def test_faults_silence_what_they_name_and_nothing_else(driver: Driver) -> None:
+    def heard() -> set[str]:
+        reports = driver.robot.step_to(driver.robot.time_s + 0.2)
+        keys = ("drive", "imu", "scan", "truth")
+        return {key for key in keys for report in reports if getattr(report, key) is not None}
+
+    assert heard() == {"drive", "imu", "scan", "truth"}
+    driver.robot.faults.lidar_silent = True
+    assert heard() == {"drive", "imu", "truth"}
+    driver.robot.faults.imu_silent = driver.robot.faults.drive_silent = True
+    assert heard() == {"truth"}
+    driver.robot.faults = Faults()
+    assert heard() == {"drive", "imu", "scan", "truth"}
+
+
+def test_a_deaf_drive_stops_by_itself(driver: Driver) -> None:
+    driver.drive(4.0, 4.0, 1.0)
+    driver.robot.faults.deaf = True
+    last = driver.drive(4.0, 4.0, 1.0)[-1].drive
+    assert (last.timed_out, last.enabled, last.echo_seq) == (True, False, 100)

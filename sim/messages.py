@@ -1,0 +1,99 @@
+"""Write what the simulated robot says as messages of the wire. Knows no physics and no noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from wire import DriveState, Imu, Pose2, Scan, SimTruth, Twist2
+
+if TYPE_CHECKING:
+    from sim.contacts import Episodes
+    from sim.deadman import DeadMan, Wheels
+    from sim.sensors import Encoder, ImuSample, LidarModel, Ranges
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Give what the robot says after one tick; None where nothing was due or a fault keeps it."""
+
+    drive: DriveState | None
+    imu: Imu | None
+    scan: Scan | None
+    truth: SimTruth | None
+
+
+class Speaker:
+    """Stamp and number messages of one boot; ``seq`` of a key rises by one each time it is due."""
+
+    def __init__(self, boot_id: str) -> None:
+        self._boot_id = boot_id
+        self._seqs = dict.fromkeys(("drive", "imu", "scan", "truth"), 0)
+
+    def _next(self, key: str) -> int:
+        self._seqs[key] += 1
+        return self._seqs[key]
+
+    def drive(
+        self, now_s: float, dead_man: DeadMan, wheels: Wheels, encoders: tuple[Encoder, Encoder]
+    ) -> DriveState:
+        """Say what the drive does."""
+        echo_boot, echo_seq = dead_man.echo
+        left, right = encoders
+        return DriveState(
+            boot_id=self._boot_id,
+            seq=self._next("drive"),
+            stamp_s=now_s,
+            echo_boot=echo_boot,
+            echo_seq=echo_seq,
+            enabled=wheels.torque,
+            timed_out=wheels.timed_out,
+            left_rad=left.angle_rad,
+            right_rad=right.angle_rad,
+            left_radps=left.speed_radps,
+            right_radps=right.speed_radps,
+        )
+
+    def imu(self, now_s: float, sample: ImuSample) -> Imu:
+        """Say what gyro and accelerometer read."""
+        return Imu(
+            boot_id=self._boot_id,
+            seq=self._next("imu"),
+            stamp_s=now_s,
+            yaw_rate_radps=sample.yaw_rate_radps,
+            accel_x_mps2=sample.accel_x_mps2,
+            accel_y_mps2=sample.accel_y_mps2,
+        )
+
+    def scan(self, now_s: float, lidar: LidarModel, ranges_m: Ranges) -> Scan:
+        """Say what the lidar saw."""
+        return Scan(
+            boot_id=self._boot_id,
+            seq=self._next("scan"),
+            stamp_s=now_s,
+            angle_min_rad=lidar.angle_min_rad,
+            angle_increment_rad=lidar.angle_increment_rad,
+            range_min_m=lidar.config.range_min_m,
+            range_max_m=lidar.config.range_max_m,
+            ranges_m=ranges_m,
+        )
+
+    def truth(
+        self,
+        now_s: float,
+        base_in_map: Pose2,
+        twist: Twist2,
+        contacts: Episodes,
+        real_time_factor: float,
+    ) -> SimTruth:
+        """Say where the robot really is, to judges and the localization stand-in."""
+        return SimTruth(
+            boot_id=self._boot_id,
+            seq=self._next("truth"),
+            stamp_s=now_s,
+            base_in_map=base_in_map,
+            twist=twist,
+            contacts=contacts.now,
+            contacts_total=contacts.total,
+            real_time_factor=real_time_factor,
+        )
