@@ -18,6 +18,8 @@ def distance_m(clear: NDArray[np.bool_], resolution_m: float) -> NDArray[np.floa
     """Return the distance from each cell's centre to the edge of the nearest cell not clear [m].
 
     What lies beyond the edge of the map is not clear. Negative (half a cell) in cells not clear.
+    Half a cell is taken off a distance between centres, which beside a corner leaves up to 0.21 of
+    a cell too much: 0.01 m at 0.05 m, within the costmap's margin.
     """
     padded = np.pad(clear.astype(np.uint8), 1)
     cells = cv2.distanceTransform(padded, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1]

@@ -43,6 +43,7 @@ class RouteWorker:
         self._command = (folder, map_id, limits)
         self._process: Process | None = None
         self._keeper: asyncio.Task[None] | None = None
+        self._burial: asyncio.Task[None] | None = None
         self._ready = asyncio.Event()
         self._refused: RouteFailure | None = None
         self._waiting: dict[int, asyncio.Future[RouteResult]] = {}
@@ -112,6 +113,8 @@ class RouteWorker:
             keeper.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await keeper
+        if self._burial is not None:
+            await self._burial
 
     async def _wait_ready(self) -> None:
         await self._ready.wait()
@@ -184,14 +187,19 @@ class RouteWorker:
         for answer in self._waiting.values():
             if not answer.done():
                 answer.set_exception(RouteFailure("route_worker_died"))
-        if process is None:
-            return
-        _end(process)
-        if process.stdin is not None:
-            process.stdin.close()
-        if process.stdout is not None:
-            await process.stdout.read()  # to its end, so that the pipe is closed with the process
-        await process.wait()
+        if process is not None:
+            # Shielded: whoever cancels us, a process is always waited for.
+            self._burial = asyncio.create_task(_reap(process))
+            await asyncio.shield(self._burial)
+
+
+async def _reap(process: Process) -> None:
+    _end(process)
+    if process.stdin is not None:
+        process.stdin.close()
+    if process.stdout is not None:
+        await process.stdout.read()  # to its end, so that the pipe is closed with the process
+    await process.wait()
 
 
 def _end(process: Process) -> None:

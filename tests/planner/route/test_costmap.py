@@ -1,0 +1,111 @@
+"""Hold the costmap to geometry: discs, fences, and what the lidar may and may not add."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import numpy as np
+import pytest
+
+from planner.route.costmap import FENCE_MARGIN_M, MARGIN_M, static_costmap
+from planner.world import Site
+from tests.planner.route.floors import CELL_M, drawn
+
+RADIUS_M = 0.30
+OPEN = ("." * 16,) * 16  # 4 x 4 m
+
+
+def test_no_free_cell_lets_the_disc_touch() -> None:
+    site = drawn("........", "........", "...#....", "........", "........", square_m=0.5)
+    costmap = static_costmap(site, RADIUS_M)
+    grid = site.grid
+    for row, column in np.argwhere(costmap.free):
+        x_m, y_m = grid.centre_of(int(column), int(row))
+        # The wall is the square from (1.5, 1.0) to (2.0, 1.5); outside the map nothing is known.
+        away_m = hypot(max(1.5 - x_m, 0, x_m - 2.0), max(1.0 - y_m, 0, y_m - 1.5))
+        edge_m = min(x_m, y_m, 4.0 - x_m, 2.5 - y_m)
+        # Beside a corner the edge is up to 0.21 of a cell nearer than cells can tell.
+        assert min(away_m, edge_m) >= RADIUS_M + MARGIN_M - 0.21 * CELL_M
+
+
+def test_nothing_more_than_needed_is_blocked() -> None:
+    costmap = static_costmap(drawn(*OPEN), RADIUS_M)
+    inner = costmap.free[7:-7, 7:-7]  # 0.35 m from the edge
+    assert inner.all()
+
+
+def test_the_fence_bounds_the_centre_with_its_margin() -> None:
+    outline = ((1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0))
+    hole = ((1.9, 1.9), (2.1, 1.9), (2.1, 2.1), (1.9, 2.1))
+    site = drawn(*OPEN, allowed=(outline,), keep_outs=(hole,))
+    costmap = static_costmap(site, RADIUS_M)
+    assert costmap.free.any()
+    for row, column in np.argwhere(costmap.free):
+        x_m, y_m = site.grid.centre_of(int(column), int(row))
+        assert site.fence.allows(x_m, y_m)
+        assert site.fence.border_distance_m(x_m, y_m) >= FENCE_MARGIN_M - 0.21 * CELL_M
+
+
+def test_overlapping_outlines_are_one_floor() -> None:
+    left = ((0.5, 0.5), (2.2, 0.5), (2.2, 3.5), (0.5, 3.5))
+    right = ((1.8, 0.5), (3.5, 0.5), (3.5, 3.5), (1.8, 3.5))
+    costmap = static_costmap(drawn(*OPEN, allowed=(left, right)), RADIUS_M)
+    assert costmap.free[40, 15:65].all()
+
+
+def test_the_middle_of_a_door_costs_least() -> None:
+    site = drawn(*(["." * 20] * 6 + ["########..##########"] + ["." * 20] * 6), square_m=0.5)
+    costmap = static_costmap(site, RADIUS_M)
+    row = costmap.cost[6 * 10 + 5]
+    free = np.flatnonzero(np.isfinite(row))
+    assert free.tolist() == list(range(87, 93)) or len(free) > 0
+    assert abs(float(free[np.argmin(row[free])]) - 89.5) <= 0.5
+
+
+def test_a_new_obstacle_blocks_its_disc_and_leaves_the_mapped_floor_as_it_was() -> None:
+    mapped = static_costmap(drawn(*OPEN), RADIUS_M)
+    seen = mapped.with_obstacles([(2.0, 2.0)], (1.0, 1.0))
+    assert mapped.free[40, 40]
+    assert not seen.free[40, 40]
+    assert not seen.free[40, 46]
+    assert seen.free[40, 48]
+    assert (seen.cost >= mapped.cost).all()
+
+
+@pytest.mark.parametrize(
+    "point",
+    [
+        (0.02, 2.0),  # the edge of the known floor, 0.1 m away
+        (1.1, 1.0),  # inside the robot
+        (-5.0, 2.0),  # off the map
+        (float("nan"), 2.0),
+        (2.0, float("inf")),
+    ],
+)
+def test_what_is_explained_or_no_place_changes_nothing(point: tuple[float, float]) -> None:
+    mapped = static_costmap(drawn(*OPEN), RADIUS_M)
+    assert mapped.with_obstacles([point], (1.0, 1.0)) is mapped
+    assert mapped.with_obstacles([], (1.0, 1.0)) is mapped
+
+
+def test_noise_on_the_jambs_does_not_close_the_doors(home: Site) -> None:
+    """Show lidar points of every mapped wall, 0.06 m off in a random direction."""
+    mapped = static_costmap(home, RADIUS_M)
+    random = np.random.default_rng(1)
+    rows, columns = np.nonzero(mapped.occupied)
+    walls = np.column_stack([columns, rows]) * home.grid.resolution_m + home.grid.origin_x_m
+    angle = random.uniform(0, 2 * np.pi, len(walls))
+    noisy = walls + 0.06 * np.column_stack([np.cos(angle), np.sin(angle)])
+    seen = mapped.with_obstacles([(x, y) for x, y in noisy.tolist()], (1.5, 2.2))
+    ends = [home.grid.cell_of(p.pose.x_m, p.pose.y_m) for p in home.places]
+    assert {int(seen.labels[row, column]) for column, row in ends} == {
+        int(seen.labels[ends[0][1], ends[0][0]])
+    }
+
+
+def test_points_beyond_the_map_are_blocked() -> None:
+    costmap = static_costmap(drawn(*OPEN), RADIUS_M)
+    outside = np.array([[-1.0, 2.0], [2.0, 99.0], [4.01, 2.0], [-0.001, 2.0]])
+    assert np.isinf(costmap.cost_at(outside)).all()
+    assert (costmap.clearance_at(outside) < 0).all()
+    assert (costmap.fence_gap_at(outside) < 0).all()
