@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, ValidationError
 
-from bridge.core.fence import Fence, Polygon, Zone, build_fence
+from bridge.core.fence import Fence, Zone, build_fence
+from bridge.core.outline import Polygon
 from wire.base import Record
 from wire.errors import Misconfigured
 from wire.fingerprint import fingerprint

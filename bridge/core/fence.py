@@ -1,22 +1,30 @@
 """Bound where the robot's centre may be, in ``map``.
 
-Owns the meaning of a fence: inside at least one allowed outline and inside no keep-out. Plain
-mathematics over edges that are prepared once; reads no file and knows no robot.
+Owns the meaning of a fence: inside at least one allowed outline and inside no keep-out. Everything
+that a tick asks is prepared once, cell by cell. Reads no file and knows no robot.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
-from math import inf, sqrt
+from math import floor, inf, sqrt
 
-Point = tuple[float, float]
-Polygon = tuple[Point, ...]
-Edge = tuple[float, float, float, float, float]
-"""Start x, y [m], span x, y [m], and the span's squared length [m2]."""
+from bridge.core.outline import (
+    Edge,
+    Polygon,
+    bounds,
+    contains,
+    cut,
+    edges_of,
+    meet,
+    nearest_m,
+    permits,
+)
 
-_BESIDE_M = 1e-6
-"""How far beside an edge one looks to see whether it parts inside from outside."""
+SIGHT_M = 1.0
+"""Distances to the boundary are told up to here; nobody acts on a fence that is further off."""
+_CELLS = 48  # at most so many along either side
+_MIN_CELL_M = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +33,16 @@ class Zone:
 
     polygon: Polygon
     max_speed_mps: float
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """Hold what is near one square of the floor."""
+
+    edges: tuple[Edge, ...]
+    """All of the boundary within sight of any point of the square."""
+    inside: bool | None
+    """The square is wholly inside, or wholly outside; None where the boundary runs through."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,31 +55,29 @@ class Fence:
     zones: tuple[Zone, ...]
     boundary: tuple[Edge, ...]
     """The lines that part inside from outside: no line between two overlapping outlines is one."""
+    cell_m: float
+    cells: dict[tuple[int, int], Cell]
+    """Every square from which the boundary, or its inside, can be seen."""
 
     def allows(self, x_m: float, y_m: float) -> bool:
-        """Tell whether the centre may be at a point."""
-        return _permits(self.allowed, self.keep_outs, x_m, y_m)
-
-    def distance_m(self, x_m: float, y_m: float) -> float:
-        """Return how far a point is from the boundary [m], on either side; NaN beside no number."""
-        nearest = inf
-        for x0, y0, dx, dy, length2 in self.boundary:
-            px, py = x_m - x0, y_m - y0
-            along = (px * dx + py * dy) / length2
-            if along > 0.0:
-                if along > 1.0:
-                    along = 1.0
-                px -= along * dx
-                py -= along * dy
-            square = px * px + py * py
-            if not square >= nearest:
-                nearest = square
-        return sqrt(nearest) if nearest >= 0.0 else nearest
+        """Tell whether the centre may be at a point; what is not a number may be nowhere."""
+        cell = self._cell(x_m, y_m)
+        if cell is None:
+            return False
+        if cell.inside is not None:
+            return cell.inside
+        return permits(self.allowed, self.keep_outs, x_m, y_m)
 
     def margin_m(self, x_m: float, y_m: float) -> float:
-        """Return the distance to the boundary [m], negative outside."""
-        distance = self.distance_m(x_m, y_m)
-        return distance if self.allows(x_m, y_m) else -distance
+        """Return the distance to the boundary [m], negative outside; beyond sight, sight."""
+        cell = self._cell(x_m, y_m)
+        if cell is None:
+            return -SIGHT_M
+        distance = min(SIGHT_M, nearest_m(cell.edges, x_m, y_m))
+        inside = cell.inside
+        if inside is None:
+            inside = permits(self.allowed, self.keep_outs, x_m, y_m)
+        return distance if inside else -distance
 
     def crosses(self, x0_m: float, y0_m: float, x1_m: float, y1_m: float) -> bool:
         """Tell whether a segment touches the boundary or lies outside it.
@@ -71,17 +87,20 @@ class Fence:
         if not (self.allows(x0_m, y0_m) and self.allows(x1_m, y1_m)):
             return True
         dx, dy = x1_m - x0_m, y1_m - y0_m
-        return any(_meet(x0_m, y0_m, dx, dy, edge) for edge in self.boundary)
+        cell = self._cell(x0_m, y0_m)
+        short = cell is not None and dx * dx + dy * dy <= SIGHT_M * SIGHT_M
+        edges = cell.edges if cell is not None and short else self.boundary
+        return any(meet(x0_m, y0_m, dx, dy, edge) for edge in edges)
 
     def max_speed_mps(self, x_m: float, y_m: float) -> float | None:
         """Return the slowest zone's speed at a point; None where there is no zone."""
-        slowest = None
-        for zone in self.zones:
-            if contains(zone.polygon, x_m, y_m) and not (
-                slowest is not None and slowest <= zone.max_speed_mps
-            ):
-                slowest = zone.max_speed_mps
-        return slowest
+        speeds = [z.max_speed_mps for z in self.zones if contains(z.polygon, x_m, y_m)]
+        return min(speeds, default=None)
+
+    def _cell(self, x_m: float, y_m: float) -> Cell | None:
+        if abs(x_m) < 1e6 and abs(y_m) < 1e6:
+            return self.cells.get((floor(x_m / self.cell_m), floor(y_m / self.cell_m)))
+        return None
 
 
 def build_fence(
@@ -91,99 +110,46 @@ def build_fence(
     zones: tuple[Zone, ...] = (),
 ) -> Fence:
     """Prepare a fence: cut every outline where others cross it and keep the parts that bound."""
-    edges = [edge for outline in (*allowed, *keep_outs) for edge in _edges(outline)]
+    edges = [edge for outline in (*allowed, *keep_outs) for edge in edges_of(outline)]
     boundary = tuple(
-        part for edge in edges for part in _cut(edge, edges) if _bounds(part, allowed, keep_outs)
+        part for edge in edges for part in cut(edge, edges) if bounds(part, allowed, keep_outs)
     )
-    return Fence(map_id, allowed, keep_outs, zones, boundary)
+    xs = [x for outline in allowed for x, _ in outline]
+    ys = [y for outline in allowed for _, y in outline]
+    wide = max(
+        max(xs, default=0.0) - min(xs, default=0.0), max(ys, default=0.0) - min(ys, default=0.0)
+    )
+    cell_m = max(_MIN_CELL_M, wide / _CELLS)
+    cells = {
+        (i, j): _cell_at(
+            (i + 0.5) * cell_m, (j + 0.5) * cell_m, cell_m, boundary, allowed, keep_outs
+        )
+        for i in _range(xs, cell_m)
+        for j in _range(ys, cell_m)
+    }
+    return Fence(map_id, allowed, keep_outs, zones, boundary, cell_m, cells)
 
 
-def contains(polygon: Polygon, x_m: float, y_m: float) -> bool:
-    """Tell whether a point is inside an outline (even-odd rule); not a number is outside."""
-    inside = False
-    xa, ya = polygon[-1]
-    for xb, yb in polygon:
-        if (ya > y_m) != (yb > y_m) and x_m < xa + (y_m - ya) * (xb - xa) / (yb - ya):
-            inside = not inside
-        xa, ya = xb, yb
-    return inside
-
-
-def _permits(
-    allowed: tuple[Polygon, ...], keep_outs: tuple[Polygon, ...], x: float, y: float
-) -> bool:
-    return any(contains(outline, x, y) for outline in allowed) and not any(
-        contains(outline, x, y) for outline in keep_outs
+def _range(values: list[float], cell_m: float) -> range:
+    if not values:
+        return range(0)
+    return range(
+        floor((min(values) - SIGHT_M) / cell_m), floor((max(values) + SIGHT_M) / cell_m) + 1
     )
 
 
-def _edges(outline: Polygon) -> list[Edge]:
-    return [
-        _edge(xa, ya, xb, yb)
-        for (xa, ya), (xb, yb) in zip(outline, outline[1:] + outline[:1], strict=True)
-        if (xa, ya) != (xb, yb)
-    ]
-
-
-def _edge(xa: float, ya: float, xb: float, yb: float) -> Edge:
-    dx, dy = xb - xa, yb - ya
-    return xa, ya, dx, dy, max(dx * dx + dy * dy, 1e-300)
-
-
-def _cut(edge: Edge, others: list[Edge]) -> list[Edge]:
-    """Cut an edge wherever another one meets it, end points of others on it included."""
-    x0, y0, dx, dy, length2 = edge
-    cuts = {0.0, 1.0}
-    for ox, oy, ux, uy, _ in others:
-        for px, py in ((ox, oy), (ox + ux, oy + uy)):
-            off = dx * (py - y0) - dy * (px - x0)
-            if off * off <= length2 * _BESIDE_M * _BESIDE_M:
-                cuts.add(((px - x0) * dx + (py - y0) * dy) / length2)
-        cross = dx * uy - dy * ux
-        if cross != 0.0:
-            along = ((ox - x0) * uy - (oy - y0) * ux) / cross
-            across = ((ox - x0) * dy - (oy - y0) * dx) / cross
-            if 0.0 <= across <= 1.0:
-                cuts.add(along)
-    marks = sorted(cut for cut in cuts if 0.0 <= cut <= 1.0)
-    return [
-        _edge(x0 + a * dx, y0 + a * dy, x0 + b * dx, y0 + b * dy)
-        for a, b in pairwise(marks)
-        if (b - a) * (b - a) * length2 > _BESIDE_M * _BESIDE_M
-    ]
-
-
-def _bounds(part: Edge, allowed: tuple[Polygon, ...], keep_outs: tuple[Polygon, ...]) -> bool:
-    """Tell whether a line has the permitted on one side only."""
-    x0, y0, dx, dy, length2 = part
-    step = 10 * _BESIDE_M / sqrt(length2)
-    x, y = x0 + dx / 2, y0 + dy / 2
-    left = _permits(allowed, keep_outs, x - dy * step, y + dx * step)
-    right = _permits(allowed, keep_outs, x + dy * step, y - dx * step)
-    return left != right
-
-
-def _meet(x0: float, y0: float, dx: float, dy: float, edge: Edge) -> bool:
-    """Tell whether a segment touches an edge, ends included."""
-    ex, ey, ux, uy, _ = edge
-    cross = dx * uy - dy * ux
-    px, py = ex - x0, ey - y0
-    if cross == 0.0:
-        return px * dy == py * dx and _overlap(px, py, dx, dy, ux, uy)
-    along = (px * uy - py * ux) / cross
-    across = (px * dy - py * dx) / cross
-    return 0.0 <= along <= 1.0 and 0.0 <= across <= 1.0
-
-
-def _overlap(px: float, py: float, dx: float, dy: float, ux: float, uy: float) -> bool:
-    """Tell whether two parallel segments on one line share a point; p leads to the second's start.
-
-    A segment of no length is a point, and on the line if it is between the second's ends.
-    """
-    length2 = dx * dx + dy * dy
-    if length2 == 0.0:
-        along = -(px * ux + py * uy)
-        return px * uy == py * ux and 0.0 <= along <= ux * ux + uy * uy
-    start = px * dx + py * dy
-    end = start + ux * dx + uy * dy
-    return min(start, end) <= length2 and max(start, end) >= 0.0
+def _cell_at(
+    x_m: float,
+    y_m: float,
+    cell_m: float,
+    boundary: tuple[Edge, ...],
+    allowed: tuple[Polygon, ...],
+    keep_outs: tuple[Polygon, ...],
+) -> Cell:
+    """Gather what is near the square around a point."""
+    half = cell_m / sqrt(2) + 1e-6
+    near = tuple(e for e in boundary if nearest_m((e,), x_m, y_m) <= SIGHT_M + half)
+    inside = None
+    if min((nearest_m((e,), x_m, y_m) for e in near), default=inf) > half:
+        inside = permits(allowed, keep_outs, x_m, y_m)
+    return Cell(near, inside)
