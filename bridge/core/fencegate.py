@@ -10,9 +10,9 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
+from bridge.core.braking import STANDING_MPS, stop_length_m
 from bridge.core.freespace import TURNING_MPS
 from bridge.core.odometry import along_arc
-from bridge.core.stopping import STANDING_MPS, stop_length_m
 
 if TYPE_CHECKING:
     from bridge.core.fence import Fence

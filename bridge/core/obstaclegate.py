@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
-from bridge.core.freespace import FreeLength, free_length
-from bridge.core.kinematics import scaled
-from bridge.core.stopping import (
+from bridge.core.braking import (
     CREEP_RADPS,
     STANDING_MPS,
     path_decel_mps2,
@@ -23,6 +21,8 @@ from bridge.core.stopping import (
     speed_scale,
     speed_within,
 )
+from bridge.core.freespace import FreeLength, free_length
+from bridge.core.kinematics import scaled
 from wire.geometry import STILL, Pose2, Twist2
 
 if TYPE_CHECKING:

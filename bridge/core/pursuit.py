@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
+from bridge.core.braking import speed_within
 from bridge.core.kinematics import saturate
 from bridge.core.path import PLANNED_DECEL, SLOWEST_MPS, TURN_RADIUS_M, Path, regulated
-from bridge.core.stopping import speed_within
 from wire.geometry import MAX_COORDINATE_M, STILL, Pose2, Twist2, wrap
 
 if TYPE_CHECKING:
