@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("sim")
 
-STALE_TICKS = 2
-"""Ticks after a freeze in which arrivals are dropped: what lay in the socket comes a bit late."""
+STALE_TICKS = 10
+"""Ticks after a freeze in which arrivals are dropped: what lay in the socket takes a moment to come
+through on a busy machine. The dead-man has fired by then, so nothing is lost but 0.1 s."""
 
 
 class Shell:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from sim.site.outline import allowed_rects, area_m2, edge_distance_m, trace
 from sim.site.plan import door_edge, furniture, rect, room_rects, solids, walls
-from sim.site.raster import clearance, draw, inside, reachable
+from sim.site.raster import crowded, draw, inside, reachable
 from sim.site.shapes import EPS_M, Rect
 from wire import Misconfigured
 
@@ -140,7 +140,7 @@ def _fenced(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding
 
 def _reach(home: Home) -> Iterator[Finding]:
     grid = draw(home)
-    open_cells = clearance(home, grid) >= ROBOT_RADIUS_M + SPARE_M
+    open_cells = ~crowded(home, grid, ROBOT_RADIUS_M + SPARE_M)
     open_cells &= inside(allowed_rects(home), grid)
     open_cells &= ~inside([rect(area.box) for area in home.fence.keep_outs], grid)
     dock = home.places[home.dock].pose

@@ -90,13 +90,16 @@ def draw(home: Home) -> Grid:
     return grid
 
 
-def clearance(home: Home, grid: Grid) -> NDArray[np.float64]:
-    """Return each cell centre's distance to the nearest solid [m], measured on the shapes."""
+def crowded(home: Home, grid: Grid, radius_m: float) -> NDArray[np.bool_]:
+    """Mark the cells whose centre is nearer to a solid than a radius, measured on the shapes."""
     xs, ys = grid.centres()
-    nearest = np.full(grid.cells.shape, np.inf)
+    near = np.zeros(grid.cells.shape, dtype=np.bool_)
     for solid in solids(home):
-        np.minimum(nearest, distance(solid.shape, xs, ys), out=nearest)
-    return nearest
+        box = solid.shape.bounds.grown(radius_m)
+        (row0, column0), (row1, column1) = grid.cell(box.x0, box.y0), grid.cell(box.x1, box.y1)
+        part = np.s_[max(row0, 0) : row1 + 1, max(column0, 0) : column1 + 1]
+        near[part] |= distance(solid.shape, xs[part], ys[part]) < radius_m
+    return near
 
 
 def reachable(open_cells: NDArray[np.bool_], start: tuple[int, int]) -> NDArray[np.bool_]:

@@ -237,6 +237,9 @@ def test_a_test_may_carry_it_and_its_wheels_notice_nothing(driver: Driver) -> No
     after = driver.drive(0.0, 0.0, 0.1)[-1].drive
     assert distance(driver.robot.base_in_map, target) < 1e-3
     assert after.left_rad == pytest.approx(before.left_rad, abs=1e-3)
+    driver.drive(2.0, 2.0, 0.5)
+    driver.robot.control(SimControl(id="t1", place_robot=target))
+    assert distance(driver.robot.base_in_map, target) > 0.05, "a repeated id is no new wish"
 
 
 def test_faults_silence_what_they_name_and_nothing_else(driver: Driver) -> None:
