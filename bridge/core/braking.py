@@ -9,16 +9,18 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from bridge.core.freespace import TURNING_MPS, FreeLength
 from bridge.core.kinematics import fastest_rim
 
 if TYPE_CHECKING:
+    from bridge.core.freespace import FreeLength
     from wire.geometry import Twist2
     from wire.robot import Base, Limits
 
 CREEP_MPS, CREEP_RADPS = 0.1, 0.3
 """What loses no clearance may move this fast beside or inside the margin."""
 STANDING_MPS = 0.02
+TURNING_MPS = 1e-4
+"""Slower than this is turning in place, which sweeps nothing but the disc itself."""
 
 
 def reaction_s(scan_age_s: float, scan_s: float, lag_s: float, limits: Limits) -> float:

@@ -10,8 +10,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from bridge.core.braking import STANDING_MPS, stop_length_m
-from bridge.core.freespace import TURNING_MPS
+from bridge.core.braking import STANDING_MPS, TURNING_MPS, stop_length_m
 from bridge.core.odometry import along_arc
 
 if TYPE_CHECKING:

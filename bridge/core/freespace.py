@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
+from bridge.core.braking import TURNING_MPS, reaction_s, speed_scale
 from bridge.core.odometry import along_arc
 from wire.geometry import Pose2, between
 
@@ -19,11 +20,11 @@ if TYPE_CHECKING:
     from bridge.core.scanpicture import Points, ScanPicture
     from wire.geometry import Twist2
 
+__all__ = ["FreeLength", "free_length", "reaction_s", "speed_scale"]
+
 MARGIN_M = 0.05
 REACH_M = 2.0
 """Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
-TURNING_MPS = 1e-4
-"""Slower than this is turning in place, which sweeps nothing but the disc itself."""
 MOVED_M = 1.0
 """A scan taken further away says nothing of here; LIDAR_STALE holds the robot long before."""
 _STRAIGHT_PER_M = 1e-3  # 2 mm beside a straight line after 2 m
