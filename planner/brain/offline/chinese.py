@@ -99,6 +99,10 @@ _RULES = (
     _rule(r"打(?:个|一?声)?招呼", greet),
     _rule(rf"从(?P<start>.+?)(?:出发)?{_GO}(?P<place>{MARK}.*)", route),
     _rule(r"从(?P<place>.+?)(?:出发|开始|起步)", drive_to),
+    _rule(
+        rf"{_LEAD}{_GO}(?P<go>{MARK})(?:里面?)?[把将]?[^{MARK[1:-1]}]*{_ARM}.*",
+        lacks(Code.NO_CAPABILITY),
+    ),
     _rule(rf".*{_ARM}.*", lacks(Code.NO_CAPABILITY)),
     _rule(rf"{_LEAD}{_GO}(?P<go>{MARK}[里边]?){_LOOK}.*", lacks(Code.NO_CAMERA)),
     _rule(
@@ -149,7 +153,7 @@ CHINESE = Grammar(
         rf"|(?<={MARK})(?:和|与|跟|及|以及|还有|后(?=[去到回再等说返]))"
         rf"|(?<={MARK})(?:那里|那儿|里)?(?=(?:等待?|停留)[\d零一二三四五六七八九十两半]|说|打招呼)"
     ),
-    courtesy=re.compile(rf"^(?:{_COURTESY})"),
+    courtesy=re.compile(rf"^(?:{_COURTESY})+"),
     thanks=re.compile(rf"(?:{_THANKS})$"),
     opening=re.compile(r"^(?:首先|先)"),
     closing=re.compile(r"^(?:最后|最终)"),

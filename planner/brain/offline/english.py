@@ -183,7 +183,7 @@ ENGLISH = Grammar(
         r"[,;!?:。、]+|\.(?!\d)|\s[-–—]+\s|—"
         r"|\b(?:and then|then|and|after that|afterwards|followed by)\b"
     ),
-    courtesy=re.compile(rf"^(?:{_COURTESY})(?:\s+|$)"),
+    courtesy=re.compile(rf"^(?:(?:{_COURTESY})(?:\s+|$))+"),
     thanks=re.compile(rf"(?:^|\s+)(?:{_THANKS})$"),
     opening=re.compile(r"^(?:first of all|firstly|first|to begin with|to start)\s+|\s+first$"),
     closing=re.compile(r"^(?:finally|lastly|last|at last|in the end)\s+|\s+(?:at the end|last)$"),

@@ -104,19 +104,20 @@ class Lexicon:
         other place within three: "kitchn" is the kitchen; "dining room" is no living room, and
         "bedroom 2" no bedroom 1.
         """
-        if any(char.isdigit() for char in name) or not name.isascii():
+        key = squash(name)
+        if len(key) > self._longest + 1 or not key.isascii() or not key.isalpha():
             return None
         near = {
             place
-            for key, places in self._ids.items()
+            for spelling, places in self._ids.items()
             for place in places
-            if OSA.distance(squash(name), key, score_cutoff=_TYPO_ROOM) <= _TYPO_ROOM
+            if OSA.distance(key, spelling, score_cutoff=_TYPO_ROOM) <= _TYPO_ROOM
         }
         sure = {
             place
-            for key, places in self._ids.items()
+            for spelling, places in self._ids.items()
             for place in places
-            if _one_slip(name, self._spaced[key])
+            if place in near and _one_slip(name, self._spaced[spelling])
         }
         return next(iter(sure)) if len(sure) == 1 and near == sure else None
 
@@ -131,7 +132,7 @@ class Lexicon:
 
     def near(self, name: str, limit: int = 3) -> tuple[str, ...]:
         """Return the places whose names look most like an unknown one, for a person to choose."""
-        key = squash(name)[:80]
+        key = squash(name[:80])
         scored: dict[str, float] = {}
         for spelling, places in self._ids.items():
             score = ratio(key, spelling)

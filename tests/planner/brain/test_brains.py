@@ -1,0 +1,101 @@
+"""Check the brain's door: the offline brain and the scripted double behave as one protocol."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+
+import pytest
+
+import planner.brain
+from planner.brain import (
+    Brain,
+    BrainDown,
+    Misconfigured,
+    OfflineBrain,
+    PlanRejected,
+    ScriptedBrain,
+    ThinkRequest,
+    language_of,
+)
+from planner.plan import Answer, GoTo, Language, StepPlan, Vocabulary, Wait
+
+GOOD = StepPlan(steps=(Wait(seconds=1.0),))
+
+
+def ask(brain: Brain, home: Vocabulary, text: str = "go to the kitchen", **more: str) -> object:
+    request = ThinkRequest.model_validate({"text": text, "vocabulary": home, **more})
+    return asyncio.run(brain.think(request)).plan
+
+
+def test_offline_brain_plans_and_names_itself(home: Vocabulary) -> None:
+    brain = OfflineBrain()
+    assert ask(brain, home) == StepPlan(steps=(GoTo(place="kitchen"),))
+    assert (brain.tag.name, brain.tag.version) == ("offline", "1")
+
+
+def test_offline_brain_knows_the_room_it_is_told(home: Vocabulary) -> None:
+    answer = ask(OfflineBrain(), home, "你在哪", room="kitchen")
+    assert isinstance(answer, Answer)
+    assert answer.text.zh == "我在厨房。"
+
+
+def test_script_is_followed_and_its_last_line_repeats(home: Vocabulary) -> None:
+    other = StepPlan(steps=(Wait(seconds=2.0),))
+    brain = ScriptedBrain(replies=[GOOD, other])
+    assert [ask(brain, home) for _ in range(3)] == [GOOD, other, other]
+    assert [request.text for request in brain.asked] == ["go to the kitchen"] * 3
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("not json", "", "{}", '{"kind":"plan","steps":[{"kind":"fly"}]}', "[" * 10_000, "NaN"),
+        '{"kind":"plan","steps":[{"kind":"wait","seconds":1e999}]}',
+    ],
+    ids=lambda text: text[:20],
+)
+def test_a_text_that_is_no_plan_is_rejected(text: str, home: Vocabulary) -> None:
+    with pytest.raises(PlanRejected, match="no plan"):
+        ask(ScriptedBrain(replies=[text]), home)
+
+
+def test_a_text_that_is_a_plan_is_taken(home: Vocabulary) -> None:
+    assert ask(ScriptedBrain(replies=[json.dumps(GOOD.model_dump())]), home) == GOOD
+
+
+def test_a_scripted_failure_is_raised(home: Vocabulary) -> None:
+    with pytest.raises(BrainDown, match="503"):
+        ask(ScriptedBrain(replies=[BrainDown("503")]), home)
+
+
+def test_an_empty_script_refuses_to_start() -> None:
+    with pytest.raises(Misconfigured, match="got none"):
+        ScriptedBrain(replies=[])
+
+
+def test_a_brain_that_hangs_can_be_cancelled(home: Vocabulary) -> None:
+    async def story() -> None:
+        brain = ScriptedBrain(replies=[], hangs=True)
+        thinking = asyncio.create_task(brain.think(ThinkRequest(text="x", vocabulary=home)))
+        await asyncio.sleep(0)  # one turn of the loop: the brain has been asked and waits
+        assert brain.asked
+        thinking.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await thinking
+
+    asyncio.run(story())
+
+
+@pytest.mark.parametrize(
+    ("text", "language"), [("go", Language.EN), ("去kitchen", Language.ZH), ("", Language.EN)]
+)
+def test_any_chinese_character_makes_a_sentence_chinese(text: str, language: Language) -> None:
+    assert language_of(text) is language
+
+
+def test_the_door_opens_every_name_it_lists_and_no_other() -> None:
+    for name in planner.brain.__all__:
+        assert getattr(planner.brain, name) is not None
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = planner.brain.nothing
