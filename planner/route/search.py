@@ -18,6 +18,10 @@ from numpy.typing import NDArray
 
 _SQRT2 = sqrt(2.0)
 
+_GREED = 1.0001
+"""Estimates are stretched by this: among the many ways of one cost across open floor the search
+then finishes one instead of widening all. What it finds costs at most this much over the best."""
+
 
 @dataclass(frozen=True)
 class Lattice:
@@ -44,7 +48,7 @@ class Lattice:
 def find_path(
     lattice: Lattice, start: int, goal: int, to_goal: Sequence[float] | None = None
 ) -> list[int] | None:
-    """Return the cheapest cells from start to goal, both included, or None when there is no way.
+    """Return the cheapest way from start to goal, both included, or None when there is none.
 
     ``to_goal`` is :func:`costs_to` of the goal on this lattice or on a cheaper one, and makes
     the search expand little more than the way itself.
@@ -52,7 +56,7 @@ def find_path(
     cost, estimate = lattice.cost, _estimate(lattice, goal, to_goal)
     moves = _moves(lattice.stride)
     best, parent, done = {start: 0.0}, {start: start}, set[int]()
-    heap = [(estimate(start), start)]
+    heap = [(_GREED * estimate(start), start)]
     while heap:
         _, cell = heappop(heap)
         if cell == goal:
@@ -69,7 +73,7 @@ def find_path(
                 if total < best.get(there, inf):
                     best[there] = total
                     parent[there] = cell
-                    heappush(heap, (total + estimate(there), there))
+                    heappush(heap, (total + _GREED * estimate(there), there))
     return None
 
 
