@@ -20,8 +20,8 @@ FIRST_PAUSE_S = 0.5
 LONGEST_PAUSE_S = 10.0
 STEADY_S = 30.0
 """A child that lived so long starts with the shortest pause again."""
-REFUSED_TO_START = 78
-"""EX_CONFIG of sysexits(3): a restart would meet the same wrong setting."""
+REFUSED_TO_START = 2
+"""Every process of ours says so for a wrong setting: a restart would meet the same one."""
 
 
 @dataclass(slots=True)

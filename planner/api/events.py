@@ -36,7 +36,7 @@ def routes(services: Services) -> APIRouter:
 
 
 async def serve(
-    services: Services, socket: WebSocket, changes: AsyncIterator[dict[str, Any]]
+    services: Services, socket: WebSocket, changes: AsyncIterator[tuple[int, dict[str, Any]]]
 ) -> None:
     """Run one connection until either side ends it."""
     sender = _Sender(socket)
@@ -83,17 +83,18 @@ async def _robot(services: Services, sender: _Sender) -> None:
         await sender.send("robot", {"robot": robot_view(services)})
 
 
-async def _changes(sender: _Sender, changes: AsyncIterator[dict[str, Any]]) -> None:
-    async for change in changes:
-        await sender.send("goal", change)
+async def _changes(sender: _Sender, changes: AsyncIterator[tuple[int, dict[str, Any]]]) -> None:
+    async for _, change in changes:
+        if change.get("type") != "status":  # the robot's view carries it, with ages
+            await sender.send(str(change.get("type", "event")), {"change": change})
 
 
 async def _listen(services: Services, socket: WebSocket, sender: _Sender) -> None:
     while True:
         text = await socket.receive_text()
         if _asks_to_stop(text):
-            confirmed = await services.robot.stop("page")
-            await sender.send("stopped", {"confirmed": confirmed})
+            stopped = await services.goals.stop("page")
+            await sender.send("stopped", {"confirmed": stopped.echoed})
         else:
             detail = 'expected {"stop": true}'
             await sender.send("problem", {"code": "unknown_message", "detail": detail})

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Header, Query
 
-from planner.api.operator import clear_hold
+from planner.api.operator import persons_act
 from planner.api.ports import Services
 from planner.api.problems import Problem
 from planner.api.requests import GoalOrder, Move, NewGoal, Reply
@@ -35,14 +35,14 @@ def routes(services: Services) -> APIRouter:
     @router.post("", status_code=202, operation_id="give_goal")
     async def give(new: NewGoal, idempotency_key: IdempotencyKey = None) -> Goal:
         """Give a goal in words. What is understood but impossible ends refused."""
-        if not is_stop(new.text):
-            await clear_hold(services.robot, new.operator)
+        act = None if is_stop(new.text) else persons_act(services.robot, new.operator)
         return await goals.submit(
             new.text,
             language=new.language,
             confirm=new.confirm,
             replace=new.replace,
             idempotency_key=idempotency_key,
+            act=act,
         )
 
     @router.get("", operation_id="list_goals")
@@ -68,18 +68,20 @@ def routes(services: Services) -> APIRouter:
     @router.post("/{goal_id}/resume", operation_id="resume_goal")
     async def resume(goal_id: str, order: GoalOrder | None = None) -> Goal:
         """Go on with a paused goal; an operator's act."""
-        await clear_hold(services.robot, order.operator if order else None)
-        return await goals.resume(goal_id)
+        act = persons_act(services.robot, order.operator if order else None)
+        return await goals.resume(goal_id, act=act)
 
     @router.post("/{goal_id}/confirm", operation_id="confirm_goal")
-    async def confirm(goal_id: str) -> Goal:
-        """Say yes to a plan."""
-        return await goals.confirm(goal_id)
+    async def confirm(goal_id: str, order: GoalOrder | None = None) -> Goal:
+        """Say yes to a plan; an operator's act."""
+        act = persons_act(services.robot, order.operator if order else None)
+        return await goals.confirm(goal_id, act=act)
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: Reply) -> Goal:
-        """Answer a goal's question."""
-        return await goals.answer(goal_id, reply.text)
+        """Answer a goal's question; an operator's act."""
+        act = None if is_stop(reply.text) else persons_act(services.robot, reply.operator)
+        return await goals.answer(goal_id, reply.text, act=act)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")
     async def move(goal_id: str, where: Move) -> Goal:

@@ -14,7 +14,7 @@ from fastapi import APIRouter
 from planner.api.ports import Robot, Services
 from planner.api.problems import Problem
 from planner.api.requests import OperatorOrder, OperatorProof, Steer, StopOrder
-from wire import VIRTUAL_KEY, Answer, OpKind, Proof, sign
+from wire import VIRTUAL_KEY, Answer, OpKind, OpRequest, sign
 
 NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
 
@@ -27,9 +27,9 @@ def routes(services: Services) -> APIRouter:
     @router.post("/stop", operation_id="stop")
     async def stop(order: StopOrder | None = None) -> dict[str, Any]:
         """Stop now and hold until a person acts. Never refused."""
-        confirmed = await robot.stop((order or StopOrder()).source)
+        stopped = await services.goals.stop((order or StopOrder()).source)
         status = robot.status
-        return {"confirmed": confirmed, "mode": status.mode if status else None}
+        return {"confirmed": stopped.echoed, "mode": status.mode if status else None}
 
     @router.post("/estop", operation_id="estop")
     async def estop(order: OperatorOrder | None = None) -> Answer:
@@ -72,8 +72,7 @@ async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None) -> Answer
         Problem: ``bridge_silent``, ``operator_proof_needed`` or the bridge's own refusal code.
     """
     asked = order or OperatorOrder()
-    request_id, proof = _proved(robot, kind, asked.operator)
-    answer = await robot.ask(kind, asked.source, request_id, proof)
+    answer = await robot.ask(kind, request(robot, kind, asked.source, asked.operator))
     if answer is None:
         raise Problem(503, "bridge_silent", f"the bridge did not answer {kind} within 2 s")
     if not answer.accepted:
@@ -81,25 +80,29 @@ async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None) -> Answer
     return answer
 
 
-async def clear_hold(robot: Robot, given: OperatorProof | None) -> None:
-    """Let a person's own act clear what is held. Does nothing where nothing is held.
+def persons_act(robot: Robot, given: OperatorProof | None) -> OpRequest | None:
+    """Return the resume that a goal carries: the person's own, or ours on a virtual drive.
 
     Raises:
-        Problem: on metal without a proof, or the bridge's refusal.
+        Problem: ``operator_proof_needed`` where something is held on metal and no proof came.
     """
     status = robot.status
-    if status is None or status.held is None:
-        return
-    await act(robot, "resume", OperatorOrder(operator=given))
+    if given is None and (status is None or not (status.drive.virtual or status.held)):
+        return None
+    return request(robot, "resume", "api", given)
 
 
-def _proved(
-    robot: Robot, kind: OpKind, given: OperatorProof | None
-) -> tuple[str | None, Proof | None]:
+def request(robot: Robot, kind: OpKind, source: str, given: OperatorProof | None) -> OpRequest:
+    """Return the request with the person's proof, or signed where the drive is virtual.
+
+    Raises:
+        Problem: ``bridge_silent`` or ``operator_proof_needed``.
+    """
     if given is not None:
-        return given.id, given.proof
+        return OpRequest(id=given.id, source=source, proof=given.proof)
+    request_id = f"api-{secrets.token_hex(8)}"
     if kind not in NEEDS_PROOF:
-        return None, None
+        return OpRequest(id=request_id, source=source)
     status = robot.status
     if status is None:
         raise Problem(503, "bridge_silent", f"no bridge is heard, so nobody can {kind}")
@@ -110,5 +113,5 @@ def _proved(
             f"{kind} on this robot needs a proof made with the operator's key; use the page or "
             f"`pons {kind}` on a machine that holds the key",
         )
-    request_id = f"api-{secrets.token_hex(8)}"
-    return request_id, sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)
+    proof = sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)
+    return OpRequest(id=request_id, source=source, proof=proof)

@@ -11,11 +11,21 @@ if TYPE_CHECKING:
 
     from planner.plan import Goal, Language
     from planner.world import Site
-    from wire import Answer, OpKind, Proof, Scan, Status
+    from wire import Answer, OpKind, OpRequest, Status
+
+
+class Stopped(Protocol):
+    """Say whether the bridge has confirmed a stop."""
+
+    @property
+    def echoed(self) -> bool: ...
 
 
 class Goals(Protocol):
-    """Keep goals; each method answers at once and raises MissionError with a stable code."""
+    """Keep goals; each method answers at once and raises MissionError with a stable code.
+
+    ``act`` is a person's signed ``op/resume``, which clears what the bridge holds.
+    """
 
     async def submit(
         self,
@@ -25,6 +35,7 @@ class Goals(Protocol):
         confirm: bool = False,
         replace: bool = False,
         idempotency_key: str | None = None,
+        act: OpRequest | None = None,
     ) -> Goal: ...
 
     def goal(self, goal_id: str) -> Goal: ...
@@ -35,33 +46,28 @@ class Goals(Protocol):
 
     async def pause(self, goal_id: str) -> Goal: ...
 
-    async def resume(self, goal_id: str) -> Goal: ...
+    async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal: ...
 
-    async def confirm(self, goal_id: str) -> Goal: ...
+    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal: ...
 
-    async def answer(self, goal_id: str, text: str) -> Goal: ...
+    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal: ...
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal: ...
 
-    def subscribe(self) -> AsyncIterator[dict[str, Any]]: ...
+    async def stop(self, source: str) -> Stopped: ...
+
+    def subscribe(self) -> AsyncIterator[tuple[int, dict[str, Any]]]: ...
 
 
 class Robot(Protocol):
-    """Hear the bridge and speak to it."""
+    """Hear the bridge and bring it an operator's requests."""
 
     @property
     def status(self) -> Status | None: ...
 
-    @property
-    def scan(self) -> Scan | None: ...
-
     def ages_s(self) -> dict[str, float | None]: ...
 
-    async def stop(self, source: str) -> bool: ...
-
-    async def ask(
-        self, kind: OpKind, source: str, request_id: str | None, proof: Proof | None
-    ) -> Answer | None: ...
+    async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None: ...
 
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
 

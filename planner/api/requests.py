@@ -51,6 +51,7 @@ class Reply(Body):
     """Answer a goal's question."""
 
     text: Annotated[str, Field(max_length=MAX_GOAL_CHARACTERS)]
+    operator: OperatorProof | None = None
 
 
 class Move(Body):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
 from planner.world import Site
 from tests.wire.examples import STATUS
-from wire import Answer, OpKind, Proof, Scan, Status
+from wire import Answer, OpKind, OpRequest, Status
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -22,12 +23,21 @@ def goal(goal_id: str = "g1", text: str = "go", state: GoalState = GoalState.RUN
     return Goal(id=goal_id, text=text, language=Language.EN, state=state, created=now, updated=now)
 
 
+@dataclass(frozen=True)
+class StopEcho:
+    """Say that the bridge has confirmed."""
+
+    echoed: bool = True
+
+
 class FakeGoals:
     """Keep one goal and every call."""
 
     def __init__(self) -> None:
         self.calls: list[tuple[Any, ...]] = []
         self.changes: list[dict[str, Any]] = []
+        self.acts: list[OpRequest | None] = []
+        self.stops: list[str] = []
 
     async def submit(
         self,
@@ -37,8 +47,10 @@ class FakeGoals:
         confirm: bool = False,
         replace: bool = False,
         idempotency_key: str | None = None,
+        act: OpRequest | None = None,
     ) -> Goal:
         self.calls.append(("submit", text, language, confirm, replace, idempotency_key))
+        self.acts.append(act)
         return goal(text=text, state=GoalState.PLANNING)
 
     def goal(self, goal_id: str) -> Goal:
@@ -59,13 +71,15 @@ class FakeGoals:
     async def pause(self, goal_id: str) -> Goal:
         return await self._act("pause", goal_id)
 
-    async def resume(self, goal_id: str) -> Goal:
-        return await self._act("resume", goal_id)
+    async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal:
+        self.acts.append(act)
+        return await self._act("resume", goal_id or "g1")
 
-    async def confirm(self, goal_id: str) -> Goal:
+    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal:
         raise BadState(goal_id, "confirm", GoalState.RUNNING, ("awaiting_confirmation",))
 
-    async def answer(self, goal_id: str, text: str) -> Goal:
+    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
+        self.acts.append(act)
         self.calls.append(("answer", goal_id, text))
         return self.goal(goal_id)
 
@@ -73,9 +87,13 @@ class FakeGoals:
         self.calls.append(("move", goal_id, before))
         return self.goal(goal_id)
 
-    async def subscribe(self) -> AsyncIterator[dict[str, Any]]:
-        for change in self.changes:
-            yield change
+    async def stop(self, source: str) -> StopEcho:
+        self.stops.append(source)
+        return StopEcho()
+
+    async def subscribe(self) -> AsyncIterator[tuple[int, dict[str, Any]]]:
+        for seq, change in enumerate(self.changes):
+            yield seq, change
         await asyncio.Event().wait()  # a subscription ends with its listener
 
 
@@ -84,8 +102,7 @@ class FakeRobot:
 
     def __init__(self, status: Status | None = STATUS) -> None:
         self._status = status
-        self.asked: list[tuple[OpKind, str, str | None, Proof | None]] = []
-        self.stops: list[str] = []
+        self.asked: list[tuple[OpKind, OpRequest]] = []
         self.steers: list[tuple[str, float, float, bool]] = []
         self.verdict: Answer | None = Answer(
             id="x", kind="arm", accepted=True, code="ok", detail=""
@@ -95,21 +112,11 @@ class FakeRobot:
     def status(self) -> Status | None:
         return self._status
 
-    @property
-    def scan(self) -> Scan | None:
-        return None
-
     def ages_s(self) -> dict[str, float | None]:
         return {"status": 0.02, "localization": 0.1, "scan": None}
 
-    async def stop(self, source: str) -> bool:
-        self.stops.append(source)
-        return True
-
-    async def ask(
-        self, kind: OpKind, source: str, request_id: str | None, proof: Proof | None
-    ) -> Answer | None:
-        self.asked.append((kind, source, request_id, proof))
+    async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None:
+        self.asked.append((kind, request))
         return self.verdict
 
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:

@@ -55,19 +55,33 @@ def test_a_goal_is_accepted(client: TestClient, services: FakeServices) -> None:
     assert services.robot.asked == []
 
 
-def test_a_goal_after_a_stop_clears_the_hold_by_a_proof() -> None:
+@pytest.mark.parametrize("path", ["", "/g1/resume", "/g1/answer"])
+def test_a_goal_after_a_stop_carries_an_act_that_clears_the_hold(path: str) -> None:
     services = FakeServices(STATUS)
-    client_of(services).post("/v1/goals", json={"text": "go on"})
-    ((kind, _, request_id, proof),) = services.robot.asked
-    assert kind == "resume"
-    assert request_id is not None
-    assert authentic(VIRTUAL_KEY, "resume", STATUS.robot, proof, request_id)
+    body = {} if path.endswith("resume") else {"text": "go on"}
+    client_of(services).post(f"/v1/goals{path}", json=body)
+    (act,) = services.goals.acts
+    assert act is not None
+    assert authentic(VIRTUAL_KEY, "resume", STATUS.robot, act.proof, act.id)
 
 
 def test_a_sentence_that_stops_clears_no_hold() -> None:
     services = FakeServices(STATUS)
     assert client_of(services).post("/v1/goals", json={"text": "停!"}).status_code == 202
-    assert services.robot.asked == []
+    assert services.goals.acts == [None]
+
+
+def test_on_metal_a_held_robot_needs_the_persons_proof_for_a_goal() -> None:
+    services = FakeServices(METAL)
+    answer = client_of(services).post("/v1/goals", json={"text": "go on"})
+    assert (answer.status_code, code(answer)) == (403, "operator_proof_needed")
+    assert services.goals.calls == []
+
+
+def test_on_metal_a_free_robot_takes_a_goal_without_an_act() -> None:
+    services = FakeServices(METAL.model_copy(update={"held": None}))
+    assert client_of(services).post("/v1/goals", json={"text": "go"}).status_code == 202
+    assert services.goals.acts == [None]
 
 
 @pytest.mark.parametrize(
@@ -149,7 +163,7 @@ def test_strangers_are_refused_on_every_route(
 def test_stop_needs_neither_body_nor_type(client: TestClient, services: FakeServices) -> None:
     assert client.post("/v1/stop").json() == {"confirmed": True, "mode": "ACTIVE"}
     assert client.post("/v1/stop", json={"source": "page"}).status_code == 200
-    assert services.robot.stops == ["api", "page"]
+    assert services.goals.stops == ["api", "page"]
 
 
 @pytest.mark.parametrize("kind", ["arm", "reset", "resume"])
@@ -157,10 +171,9 @@ def test_the_api_signs_for_a_virtual_drive(
     client: TestClient, services: FakeServices, kind: str
 ) -> None:
     assert client.post(f"/v1/{kind}", json={}).status_code == 200
-    ((asked, source, request_id, proof),) = services.robot.asked
-    assert (asked, source) == (kind, "api")
-    assert request_id is not None
-    assert authentic(VIRTUAL_KEY, asked, FREE.robot, proof, request_id)
+    ((asked, request),) = services.robot.asked
+    assert (asked, request.source) == (kind, "api")
+    assert authentic(VIRTUAL_KEY, asked, FREE.robot, request.proof, request.id)
 
 
 @pytest.mark.parametrize("kind", ["arm", "reset", "resume"])
@@ -175,10 +188,10 @@ def test_on_metal_a_proof_is_relayed_as_it_is() -> None:
     services = FakeServices(METAL)
     given = {"id": "op-7", "proof": {"nonce": "boot1.2", "mac": "b" * 64}}
     assert client_of(services).post("/v1/arm", json={"operator": given}).status_code == 200
-    ((_, _, request_id, proof),) = services.robot.asked
-    assert request_id == "op-7"
-    assert proof is not None
-    assert proof.mac == "b" * 64
+    ((_, request),) = services.robot.asked
+    assert request.id == "op-7"
+    assert request.proof is not None
+    assert request.proof.mac == "b" * 64
 
 
 @pytest.mark.parametrize("kind", ["disarm", "estop"])
@@ -260,7 +273,7 @@ def test_the_event_socket_stops_the_robot(client: TestClient, services: FakeServ
         kinds: list[str] = []
         while "stopped" not in kinds:
             kinds.append(socket.receive_json()["kind"])
-    assert services.robot.stops == ["page"]
+    assert services.goals.stops == ["page"]
 
 
 def test_the_committed_contract_is_fresh() -> None:

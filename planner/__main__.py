@@ -1,0 +1,89 @@
+"""Be the planner process: ``python -m planner --home … --robot … --site … --host … --port …``."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import sys
+from pathlib import Path
+
+import uvicorn
+
+from planner.api import Access
+from planner.api.access import LOOPBACK_NAMES, is_loopback
+from planner.app import Planner, Where, application
+from planner.world import SiteError
+from wire import Misconfigured
+
+REFUSED = 2
+MIN_TOKEN_CHARACTERS = 16
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Serve until told to end; 2 when the set-up is refused."""
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    given = _options(arguments)
+    try:
+        access = _access(given.host)
+        planner = Planner(Where(given.home, given.robot, given.site))
+    except (Misconfigured, SiteError) as wrong:
+        print(f"planner: {wrong}", file=sys.stderr)
+        return REFUSED
+    server = uvicorn.Server(
+        uvicorn.Config(
+            application(planner, access),
+            host=given.host,
+            port=given.port,
+            log_level="warning",
+            access_log=False,
+            server_header=False,
+            timeout_graceful_shutdown=2,
+            ws_max_size=4_096,
+        )
+    )
+    server.run()
+    return 0 if server.started else 1
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m planner", description=__doc__)
+    parser.add_argument("--home", type=Path, required=True, help="$PONS_HOME")
+    parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
+    parser.add_argument("--site", type=Path, required=True, help="folder of a site")
+    parser.add_argument("--host", default="127.0.0.1")
+    parser.add_argument("--port", type=int, default=8420)
+    return parser.parse_args(arguments)
+
+
+def _access(host: str) -> Access:
+    """Read who may ask from the owner's environment.
+
+    Raises:
+        Misconfigured: reachable from outside without a token, or with a short one.
+    """
+    operator = os.environ.get("PONS_OPERATOR_TOKEN", "")
+    viewer = os.environ.get("PONS_VIEWER_TOKEN", "")
+    for name, token in (("PONS_OPERATOR_TOKEN", operator), ("PONS_VIEWER_TOKEN", viewer)):
+        if token and len(token) < MIN_TOKEN_CHARACTERS:
+            detail = f"{name} has {len(token)} characters; at least {MIN_TOKEN_CHARACTERS}"
+            raise Misconfigured("token_too_short", detail)
+    if not is_loopback(host) and not operator:
+        detail = f"{host} can be reached from outside; set PONS_OPERATOR_TOKEN, or bind 127.0.0.1"
+        raise Misconfigured("token_needed", detail)
+    named = {host} if host not in ("0.0.0.0", "::") else set()
+    return Access(
+        bind_host=host,
+        hosts=frozenset(LOOPBACK_NAMES | named | _listed("PONS_ALLOWED_HOSTS")),
+        origins=frozenset(_listed("PONS_ALLOWED_ORIGINS")),
+        operator_token=operator,
+        viewer_token=viewer,
+    )
+
+
+def _listed(name: str) -> set[str]:
+    return {word.strip() for word in os.environ.get(name, "").split(",") if word.strip()}
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,104 @@
+"""Build one planner: choose the concrete parts, start them in order, end them in reverse."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import signal
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from planner.api import Access, build
+from planner.brain import OfflineBrain
+from planner.link import Link, WireBus
+from planner.mission import MissionJournal, Missions
+from planner.robot import LinkedRobot
+from planner.route import RouteLimits, RouteWorker
+from planner.world import Site
+from wire import RobotDescription, load_robot
+from wire.keys import Party
+from wire.session import open_session
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+    from pathlib import Path
+
+    from fastapi import FastAPI
+
+
+log = logging.getLogger(__name__)
+
+WATCH_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Where:
+    """Say where this planner's files are."""
+
+    home: Path
+    robot: Path
+    site: Path
+
+
+class Planner:
+    """Hold the parts of one planner; the services behind its routes."""
+
+    def __init__(self, where: Where) -> None:
+        """Load everything and take the planner's place in the home folder.
+
+        Raises:
+            Misconfigured, SiteError: robot.toml or the site is wrong, or a planner runs here.
+        """
+        self.description: RobotDescription = load_robot(where.robot)
+        self.site = Site.load(where.site)
+        self._session = open_session(Party.PLANNER, self.description.id, where.home)
+        self._journal = MissionJournal.in_home(where.home)
+        limits = RouteLimits.of(self.description)
+        self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
+        link = Link(WireBus(self._session), self.description)
+        self.robot = LinkedRobot(link)
+        self.goals = Missions(
+            site=self.site,
+            robot=self.description,
+            link=link,
+            router=self._router,
+            brain=OfflineBrain(),
+            journal=self._journal,
+        )
+
+    async def start(self) -> None:
+        """Start the route process, then the missions."""
+        await self._router.start()
+        await self.goals.start(freeze=True)
+
+    async def close(self) -> None:
+        """End all parts; what ran comes back paused in the next process."""
+        await self.goals.close()
+        await self._router.close()
+        self._journal.close()
+        self._session.close()
+
+
+def application(planner: Planner, access: Access) -> FastAPI:
+    """Return the application that runs this planner while it serves."""
+
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        await planner.start()
+        watch = asyncio.create_task(_end_with(planner.goals))
+        try:
+            yield
+        finally:
+            watch.cancel()
+            await planner.close()
+
+    return build(planner, access, lifespan)
+
+
+async def _end_with(goals: Missions) -> None:
+    """End the process when the mission loop has: a planner that can't drive must not look alive."""
+    while (failure := goals.failed) is None:
+        await asyncio.sleep(WATCH_S)
+    log.critical("the mission loop ended", exc_info=failure)
+    signal.raise_signal(signal.SIGTERM)
