@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 MAX_STEP_M = 1.0
 """No wheel rolls further between two readings: the drive's own time-out stops it sooner."""
 
+_MAX_ANGLE_RAD = 1e9  # of WheelAngle
 _Path = Annotated[float, Field(ge=0.0, le=1e12)]
 
 
@@ -67,12 +68,17 @@ def advance(
     return OdometryState(
         base_in_odom=pose,
         measured=measured,
-        left_rad=drive.left_rad if isfinite(drive.left_rad) else None,
-        right_rad=drive.right_rad if isfinite(drive.right_rad) else None,
+        left_rad=_kept(drive.left_rad),
+        right_rad=_kept(drive.right_rad),
         travelled_m=min(state.travelled_m + abs(left_m + right_m) / 2, 1e12),
         turned_rad=min(state.turned_rad + abs(right_m - left_m) / base.wheel_separation_m, 1e12),
         jumps=state.jumps + jumped,
     )
+
+
+def _kept(angle_rad: float) -> float | None:
+    """Keep an angle that the wire may say; another is no zero to go on from."""
+    return angle_rad if abs(angle_rad) <= _MAX_ANGLE_RAD else None
 
 
 def rolled(pose: Pose2, left_m: float, right_m: float, separation_m: float) -> Pose2:
