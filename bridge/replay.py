@@ -10,7 +10,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bridge.core import step
-from bridge.recorder import BadRecording, Gap, Header, StateFrame, TickFrame, read_recording
+from bridge.recorder import (
+    BadRecording,
+    Gap,
+    Header,
+    StateFrame,
+    TickFrame,
+    config_of,
+    read_recording,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -51,6 +59,7 @@ class _Replay:
     """Hold what one frame hands to the next."""
 
     def __init__(self) -> None:
+        self._header: Header | None = None
         self.config: CoreConfig | None = None
         self.state: BridgeState | None = None
         self.ticks = self.differing = self.gaps = 0
@@ -60,9 +69,7 @@ class _Replay:
         """Go on by one frame."""
         match frame:
             case Header():
-                if self.config is not None and self.config != frame.config:
-                    self.state = None
-                self.config = frame.config
+                self._configure(frame)
             case Gap():
                 self.gaps += frame.ticks
                 self.state = None
@@ -70,6 +77,10 @@ class _Replay:
                 self._arrive(frame.state)
             case TickFrame():
                 self._again(frame)
+
+    def _configure(self, header: Header) -> None:
+        if header != self._header:  # another run's: nothing carries over
+            self._header, self.config, self.state = header, config_of(header), None
 
     def _arrive(self, recorded: BridgeState) -> None:
         if self.state is not None and self.state != recorded:

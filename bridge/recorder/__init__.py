@@ -1,6 +1,6 @@
 """Record every tick so that it can be run again, and read recordings. Never waits for a disk."""
 
-from bridge.recorder.format import Frame, Gap, Header, StateFrame, TickFrame
+from bridge.recorder.format import Frame, Gap, Header, StateFrame, TickFrame, config_of, header_of
 from bridge.recorder.reader import BadRecording, read_recording
 from bridge.recorder.recorder import Recorder
 
@@ -12,5 +12,7 @@ __all__ = [
     "Recorder",
     "StateFrame",
     "TickFrame",
+    "config_of",
+    "header_of",
     "read_recording",
 ]

@@ -17,9 +17,22 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import ConfigDict, Field, TypeAdapter
 
 from bridge.core import BridgeState, CoreConfig, Inbox
-from wire import DriveCommand, Mode
+from bridge.core.fence import Fence, Zone, build_fence
+from bridge.core.outline import Polygon
+from wire import DriveCommand, Mode, RobotDescription
 
 _STRICT = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outlines:
+    """Keep what a fence is built of; what is prepared from it is not worth its bytes."""
+
+    map_id: str
+    allowed: tuple[Polygon, ...]
+    keep_outs: tuple[Polygon, ...]
+    zones: tuple[Zone, ...]
+    __pydantic_config__: ClassVar[ConfigDict] = _STRICT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +41,13 @@ class Header:
 
     kind: Literal["header"] = "header"
     version: Literal[1] = 1
-    config: CoreConfig
+    robot: RobotDescription
+    robot_hash: str
+    fence: Outlines | None
+    fence_hash: str
+    map_id: str
+    boot: str
+    period_s: float
     __pydantic_config__: ClassVar[ConfigDict] = _STRICT
 
 
@@ -78,9 +97,47 @@ def tick_line(frame: TickFrame) -> bytes:
     return _TICK.dump_json(frame) + b"\n"
 
 
+def header_of(config: CoreConfig) -> Header:
+    """Write a configuration down."""
+    fence = config.fence
+    return Header(
+        robot=config.robot,
+        robot_hash=config.robot_hash,
+        fence=None if fence is None else _outlines(fence),
+        fence_hash=config.fence_hash,
+        map_id=config.map_id,
+        boot=config.boot,
+        period_s=config.period_s,
+    )
+
+
+def config_of(header: Header) -> CoreConfig:
+    """Build the same configuration again."""
+    fence = header.fence
+    return CoreConfig(
+        robot=header.robot,
+        robot_hash=header.robot_hash,
+        fence=None if fence is None else _fence(fence),
+        fence_hash=header.fence_hash,
+        map_id=header.map_id,
+        boot=header.boot,
+        period_s=header.period_s,
+    )
+
+
+def _outlines(fence: Fence) -> Outlines:
+    return Outlines(
+        map_id=fence.map_id, allowed=fence.allowed, keep_outs=fence.keep_outs, zones=fence.zones
+    )
+
+
+def _fence(kept: Outlines) -> Fence:
+    return build_fence(kept.map_id, kept.allowed, kept.keep_outs, kept.zones)
+
+
 def segment_lines(config: CoreConfig, missing: int, state: BridgeState) -> bytes:
     """Return what a segment begins with, told how many ticks are missing before it."""
-    lines = [_HEADER.dump_json(Header(config=config))]
+    lines = [_HEADER.dump_json(header_of(config))]
     if missing:
         lines.append(_GAP.dump_json(Gap(ticks=missing)))
     lines.append(_STATE.dump_json(StateFrame(state=state)))

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _GZIP = 31
 _CHUNK = 1 << 16
-MAX_LINE_BYTES = 16 << 20
+MAX_LINE_BYTES = 4 << 20
 """A state with everything in it is 40 kB; a line beyond this is no recording of ours."""
 
 

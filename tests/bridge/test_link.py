@@ -1,0 +1,251 @@
+"""What arrives is bounded, counted and sorted; what is hostile becomes a word in the inbox."""
+
+from __future__ import annotations
+
+import gc
+import resource
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from bridge.core import ON_TIME, ArrivedAt, Decision, Inbox, OpArrived, initial
+from bridge.link import STOPS_KEPT, Link
+from tests.bridge.ground import core_config, until
+from tests.wire.examples import EXAMPLES, STATUS
+from wire import (
+    VIRTUAL_KEY,
+    Event,
+    Odometry,
+    OpKind,
+    OpRequest,
+    Record,
+    Rejected,
+    Stop,
+    Waypoints,
+    decode,
+    encode,
+    sign,
+)
+from wire.keys import EVENT, KEYS, ODOM, OPS, STOP, WAYPOINTS, Key, Party
+from wire.keys import STATUS as STATUS_KEY
+from wire.session import Session, open_session
+
+HEARD = [key for key in KEYS if Party.BRIDGE in key.receivers and key.path != "drive/state"]
+HOSTILE = (
+    b"",
+    b"{}",
+    b"[]",
+    b"null",
+    b"\xff\xfe\x00",
+    b'{"id":"x"',
+    b'{"v_mps":1e999}',
+    b'{"points":NaN}',
+    b"[" * 3_000,
+    b'{"id":' + b"9" * 2_000 + b"}",
+    b"x" * 5_000,
+    b"y" * 40_000,
+)
+
+
+@dataclass
+class Ends:
+    """Hold the bridge's link and somebody who may say anything on any key."""
+
+    link: Link
+    other: Session
+
+    def mouth(self, key: Key[Any]) -> Any:
+        return self.other.publisher(key)._publisher  # raw bytes past the codec
+
+    def drain(self) -> Inbox:
+        return self.link.drain((), ON_TIME, real_time=True, recorder_ok=True)
+
+
+@pytest.fixture
+def ends(tmp_path: Path) -> Iterator[Ends]:
+    with (
+        open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
+        open_session(Party.OPERATOR, "r1", tmp_path) as other,
+    ):
+        link = Link(bridge, "r1", VIRTUAL_KEY)
+        assert until(lambda: other.peers() == 1)
+        mouth = other.publisher(STOP)
+        ends = Ends(link, other)
+
+        def heard() -> bool:
+            mouth.put(Stop(id="hello", source="test"))
+            return bool(ends.drain().stops)
+
+        assert until(heard)
+        yield ends
+
+
+def gather(ends: Ends) -> Inbox:
+    """Wait until all that was said has arrived, then drain once: a connection keeps its order."""
+    ears = ends.link._stop
+    kept: list[bytes] = []
+    mouth = ends.other.publisher(STOP)
+
+    def passed() -> bool:
+        mouth.put(Stop(id="last-word", source="test"))  # said once, it may drown in a flood
+        kept.extend(ears.drain_bytes())
+        return any(b'"last-word"' in payload for payload in kept)
+
+    assert until(passed)
+    return ends.drain()
+
+
+def arrived(inbox: Inbox, key: Key[Any]) -> int:
+    return sum(item.count for item in inbox.arrived if item.key == key.path)
+
+
+@pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)
+def test_every_key_is_heard(ends: Ends, key: Key[Record]) -> None:
+    message = EXAMPLES[key.message]
+    mouth = ends.other.publisher(key)
+
+    def there() -> bool:
+        mouth.put(message)
+        return repr(message) in repr(ends.drain())
+
+    assert until(there)
+
+
+@pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)
+def test_hostile_bytes_become_a_rejection_and_nothing_else(ends: Ends, key: Key[Record]) -> None:
+    mouth = ends.mouth(key)
+    gather(ends)
+    for payload in HOSTILE:
+        assert isinstance(decode(key, payload), Rejected)
+        mouth.put(payload)
+        assert until(partial(refused, ends, key))
+
+
+def refused(ends: Ends, key: Key[Any]) -> bool:
+    """Say whether something was refused on that key; nothing else may have come of it."""
+    inbox = ends.drain()
+    assert inbox == Inbox(
+        stops=inbox.stops,
+        rejected=inbox.rejected,
+        arrived=inbox.arrived,
+        real_time=True,
+        recorder_ok=True,
+    )
+    assert {stop.id for stop in inbox.stops} <= {"hello", "last-word"}  # our own, still on its way
+    return any(item.key == key.path for item in inbox.rejected)
+
+
+def test_at_most_four_of_a_key_are_parsed_and_all_are_counted(ends: Ends) -> None:
+    message = EXAMPLES[Waypoints]
+    payloads = [encode(message.model_copy(update={"seq": seq})) for seq in range(40)]
+    ends.link._waypoints.drain_bytes = lambda: payloads  # type: ignore[method-assign]  # all at once
+    inbox = ends.drain()
+    assert [item.seq for item in inbox.waypoints] == [36, 37, 38, 39]
+    assert arrived(inbox, WAYPOINTS) == 40
+
+
+def test_a_flood_is_bounded_by_the_ring(ends: Ends) -> None:
+    mouth = ends.mouth(WAYPOINTS)
+    for _ in range(1_000):
+        mouth.put(b"{")
+    inbox = gather(ends)
+    assert arrived(inbox, WAYPOINTS) <= WAYPOINTS.ring
+    assert len(inbox.rejected) <= 4
+
+
+@pytest.mark.parametrize("place", [0, 1, 31, 63])
+def test_one_readable_stop_among_unreadable_ones_is_seen(ends: Ends, place: int) -> None:
+    payloads = [b"{" * 500] * STOP.ring
+    payloads[place] = encode(Stop(id="real", source="test"))
+    ends.link._stop.drain_bytes = lambda: payloads  # type: ignore[method-assign]  # all at once
+    inbox = ends.drain()
+    assert [stop.id for stop in inbox.stops] == ["real"]
+    assert [item.key for item in inbox.rejected] == [STOP.path]
+    assert arrived(inbox, STOP) == STOP.ring
+
+
+def test_different_stops_are_all_answered_up_to_four(ends: Ends) -> None:
+    stops = [encode(Stop(id=f"s{n % 6}", source="test")) for n in range(30)]
+    ends.link._stop.drain_bytes = lambda: stops  # type: ignore[method-assign]  # all at once
+    inbox = ends.drain()
+    assert [stop.id for stop in inbox.stops] == ["s2", "s3", "s4", "s5"]
+    assert len(inbox.stops) == STOPS_KEPT
+    assert ArrivedAt(STOP.path, 30) in inbox.arrived
+
+
+@pytest.mark.parametrize("key", OPS, ids=lambda key: key.path)
+def test_an_operator_request_is_authentic_only_for_its_own_kind(
+    ends: Ends, key: Key[OpRequest]
+) -> None:
+    mouth = ends.other.publisher(key)
+    kind: OpKind = key.path.removeprefix("op/")  # type: ignore[assignment]  # the keys' own names
+    other: OpKind = "resume" if kind != "resume" else "reset"
+    cases = {
+        "good": sign(VIRTUAL_KEY, kind, "r1", "n1", "good"),
+        "none": None,
+        "kind": sign(VIRTUAL_KEY, other, "r1", "n1", "kind"),
+        "robot": sign(VIRTUAL_KEY, kind, "r2", "n1", "robot"),
+        "id": sign(VIRTUAL_KEY, kind, "r1", "n1", "good"),
+        "key": sign(b"another key altogether", kind, "r1", "n1", "key"),
+    }
+    for name, proof in cases.items():
+        request = OpRequest(id=name, source="test", proof=proof)
+
+        mouth.put(request)
+        found: list[OpArrived] = []
+        assert until(partial(collect, ends, found))
+        assert found == [OpArrived(kind, request, authentic=name == "good")]
+
+
+def collect(ends: Ends, found: list[OpArrived]) -> bool:
+    found.extend(ends.drain().ops)
+    return bool(found)
+
+
+def test_a_decision_is_published(ends: Ends) -> None:
+    status, odom, event = (ends.other.subscriber(key) for key in (STATUS_KEY, ODOM, EVENT))
+    state = initial(core_config(), 1.0)
+    said = EXAMPLES[Odometry], EXAMPLES[Event]
+    decision = Decision(state, None, STATUS, said[0], (said[1], said[1]), ())  # type: ignore[arg-type]
+    got: list[object] = []
+
+    def all_heard() -> bool:
+        ends.link.publish(decision)
+        for ears in (status, odom, event):
+            got.extend(ears.drain().items)
+        return all(message in got for message in (STATUS, *said))
+
+    assert until(all_heard)
+    ends.link.publish(Decision(state, None, None, None, (), ()))  # silence is no message
+
+
+def test_bad_messages_leave_no_memory_behind_without_the_collector(ends: Ends) -> None:
+    """With gc off, one kept ValidationError per message was 135 MB per 100 000 messages."""
+    bad = [payload for payload in HOSTILE if len(payload) < 500]
+    subscribers = {
+        WAYPOINTS.path: ends.link._waypoints, "cmd/teleop": ends.link._teleop,
+        STOP.path: ends.link._stop,
+    }  # fmt: skip
+    for subscriber in subscribers.values():
+        subscriber.drain_bytes = lambda: bad  # type: ignore[attr-defined]
+
+    def flood(ticks: int) -> None:
+        for _ in range(ticks):
+            ends.drain()
+
+    flood(200)
+    gc.collect()
+    gc.disable()
+    try:
+        before_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        objects = len(gc.get_objects())
+        flood(2_000)  # 30 000 bad messages, 14 000 of them parsed
+        assert len(gc.get_objects()) - objects < 500
+        grown_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before_kib
+    finally:
+        gc.enable()
+    assert grown_kib < 4_096
