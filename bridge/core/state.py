@@ -1,7 +1,7 @@
 """Hold all that one tick hands to the next. Nothing else survives a tick, so a run can be replayed.
 
-``draft`` copies the records that a step writes into; all others are frozen and replaced. Everything below is JSON without NaN or
-infinity: what is unknown is None.
+``draft`` copies the records that a step writes into; all others are frozen and replaced. All of it
+is JSON without NaN or infinity: what is unknown is None.
 """
 
 from __future__ import annotations
@@ -9,8 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from bridge.core.draft import copier
+from bridge.core.limiter import LimiterState
 from bridge.core.odometry import OdometryState
-from bridge.core.state_orders import Grants, Leg, Operator, Ownership, Stick
+from bridge.core.pursuit import NEW, FollowState
+from bridge.core.state_orders import External, Grants, Leg, Operator, Ownership, Stick
 from bridge.core.state_senses import (
     ButtonMemory,
     DriveMemory,
@@ -18,7 +20,8 @@ from bridge.core.state_senses import (
     LoopMemory,
     PoseMemory,
 )
-from wire import STILL, Action, Held, Mode, Twist2
+from bridge.core.stopcurve import StopPlan
+from wire import STILL, Action, Held, Mode, Pose2, Twist2
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,17 +38,17 @@ class RowUp:
 class Stopping:
     """Remember the stop in progress, to judge whether the robot really slows down."""
 
-    action: Action = Action.NONE
-    """NONE: no stop is in progress."""
-    cause: str = ""
-    """Row or order, in lower case."""
-    since_s: float = 0.0
-    planned_s: float = 0.0
-    still_since_s: float | None = None
-    slow_since_s: float | None = None
+    action: Action
+    """What it ends in: HOLD2 keeps torque, STOP1 and FAST1 take it away."""
+    cause: str
+    since_s: float
+    plan: StopPlan
+    source: str
+    """Who moved the robot: may go on when a HOLD2 clears, if it was W or X."""
+    resumes: bool
+    """False where a person asked for it."""
     reset_needed: bool = False
-    plan_mps: tuple[float, ...] = ()
-    """Speeds asked of the faster wheel in the last ticks, oldest first: the delayed plan."""
+    slow_since_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +59,6 @@ class SelfTest:
     """echo -> withhold -> return -> done."""
     since_s: float = 0.0
     passed: bool = False
-    problem: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,8 +76,16 @@ class Motion:
     """Remember what was asked and what was really sent."""
 
     asked: Twist2 = STILL
-    sent: Twist2 = STILL
+    """What the source in charge wants, before gates and limits."""
+    limiter: LimiterState = field(default_factory=LimiterState)
+    """Its ``sent`` is what was sent last, before dead-zone feed-forward."""
     powered: bool = False
+    follow: FollowState = NEW
+    bound_by: str = "robot"
+    """What set the nearest bound, for the status."""
+    cap: float = 1.0
+    free_m: float | None = None
+    margin_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,8 +98,9 @@ class Voice:
     event_seq: int = 0
     odom_seq: int = 0
     dropped: int = 0
-    said: str = ""
-    """Digest of what must be told at once, as of the last status."""
+    status_s: float | None = None
+    pending: bool = False
+    """Something that must be told at once is not yet told: at most 40 statuses a second."""
 
 
 @dataclass(slots=True)
@@ -111,6 +122,8 @@ class BridgeState:
     rows: dict[str, RowUp] = field(default_factory=dict)
     """Stages that are up, by name; never written to, replaced when one rises or clears."""
     odometry: OdometryState = field(default_factory=OdometryState)
+    trail: tuple[tuple[float, Pose2], ...] = ()
+    """When and where the robot was in the last readings, to place a scan where it was taken."""
     drive: DriveMemory = field(default_factory=DriveMemory)
     lidar: LidarMemory = field(default_factory=LidarMemory)
     pose: PoseMemory = field(default_factory=PoseMemory)
@@ -121,7 +134,10 @@ class BridgeState:
     operator: Operator = field(default_factory=Operator)
     leg: Leg = field(default_factory=Leg)
     stick: Stick = field(default_factory=Stick)
-    stopping: Stopping = field(default_factory=Stopping)
+    external: External | None = None
+    stopping: Stopping | None = None
+    fault: str | None = None
+    """Why FAULT: row, or code of the self test or of the stop that was too slow."""
     selftest: SelfTest = field(default_factory=SelfTest)
     gate: Gate = field(default_factory=Gate)
     motion: Motion = field(default_factory=Motion)

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bridge.core.path import Path
 from wire import Answer, Owner, Waypoint, Waypoints
+
+MAX_MISSIONS = 64
+"""Remainders kept; a mission older than so many others would start anew, under the operator cap."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +66,8 @@ class Operator:
     old_until_s: float = 0.0
     answers: tuple[Answered, ...] = ()
     """Verdicts on requests by id: one id, one verdict."""
+    accepted: tuple[str, ...] = ()
+    """Ids taken under the nonces that still count: no proof works twice, whatever is forgotten."""
     refusals: tuple[Answered, ...] = ()
     """Newest refusal per sender of hello and per mission of grant; overwritten and let go."""
 
@@ -77,21 +83,37 @@ class Leg:
     """Where the leg ends, once a final horizon said so."""
     refusal: str | None = None
     horizon: Waypoints | None = None
+    """The newest accepted, followed until it is stale."""
+    path: Path | None = None
+    """The horizon made ready to follow."""
     sent_s: float = 0.0
     """When the status that this horizon was cut on was sent."""
+
+
+@dataclass(frozen=True, slots=True)
+class External:
+    """Remember the newest velocity of an external brain."""
+
+    v_mps: float
+    w_radps: float
+    dead_man: bool
+    sent_s: float
 
 
 @dataclass(frozen=True, slots=True)
 class Stick:
     """Remember the hand on the stick; it must be seen released, then neutral, to take over."""
 
+    released: tuple[str, ...] = ()
+    """Sources seen with the dead-man released in this epoch."""
+    ready: tuple[str, ...] = ()
+    """Those of them then seen neutral."""
     source_id: str | None = None
+    """Who holds the dead-man and may steer; nobody else does until it is released."""
+    pressed_s: float | None = None
+    """When anybody's dead-man was last heard pressed."""
     seq: int = -1
-    epoch_no: int = 0
-    released: bool = False
-    neutral: bool = False
-    dead_man: bool = False
     v_mps: float = 0.0
     w_radps: float = 0.0
-    received_s: float | None = None
-    sent_s: float | None = None
+    received_s: float = 0.0
+    sent_s: float = 0.0

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from wire import IDENTITY, DriveState, Imu, Localization, Pose2, Scan
+from bridge.core.scanpicture import ScanPicture
+from wire import DriveState, Imu, Localization, Scan
 
 
 @dataclass(slots=True)
@@ -17,17 +18,19 @@ class DriveMemory:
     """Commands sent since the one echoed, judged when a state is received."""
     behind_base: int = 0
     """The command seq before which no echo can be asked for (start of this drive's life)."""
+    reborn_s: float | None = None
+    """When the drive's boot id changed last."""
     still_since_s: float | None = None
     moving_since_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class LidarMemory:
-    """Remember the newest scan, where the robot was when it came, and what is normal for it."""
+    """Remember the newest scan, the points it gave, and what is normal for it."""
 
     newest: Scan | None = None
     received_s: float | None = None
-    base_in_odom: Pose2 = IDENTITY
+    picture: ScanPicture | None = None
     equal: int = 0
     """Scans in a row that equal the newest, itself included."""
     equal_from_m: float = 0.0

@@ -1,24 +1,133 @@
-"""Take one tick."""
+"""Take one tick: sense, listen, judge, decide, shape, meter, tell. Pure, total, never raises.
+
+The order is the law: facts before orders, stops before everything that came with them, rows before
+motion, and exactly one command at the end.
+"""
 
 from __future__ import annotations
 
-from bridge.core.config import CoreConfig
+from typing import TYPE_CHECKING
+
+from bridge.core import drive_out, gate, manners, operator, ownership, selftest, senses, stick
+from bridge.core.decide import arrive, decide, detect
 from bridge.core.decision import Decision
-from bridge.core.inbox import Inbox
+from bridge.core.drive_out import command, shaped, wanted
+from bridge.core.external import hear_external
+from bridge.core.grants import hear_grant, meter
+from bridge.core.legs import hear_waypoints
 from bridge.core.state import BridgeState, draft
-from wire import DriveCommand
+from bridge.core.state_orders import Operator
+from bridge.core.tell import events_of, odometry_of, status_of
+from bridge.core.tick import Tick
+from wire import STILL
+
+if TYPE_CHECKING:
+    from bridge.core.config import CoreConfig
+    from bridge.core.inbox import Inbox
 
 
 def initial(config: CoreConfig, now_s: float) -> BridgeState:
-    """Return the state before the first tick."""
-    return BridgeState(now_s=now_s, started_s=now_s)
+    """Return the state before the first tick: BOOT, disabled, first epoch and first nonce.
+
+    Args:
+        config: what the steps to come will be given; all chance of a run is in its ``boot``.
+        now_s: this host's monotonic clock.
+    """
+    return BridgeState(
+        now_s=now_s,
+        started_s=now_s,
+        mode_since_s=now_s,
+        operator=Operator(nonce_no=1, nonce_made_s=now_s),
+    )
 
 
 def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
-    """Decide one tick. Same arguments, same decision. Never raises."""
-    following = draft(state)
-    following.now_s = now_s
-    following.command_seq += 1
-    seq = following.command_seq
-    command = DriveCommand(boot=config.boot, seq=seq, left_radps=0.0, right_radps=0.0, enable=False)
-    return Decision(following, command, None, None, (), ())
+    """Decide one tick. Same arguments, same decision. Never raises.
+
+    Args:
+        config: what is fixed during the run.
+        state: of the last tick; left as it is.
+        inbox: what arrived since, received now.
+        now_s: this host's monotonic clock; one that runs backwards stands still.
+    """
+    if not now_s >= state.now_s:
+        now_s = state.now_s
+    s = draft(state)
+    tick = Tick(config, s, inbox, now_s, now_s - state.now_s)
+    s.now_s = now_s
+    s.tick += 1
+    senses.sense(tick)
+    _listen(tick)
+    detect(tick)
+    decide(tick)
+    _move(tick)
+    meter(tick, s.odometry.travelled_m - state.odometry.travelled_m, state.mode)
+    sends = not selftest.withholds(tick)
+    return Decision(
+        state=s,
+        command=command(tick) if sends else None,
+        status=status_of(tick, state),
+        odometry=odometry_of(tick),
+        events=events_of(tick),
+        reasons=tuple(tick.reasons),
+    )
+
+
+def _listen(tick: Tick) -> None:
+    """Hear everybody in the order of rank; a stop voids what came with it."""
+    inbox = tick.inbox
+    manners.drain(tick)
+    operator.renew_nonce(tick)
+    ownership.free_the_lost(tick)
+    operator.hear_stops(tick)
+    for op in inbox.ops:
+        operator.hear_op(tick, op)
+    if tick.stopped:
+        _void(tick)
+        senses.locate(tick)
+    else:
+        for hello in inbox.hellos:
+            ownership.hear_hello(tick, hello)
+        for grant in inbox.grants:
+            hear_grant(tick, grant)
+        for heartbeat in inbox.heartbeats:
+            ownership.hear_heartbeat(tick, heartbeat)
+        senses.locate(tick)
+        for velocity in inbox.teleop:
+            stick.hear_teleop(tick, velocity)
+        for velocity in inbox.external:
+            hear_external(tick, velocity)
+        for waypoints in inbox.waypoints:
+            hear_waypoints(tick, waypoints)
+    if inbox.rejected:
+        manners.hear_rejected(tick)
+    stick.watch(tick)
+
+
+def _void(tick: Tick) -> None:
+    """Count what came with a stop and is not obeyed."""
+    inbox = tick.inbox
+    came = (inbox.hellos, inbox.grants, inbox.heartbeats, inbox.teleop, inbox.external)
+    for messages in (*came, inbox.waypoints):
+        for _ in messages:
+            tick.drop("void_by_stop")
+
+
+def _move(tick: Tick) -> None:
+    """Follow whoever is in charge, as far as caps, gate and limits let pass."""
+    motion = tick.s.motion
+    asked, at_end = wanted(tick)
+    arrive(tick, at_end=at_end)
+    if tick.s.gate.blocked:
+        _reconsider(tick)
+    motion.asked = asked if tick.moving else STILL
+    motion.limiter = shaped(tick, motion.asked)
+
+
+def _reconsider(tick: Tick) -> None:
+    """Judge a blocked way on what the follower would ask now."""
+    kept = tick.s.motion.follow
+    asked, _ = drive_out.followed(tick)
+    if not tick.moving:
+        tick.s.motion.follow = kept
+    gate.reconsider(tick, asked)

@@ -1,0 +1,113 @@
+"""Decide the mode from what is up, in one place and one order, every tick.
+
+Protective stop, then the worst row, then the stop in progress, then what the robot is called to do.
+Rows are evaluated here and never from callbacks.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bridge.core import (
+    detect_brain,
+    detect_loop,
+    detect_senses,
+    external,
+    latch,
+    selftest,
+    stops,
+)
+from bridge.core.legs import callable_horizon, judge_arrival
+from bridge.core.modes import Fact
+from bridge.core.operator import estop
+from bridge.core.transition import escalate, go
+from wire import SEVERITY, Action, Mode
+
+if TYPE_CHECKING:
+    from bridge.core.tick import Tick
+
+DETECTORS = (
+    detect_brain.brain,
+    detect_brain.commands,
+    detect_senses.lidar,
+    detect_senses.pose,
+    detect_senses.drive,
+    detect_senses.buttons,
+    detect_loop.loop,
+    detect_loop.rights,
+)
+"""Each takes the tick and a list to which it adds what it sees. Adding a row adds one here."""
+
+_FOLLOWS = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.TELEOP})
+_HOLD2 = SEVERITY[Action.HOLD2]
+
+
+def detect(tick: Tick) -> None:
+    """Run every detector and keep what it saw as long as its row says."""
+    dirty: latch.Dirty = []
+    for detector in DETECTORS:
+        detector(tick, dirty)
+    latch.update(tick, dirty)
+    for name, evidence in dirty:
+        if name == "ESTOP.0":
+            estop(tick, "estop")
+            tick.reasons.append(evidence)
+
+
+def decide(tick: Tick) -> None:
+    """Bring the mode up to date."""
+    s = tick.s
+    if s.mode is Mode.BOOT:
+        go(tick, Fact.UP, "up")
+    selftest.run(tick)
+    action, why, reset_needed = latch.worst(tick)
+    if s.gate.blocked and s.mode is Mode.ACTIVE and not SEVERITY[action] >= _HOLD2:
+        action, why = Action.HOLD2, "obstacle"
+    must_stop = SEVERITY[action] >= _HOLD2
+    if must_stop and s.mode in _FOLLOWS:
+        go(tick, action, why, reset_needed=reset_needed)
+    elif must_stop and s.mode is Mode.STOPPING:
+        _worsen(tick, action, why, reset_needed=reset_needed)
+    stops.judge(tick)
+    if not must_stop:
+        _call(tick)
+
+
+def _worsen(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> None:
+    if action is Action.CUT0:
+        go(tick, action, why)
+    else:
+        escalate(tick, action, why, reset_needed=reset_needed)
+
+
+def arrive(tick: Tick, *, at_end: bool) -> None:
+    """Leave ACTIVE when what was asked is done and the robot stands."""
+    s = tick.s
+    if s.mode is not Mode.ACTIVE:
+        return
+    if s.source == "X":
+        if not external.calls(tick) and tick.still_for(0.0):
+            go(tick, Fact.ARRIVED, "released")
+    elif judge_arrival(tick, at_end=at_end):
+        go(tick, Fact.ARRIVED, "reached" if s.leg.reached else "no_points")
+
+
+def _call(tick: Tick) -> None:
+    """Go to ACTIVE where somebody with a grant asks for motion and nothing forbids it."""
+    s = tick.s
+    if s.mode is Mode.STOPPING and s.stopping is not None and s.stopping.resumes:
+        fact = Fact.CLEARED
+    elif s.mode is Mode.HOLD:
+        fact = Fact.CALLED
+    else:
+        return
+    if s.held is not None or s.grants.mission is None or s.gate.blocked or tick.stopped:
+        return
+    if callable_horizon(tick):
+        source = "W"
+    elif external.calls(tick):
+        source = "X"
+    else:
+        return
+    if go(tick, fact, s.grants.mission):
+        s.source = source

@@ -1,0 +1,107 @@
+"""Let through of a command what the lidar leaves of it, by direction.
+
+The gate scales, down to nothing towards the trouble; what loses no clearance passes slowly. Shut
+for 0.5 s while waypoints move the robot it is ``blocked``: a HOLD2 that ends when the arc the
+follower would ask has been free for 0.3 m in five scans.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bridge.core.ages import sensor_age_s
+from bridge.core.freespace import free_length
+from bridge.core.kinematics import scaled
+from bridge.core.obstaclegate import obstacle_gate
+from bridge.core.state import Gate
+from wire import STILL, Mode, Twist2
+
+if TYPE_CHECKING:
+    from bridge.core.freespace import FreeLength
+    from bridge.core.tick import Tick
+
+SHUT_S = 0.5
+FREE_M = 0.3
+FREE_SCANS = 5
+UNKNOWN_MPS = 0.2
+"""Where fewer than half of the beams came back, silence may be a mirror or a black sofa."""
+
+
+def through(tick: Tick, twist: Twist2) -> Twist2:
+    """Return what may pass of a command; remember how free its way is, and the room to stop in."""
+    s = tick.s
+    motion, picture = s.motion, s.lidar.picture
+    motion.free_m = tick.room_m = None
+    if twist == STILL:
+        _note(tick, shut=False)
+        return twist
+    if picture is None:
+        motion.bound_by = "no_scan"
+        _note(tick, shut=True)
+        return STILL
+    way = obstacle_gate(
+        picture,
+        s.odometry.base_in_odom,
+        twist,
+        s.odometry.measured,
+        scan_age_s(tick),
+        tick.config.robot,
+    )
+    motion.free_m, tick.room_m = way.free_m, way.room_m
+    if way.scale < 1.0:
+        motion.bound_by = "obstacle"
+    _note(tick, shut=way.shut)
+    fastest = abs(way.twist.v_mps)
+    if not way.known and fastest > UNKNOWN_MPS:
+        motion.bound_by = "unseen"
+        return scaled(way.twist, UNKNOWN_MPS / fastest)
+    return way.twist
+
+
+def scan_age_s(tick: Tick) -> float:
+    """Return the age of the newest scan [s], as its row judges it."""
+    scan, received_s = tick.s.lidar.newest, tick.s.lidar.received_s
+    if scan is None or received_s is None:
+        return 0.0
+    same_host = tick.inbox.sensors_same_host
+    return max(0.0, sensor_age_s(tick.now_s, received_s, scan.stamp_s, same_host=same_host))
+
+
+def look(tick: Tick, twist: Twist2) -> FreeLength | None:
+    """Return how far the arc of a motion is free; None where no scan says so."""
+    picture = tick.s.lidar.picture
+    if picture is None:
+        return None
+    return free_length(
+        picture, tick.s.odometry.base_in_odom, twist, tick.config.robot.base.radius_m
+    )
+
+
+def reconsider(tick: Tick, asked: Twist2) -> None:
+    """Judge a blocked robot once per scan, on the arc that the follower would ask."""
+    gate, scan = tick.s.gate, tick.s.lidar.newest
+    if not gate.blocked or scan is None or scan.seq == gate.judged_scan:
+        return
+    if tick.s.mode not in {Mode.HOLD, Mode.STOPPING, Mode.ACTIVE}:
+        return
+    free = look(tick, asked) if asked != STILL else None
+    count = gate.free_scans + 1 if free is not None and free.s_m >= FREE_M else 0
+    if count >= FREE_SCANS:
+        tick.s.gate = Gate()
+        tick.say("unblocked")
+    else:
+        tick.s.gate = replace(gate, free_scans=count, judged_scan=scan.seq)
+
+
+def _note(tick: Tick, *, shut: bool) -> None:
+    s = tick.s
+    gate = s.gate
+    if not shut:
+        if gate.shut_since_s is not None:
+            s.gate = replace(gate, shut_since_s=None)
+    elif gate.shut_since_s is None:
+        s.gate = replace(gate, shut_since_s=tick.now_s)
+    elif s.mode is Mode.ACTIVE and not gate.blocked and tick.now_s - gate.shut_since_s >= SHUT_S:
+        s.gate = Gate(blocked=True)
+        tick.say("blocked", f"the way is not free, asked {s.motion.asked.v_mps:.2f} m/s")

@@ -1,0 +1,107 @@
+"""Meter motion: what a mission may still use, and what was driven since a person last acted.
+
+What is left belongs to the mission id and survives epochs; no later grant adds to it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bridge.core.epoch import shelved
+from bridge.core.latch import clear_on_grant
+from bridge.core.modes import POWERED
+from bridge.core.ownership import of_owner
+from bridge.core.verdicts import refuse_openly, settle_openly
+from wire import Mode
+
+if TYPE_CHECKING:
+    from bridge.core.state_orders import Grants
+    from bridge.core.tick import Tick
+    from wire import Grant
+
+OPERATOR_METRES = 500.0
+OPERATOR_SECONDS = 3600.0
+
+
+def hear_grant(tick: Tick, grant: Grant) -> None:
+    """Allow a mission of the owner to move, unless held, unpowered or spent."""
+    sent_s = of_owner(tick, grant.planner_id, grant.epoch, grant.seen)
+    if sent_s is None or tick.s.grants.mission == grant.mission:
+        return
+    jumped_s = tick.s.pose.jumped_s
+    if jumped_s is not None and not sent_s > jumped_s:
+        tick.drop("grant_before_jump")
+        return
+    metres, seconds = _left(tick.s.grants, grant)
+    refusal = _refusal(tick, metres, seconds)
+    if refusal is not None:
+        refuse_openly(tick, "grant", grant.mission, *refusal)
+        return
+    settle_openly(tick, "grant", grant.mission)
+    grants = shelved(tick.s.grants)
+    book = tuple(item for item in grants.book if item.mission != grant.mission)
+    tick.s.grants = replace(
+        grants,
+        mission=grant.mission,
+        metres=metres,
+        seconds=seconds,
+        book=book,
+        since_arm=True,
+    )
+    clear_on_grant(tick)
+    tick.say("granted", f"{grant.mission} {metres:.1f} m {seconds:.0f} s")
+
+
+def operator_acted(grants: Grants) -> Grants:
+    """Refill what may be driven between two acts of a person."""
+    return replace(grants, operator_metres=OPERATOR_METRES, operator_seconds=OPERATOR_SECONDS)
+
+
+def meter(tick: Tick, moved_m: float, before: Mode) -> None:
+    """Take one tick's way and time off what is left, if it was driven under a grant."""
+    grants = tick.s.grants
+    if before is not Mode.ACTIVE or grants.mission is None:
+        return
+    tick.s.grants = replace(
+        grants,
+        metres=max(0.0, grants.metres - moved_m),
+        seconds=max(0.0, grants.seconds - tick.dt_s),
+        operator_metres=max(0.0, grants.operator_metres - moved_m),
+        operator_seconds=max(0.0, grants.operator_seconds - tick.dt_s),
+    )
+
+
+def spent(grants: Grants) -> str | None:
+    """Name what is used up while a mission is granted; None if nothing is."""
+    if grants.mission is None:
+        return None
+    for name, left in (
+        ("mission's metres", grants.metres),
+        ("mission's seconds", grants.seconds),
+        ("operator's metres", grants.operator_metres),
+        ("operator's seconds", grants.operator_seconds),
+    ):
+        if not left > 0.0:
+            return name
+    return None
+
+
+def _left(grants: Grants, grant: Grant) -> tuple[float, float]:
+    for item in grants.book:
+        if item.mission == grant.mission:
+            return item.metres, item.seconds
+    return grant.metres, grant.seconds
+
+
+def _refusal(tick: Tick, metres: float, seconds: float) -> tuple[str, str] | None:
+    s = tick.s
+    if s.held is not None:
+        return "held", f"{s.held.reason.value} {s.held.id}; arm or resume first"
+    if s.mode not in POWERED:
+        return "not_armed", f"mode is {s.mode.value}"
+    if not (metres > 0.0 and seconds > 0.0):
+        return "budget", f"left for this mission: {metres:.2f} m, {seconds:.1f} s"
+    if not (s.grants.operator_metres > 0.0 and s.grants.operator_seconds > 0.0):
+        return "operator_budget", "the distance or time since the last operator act is spent"
+    return None

@@ -1,0 +1,121 @@
+"""Keep what detectors saw for as long as the table says, and find the worst that binds now.
+
+No row masks another: every stage is kept by itself, and the worst of those that bind decides.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bridge.core.rows import ALL, STAGES, Clears
+from bridge.core.state import RowUp
+from wire import SEVERITY, Action, Mode
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bridge.core.rows import Stage
+    from bridge.core.state import BridgeState
+    from bridge.core.tick import Tick
+
+Dirty = list[tuple[str, str]]
+"""Stage names whose trouble is seen in this tick, each with the evidence."""
+
+
+def sources(s: BridgeState) -> str:
+    """Return the letters of who moves the robot or holds a grant."""
+    owner = s.ownership.owner
+    if s.grants.mission is None or owner is None:
+        return s.source
+    return s.source + ("W" if owner.kind == "planner" else "X")
+
+
+def binds(stage: Stage, letters: str) -> bool:
+    """Tell whether a stage acts on these sources."""
+    return stage.binds == ALL or any(letter in stage.binds for letter in letters)
+
+
+def update(tick: Tick, dirty: Dirty) -> None:
+    """Raise what is dirty, let go what has been clean for long enough."""
+    rows = tick.s.rows
+    if not (rows or dirty):
+        return
+    now_s = tick.now_s
+    kept: dict[str, RowUp] = {}
+    for name, evidence in dirty:
+        before = rows.get(name)
+        if before is None:
+            tick.say("row_up", f"{name} {evidence}")
+        kept[name] = RowUp(now_s if before is None else before.since_s, now_s, evidence)
+    for name, up in rows.items():
+        if name not in kept:
+            if STAGES[name].clears is Clears.AUTO and now_s - up.dirty_s >= STAGES[name].clean_s:
+                tick.say("row_down", name)
+            else:
+                kept[name] = up
+    tick.s.rows = kept
+
+
+def worst(tick: Tick) -> tuple[Action, str, bool]:
+    """Return the worst action that binds, its row in lower case, and whether it needs a reset.
+
+    ESTOP is left out: it is a mode of its own, entered by request.
+    """
+    action, why, reset_needed = Action.NONE, "", False
+    letters = sources(tick.s)
+    for name in tick.s.rows:
+        stage = STAGES[name]
+        if stage.row == "ESTOP" or not binds(stage, letters):
+            continue
+        reset_needed = reset_needed or stage.clears is Clears.ON_RESET
+        if SEVERITY[stage.action] > SEVERITY[action]:
+            action, why = stage.action, stage.row.lower()
+    return action, why, reset_needed
+
+
+def cap(tick: Tick) -> tuple[float, str]:
+    """Return the factor on robot.toml's limits that CAP rows leave, and the row that sets it."""
+    factor, by = 1.0, "robot"
+    if not tick.s.rows:
+        return factor, by
+    letters = sources(tick.s)
+    fastest = tick.config.robot.limits.max_speed_mps
+    for name in tick.s.rows:
+        stage = STAGES[name]
+        if stage.action is Action.CAP and binds(stage, letters):
+            share = stage.cap_factor
+            if share is None:
+                share = min(1.0, (stage.cap_mps or 0.0) / fastest)
+            if share < factor:
+                factor, by = share, stage.row.lower()
+    return factor, by
+
+
+def clear_on_grant(tick: Tick) -> None:
+    """Let go what a new grant ends; a detector that is still dirty raises it again at once."""
+    _let_go(tick, lambda stage: stage.clears is Clears.ON_GRANT)
+
+
+def clear_on_hello(tick: Tick) -> None:
+    """Let go BRAIN_LOST where nothing moves: without a grant nothing will."""
+    if tick.s.mode not in {Mode.ACTIVE, Mode.STOPPING}:
+        _let_go(tick, lambda stage: stage.row == "BRAIN_LOST")
+
+
+def clear_on_arm(tick: Tick) -> None:
+    """Let go what arming ends."""
+    _let_go(tick, lambda stage: stage.clears in {Clears.ON_REARM, Clears.ON_GRANT})
+
+
+def clear_on_reset(tick: Tick) -> None:
+    """Let go what a reset ends; the caller has seen that it was clean for 2 s."""
+    _let_go(tick, lambda stage: stage.clears is Clears.ON_RESET)
+
+
+def _let_go(tick: Tick, ended: Callable[[Stage], bool]) -> None:
+    rows = tick.s.rows
+    gone = [name for name in rows if ended(STAGES[name])]
+    if gone:
+        tick.s.rows = {name: up for name, up in rows.items() if name not in gone}
+        for name in gone:
+            tick.say("row_down", name)

@@ -1,0 +1,158 @@
+"""Take in what drive, lidar, localization, gyro and buttons said, and how old it is.
+
+First in a tick, so that orders are judged on the newest facts. Writes only what it remembers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot, radians
+from typing import TYPE_CHECKING
+
+from bridge.core.ages import sensor_age_s
+from bridge.core.epoch import shelved
+from bridge.core.odometry import advance
+from bridge.core.scanpicture import ScanPicture
+from bridge.core.tick import STANDING_MPS, STANDING_RADPS
+from wire import compose, wrap
+
+if TYPE_CHECKING:
+    from bridge.core.tick import Tick
+    from wire import DriveState, Localization, Pose2, Scan
+
+POOR_QUALITY = 0.5
+POSE_OLD_S = 0.3
+JUMP_M = 0.1
+JUMP_RAD = radians(5.0)
+BASELINE_SCANS = 20
+_TRAIL = 24
+"""Readings kept to place a scan: 0.24 s, as old as a scan may be."""
+
+
+def sense(tick: Tick) -> None:
+    """Take in all readings of this tick."""
+    inbox, s = tick.inbox, tick.s
+    for state in inbox.drive:
+        _hear_drive(tick, state)
+    if inbox.scan is not None:
+        _hear_scan(tick, inbox.scan)
+    if inbox.imu is not None:
+        s.pose = replace(s.pose, imu=inbox.imu, imu_received_s=tick.now_s)
+    if inbox.estop_link is not None:
+        s.buttons = replace(
+            s.buttons, link_pressed=inbox.estop_link.pressed, link_received_s=tick.now_s
+        )
+    if s.loop.real_time != inbox.real_time or s.loop.recorder_ok != inbox.recorder_ok:
+        s.loop = replace(s.loop, real_time=inbox.real_time, recorder_ok=inbox.recorder_ok)
+
+
+def locate(tick: Tick) -> None:
+    """Take in localization, and say where the robot is in ``map`` if that may be trusted."""
+    s = tick.s
+    if tick.inbox.localization is not None:
+        _hear_localization(tick, tick.inbox.localization)
+    if pose_trouble(tick) is None and s.pose.localization is not None:
+        tick.robot_in_map = compose(s.pose.localization.odom_in_map, s.odometry.base_in_odom)
+
+
+def pose_trouble(tick: Tick) -> str | None:
+    """Say why the pose in ``map`` is not to be trusted; None if it is."""
+    pose = tick.s.pose
+    if pose.localization is None or pose.received_s is None:
+        return "no localization of this odom_id and map"
+    same_host = tick.inbox.localization_same_host
+    stamp_s = pose.localization.stamp_s
+    age_s = sensor_age_s(tick.now_s, pose.received_s, stamp_s, same_host=same_host)
+    if not age_s <= POSE_OLD_S:
+        return f"localization is {age_s:.2f} s old"
+    if not pose.localization.quality >= POOR_QUALITY:
+        return f"localization quality {pose.localization.quality:.2f}"
+    return None
+
+
+def _hear_drive(tick: Tick, state: DriveState) -> None:
+    s = tick.s
+    drive = s.drive
+    last = drive.newest
+    reborn = last is not None and last.boot_id != state.boot_id
+    if last is not None and not reborn and not state.seq > last.seq:
+        tick.drop("drive_state_old")
+        return
+    if reborn:
+        drive.reborn_s = tick.now_s
+        drive.behind_base = s.command_seq
+    s.odometry = advance(s.odometry, state, tick.config.robot.base, rezero=reborn)
+    drive.newest, drive.received_s = state, tick.now_s
+    echoed = state.echo_seq if state.echo_boot == tick.config.boot else 0
+    drive.behind = max(0, s.command_seq - max(echoed, drive.behind_base))
+    measured = s.odometry.measured
+    if abs(measured.v_mps) < STANDING_MPS and abs(measured.w_radps) < STANDING_RADPS:
+        drive.moving_since_s = None
+        if drive.still_since_s is None:
+            drive.still_since_s = tick.now_s
+    else:
+        drive.still_since_s = None
+        if drive.moving_since_s is None:
+            drive.moving_since_s = tick.now_s
+    stamp_s = min(state.stamp_s, tick.now_s) if tick.inbox.sensors_same_host else tick.now_s
+    s.trail = (*s.trail[-(_TRAIL - 1) :], (stamp_s, s.odometry.base_in_odom))
+
+
+def _hear_scan(tick: Tick, scan: Scan) -> None:
+    s = tick.s
+    lidar = s.lidar
+    last = lidar.newest
+    if last is not None and last.boot_id == scan.boot_id and not scan.seq > last.seq:
+        tick.drop("scan_old")
+        return
+    equal = last is not None and last.ranges_m == scan.ranges_m
+    taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
+    picture = ScanPicture.from_scan(scan, _where(tick, taken_s), tick.config.robot.lidar)
+    scans = min(lidar.baseline_scans + 1, BASELINE_SCANS)
+    learnt = lidar.baseline_scans < BASELINE_SCANS
+    mean = lidar.baseline_returns
+    s.lidar = replace(
+        lidar,
+        newest=scan,
+        received_s=tick.now_s,
+        picture=picture,
+        equal=lidar.equal + 1 if equal else 1,
+        equal_from_m=lidar.equal_from_m if equal else s.odometry.travelled_m,
+        baseline_scans=scans,
+        baseline_returns=mean + (picture.returns - mean) / scans if learnt else mean,
+    )
+
+
+def _where(tick: Tick, at_s: float) -> Pose2:
+    """Return where odometry says the robot was; the oldest known place for anything older."""
+    trail = tick.s.trail
+    for stamp_s, base_in_odom in reversed(trail):
+        if stamp_s <= at_s:
+            return base_in_odom
+    return trail[0][1] if trail else tick.s.odometry.base_in_odom
+
+
+def _hear_localization(tick: Tick, new: Localization) -> None:
+    s = tick.s
+    if new.odom_id != tick.config.boot or new.map_id != tick.config.map_id:
+        tick.drop("localization_foreign")
+        return
+    last = s.pose.localization
+    s.pose = replace(s.pose, localization=new, received_s=tick.now_s)
+    if last is not None and new.quality >= POOR_QUALITY:
+        _judge_jump(tick, last, new)
+
+
+def _judge_jump(tick: Tick, last: Localization, new: Localization) -> None:
+    """See whether the update itself displaced the robot in ``map``: T_new p against T_old p."""
+    s = tick.s
+    here = s.odometry.base_in_odom
+    before, after = compose(last.odom_in_map, here), compose(new.odom_in_map, here)
+    jump_m = hypot(after.x_m - before.x_m, after.y_m - before.y_m)
+    jump_rad = abs(wrap(after.yaw_rad - before.yaw_rad))
+    if jump_m <= JUMP_M and jump_rad <= JUMP_RAD:
+        return
+    s.pose = replace(s.pose, jumped_s=tick.now_s)
+    s.grants = shelved(s.grants)
+    s.leg = replace(s.leg, horizon=None, path=None)
+    tick.say("pose_jump", f"{jump_m:.2f} m {jump_rad:.2f} rad")

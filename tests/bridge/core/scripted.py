@@ -1,0 +1,440 @@
+"""Play a well-behaved robot, localization, planner and operator against the core on a fake clock.
+
+Everything can be made to misbehave by switch, so that a test reads as: what happened, what came out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import cos, hypot, sin
+
+from bridge.core import CoreConfig, Decision, Inbox, LoopFacts, OpArrived, initial, step
+from bridge.core.fence import build_fence
+from wire import (
+    IDENTITY,
+    PROTOCOL,
+    DriveState,
+    Event,
+    Grant,
+    Heartbeat,
+    Hello,
+    Localization,
+    Mode,
+    OpKind,
+    OpRequest,
+    Pose2,
+    Proof,
+    RobotDescription,
+    Scan,
+    Status,
+    Stop,
+    Twist2,
+    Velocity,
+    Waypoint,
+    Waypoints,
+    compose,
+)
+
+BOOT = "b0"
+MAP_ID = "a" * 16
+FENCE_HASH = "f" * 16
+PERIOD_S = 0.01
+ROOM_M = 6.0
+_WALL = ROOM_M
+FENCE = build_fence(MAP_ID, (((-5.5, -5.5), (5.5, -5.5), (5.5, 5.5), (-5.5, 5.5)),))
+
+
+def config(robot: RobotDescription | None = None) -> CoreConfig:
+    made = RobotDescription() if robot is None else robot
+    return CoreConfig(
+        robot=made,
+        robot_hash=made.hash,
+        fence=FENCE,
+        fence_hash=FENCE_HASH,
+        map_id=MAP_ID,
+        boot=BOOT,
+    )
+
+
+@dataclass
+class FakeDrive:
+    """Follow wheel commands with a first-order lag, and stop by itself when nobody speaks."""
+
+    boot_id: str = "d0"
+    seq: int = 0
+    echo_boot: str | None = None
+    echo_seq: int = 0
+    heard_s: float | None = None
+    target: tuple[float, float] = (0.0, 0.0)
+    enabled: bool = False
+    angles: tuple[float, float] = (0.0, 0.0)
+    speeds: tuple[float, float] = (0.0, 0.0)
+    estop_pressed: bool = False
+    deaf: bool = False
+    """Hears no commands but reports."""
+    runs_on: bool = False
+    """Ignores what it is told and keeps its speed."""
+    never_times_out: bool = False
+
+    def tick(self, now_s: float) -> DriveState:
+        late = self.heard_s is None or now_s - self.heard_s > 0.2
+        timed_out = late and not self.never_times_out
+        wanted = (0.0, 0.0) if timed_out or not self.enabled else self.target
+        share = PERIOD_S / 0.04
+        if not self.runs_on:
+            left, right = self.speeds
+            self.speeds = (
+                left + share * (wanted[0] - left),
+                right + share * (wanted[1] - right),
+            )
+        self.angles = (
+            self.angles[0] + self.speeds[0] * PERIOD_S,
+            self.angles[1] + self.speeds[1] * PERIOD_S,
+        )
+        self.seq += 1
+        return DriveState(
+            boot_id=self.boot_id,
+            seq=self.seq,
+            stamp_s=now_s,
+            echo_boot=self.echo_boot,
+            echo_seq=self.echo_seq,
+            enabled=self.enabled and not timed_out,
+            timed_out=timed_out,
+            left_rad=self.angles[0],
+            right_rad=self.angles[1],
+            left_radps=self.speeds[0],
+            right_radps=self.speeds[1],
+            estop_pressed=self.estop_pressed,
+        )
+
+    def hear(self, decision: Decision, now_s: float) -> None:
+        command = decision.command
+        if command is None or self.deaf:
+            return
+        self.heard_s = now_s
+        self.echo_boot, self.echo_seq = command.boot, command.seq
+        self.enabled = command.enable
+        self.target = (command.left_radps, command.right_radps)
+
+
+@dataclass
+class FakePlanner:
+    """Own, grant, stream and beat as PROTOCOL asks, on each status it is shown."""
+
+    planner_id: str = "p1"
+    mission: str | None = None
+    leg: int = 1
+    goal_m: tuple[float, float] | None = None
+    """None streams a horizon of no points."""
+    metres: float = 20.0
+    seconds: float = 120.0
+    silent: bool = False
+    ttl_s: float = 0.5
+    seq: int = 0
+    status: Status | None = None
+    used: int | None = None
+    """Pin what heartbeats say was used; None tells the truth."""
+    next_horizon_s: float = 0.0
+
+    def say(self, status: Status | None, now_s: float, inbox: Inbox) -> Inbox:
+        if self.silent:
+            return inbox
+        fresh = status is not None
+        if status is not None:
+            self.status = status
+        if self.status is None:
+            return inbox
+        if fresh:
+            inbox = self._on_status(self.status, inbox)
+        if self._owns(self.status) and self._granted(self.status) and now_s >= self.next_horizon_s:
+            self.next_horizon_s = now_s + 0.1 - 1e-6
+            inbox = replace(inbox, waypoints=(self.horizon(self.status),))
+        return inbox
+
+    def _owns(self, status: Status) -> bool:
+        return status.owner is not None and status.owner.planner_id == self.planner_id
+
+    def _granted(self, status: Status) -> bool:
+        return status.grant is not None and status.grant.mission == self.mission
+
+    def _on_status(self, status: Status, inbox: Inbox) -> Inbox:
+        if not self._owns(status):
+            return replace(inbox, hellos=(self.hello(status),))
+        used = status.seq if self.used is None else self.used
+        beat = Heartbeat(planner_id=self.planner_id, epoch=status.epoch, seen=status.seq, used=used)
+        inbox = replace(inbox, heartbeats=(beat,))
+        if self.mission is not None and not self._granted(status):
+            grant = Grant(
+                planner_id=self.planner_id,
+                epoch=status.epoch,
+                seen=status.seq,
+                mission=self.mission,
+                metres=self.metres,
+                seconds=self.seconds,
+            )
+            inbox = replace(inbox, grants=(grant,))
+        return inbox
+
+    def hello(self, status: Status) -> Hello:
+        return Hello(
+            planner_id=self.planner_id,
+            kind="planner",
+            seen=status.seq,
+            protocol=PROTOCOL,
+            robot_hash=status.robot_hash,
+            fence_hash=status.fence_hash,
+            map_id=MAP_ID,
+        )
+
+    def horizon(self, status: Status) -> Waypoints:
+        self.seq += 1
+        points: tuple[Waypoint, ...] = ()
+        final = False
+        if self.goal_m is not None and status.base_in_map is not None:
+            points, final = straight(status.base_in_map, self.goal_m)
+        return Waypoints(
+            planner_id=self.planner_id,
+            epoch=status.epoch,
+            seq=self.seq,
+            seen=status.seq,
+            mission=self.mission or "m",
+            leg=self.leg,
+            map_id=MAP_ID,
+            ttl_s=self.ttl_s,
+            points=points,
+            final=final,
+        )
+
+
+def straight(
+    here: Pose2, goal_m: tuple[float, float], speed_mps: float = 0.4
+) -> tuple[tuple[Waypoint, ...], bool]:
+    """Return a straight horizon of at most 30 points, and whether it ends at the goal."""
+    dx, dy = goal_m[0] - here.x_m, goal_m[1] - here.y_m
+    away = hypot(dx, dy)
+    if away < 0.06:
+        return (Waypoint(x_m=goal_m[0], y_m=goal_m[1], speed_mps=speed_mps),), True
+    count = max(1, int(away / 0.1))
+    points = tuple(
+        Waypoint(
+            x_m=here.x_m + dx * index / count,
+            y_m=here.y_m + dy * index / count,
+            speed_mps=speed_mps,
+        )
+        for index in range(min(count, 29) + 1)
+    )
+    return points, count <= 29
+
+
+@dataclass
+class World:
+    """Step the core and everybody around it, one period at a time."""
+
+    core: CoreConfig = field(default_factory=config)
+    now_s: float = 100.0
+    drive: FakeDrive = field(default_factory=FakeDrive)
+    planner: FakePlanner | None = field(default_factory=FakePlanner)
+    obstacle_m: tuple[float, float, float] | None = None
+    """Centre and radius of a round thing, in ``map``."""
+    drive_silent: bool = False
+    lidar_silent: bool = False
+    lidar_frozen: bool = False
+    localization_silent: bool = False
+    odom_in_map: Pose2 = IDENTITY
+    quality: float = 1.0
+    recorder_ok: bool = True
+    real_time: bool = True
+    extra: Inbox = field(default_factory=Inbox)
+    """Added to the next tick's inbox: stops, ops, teleop, rejected, loop."""
+    last: Decision | None = None
+    status: Status | None = None
+    ticks: int = 0
+    scans: int = 0
+    poses: int = 0
+    ids: int = 0
+    events: list[Event] = field(default_factory=list)
+    statuses: list[Status] = field(default_factory=list)
+    inboxes: list[tuple[Inbox, float]] = field(default_factory=list)
+    decisions: list[Decision] = field(default_factory=list)
+    keep: bool = False
+    delay_ticks: int = 2
+    """How long a status takes to the planner."""
+    mail: list[Status | None] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.state = initial(self.core, self.now_s)
+
+    @property
+    def mode(self) -> Mode:
+        return self.state.mode
+
+    @property
+    def sent(self) -> Twist2:
+        return self.state.motion.limiter.sent
+
+    @property
+    def here(self) -> Pose2:
+        return compose(self.odom_in_map, self.state.odometry.base_in_odom)
+
+    def tick(self, period_s: float = PERIOD_S) -> Decision:
+        self.now_s += period_s
+        self.ticks += 1
+        inbox = self._inbox()
+        decision = step(self.core, self.state, inbox, self.now_s)
+        if self.keep:
+            self.inboxes.append((inbox, self.now_s))
+            self.decisions.append(decision)
+        self.state, self.last = decision.state, decision
+        self.drive.hear(decision, self.now_s)
+        self.events.extend(decision.events)
+        self.mail.append(decision.status)
+        if decision.status is not None:
+            self.status = decision.status
+            self.statuses.append(decision.status)
+        return decision
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / PERIOD_S)):
+            self.tick()
+
+    def until(self, mode: Mode, limit_s: float = 10.0) -> None:
+        for _ in range(round(limit_s / PERIOD_S)):
+            if self.mode is mode:
+                return
+            self.tick()
+        said = [f"{event.code} {event.detail}" for event in self.events[-12:]]
+        raise AssertionError(f"{mode} not reached, still {self.mode}: {said}")
+
+    def next_id(self, prefix: str) -> str:
+        self.ids += 1
+        return f"{prefix}{self.ids}"
+
+    def op(self, kind: OpKind, *, authentic: bool = True, nonce: str | None = None) -> str:
+        """Put an operator's request in the next tick."""
+        request_id = self.next_id(kind)
+        shown = self.status.nonce if self.status is not None else "none"
+        proof = Proof(nonce=shown if nonce is None else nonce, mac="0" * 64)
+        request = OpRequest(id=request_id, source="test", proof=proof)
+        arrived = OpArrived(kind, request, authentic)
+        self.extra = replace(self.extra, ops=(*self.extra.ops, arrived))
+        return request_id
+
+    def stop(self, stop_id: str | None = None) -> str:
+        made = stop_id or self.next_id("stop")
+        self.extra = replace(self.extra, stops=(*self.extra.stops, Stop(id=made, source="test")))
+        return made
+
+    def teleop(self, v: float = 0.0, w: float = 0.0, *, held: bool, source: str = "stick") -> None:
+        """Put one message of a stick in the next tick."""
+        status = self.status
+        assert status is not None
+        self.ids += 1
+        velocity = Velocity(
+            source_id=source,
+            epoch=status.epoch,
+            seq=self.ids,
+            seen=status.seq,
+            v_mps=v,
+            w_radps=w,
+            dead_man=held,
+        )
+        self.extra = replace(self.extra, teleop=(*self.extra.teleop, velocity))
+
+    def late(self, late_s: float = 0.0, missed: int = 0) -> None:
+        self.extra = replace(self.extra, loop=LoopFacts(late_s=late_s, missed_ticks=missed))
+
+    def verdict(self, request_id: str) -> str:
+        for answered in self.state.operator.answers:
+            if answered.answer.id == request_id:
+                return answered.answer.code
+        raise AssertionError(f"no verdict on {request_id}")
+
+    def rows(self) -> set[str]:
+        return set(self.state.rows)
+
+    def ready(self) -> World:
+        """Bring the world to DISARMED."""
+        self.until(Mode.DISARMED)
+        self.run(0.6)
+        return self
+
+    def armed(self) -> World:
+        self.ready()
+        request_id = self.op("arm")
+        self.tick()
+        assert self.verdict(request_id) == "ok"
+        return self
+
+    def driving(self, goal_m: tuple[float, float] = (4.0, 0.0), mission: str = "m1") -> World:
+        """Arm, own, grant and come up to speed."""
+        self.armed()
+        assert self.planner is not None
+        self.planner.mission, self.planner.goal_m = mission, goal_m
+        self.until(Mode.ACTIVE)
+        self.run(1.5)
+        assert self.mode is Mode.ACTIVE
+        return self
+
+    def _inbox(self) -> Inbox:
+        inbox = replace(self.extra, recorder_ok=self.recorder_ok, real_time=self.real_time)
+        self.extra = Inbox()
+        state = self.drive.tick(self.now_s)
+        if not self.drive_silent:
+            inbox = replace(inbox, drive=(state,))
+        if self.ticks % 10 == 3 and not self.lidar_silent:
+            inbox = replace(inbox, scan=self._scan())
+        if self.ticks % 10 == 6 and not self.localization_silent:
+            inbox = replace(inbox, localization=self._localization())
+        if self.planner is not None:
+            late = self.mail.pop(0) if len(self.mail) >= self.delay_ticks else None
+            inbox = self.planner.say(late, self.now_s, inbox)
+        return inbox
+
+    def _localization(self) -> Localization:
+        self.poses += 1
+        return Localization(
+            odom_id=BOOT,
+            seq=self.poses,
+            stamp_s=self.now_s,
+            odom_in_map=self.odom_in_map,
+            quality=self.quality,
+            map_id=MAP_ID,
+        )
+
+    def _scan(self) -> Scan:
+        if not self.lidar_frozen:
+            self.scans += 1
+        self.frozen_at = getattr(self, "frozen_at", None)
+        here = self.here if not self.lidar_frozen else (self.frozen_at or self.here)
+        self.frozen_at = here
+        beams = 120
+        noise = 1e-6 * self.scans
+        ranges = tuple(
+            self._range(here, here.yaw_rad - 3.141592 + index * 6.283184 / beams) + noise
+            for index in range(beams)
+        )
+        return Scan(
+            boot_id="l0",
+            seq=self.ticks,
+            stamp_s=self.now_s,
+            angle_min_rad=-3.141592,
+            angle_increment_rad=6.283184 / beams,
+            range_min_m=0.12,
+            range_max_m=20.0,
+            ranges_m=tuple(r if r <= 20.0 else None for r in ranges),
+        )
+
+    def _range(self, here: Pose2, angle: float) -> float:
+        c, s = cos(angle), sin(angle)
+        best = 100.0
+        for position, direction in ((here.x_m, c), (here.y_m, s)):
+            if abs(direction) > 1e-9:
+                wall = _WALL if direction > 0 else -_WALL
+                best = min(best, (wall - position) / direction)
+        if self.obstacle_m is not None:
+            x, y, radius = self.obstacle_m
+            dx, dy = x - here.x_m, y - here.y_m
+            along, aside = dx * c + dy * s, dy * c - dx * s
+            if along > 0 and abs(aside) < radius:
+                best = min(best, along - (radius * radius - aside * aside) ** 0.5)
+        return best
