@@ -1,0 +1,67 @@
+"""Load a site for a world once, however many worlds drive in it. Nothing here moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from bridge.core.fence import Fence
+from bridge.fence_file import load_fence
+from planner.plan import Bilingual, Entry, Vocabulary
+from planner.route import RouteLimits
+from planner.route.router import Router
+from planner.world import Place, Site
+from wire import RobotDescription
+
+SITES = Path(__file__).resolve().parents[1] / "sites"
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Hold one site as each part reads it from the same files."""
+
+    folder: Path
+    robot: RobotDescription
+    site: Site
+    vocabulary: Vocabulary
+    fence: Fence
+    fence_hash: str
+    router: Router
+
+
+@lru_cache(maxsize=16)
+def scene(folder: Path, robot: RobotDescription) -> Scene:
+    """Return the scene of a site's folder; routes depend on nothing else, so it may be shared."""
+    site = Site.load(folder)
+    fence, fence_hash = load_fence(folder / "fence.json")
+    return Scene(
+        folder=folder,
+        robot=robot,
+        site=site,
+        vocabulary=vocabulary_of(site),
+        fence=fence,
+        fence_hash=fence_hash,
+        router=Router(site, RouteLimits.of(robot)),
+    )
+
+
+def folder_of(site: Path | str) -> Path:
+    """Return a site's folder; a bare name is one of the checkout's own sites."""
+    return SITES / site if isinstance(site, str) else site
+
+
+def vocabulary_of(site: Site) -> Vocabulary:
+    """Return the closed world of names that a brain may plan in."""
+    return Vocabulary(entries=tuple(_entry(site, place) for place in site.places))
+
+
+def _entry(site: Site, place: Place) -> Entry:
+    around = site.room_at(place.pose.x_m, place.pose.y_m) if place.kind == "place" else None
+    return Entry(
+        id=place.id,
+        kind=place.kind,
+        name=Bilingual(en=place.name.en, zh=place.name.zh),
+        aliases=(*place.aliases.en, *place.aliases.zh),
+        room=around.id if around is not None else None,
+    )
