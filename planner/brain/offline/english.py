@@ -20,6 +20,7 @@ from planner.brain.offline.grammar import (
     next_place,
     route,
     say,
+    set_out,
     stand,
     wait,
 )
@@ -113,11 +114,11 @@ _RULES = (
         rf"(?: for)? {EN_DURATION}(?: (?:here|there))?",
         wait,
     ),
-    _rule(r"(?:stop|wait|stay)(?: there)?", stand),
+    _rule(r"(?:stop|wait|stay) there", stand),
     _rule(rf"(?:say|announce|tell (?:me|us|them|everyone))(?: out loud)? ?(?P<quote>{QUOTE})", say),
     _rule(rf"say (?P<words>{_HELLO})(?: to (?:me|us|everyone|everybody))?", say),
     _rule(rf"{_GO} from (?P<start>.+?) (?:to|into|towards?) (?P<place>.+)", route),
-    _rule(r"(?:(?:start|starting|leave|depart) )?from (?P<place>.+)", drive_to),
+    _rule(r"(?:(?:start|starting|leave|depart) )?from (?P<place>.+)", set_out),
     _rule(rf"(?:start |starting )?from (?P<start>.+?) {_GO} to (?P<place>.+)", route),
     _rule(rf"{_LEAD} (?:to|towards?|into) (?P<place>.+)", drive_to),
     _rule(

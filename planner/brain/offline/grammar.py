@@ -81,6 +81,14 @@ def drive_to(found: Match[str], reading: Reading) -> Meaning:
     return go_to(found["place"], reading)
 
 
+def set_out(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read "from the kitchen" as the first place, where it opens an order and more follows.
+
+    Alone, "leave from the kitchen" orders no drive to the kitchen.
+    """
+    return go_to(found["place"], reading) if reading.opens else None
+
+
 def drive_into(found: Match[str], reading: Reading) -> Meaning:
     """Read the group `place` as a room: nothing drives into a sofa."""
     meaning = go_to(found["place"], reading)
@@ -121,7 +129,7 @@ def home(_found: Match[str], _reading: Reading) -> Meaning:
 
 
 def stand(_found: Match[str], reading: Reading) -> Meaning | None:
-    """Read "and stop" after a go-to: arriving does that."""
+    """Read "and stay there" after a go-to: arriving does that."""
     return Steps(()) if reading.going else None
 
 

@@ -65,9 +65,11 @@ class Reading:
     quotes: tuple[str, ...] = ()
     going: bool = False  # the clause before was a go-to: "…, then the bedroom"
 
-    def after(self, going: bool) -> Reading:
-        """Return the reading of the next clause."""
-        return replace(self, going=going)
+    opens: bool = False  # the clause opens the sentence, and others follow
+
+    def at(self, clause: Clause, going: bool) -> Reading:
+        """Return the reading of one clause after another."""
+        return replace(self, going=going, opens=clause.first and not clause.last)
 
     def problem(self, code: Code, part: str, before: tuple[Step, ...] = ()) -> Problem:
         """Name the part of the sentence that makes trouble, with the places it mentions."""

@@ -98,7 +98,7 @@ def _read(grammar: Grammar, text: str, reading: Reading) -> list[Meaning]:
     meanings: list[Meaning] = []
     going = False
     for clause in grammar.clauses(text):
-        meaning = grammar.read(clause, reading.after(going))
+        meaning = grammar.read(clause, reading.at(clause, going))
         meanings.append(meaning)
         going = isinstance(meaning, Steps) and (
             going if not meaning.steps else isinstance(meaning.steps[-1], GoTo)
