@@ -1,1 +1,129 @@
-"""x."""
+"""Walk goals: one at a time, journalled, believed only on the bridge's word. The door for the API.
+
+``Missions`` (built and started by the app factory; ``missions.link`` is the ``Link``)::
+
+    missions = Missions(site=…, robot=…, link=Link(WireBus(session), robot), router=RouteWorker(…),
+                        brain=…, journal=MissionJournal.in_home(home))
+    await missions.start(freeze=True) … await missions.close()
+
+    await submit(text, *, language=None, confirm=False, replace=False, idempotency_key=None,
+                 operator=True, act=None, source="api") -> Goal
+    goal(id) -> Goal;  goals(limit=50) -> tuple[Goal, ...]  (newest first)
+    await cancel(id) | pause(id) | move(id, before=None) -> Goal
+    await resume(id=None, act=None) | confirm(id, act=None) | answer(id, text, act=None) -> Goal
+    await stop(source) -> StopResult(id, echoed, waited_s)
+    subscribe() -> Subscription: async iterator of (seq, dict), ``async with`` or ``close()``
+    snapshot() -> dict with seq, planner_id, running, queue, goals, status
+    failed -> what ended the mission loop, if anything did;  journal_trouble -> str | None
+
+``act`` is the person's signed ``op/resume`` (``wire.OpRequest``), which clears the bridge's hold:
+handlers make it by ``link.sign_virtual("resume", source)`` or relay the caller's own proof by
+``link.unsigned(source, proof, id)``. Without it a goal given while a hold stands pauses after 2 s.
+
+Events: {"type": "goal", "goal": …}, {"type": "status", "status": wire.Status (dump it yourself)},
+{"type": "bridge", "event": …}, {"type": "say", "goal", "text"}, {"type": "first_waypoint", "goal",
+"seconds"}, {"type": "act", "accepted", "code"}, {"type": "gap", "missed"} (take a snapshot again).
+
+Errors (all ``MissionError`` with ``code`` and bilingual ``message``): unknown_goal 404, bad_state
+409, nothing_to_resume 409, queue_full 429, idempotency_conflict 409, journal_unavailable 503.
+
+The lockstep harness uses ``Engine`` instead: feed ``status``/``event``/``routed``/``journalled``,
+send ``Output.messages`` to the bridge, answer ``Output.effects``. ``advance`` and ``wish`` are
+pure.
+"""
+
+from planner.mission.effects import (
+    AskBrain,
+    AskRoute,
+    Changed,
+    DropBrain,
+    Effect,
+    Journal,
+    SayAloud,
+    Wish,
+)
+from planner.mission.engine import Engine, Output
+from planner.mission.errors import (
+    BadState,
+    IdempotencyConflict,
+    JournalDown,
+    MissionError,
+    NothingToResume,
+    QueueFull,
+    UnknownGoal,
+)
+from planner.mission.events import (
+    Cancel,
+    Confirm,
+    Event,
+    Journalled,
+    Move,
+    Pause,
+    Planned,
+    Reply,
+    Restarted,
+    Resume,
+    Routed,
+    Seen,
+    Stopped,
+    Submitted,
+    Tick,
+)
+from planner.mission.facts import facts_of
+from planner.mission.helpers import Router, Think
+from planner.mission.hub import Subscription
+from planner.mission.journal import MissionJournal
+from planner.mission.loop import Clocks
+from planner.mission.records import Book, Facts, Mission, Target
+from planner.mission.reducer import advance, wish
+from planner.mission.runner import Missions
+from planner.mission.view import goal_of
+
+__all__ = [
+    "AskBrain",
+    "AskRoute",
+    "BadState",
+    "Book",
+    "Cancel",
+    "Changed",
+    "Clocks",
+    "Confirm",
+    "DropBrain",
+    "Effect",
+    "Engine",
+    "Event",
+    "Facts",
+    "IdempotencyConflict",
+    "Journal",
+    "JournalDown",
+    "Journalled",
+    "Mission",
+    "MissionError",
+    "MissionJournal",
+    "Missions",
+    "Move",
+    "NothingToResume",
+    "Output",
+    "Pause",
+    "Planned",
+    "QueueFull",
+    "Reply",
+    "Restarted",
+    "Resume",
+    "Routed",
+    "Router",
+    "SayAloud",
+    "Seen",
+    "Stopped",
+    "Submitted",
+    "Subscription",
+    "Target",
+    "Think",
+    "Tick",
+    "UnknownGoal",
+    "Wish",
+    "advance",
+    "facts_of",
+    "goal_of",
+    "wish",
+]

@@ -19,10 +19,10 @@ class AskBrain:
 
     id: str
     text: str
+    """The newest thing the person said about this goal: an answer to our question replaces it."""
     language: Language
-    question: str | None = None
-    """What we asked the person last, where ``replies`` answers it."""
-    replies: tuple[str, ...] = ()
+    room: str | None = None
+    """The room that the robot is in, where known."""
 
 
 @dataclass(frozen=True, slots=True)

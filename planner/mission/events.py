@@ -21,6 +21,8 @@ class Submitted:
     operator: bool = True
     """A person gave it now: the hold that stands is about to be cleared."""
     stop: bool = False
+    echoed: bool = True
+    """The bridge has confirmed that stop."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,9 +16,11 @@ from planner.mission.queue import (
 )
 from planner.mission.records import Mission
 from planner.mission.turn import Turn
+from planner.mission.verdict import spot_at
 from planner.plan import (
     RUNNABLE,
     Answer,
+    Bilingual,
     Clarify,
     Code,
     GoalState,
@@ -30,6 +32,11 @@ from planner.plan import (
     places_of,
     plan_record,
     same,
+)
+
+UNCONFIRMED = Bilingual(
+    en="No more waypoints are sent, but the bridge did not confirm the stop.",
+    zh="已不再发送路径点，但安全桥没有确认停止。",
 )
 
 
@@ -57,17 +64,26 @@ def submit(turn: Turn, event: Submitted) -> None:
         updated_unix_s=now_unix_s,
     )
     if event.stop:
-        said = Outcome(code=Code.STOPPED, message=message(Code.STOPPED), metres=0.0, seconds=0.0)
-        turn.put(mission, state=GoalState.SUCCEEDED, outcome=said)
+        _stopped(turn, mission, event.echoed)
         return
     _think(turn, mission)
 
 
+def _stopped(turn: Turn, mission: Mission, echoed: bool) -> None:
+    if echoed:
+        said = Outcome(code=Code.STOPPED, message=message(Code.STOPPED))
+        turn.put(mission, state=GoalState.SUCCEEDED, outcome=said)
+        return
+    said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
+    turn.put(mission, state=GoalState.FAILED, reason="bridge_silent", outcome=said)
+
+
 def _think(turn: Turn, mission: Mission) -> None:
-    question = mission.plan.text if mission.plan is not None and mission.replies else None
-    turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None)
-    asked = question.of(mission.language) if question is not None else None
-    turn.emit(AskBrain(mission.id, mission.text, mission.language, asked, mission.replies))
+    turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None, plan=None)
+    pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    text = mission.replies[-1] if mission.replies else mission.text
+    room = spot_at(turn.book.facts, pose).room
+    turn.emit(AskBrain(mission.id, text, mission.language, room))
 
 
 def planned(turn: Turn, event: Planned) -> None:

@@ -1,0 +1,124 @@
+"""Drive reducer, follower and owner together, one event at a time. No clock, no IO, no tasks.
+
+The event loop's runner and the lockstep harness both use this: they feed events, send ``messages``
+at once and carry out ``effects``. Whoever answers an effect does so with another event.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planner.link import Course, Identity, OwnerState, on_course, on_status
+from planner.mission.effects import AskRoute, Effect, Journal, Wish
+from planner.mission.events import Event, Journalled, Routed, Seen
+from planner.mission.records import Book
+from planner.mission.reducer import advance, wish
+from planner.route import Horizon, LegPath, RoutePoint, cut
+from wire import Record, Status
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Hand out what to send now and what to do."""
+
+    messages: tuple[Record, ...] = ()
+    effects: tuple[Effect, ...] = ()
+
+
+@dataclass(slots=True)
+class Following:
+    """Remember the path of the leg that is streamed."""
+
+    mission: str
+    leg: int
+    path: LegPath
+    progress_m: float = 0.0
+
+
+class Engine:
+    """Be one robot's missions in one thread."""
+
+    def __init__(self, book: Book, identity: Identity) -> None:
+        self.book = book
+        self._identity = identity
+        self._owner = OwnerState()
+        self._path: LegPath | None = None
+        self._following: Following | None = None
+        self._wish = Wish()
+        self._used = 0
+
+    def status(self, status: Status, now_s: float) -> Output:
+        """Judge one bridge status and answer it as the owner."""
+        horizon = self._cut(status)
+        seen = Seen(status, off_path=horizon is not None and horizon.off_path)
+        self.book, effects = advance(self.book, seen, now_s)
+        self._used = status.seq
+        course = self._course(status)
+        self._owner, messages = on_status(
+            self._identity, self._owner, status, course, self._used, now_s
+        )
+        return Output(messages, effects)
+
+    def event(self, event: Event, now_s: float) -> Output:
+        """Take any other event; if it changes what is wanted, say so to the bridge at once."""
+        if isinstance(event, Seen):
+            return self.status(event.status, now_s)
+        self.book, effects = advance(self.book, event, now_s)
+        return Output(self._speak(now_s), effects)
+
+    def routed(
+        self,
+        ask: AskRoute,
+        points: tuple[RoutePoint, ...] | None,
+        failure: str | None,
+        now_s: float,
+    ) -> Output:
+        """Take the answer to ``AskRoute``: the route's points, or the code of why there is none."""
+        if points is not None:
+            self._path = LegPath.of(points, ask.goal.yaw_rad if ask.heading else None)
+        event = Routed(ask.id, ask.ticket, failure if points is None else None)
+        self.book, effects = advance(self.book, event, now_s)
+        self._adopt()
+        self._path = None
+        return Output(self._speak(now_s), effects)
+
+    def journalled(self, journal: Journal, now_s: float) -> Output:
+        """Take the word that an entry is on disk."""
+        return self.event(Journalled(journal.entry), now_s)
+
+    def _speak(self, now_s: float) -> tuple[Record, ...]:
+        status, wanted = self.book.status, wish(self.book)
+        if status is None or wanted == self._wish:
+            return ()
+        course = self._course(status)
+        self._owner, messages = on_course(self._identity, self._owner, status, course, now_s)
+        return messages
+
+    def _adopt(self) -> None:
+        """Make the path that just came the one of the new leg, if the reducer took it."""
+        walk, running = self.book.walk, self.book.running
+        if walk is None or running is None or walk.leg is None or self._path is None:
+            return
+        now = self._following
+        if now is None or (now.mission, now.leg) != (running, walk.leg):
+            self._following = Following(running, walk.leg, self._path)
+
+    def _cut(self, status: Status) -> Horizon | None:
+        """Cut the horizon of the leg that is wanted, on the pose of this status."""
+        following, wanted = self._following, wish(self.book)
+        pose = status.base_in_map
+        if following is None or pose is None:
+            return None
+        if (following.mission, following.leg) != (wanted.mission, wanted.leg):
+            return None
+        horizon = cut(following.path, pose, following.progress_m)
+        following.progress_m = horizon.progress_m
+        return horizon
+
+    def _course(self, status: Status) -> Course:
+        """Return what is wanted of the bridge now, cut on this status."""
+        self._wish = wanted = wish(self.book)
+        horizon = self._cut(status)
+        if wanted.leg is None or horizon is None or not horizon.points:
+            return Course(wanted.mission)
+        return Course(wanted.mission, wanted.leg, horizon.points, horizon.final)

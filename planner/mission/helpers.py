@@ -1,0 +1,106 @@
+"""Ask brain and router in tasks, and bring their answers back as events. One task per question."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable, Coroutine
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from planner.mission.effects import AskBrain, AskRoute, DropBrain
+from planner.mission.events import Planned
+from planner.plan import Code, Outcome, message
+from planner.route import RouteFailure, RoutePoint, RouteRequest, RouteResult
+
+log = logging.getLogger(__name__)
+
+Think = Callable[[AskBrain], Awaitable[Planned]]
+"""Understand a sentence. Cancelled at once when nobody waits for the answer any more."""
+
+
+class Router(Protocol):
+    """Find routes, in another process."""
+
+    async def route(self, request: RouteRequest) -> RouteResult:
+        """Find the way, or raise ``RouteFailure``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """Say where answers go, and what the lidar sees when a way round is wanted."""
+
+    planned: Callable[[Planned], None]
+    routed: Callable[[AskRoute, tuple[RoutePoint, ...] | None, str | None], None]
+    obstacles: Callable[[], tuple[tuple[float, float], ...]]
+
+
+class Helpers:
+    """Own the tasks."""
+
+    def __init__(
+        self,
+        think: Think,
+        router: Router,
+        answers: Answers,
+    ) -> None:
+        self._think = think
+        self._router = router
+        self._answers = answers
+        self._thoughts: dict[str, asyncio.Task[None]] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def help(self, ask: AskBrain | AskRoute | DropBrain) -> None:
+        """Start to think or to search, or stop thinking about a goal."""
+        match ask:
+            case AskBrain():
+                self._drop(ask.id)
+                self._thoughts[ask.id] = self._start(self._understand(ask))
+            case DropBrain():
+                self._drop(ask.id)
+            case AskRoute():
+                self.spawn(self._search(ask))
+
+    def spawn(self, work: Coroutine[Any, Any, None]) -> None:
+        """Run something beside, and keep hold of it until it ends."""
+        self._tasks.add(self._start(work))
+
+    def _start(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return task
+
+    def _drop(self, mission_id: str) -> None:
+        task = self._thoughts.pop(mission_id, None)
+        if task is not None:
+            task.cancel()
+
+    async def close(self) -> None:
+        """Cancel everything and wait until it is gone."""
+        tasks = tuple(self._tasks)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    async def _understand(self, ask: AskBrain) -> None:
+        try:
+            answer = await self._think(ask)
+        except Exception:
+            # Whatever a brain may be, its fault must not end the planner: the goal fails, typed.
+            log.exception("the brain failed on goal %s", ask.id)
+            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
+            answer = Planned(ask.id, None, said)
+        if self._thoughts.get(ask.id) is asyncio.current_task():
+            del self._thoughts[ask.id]
+            self._answers.planned(answer)
+
+    async def _search(self, ask: AskRoute) -> None:
+        obstacles = self._answers.obstacles() if ask.obstacles else ()
+        try:
+            result = await self._router.route(RouteRequest(ask.start, ask.goal, obstacles))
+        except RouteFailure as failure:
+            log.warning("no route for goal %s: %s", ask.id, failure)
+            self._answers.routed(ask, None, failure.code)
+            return
+        self._answers.routed(ask, result.points, None)

@@ -1,0 +1,189 @@
+"""Keep missions on disk: every transition appended, the newest record of each beside it.
+
+SQLAlchemy Core; SQLite with WAL and synchronous=FULL by default, any other database by URL. One
+transaction per entry, so that a crash at any instant leaves each mission as one entry wrote it.
+Knows no event loop: ``JournalWriter`` calls it from its one thread.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import sqlalchemy as sa
+from pydantic import ValidationError
+
+from planner.mission.effects import Journal
+from planner.mission.records import MAX_ENDED, Mission
+from planner.plan import ENDED
+from wire import Misconfigured
+
+SCHEMA = "1"
+MAX_KEYS = 10_000
+
+_meta = sa.MetaData()
+_transitions = sa.Table(
+    "transitions",
+    _meta,
+    sa.Column("seq", sa.Integer, primary_key=True, autoincrement=True),
+    sa.Column("mission", sa.String(64), nullable=False, index=True),
+    sa.Column("state", sa.String(32), nullable=False),
+    sa.Column("at_unix_s", sa.Float, nullable=False),
+    sa.Column("record", sa.Text, nullable=False),
+)
+_missions = sa.Table(
+    "missions",
+    _meta,
+    sa.Column("id", sa.String(64), primary_key=True),
+    sa.Column("order", sa.Integer, nullable=False, index=True),
+    sa.Column("ended", sa.Boolean, nullable=False, index=True),
+    sa.Column("record", sa.Text, nullable=False),
+)
+_facts = sa.Table(
+    "facts",
+    _meta,
+    sa.Column("name", sa.String(32), primary_key=True),
+    sa.Column("value", sa.Text, nullable=False),
+)
+_keys = sa.Table(
+    "idempotency_keys",
+    _meta,
+    sa.Column("seq", sa.Integer, primary_key=True, autoincrement=True),
+    sa.Column("key", sa.String(256), nullable=False, unique=True),
+    sa.Column("body", sa.String(64), nullable=False),
+    sa.Column("goal", sa.String(64), nullable=False),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class GoalKey:
+    """Remember which request an Idempotency-Key came with, and the goal that it made."""
+
+    key: str
+    body: str
+    """Fingerprint of the request."""
+    goal: str
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """Hold what a journal gives a new process."""
+
+    missions: tuple[Mission, ...]
+    queue: tuple[str, ...]
+    keys: tuple[GoalKey, ...]
+
+
+class MissionJournal:
+    """Be one database. Not for two threads at once."""
+
+    def __init__(self, url: str) -> None:
+        """Open or make the database.
+
+        Raises:
+            Misconfigured: it can't be opened, or another version wrote it.
+        """
+        self._engine = sa.create_engine(url)
+        if self._engine.dialect.name == "sqlite":
+            sa.event.listen(self._engine, "connect", _sqlite_pragmas)
+        try:
+            _meta.create_all(self._engine)
+            self._check_schema()
+        except sa.exc.SQLAlchemyError as error:
+            raise Misconfigured("journal_unavailable", f"{url}: {error.__class__.__name__}: "
+                                f"{str(error).splitlines()[0]}") from None  # fmt: skip
+
+    @classmethod
+    def in_home(cls, home: Path) -> MissionJournal:
+        """Open the journal of a home folder."""
+        home.mkdir(parents=True, exist_ok=True)
+        return cls(f"sqlite:///{home.absolute() / 'missions.db'}")
+
+    def write(self, entries: tuple[Journal, ...], keys: tuple[GoalKey, ...] = ()) -> None:
+        """Write entries, in order, in one transaction; on return they are on disk."""
+        with self._engine.begin() as connection:
+            for entry in entries:
+                self._append(connection, entry)
+            for key in keys:
+                connection.execute(
+                    sa.insert(_keys).values(key=key.key, body=key.body, goal=key.goal)
+                )
+
+    def load(self) -> Kept:
+        """Read what a new process needs: all open missions, the newest ended ones, the keys.
+
+        Raises:
+            Misconfigured: a record is not one of ours.
+        """
+        with self._engine.connect() as connection:
+            newest = sa.select(_missions).order_by(_missions.c.order.desc())
+            open_ = connection.execute(newest.where(_missions.c.ended.is_(False))).all()
+            ended = connection.execute(
+                newest.where(_missions.c.ended.is_(True)).limit(MAX_ENDED)
+            ).all()
+            queue = connection.execute(
+                sa.select(_facts.c.value).where(_facts.c.name == "queue")
+            ).scalar()
+            kept = connection.execute(
+                sa.select(_keys).order_by(_keys.c.seq.desc()).limit(MAX_KEYS)
+            ).all()
+        missions = sorted(
+            (self._mission(row.record) for row in (*open_, *ended)), key=lambda m: m.order
+        )
+        keys = tuple(GoalKey(row.key, row.body, row.goal) for row in reversed(kept))
+        return Kept(tuple(missions), tuple(json.loads(queue or "[]")), keys)
+
+    def close(self) -> None:
+        """Give the connections back."""
+        self._engine.dispose()
+
+    def _append(self, connection: sa.Connection, entry: Journal) -> None:
+        for mission in entry.missions:
+            record = mission.model_dump_json()
+            connection.execute(
+                sa.insert(_transitions).values(
+                    mission=mission.id,
+                    state=mission.state.value,
+                    at_unix_s=mission.updated_unix_s,
+                    record=record,
+                )
+            )
+            row = {"order": mission.order, "ended": mission.state in ENDED, "record": record}
+            self._upsert(connection, _missions, "id", mission.id, row)
+        self._upsert(connection, _facts, "name", "queue", {"value": json.dumps(entry.queue)})
+
+    @staticmethod
+    def _upsert(
+        connection: sa.Connection, table: sa.Table, key: str, value: str, row: dict[str, object]
+    ) -> None:
+        """Update, or insert where there is none: one writer, so nobody comes in between."""
+        done = connection.execute(sa.update(table).where(table.c[key] == value).values(**row))
+        if done.rowcount == 0:
+            connection.execute(sa.insert(table).values(**{key: value}, **row))
+
+    def _mission(self, record: str) -> Mission:
+        try:
+            return Mission.model_validate_json(record)
+        except ValidationError as error:
+            raise Misconfigured("journal_malformed", str(error).splitlines()[0]) from None
+
+    def _check_schema(self) -> None:
+        with self._engine.begin() as connection:
+            found = connection.execute(
+                sa.select(_facts.c.value).where(_facts.c.name == "schema")
+            ).scalar()
+            if found is None:
+                connection.execute(sa.insert(_facts).values(name="schema", value=SCHEMA))
+            elif found != SCHEMA:
+                raise Misconfigured(
+                    "journal_version", f"the journal has schema {found}, expected {SCHEMA}"
+                )
+
+
+def _sqlite_pragmas(connection: object, record: object) -> None:
+    cursor = connection.cursor()  # type: ignore[attr-defined]  # a DB-API connection
+    # WAL: readers never wait for the writer. FULL: a commit is on disk before it returns.
+    for pragma in ("journal_mode=WAL", "synchronous=FULL", "busy_timeout=2000"):
+        cursor.execute(f"PRAGMA {pragma}")
+    cursor.close()

@@ -1,0 +1,205 @@
+"""Run reducer, link, helpers and journal on the event loop: one round after the other.
+
+Reacts to each fact as it comes (a plan, a route, an entry on disk, a status) and sends what follows
+from it at once. Holds the loop for no longer than one reduction; brain and router run beside, the
+journal in its thread. All deciding is the reducer's.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+import uuid
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from planner.link import Link, LinkError
+from planner.mission.accept import Accepted
+from planner.mission.collector import Collector
+from planner.mission.effects import (
+    AskBrain,
+    AskRoute,
+    Changed,
+    DropBrain,
+    Effect,
+    Journal,
+    SayAloud,
+)
+from planner.mission.engine import Engine, Output
+from planner.mission.events import Event, Journalled, Restarted, Tick
+from planner.mission.helpers import Answers, Helpers, Router, Think
+from planner.mission.hub import Hub
+from planner.mission.journal import GoalKey, MissionJournal
+from planner.mission.records import Book
+from planner.mission.safekeeping import Safekeeping
+from planner.mission.sight import standing
+from planner.mission.view import goal_of
+from planner.route import RoutePoint
+from wire import OpRequest, Status, Waypoints
+
+POLL_S = 0.005
+"""Half a bridge tick: a status waits 2.5 ms on average; an empty drain costs 0.1 µs."""
+TICK_S = 0.1
+STATUS_NEWS_S = 0.2
+"""Statuses are told to listeners at 5 Hz, and at once when mode, epoch or hold change."""
+
+
+@dataclass(frozen=True, slots=True)
+class Clocks:
+    """Tell time and mint ids; tests put their own here."""
+
+    monotonic: Callable[[], float] = time.monotonic
+    wall: Callable[[], float] = time.time
+    new_id: Callable[[], str] = lambda: uuid.uuid4().hex[:12]
+
+
+class Loop:
+    """Own what runs between ``start`` and ``close``."""
+
+    def __init__(self, engine: Engine, link: Link, journal: MissionJournal, clocks: Clocks) -> None:
+        self.hub = Hub()
+        self.accepted = Accepted()
+        self._engine, self._link, self._journal, self._clocks = engine, link, journal, clocks
+        self._collector = Collector()
+        self._key_now: GoalKey | None = None
+        self._helpers: Helpers | None = None
+        self._safe: Safekeeping | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._ticked_s = self._told_s = float("-inf")
+        self._told: tuple[object, ...] = ()
+
+    @property
+    def book(self) -> Book:
+        """Return the book as it stands."""
+        return self._engine.book
+
+    @property
+    def failed(self) -> BaseException | None:
+        """Return what ended the loop, if something did."""
+        task = self._task
+        if task is None or not task.done() or task.cancelled():
+            return None
+        return task.exception()
+
+    @property
+    def trouble(self) -> str | None:
+        """Return why the journal can't be written, or None."""
+        return self._safe.trouble if self._safe is not None else "not started"
+
+    async def start(self, think: Think, router: Router, *, freeze: bool) -> tuple[GoalKey, ...]:
+        """Take up the journal and begin; return the idempotency keys it kept.
+
+        Raises:
+            Misconfigured: the journal holds what this version can't read.
+        """
+        kept = await asyncio.to_thread(self._journal.load)
+        self._safe = Safekeeping(self._journal, self._on_safe)
+        answers = Answers(self.event, self._on_routed, self._link.obstacles)
+        self._helpers = Helpers(think, router, answers)
+        offset_s = self._clocks.wall() - self._clocks.monotonic()
+        self.event(Restarted(kept.missions, kept.queue, offset_s))
+        if freeze:
+            self._collector.freeze(self._clocks.monotonic())
+        self._task = asyncio.get_running_loop().create_task(self._pump(), name="missions")
+        return kept.keys
+
+    async def close(self) -> None:
+        """End everything; what ran comes back paused in the next process."""
+        if self._task is not None:
+            self._task.cancel()
+            await asyncio.gather(self._task, return_exceptions=True)
+        if self._helpers is not None:
+            await self._helpers.close()
+        if self._safe is not None:
+            await self._safe.close()
+        self.hub.close()
+        self._collector.thaw()
+
+    def event(self, event: Event, key: GoalKey | None = None) -> None:
+        """Take an event and do what follows from it; ``key`` is written with its entry."""
+        self._key_now = key
+        self._carry(self._engine.event(event, self._clocks.monotonic()))
+        self._key_now = None
+
+    async def settled(self) -> None:
+        """Wait until all that happened so far is on disk.
+
+        Raises:
+            JournalDown: it was not within 3 s.
+        """
+        if self._safe is not None:
+            await self._safe.wait(self.book.written)
+
+    def clear_hold(self, act: OpRequest | None) -> None:
+        """Bring a person's ``op/resume`` to the bridge, beside everything else."""
+        if act is not None and self._helpers is not None:
+            self._helpers.spawn(self._resume(act))
+
+    async def _resume(self, act: OpRequest) -> None:
+        try:
+            answer = await self._link.operate("resume", act)
+        except LinkError as error:
+            self.hub.publish({"type": "act", "accepted": False, "code": error.code})
+            return
+        self.hub.publish({"type": "act", "accepted": answer.accepted, "code": answer.code})
+
+    async def _pump(self) -> None:
+        while True:
+            self._once()
+            await asyncio.sleep(POLL_S)
+
+    def _once(self) -> None:
+        """Do one round: hear, reduce, say."""
+        status, now_s = self._link.poll(), self._clocks.monotonic()
+        if status is not None:
+            self._carry(self._engine.status(status, now_s))
+            self._tell_status(status, now_s)
+        if now_s - self._ticked_s >= TICK_S:
+            self._ticked_s = now_s
+            self.event(Tick())
+            for event in self._link.events():
+                self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
+            newest = self.book.status
+            self._collector.maybe(now_s, standing=newest is None or standing(newest))
+
+    def _tell_status(self, status: Status, now_s: float) -> None:
+        news = (status.mode, status.epoch, status.held, status.owner)
+        if news != self._told or now_s - self._told_s >= STATUS_NEWS_S:
+            self._told, self._told_s = news, now_s
+            self.hub.publish({"type": "status", "status": status})
+
+    def _on_safe(self, entry: int) -> None:
+        self.event(Journalled(entry))
+
+    def _on_routed(
+        self, ask: AskRoute, points: tuple[RoutePoint, ...] | None, failure: str | None
+    ) -> None:
+        self._carry(self._engine.routed(ask, points, failure, self._clocks.monotonic()))
+
+    def _carry(self, output: Output) -> None:
+        """Send first, then do the rest in order."""
+        self._link.send(output.messages)
+        for message in output.messages:
+            if isinstance(message, Waypoints) and message.points:
+                self._tell_first(message.mission)
+        for effect in output.effects:
+            self._do(effect)
+
+    def _tell_first(self, goal_id: str) -> None:
+        took_s = self.accepted.first_waypoint(goal_id, self._clocks.monotonic())
+        if took_s is not None:
+            self.hub.publish({"type": "first_waypoint", "goal": goal_id, "seconds": took_s})
+
+    def _do(self, effect: Effect) -> None:
+        match effect:
+            case Journal() if self._safe is not None:
+                self._safe.write(effect, self._key_now)
+                self._key_now = None
+            case AskBrain() | AskRoute() | DropBrain() if self._helpers is not None:
+                self._helpers.help(effect)
+            case SayAloud():
+                self.hub.publish({"type": "say", "goal": effect.id, "text": effect.text})
+            case Changed():
+                if effect.id in self.book.missions:
+                    goal = goal_of(self.book, self.book.missions[effect.id]).model_dump(mode="json")
+                    self.hub.publish({"type": "goal", "goal": goal})

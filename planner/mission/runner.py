@@ -1,0 +1,276 @@
+"""Take goals and commands in and answer for them: the door that the API uses.
+
+Every call is judged against the book at once, journalled before it returns, and carried out by the
+loop. An order to stop is judged before anything else and waits for no brain and no disk.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import uuid
+from typing import Any
+
+from planner.brain.protocol import Brain
+from planner.brain.stoplane import is_stop
+from planner.link import Identity, Link, StopResult
+from planner.mission.accept import body_of, language_of
+from planner.mission.engine import Engine
+from planner.mission.errors import (
+    IdempotencyConflict,
+    JournalDown,
+    NothingToResume,
+    QueueFull,
+    UnknownGoal,
+)
+from planner.mission.events import (
+    Cancel,
+    Command,
+    Confirm,
+    Move,
+    Pause,
+    Reply,
+    Resume,
+    Stopped,
+    Submitted,
+)
+from planner.mission.facts import facts_of, vocabulary_of
+from planner.mission.helpers import Router
+from planner.mission.hub import Subscription
+from planner.mission.journal import GoalKey, MissionJournal
+from planner.mission.loop import Clocks, Loop
+from planner.mission.records import MAX_OPEN, Book
+from planner.mission.table import refusal
+from planner.mission.thinking import thinker
+from planner.mission.view import goal_of
+from planner.plan import Goal, GoalState, Language
+from planner.world import Site
+from wire import OpRequest, RobotDescription
+
+
+class Missions:
+    """Take goals, drive them, answer for them. See the package's door for the API."""
+
+    def __init__(
+        self,
+        *,
+        site: Site,
+        robot: RobotDescription,
+        link: Link,
+        router: Router,
+        brain: Brain,
+        journal: MissionJournal,
+        planner_id: str | None = None,
+        clocks: Clocks | None = None,
+    ) -> None:
+        self.link = link
+        self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
+        identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
+        engine = Engine(Book(facts_of(site)), identity)
+        self._clocks = clocks or Clocks()
+        self._loop = Loop(engine, link, journal, self._clocks)
+        self._think, self._router = thinker(brain, vocabulary_of(site)), router
+        self._keys: dict[str, GoalKey] = {}
+
+    # Life ---------------------------------------------------------------------------------------
+
+    async def start(self, *, freeze: bool = False) -> None:
+        """Take up the journal and begin to listen to the bridge. Nothing of before goes on.
+
+        Args:
+            freeze: take the garbage collector over, which concerns the whole process.
+
+        Raises:
+            Misconfigured: the journal holds what this version can't read.
+        """
+        keys = await self._loop.start(self._think, self._router, freeze=freeze)
+        self._keys = {key.key: key for key in keys}
+
+    async def close(self) -> None:
+        """End everything; a running goal comes back paused in the next process."""
+        await self._loop.close()
+
+    @property
+    def failed(self) -> BaseException | None:
+        """Return what ended the mission loop, if something did: the process should end then."""
+        return self._loop.failed
+
+    @property
+    def journal_trouble(self) -> str | None:
+        """Return why the journal can't be written, or None."""
+        return self._loop.trouble
+
+    @property
+    def first_waypoint_s(self) -> tuple[float, ...]:
+        """Return the newest times from a goal's acceptance to its first waypoint [s]."""
+        return tuple(self._loop.accepted.seconds)
+
+    # Goals --------------------------------------------------------------------------------------
+
+    async def submit(
+        self,
+        text: str,
+        *,
+        language: Language | None = None,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        operator: bool = True,
+        act: OpRequest | None = None,
+        source: str = "api",
+    ) -> Goal:
+        """Take a goal in and return it, usually still in planning. An order to stop stops first.
+
+        Args:
+            text: what the person said.
+            language: of ``text``; found out where not given.
+            confirm: wait for a yes between plan and first step.
+            replace: end the running goal once this one is understood, and go first.
+            idempotency_key: the same key and request return the same goal.
+            operator: a person gave it now; it may run although a stop stands.
+            act: the person's ``op/resume``, signed, which clears the bridge's hold.
+            source: who asks, for the bridge's record of stops.
+
+        Raises:
+            QueueFull: 33 goals are open.
+            IdempotencyConflict: the key came with another request before.
+            JournalDown: it can't be written down, so it was not taken.
+        """
+        said = language or language_of(text)
+        if is_stop(text):
+            return await self._stop_goal(text, said, source)
+        body = body_of(text, said, confirm, replace)
+        if (known := self._known(idempotency_key, body)) is not None:
+            return known
+        waiting = sum(not m.ended for m in self._book.missions.values())
+        if waiting >= MAX_OPEN:
+            raise QueueFull(waiting)
+        goal_id = self._clocks.new_id()
+        key = self._remember(idempotency_key, body, goal_id)
+        self._loop.clear_hold(act)
+        self._loop.accepted.note(goal_id, self._clocks.monotonic())
+        self._loop.event(Submitted(goal_id, text, said, confirm, replace, operator), key)
+        try:
+            await self._loop.settled()
+        except JournalDown:
+            self._loop.event(Cancel(goal_id))
+            raise
+        return self.goal(goal_id)
+
+    def goal(self, goal_id: str) -> Goal:
+        """Return a goal.
+
+        Raises:
+            UnknownGoal: there is none of that id at hand.
+        """
+        mission = self._book.missions.get(goal_id)
+        if mission is None:
+            raise UnknownGoal(goal_id, tuple(self._book.missions))
+        return goal_of(self._book, mission)
+
+    def goals(self, limit: int = 50) -> tuple[Goal, ...]:
+        """Return the newest goals, newest first."""
+        newest = sorted(self._book.missions.values(), key=lambda m: -m.order)[: max(0, limit)]
+        return tuple(goal_of(self._book, mission) for mission in newest)
+
+    async def cancel(self, goal_id: str) -> Goal:
+        """End a goal. Raises UnknownGoal, BadState."""
+        return await self._command(Cancel(goal_id))
+
+    async def pause(self, goal_id: str) -> Goal:
+        """Keep a goal's place, standing. Raises UnknownGoal, BadState."""
+        return await self._command(Pause(goal_id))
+
+    async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal:
+        """Go on with a goal; without an id, with the one that was paused last.
+
+        Raises:
+            UnknownGoal, BadState: as named.
+            NothingToResume: no id was given and nothing is paused or kept waiting.
+        """
+        return await self._command(Resume(goal_id or self._newest_paused()), act)
+
+    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal:
+        """Say yes to a plan. Raises UnknownGoal, BadState."""
+        return await self._command(Confirm(goal_id), act)
+
+    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
+        """Answer a goal's question; an order to stop stops. Raises UnknownGoal, BadState."""
+        if is_stop(text):
+            await self.stop("answer")
+            return self.goal(goal_id)
+        return await self._command(Reply(goal_id, text), act)
+
+    async def move(self, goal_id: str, before: str | None = None) -> Goal:
+        """Put a queued goal before another, or last. Raises UnknownGoal, BadState."""
+        return await self._command(Move(goal_id, before))
+
+    async def stop(self, source: str = "api") -> StopResult:
+        """Stop now: horizon, brains and queue at once, and the bridge until it echoes, or 2 s."""
+        saying = asyncio.ensure_future(self.link.stop(source))
+        await asyncio.sleep(0)  # the first stop is on the wire before anything is written
+        self._loop.event(Stopped(source))
+        return await saying
+
+    # Watching -----------------------------------------------------------------------------------
+
+    def subscribe(self) -> Subscription:
+        """Iterate over (seq, event) from now on; take a ``snapshot`` after, and drop older seqs."""
+        return self._loop.hub.subscribe()
+
+    def snapshot(self) -> dict[str, Any]:
+        """Return where everything stands, with the seq of the newest event it contains."""
+        status = self._book.status
+        return {
+            "seq": self._loop.hub.seq,
+            "planner_id": self.planner_id,
+            "running": self._book.running,
+            "queue": list(self._book.queue),
+            "goals": [goal.model_dump(mode="json") for goal in self.goals()],
+            "status": status.model_dump(mode="json") if status is not None else None,
+        }
+
+    # Inside -------------------------------------------------------------------------------------
+
+    @property
+    def _book(self) -> Book:
+        return self._loop.book
+
+    def _known(self, key: str | None, body: str) -> Goal | None:
+        """Return the goal that a repeated request made, if it is one."""
+        known = self._keys.get(key) if key is not None else None
+        if known is None:
+            return None
+        if known.body != body:
+            raise IdempotencyConflict(known.key, known.goal)
+        return self.goal(known.goal)
+
+    def _remember(self, key: str | None, body: str, goal_id: str) -> GoalKey | None:
+        if key is None:
+            return None
+        self._keys[key] = GoalKey(key, body, goal_id)
+        return self._keys[key]
+
+    async def _stop_goal(self, text: str, language: Language, source: str) -> Goal:
+        result = await self.stop(source)
+        goal_id = self._clocks.new_id()
+        self._loop.event(Submitted(goal_id, text, language, stop=True, echoed=result.echoed))
+        return self.goal(goal_id)
+
+    def _newest_paused(self) -> str:
+        book = self._book
+        paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED]
+        held = [book.missions[i] for i in book.queue if book.missions[i].held]
+        if paused:
+            return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
+        if held:
+            return held[0].id
+        raise NothingToResume
+
+    async def _command(self, command: Command, act: OpRequest | None = None) -> Goal:
+        error = refusal(self._book, command)
+        if error is not None:
+            raise error
+        self._loop.clear_hold(act)
+        self._loop.event(command)
+        await self._loop.settled()
+        return self.goal(command.id)

@@ -1,0 +1,41 @@
+"""Have a brain understand a sentence, judge what it says, and return an event. Trusts no brain."""
+
+from __future__ import annotations
+
+import logging
+
+from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.protocol import Brain, ThinkRequest
+from planner.mission.effects import AskBrain
+from planner.mission.events import Planned
+from planner.mission.helpers import Think
+from planner.plan import Code, Outcome, Rejection, Vocabulary, message, validate_plan
+
+log = logging.getLogger(__name__)
+
+
+def thinker(brain: Brain, vocabulary: Vocabulary) -> Think:
+    """Return how this brain thinks about goals in this closed world."""
+
+    async def think(ask: AskBrain) -> Planned:
+        request = ThinkRequest(
+            text=ask.text, vocabulary=vocabulary, room=ask.room, language=ask.language
+        )
+        try:
+            thought = await brain.think(request)
+        except PlanRejected as error:
+            log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
+            return Planned(ask.id, None, _outcome(Code.BAD_PLAN, why=str(error)[:200]), brain.tag)
+        except BrainDown as error:
+            log.warning("goal %s: the brain is down: %s", ask.id, error)
+            return Planned(ask.id, None, _outcome(Code.MODEL_UNAVAILABLE), brain.tag)
+        judged = validate_plan(thought.plan, vocabulary)
+        if isinstance(judged, Rejection):
+            return Planned(ask.id, None, judged.outcome, thought.brain)
+        return Planned(ask.id, judged, None, thought.brain)
+
+    return think
+
+
+def _outcome(code: Code, **facts: str) -> Outcome:
+    return Outcome(code=code, message=message(code, **facts))
