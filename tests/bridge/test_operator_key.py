@@ -34,9 +34,7 @@ def test_a_missing_key_refuses_to_start(tmp_path: Path) -> None:
 
 def test_a_short_key_refuses_to_start(tmp_path: Path) -> None:
     key_file(tmp_path, b"0123456789abcde\n")
-    with pytest.raises(
-        Misconfigured, match=r"operator_key_short: .*15 bytes, expected"
-    ):
+    with pytest.raises(Misconfigured, match=r"operator_key_short: .*15 bytes, expected"):
         load_operator_key(tmp_path, virtual=False)
 
 
