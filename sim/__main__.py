@@ -15,7 +15,7 @@ from pathlib import Path
 from sim.robot import SimRobot
 from sim.shell import Shell
 from sim.site import check_fresh
-from wire import Misconfigured, RobotDescription, load_robot
+from wire import Misconfigured, Pose2, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
 
@@ -26,6 +26,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     parser.add_argument("--seed", type=int, default=0, help="seed of all noise (default 0)")
+    parser.add_argument(
+        "--start", type=float, nargs=3, metavar=("X_M", "Y_M", "YAW_RAD"), help="default: the dock"
+    )
     return parser.parse_args(arguments)
 
 
@@ -37,7 +40,8 @@ def _serve(options: argparse.Namespace) -> None:
     check_fresh(options.site)
     description = load_robot(options.robot) if options.robot else RobotDescription()
     boot_id = f"sim-{secrets.token_hex(4)}"
-    robot = SimRobot(options.site, description, seed=options.seed, boot_id=boot_id)
+    start = Pose2(*options.start) if options.start else None
+    robot = SimRobot(options.site, description, seed=options.seed, start=start, boot_id=boot_id)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     with open_session(Party.ROBOT, description.id, home) as session:
         shell = Shell(robot, session)

@@ -14,7 +14,7 @@ class Hardware:
 
     mass_kg: float = 20.0
     motor_lag_s: float = 0.06  # first order: wheel speed reaches 63 % of a step after this long
-    motor_torque_nm: float = 4.0  # per wheel, also the brake's: 4 m/s2 for 20 kg
+    motor_torque_nm: float = 6.0  # per wheel, also the brake's: 3.6 m/s2 with the rotors' inertia
     motor_max_radps: float = 15.0  # 1.5 m/s, whatever is asked
     dead_zone_radps: float = 0.05  # swallowed from every command: 5 mm/s; below it nothing turns
     timeout_ramp_radps2: float = 25.0  # how the drive itself stops: 2.5 m/s2
