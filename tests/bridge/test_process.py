@@ -1,0 +1,174 @@
+"""The real bridge process: it tests itself, arms, halts when told to end, and refuses clearly."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from bridge.__main__ import main
+from bridge.replay import replay
+from tests.bridge.fake_robot import FakeRobot
+from tests.bridge.ground import ROOT, SITE, until
+from wire import VIRTUAL_KEY, Mode, OpRequest, Status, sign
+from wire.keys import ARM, STATUS, Party
+from wire.session import Subscriber, open_session
+
+REFUSED = 2
+
+
+def command(home: Path, *more: str) -> list[str]:
+    words = [sys.executable, "-m", "bridge", "--home", str(home), "--site", str(SITE)]
+    return [*words, *more]
+
+
+@contextmanager
+def bridge(home: Path, **settings: str) -> Iterator[subprocess.Popen[str]]:
+    process = subprocess.Popen(
+        command(home),
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, **settings},
+    )
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def refusal(*words: str) -> str:
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False, timeout=30)
+    assert done.returncode == REFUSED
+    return done.stderr
+
+
+class Watch:
+    """Remember the newest status."""
+
+    def __init__(self, ears: Subscriber[Status]) -> None:
+        self._ears = ears
+        self.status: Status | None = None
+
+    def sees(self, mode: Mode) -> bool:
+        self.status = self._ears.newest() or self.status
+        return self.status is not None and self.status.mode is mode
+
+
+@pytest.mark.slow
+def test_a_life_from_self_test_to_halt(tmp_path: Path) -> None:
+    with (
+        FakeRobot(tmp_path) as robot,
+        bridge(tmp_path) as process,
+        open_session(Party.OPERATOR, "r1", tmp_path) as operator,
+    ):
+        watch = Watch(operator.subscriber(STATUS))
+        assert until(lambda: watch.sees(Mode.SELFTEST))
+        assert until(lambda: watch.sees(Mode.DISARMED)), watch.status and watch.status.waiting_for
+        assert robot.last is not None
+        assert not robot.last.enable
+
+        assert "already_running" in refusal(*command(tmp_path))
+        assert process.poll() is None
+
+        arm(watch, operator.publisher(ARM).put)
+        assert until(lambda: robot.last is not None and robot.last.enable)
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(timeout=10) == 0
+        assert until(lambda: robot.last is not None and not robot.last.enable)
+        last = robot.last
+        assert (last.left_radps, last.right_radps) == (0.0, 0.0)
+    (recording,) = (tmp_path / "recordings").iterdir()
+    report = replay(recording)
+    assert (report.differing, report.gaps, report.first_difference) == (0, 0, None)
+    assert report.ticks > 100
+
+
+def arm(watch: Watch, send: Callable[[OpRequest], None]) -> None:
+    """Ask with a proof until the mode is HOLD."""
+    tries = iter(range(1_000_000))
+
+    def held() -> bool:
+        if watch.sees(Mode.HOLD):
+            return True
+        status = watch.status
+        if status is not None and next(tries) % 20 == 0:
+            request_id = f"arm-{status.seq}"
+            proof = sign(VIRTUAL_KEY, "arm", "r1", status.nonce, request_id)
+            send(OpRequest(id=request_id, source="test", proof=proof))
+        return False
+
+    assert until(held), watch.status
+
+
+def test_killed_it_leaves_a_recording_that_replays(tmp_path: Path) -> None:
+    with FakeRobot(tmp_path) as robot, bridge(tmp_path) as process:
+        assert until(lambda: len(robot.heard) > 20)
+        process.kill()
+        process.wait()
+    folder = tmp_path / "recordings"
+
+    def written() -> bool:
+        return any(path.stat().st_size > 0 for path in folder.iterdir())
+
+    assert until(written)
+    (recording,) = folder.iterdir()
+    assert until(lambda: replay(recording).ticks > 20)
+    assert replay(recording).differing == 0
+
+
+@pytest.fixture
+def refused(capfd: pytest.CaptureFixture[str]) -> Iterator[Callable[[list[str]], str]]:
+    """Start the bridge in this process, which is quick where it refuses; give its signals back."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGINT)}
+
+    def run(words: list[str]) -> str:
+        assert main(words[3:]) == REFUSED
+        return capfd.readouterr().err
+
+    yield run
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "word"),
+    [
+        ("max_sped = 1\n", "robot_toml_invalid", "unknown key 'max_sped'"),
+        ("[limits]\nmax_speed_mps = 99.0\n", "robot_toml_invalid", "limits.max_speed_mps"),
+        ("[limits\n", "robot_toml_syntax", "robot.toml"),
+    ],
+)
+def test_a_wrong_robot_refuses_to_start(tmp_path: Path, content: str, code: str, word: str) -> None:
+    path = tmp_path / "robot.toml"
+    path.write_text(content)
+    said = refused(command(tmp_path, "--robot", str(path)))
+    assert code in said
+    assert word in said
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [(None, "fence_missing"), ("{}", "fence_invalid"), ("[1e999", "fence_invalid")],
+)
+def test_a_wrong_fence_refuses_to_start(
+    tmp_path: Path, content: str | None, code: str, refused: Callable[[list[str]], str]
+) -> None:
+    if content is not None:
+        (tmp_path / "fence.json").write_text(content)
+    words = command(tmp_path)
+    words[words.index(str(SITE))] = str(tmp_path)
+    assert code in refused(words)
+
+
+def test_a_home_too_deep_for_a_socket_refuses_to_start(
+    tmp_path: Path, refused: Callable[[list[str]], str]
+) -> None:
+    assert "socket_path_too_long" in refused(command(tmp_path / ("deep" * 25)))
