@@ -146,7 +146,9 @@ def refused(capfd: pytest.CaptureFixture[str]) -> Iterator[Callable[[list[str]],
         ("[limits\n", "robot_toml_syntax", "robot.toml"),
     ],
 )
-def test_a_wrong_robot_refuses_to_start(tmp_path: Path, content: str, code: str, word: str) -> None:
+def test_a_wrong_robot_refuses_to_start(
+    tmp_path: Path, content: str, code: str, word: str, refused: Callable[[list[str]], str]
+) -> None:
     path = tmp_path / "robot.toml"
     path.write_text(content)
     said = refused(command(tmp_path, "--robot", str(path)))
