@@ -11,10 +11,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.ages import sensor_age_s
+from bridge.core.braking import reaction_s
+from bridge.core.fencegate import fence_scale
 from bridge.core.freespace import free_length
 from bridge.core.kinematics import scaled
 from bridge.core.obstaclegate import obstacle_gate
 from bridge.core.state import Gate
+from bridge.core.tick import STANDING_MPS, STANDING_RADPS
 from wire import STILL, Mode, Twist2
 
 if TYPE_CHECKING:
@@ -24,6 +27,9 @@ if TYPE_CHECKING:
 SHUT_S = 0.5
 FREE_M = 0.3
 FREE_SCANS = 5
+TELEOP_FENCE_MPS = 0.2
+POSE_S = 0.1
+"""Localization's period: the pose moved by odometry is good, its correction may be so late."""
 UNKNOWN_MPS = 0.2
 """Where fewer than half of the beams came back, silence may be a mirror or a black sofa."""
 
@@ -51,12 +57,35 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
     motion.free_m, tick.room_m = way.free_m, way.room_m
     if way.scale < 1.0:
         motion.bound_by = "obstacle"
-    _note(tick, shut=way.shut)
-    fastest = abs(way.twist.v_mps)
+    passed = way.twist
+    fastest = abs(passed.v_mps)
     if not way.known and fastest > UNKNOWN_MPS:
         motion.bound_by = "unseen"
-        return scaled(way.twist, UNKNOWN_MPS / fastest)
-    return way.twist
+        passed = scaled(passed, UNKNOWN_MPS / fastest)
+    passed = _inside_fence(tick, passed)
+    _note(tick, shut=_next_to_nothing(passed) and not _next_to_nothing(twist))
+    return passed
+
+
+def _next_to_nothing(twist: Twist2) -> bool:
+    """Tell whether what passes would count as standing."""
+    return abs(twist.v_mps) < STANDING_MPS and abs(twist.w_radps) < STANDING_RADPS
+
+
+def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
+    """Scale a motion so that it stops clear of the fence; a hand on the stick may cross, slowly."""
+    fence, here = tick.config.fence, tick.robot_in_map
+    if fence is None or here is None:
+        return twist  # without a pose waypoints hold by POSE_LOST, and the stick is capped by it
+    robot = tick.config.robot
+    reaction = reaction_s(0.0, POSE_S, robot.drive.lag_s, robot.limits)
+    scale = fence_scale(fence, here, twist, robot.base, robot.limits, reaction)
+    if scale >= 1.0:
+        return twist
+    tick.s.motion.bound_by = "fence"
+    if tick.s.mode is Mode.TELEOP:
+        scale = max(scale, min(1.0, TELEOP_FENCE_MPS / max(abs(twist.v_mps), 1e-9)))
+    return scaled(twist, scale)
 
 
 def scan_age_s(tick: Tick) -> float:

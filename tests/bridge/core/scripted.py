@@ -1,6 +1,6 @@
-"""Play a well-behaved robot, localization, planner and operator against the core on a fake clock.
+"""Play a well-behaved robot, localization, planner and operator against the core, on a fake clock.
 
-Everything can be made to misbehave by switch, so that a test reads as: what happened, what came out.
+Each can be made to misbehave by a switch, so that a test reads as: what happened, what came out.
 """
 
 from __future__ import annotations

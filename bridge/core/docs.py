@@ -1,0 +1,146 @@
+"""Print docs/safety.md from the tables, so that it cannot say what the code does not do.
+
+``python -m bridge.core.docs`` prints it; with ``--write`` it replaces docs/safety.md, with
+``--check`` it fails if that file differs. Knows no tick.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bridge.core.modes import TRANSITIONS
+from bridge.core.rows import ALL, ROWS, Row, Stage
+from wire import Action
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+PATH = Path(__file__).parents[2] / "docs" / "safety.md"
+
+_SOURCES = {"W": "waypoints", "T": "teleop", "X": "external"}
+
+_HEAD = """\
+# What the bridge watches, and what it does about it
+
+This page is printed from the bridge's tables by `python -m bridge.core.docs --write`; edit those.
+
+The bridge wakes every 10 ms, looks at everything below, and sends the drive exactly one command.
+It is protective software with measured behaviour, not a safety device: a planar lidar sees neither
+stairs nor table tops, the fence is as true as localization, and a planner on the same user account
+can read what that user can read. Wire a real stop button.
+
+## Actions
+
+The worst active row wins: {actions}.
+
+| action | what it does |
+|---|---|
+| `CAP` | a factor on the limits of robot.toml, or a speed in m/s with the turn in proportion |
+| `HOLD2` | ramp to zero, keep the torque |
+| `STOP1` | ramp to zero, then disable the drive |
+| `FAST1` | hardest ramp to zero, then disable the drive |
+| `CUT0` | disable the drive now |
+
+A row is a detector and a latch. What clears by itself (`AUTO`) may only cap or hold. A row bound to
+a source acts only while that source moves the robot or holds a grant; elsewhere it is only shown.
+No row and no parameter can be switched off.
+"""
+
+_MODES = """\
+## Modes
+
+What is absent from this table is forbidden. Outside ACTIVE and TELEOP the target is zero and the
+output ramps to it. Powered modes are HOLD, ACTIVE, TELEOP and STOPPING; ESTOPPED keeps the torque
+only until the robot stands. ESTOPPED and FAULT are latched: they are left by a reset alone.
+
+| from | when | to |
+|---|---|---|
+"""
+
+_GATES = """\
+## Gates
+
+The obstacle gate and the fence gate work on the command, by direction: they scale it, down to zero
+towards the trouble, and let pass slowly what loses no clearance. Shut for 0.5 s while waypoints
+move the robot, a gate shows `blocked` and holds; 0.3 m free in five scans end it. A hand on the
+stick may cross the fence at 0.2 m/s. The gate for bumper and cliff comes with a later version.
+"""
+
+
+def safety_md() -> str:
+    """Return the whole page."""
+    actions = " < ".join(f"`{action.value}`" for action in Action)
+    modes = "".join(
+        f"| {mode.value} | {_cause(cause)} | {to.value} |\n"
+        for (mode, cause), to in TRANSITIONS.items()
+    )
+    return "\n".join(
+        (_HEAD.format(actions=actions), _MODES + modes, "".join(_rows()), _GATES, _sentences())
+    )
+
+
+def _cause(cause: object) -> str:
+    return f"`{cause.value}`" if isinstance(cause, Action) else str(cause)
+
+
+def _rows() -> Iterator[str]:
+    yield "## Rows\n\n"
+    yield "| row | what is seen | binds | window | action | clears |\n|---|---|---|---|---|---|\n"
+    for row in ROWS:
+        for index, stage in enumerate(row.stages):
+            name = f"`{row.id}`" if index == 0 else ""
+            seen = _seen(row) if index == 0 else ""
+            yield (
+                f"| {name} | {seen} | {_binds(stage)} | {stage.window} | {_does(stage)} "
+                f"| {_clears(stage)} |\n"
+            )
+    later = ", ".join(f"`{row.id}`" for row in ROWS if not row.armed)
+    yield f"\nThe detectors of these rows are not built yet, so they never act: {later}.\n"
+
+
+def _seen(row: Row) -> str:
+    return row.detector if row.armed else f"*(comes with a later version)* {row.detector}"
+
+
+def _binds(stage: Stage) -> str:
+    return "all" if stage.binds == ALL else ", ".join(_SOURCES[letter] for letter in stage.binds)
+
+
+def _does(stage: Stage) -> str:
+    if stage.cap_factor is not None:
+        return f"`{stage.action.value}` {stage.cap_factor:g} of the limits"
+    if stage.cap_mps is not None:
+        bound = f"{stage.cap_mps:g} m/s" if stage.cap_mps > 0.0 else "the zone's speed"
+        return f"`{stage.action.value}` {bound}"
+    return f"`{stage.action.value}`"
+
+
+def _clears(stage: Stage) -> str:
+    if stage.clears.value != "AUTO":
+        return f"`{stage.clears.value}`"
+    return f"`AUTO`, clean for {stage.clean_s:g} s" if stage.clean_s > 0.0 else "`AUTO`, at once"
+
+
+def _sentences() -> str:
+    lines = "".join(f"| `{row.id}` | {row.en} | {row.zh} |\n" for row in ROWS)
+    return f"## What a person reads\n\n| row | English | 中文 |\n|---|---|---|\n{lines}"
+
+
+def main(arguments: list[str]) -> int:
+    """Print, write or check the page."""
+    page = safety_md()
+    if arguments == ["--write"]:
+        PATH.write_text(page, "utf-8")
+    elif arguments == ["--check"]:
+        if not (PATH.exists() and PATH.read_text("utf-8") == page):
+            print(f"{PATH} is not what the tables say; run python -m bridge.core.docs --write")
+            return 1
+    else:
+        print(page, end="")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
