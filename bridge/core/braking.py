@@ -75,4 +75,7 @@ def stop_length_m(twist: Twist2, base: Base, limits: Limits, reaction: float) ->
 
 
 def _ratio(limit: float, value: float) -> float:
-    return 1.0 if value <= limit else limit / value
+    """Return the factor in [0, 1] that brings a value >= 0 down to its limit; no number, none."""
+    if value <= limit:
+        return 1.0
+    return limit / value if value > limit else 0.0

@@ -30,6 +30,7 @@ MOVED_M = 1.0
 _STRAIGHT_PER_M = 1e-3  # 2 mm beside a straight line after 2 m
 _ROUNDING_RAD = 1e-6
 _STEPS_M = (0.02, 0.05)  # where clearance is looked at again
+_BEAD_M = 1e-3
 _CLEARANCE_LOST_M = 2e-4  # a wall is seen as beads 6 mm apart: driving along it changes this much
 
 
@@ -85,8 +86,11 @@ def free_length(
     if not covered:
         return FreeLength(0.0, known, False, False)
     touching = _touches(picture, robot, disc)
-    if touching and _loses_clearance(picture.points, start, curve, radius_m):
-        return FreeLength(0.0, known, True, False)
+    if touching:
+        clearance = _clearance(picture.points, robot.x_m, robot.y_m)
+        if _loses_clearance(picture.points, start, curve, clearance, radius_m):
+            return FreeLength(0.0, known, True, False)
+        disc = max(_BEAD_M, clearance - _BEAD_M)  # what is clear now may stay so
     if abs(curve) <= _STRAIGHT_PER_M:
         s = _straight(_ahead(picture, start, disc), start, disc, reach_m)
     elif abs(curve) * reach_m < pi / 2:
@@ -199,9 +203,8 @@ def _clearance(points: Points, x: float, y: float) -> float:
     )
 
 
-def _loses_clearance(points: Points, start: Pose2, curve: float, radius: float) -> bool:
+def _loses_clearance(points: Points, start: Pose2, curve: float, now: float, radius: float) -> bool:
     """Tell whether going on brings the nearest point nearer; at contact, by whatever little."""
-    now = _clearance(points, start.x_m, start.y_m)
     lost = _CLEARANCE_LOST_M if now > radius + 0.01 else 0.0
     return not all(
         _clearance(points, place.x_m, place.y_m) >= now - lost

@@ -1,0 +1,182 @@
+"""Drive at walls and fences through the gates, on a robot with lag and a slow lidar."""
+
+from __future__ import annotations
+
+from collections import deque
+from math import cos, pi, sin, tau
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bridge.core.braking import reaction_s
+from bridge.core.fence import build_fence
+from bridge.core.fencegate import FENCE_MARGIN_M, INWARD_MPS, fence_scale
+from bridge.core.kinematics import saturate, scaled
+from bridge.core.limiter import LimiterState, shape
+from bridge.core.obstaclegate import ObstaclePass, obstacle_gate
+from bridge.core.odometry import along_arc
+from bridge.core.scanpicture import ScanPicture
+from wire.geometry import IDENTITY, STILL, Pose2, Twist2
+from wire.robot import RobotDescription
+from wire.sensors import Scan
+
+ROBOT = RobotDescription()
+BASE, LIMITS, LAG = ROBOT.base, ROBOT.limits, ROBOT.drive.lag_s
+RADIUS = BASE.radius_m
+Wall = tuple[float, float]
+"""Distance [m] and direction [rad] of an endless wall, from the origin."""
+
+
+def gap(walls: list[Wall], pose: Pose2) -> float:
+    return min(d - pose.x_m * cos(a) - pose.y_m * sin(a) for d, a in walls)
+
+
+def look(walls: list[Wall], pose: Pose2) -> ScanPicture:
+    ranges: list[float] = []
+    for index in range(360):
+        best = 7.0
+        for d, a in walls:
+            toward = cos(pose.yaw_rad + index * tau / 360 - a)
+            if toward > 1e-6:
+                best = min(best, (d - pose.x_m * cos(a) - pose.y_m * sin(a)) / toward)
+        ranges.append(max(0.0, best))
+    scan = Scan(
+        boot_id="a",
+        seq=1,
+        stamp_s=0.0,
+        angle_min_rad=0.0,
+        angle_increment_rad=tau / 360,
+        range_min_m=0.12,
+        range_max_m=8.0,
+        ranges_m=tuple(ranges),
+    )
+    return ScanPicture.from_scan(scan, pose, ROBOT.lidar)
+
+
+def run(
+    walls: list[Wall], asked: list[Twist2], seconds: float, delay: int = 5
+) -> tuple[float, Pose2, ObstaclePass]:
+    """Ask one motion after another; scans come at 10 Hz and arrive ``delay`` ticks old.
+
+    Returns the smallest gap from centre to wall [m], the last pose, and the last verdict.
+    """
+    pose, memory = IDENTITY, LimiterState()
+    pipe = deque([STILL] * round(LAG / 0.01))
+    taken, coming, picture = 0, look(walls, pose), look(walls, pose)
+    nearest, verdict, moving = gap(walls, pose), None, STILL
+    ticks = round(seconds / 0.01)
+    for tick in range(ticks):
+        if tick % 10 == 0:
+            coming = look(walls, pose)
+        if tick % 10 == delay:
+            picture, taken = coming, tick - delay
+        wanted = saturate(asked[tick * len(asked) // ticks], BASE, LIMITS)
+        verdict = obstacle_gate(picture, pose, wanted, moving, (tick - taken) * 0.01, ROBOT)
+        memory = shape(verdict.twist, memory, BASE, LIMITS, 0.01, room_m=verdict.room_m)
+        pipe.append(memory.sent)
+        moving = pipe.popleft()
+        pose = along_arc(pose, moving.v_mps * 0.01, moving.w_radps * 0.01)
+        nearest = min(nearest, gap(walls, pose))
+    assert verdict is not None
+    return nearest, pose, verdict
+
+
+@pytest.mark.parametrize("direction", [i * tau / 12 for i in range(12)])
+@pytest.mark.parametrize("asked", [Twist2(0.5, 0.0), Twist2(-0.5, 0.0), Twist2(0.4, 0.5)])
+def test_a_wall_at_any_angle_is_never_touched(direction: float, asked: Twist2) -> None:
+    nearest, _, _ = run([(1.0, direction)], [asked], 5.0)
+    assert nearest >= RADIUS + 0.02
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(0.45, 1.5), st.floats(-pi, pi)), min_size=1, max_size=2),
+    st.lists(st.builds(Twist2, st.floats(-0.5, 0.5), st.floats(-1, 1)), min_size=1, max_size=5),
+)
+def test_no_orders_bring_it_to_a_wall(walls: list[Wall], asked: list[Twist2]) -> None:
+    nearest, _, _ = run(walls, asked, 4.0, delay=7)
+    assert nearest >= RADIUS
+
+
+def test_it_stands_at_the_margin_and_says_so() -> None:
+    nearest, pose, verdict = run([(1.0, 0.0)], [Twist2(0.5, 0.0)], 6.0)
+    assert RADIUS + 0.045 <= nearest <= RADIUS + 0.08
+    assert verdict.shut
+    assert verdict.scale == 0.0
+    assert pose.y_m == 0.0
+
+
+def test_from_a_wall_one_may_back_away_and_turn_away() -> None:
+    wall = [(1.0, 0.0)]
+    at_wall = Twist2(0.5, 0.0)
+    _, pose, _ = run(wall, [at_wall, at_wall, Twist2(-0.3, 0.0)], 9.0)
+    assert gap(wall, pose) > 0.7
+    _, pose, _ = run(wall, [at_wall, at_wall, Twist2(0.0, 1.0)], 9.0)
+    assert abs(pose.yaw_rad) > 0.5
+    # an arc away from the wall that loses clearance first: the turn in it passes, then the arc
+    _, pose, _ = run(wall, [at_wall, Twist2(0.3, 0.6), Twist2(0.3, 0.6)], 15.0)
+    assert gap(wall, pose) > 0.6
+
+
+def test_beside_a_wall_it_drives_along() -> None:
+    nearest, pose, _ = run([(0.45, pi / 2)], [Twist2(0.5, 0.0)], 4.0)
+    assert pose.x_m > 1.0
+    assert nearest == pytest.approx(0.45)
+
+
+def test_what_cannot_be_judged_stands() -> None:
+    picture = look([], IDENTITY)
+    odd = obstacle_gate(picture, Pose2(float("nan"), 0, 0), Twist2(0.5, 0.0), STILL, 0.1, ROBOT)
+    assert odd.shut
+    late = obstacle_gate(picture, IDENTITY, Twist2(0.5, 0.0), STILL, float("nan"), ROBOT)
+    assert late.shut
+
+
+FENCE = build_fence("0" * 16, (((-2, -2), (2, -2), (2, 2), (-2, 2)),))
+REACTION = reaction_s(0.0, 0.0, LAG, LIMITS) + 0.1
+
+
+def fenced(start: Pose2, asked: Twist2, seconds: float) -> tuple[float, Pose2]:
+    pose, memory = start, LimiterState()
+    pipe = deque([STILL] * round(LAG / 0.01))
+    least = FENCE.margin_m(pose.x_m, pose.y_m)
+    for _ in range(round(seconds / 0.01)):
+        scale = fence_scale(FENCE, pose, asked, BASE, LIMITS, REACTION)
+        memory = shape(scaled(asked, scale), memory, BASE, LIMITS, 0.01)
+        pipe.append(memory.sent)
+        moving = pipe.popleft()
+        pose = along_arc(pose, moving.v_mps * 0.01, moving.w_radps * 0.01)
+        least = min(least, FENCE.margin_m(pose.x_m, pose.y_m))
+    return least, pose
+
+
+@pytest.mark.parametrize("yaw", [i * tau / 12 for i in range(12)])
+@pytest.mark.parametrize("asked", [Twist2(0.5, 0.0), Twist2(-0.5, 0.0), Twist2(0.4, 0.2)])
+def test_the_fence_is_never_crossed(yaw: float, asked: Twist2) -> None:
+    least, _ = fenced(Pose2(0.5, 0.2, yaw), asked, 6.0)
+    assert least >= FENCE_MARGIN_M - 0.01
+
+
+def test_far_from_the_fence_all_passes() -> None:
+    assert fence_scale(FENCE, IDENTITY, Twist2(0.5, 0.3), BASE, LIMITS, REACTION) == 1.0
+
+
+def test_at_the_fence_inward_passes_slowly_and_turning_freely() -> None:
+    at = Pose2(1.9, 0.0, pi)
+    inward = fence_scale(FENCE, at, Twist2(0.5, 0.0), BASE, LIMITS, REACTION)
+    assert inward == pytest.approx(INWARD_MPS / 0.5)
+    assert fence_scale(FENCE, at, Twist2(-0.5, 0.0), BASE, LIMITS, REACTION) == 0.0
+    assert fence_scale(FENCE, at, Twist2(0.0, 1.0), BASE, LIMITS, REACTION) == 1.0
+    outside = Pose2(2.1, 0.0, pi)
+    assert fence_scale(FENCE, outside, Twist2(0.1, 0.0), BASE, LIMITS, REACTION) == 1.0
+    assert fence_scale(FENCE, outside, Twist2(-0.1, 0.0), BASE, LIMITS, REACTION) == 0.0
+
+
+@given(
+    st.builds(Pose2, st.floats(), st.floats(), st.floats(-7, 7)),
+    st.builds(Twist2, st.floats(), st.floats()),
+    st.floats(),
+)
+def test_no_number_raises_at_the_fence(pose: Pose2, asked: Twist2, reaction: float) -> None:
+    assert 0.0 <= fence_scale(FENCE, pose, asked, BASE, LIMITS, reaction) <= 1.0
