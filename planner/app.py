@@ -98,7 +98,7 @@ def application(planner: Planner, access: Access) -> FastAPI:
 
 async def _end_with(goals: Missions) -> None:
     """End the process when the mission loop has: a planner that can't drive must not look alive."""
-    while (failure := goals.failed) is None:
+    while (failure := goals.failed) is None:  # noqa: ASYNC110  # a property is all there is to read
         await asyncio.sleep(WATCH_S)
     log.critical("the mission loop ended", exc_info=failure)
     signal.raise_signal(signal.SIGTERM)
