@@ -12,7 +12,6 @@ import ctypes
 import os
 import signal
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from select import select
 
@@ -32,6 +31,7 @@ from planner.world import Site, SiteError
 
 PR_SET_PDEATHSIG = 1  # prctl(2)
 NICE = 10
+DONE = object()
 
 
 def main(arguments: list[str]) -> int:
@@ -54,10 +54,10 @@ def main(arguments: list[str]) -> int:
 
 
 def _serve(router: Router, requests: int, answers: int) -> None:
-    idle_work: Iterator[str] | None = router.warm()
+    idle_work, working = router.warm(), True
     while True:
-        if idle_work is not None and not _waiting(requests):
-            idle_work = idle_work if next(idle_work, None) is not None else None
+        if working and not _waiting(requests):
+            working = next(idle_work, DONE) is not DONE
             continue
         body = _read_frame(requests)
         if body is None:

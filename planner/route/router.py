@@ -23,7 +23,7 @@ from planner.route.request import (
     RouteRequest,
     RouteResult,
 )
-from planner.route.search import Lattice, costs_to, find_path
+from planner.route.search import Lattice, costs_in_slices, find_path
 from planner.route.shape import Line, densify, is_free, relax, straighten
 from planner.route.waypoints import evenly, speeds, thin
 from planner.world import Site
@@ -46,22 +46,25 @@ class Router:
         self._lattice = Lattice.of(self._mapped.cost)
         self._fields: dict[int, array[float]] = {}
 
-    def warm(self) -> Iterator[str]:
-        """Work out the exact cost to every place, one at each turn; yield the place's id.
+    def warm(self) -> Iterator[None]:
+        """Work out the exact cost to every place, a few milliseconds at each turn.
 
         The first turn drives home in thought, so that the first real request finds all it needs.
         """
-        home = self._site.home.pose
         with suppress(RouteFailure):
-            self.route(RouteRequest(self._site.places[0].pose, home))
-        yield self._site.home.id
+            self.route(RouteRequest(self._site.places[0].pose, self._site.home.pose))
+        yield
         size = 8 * len(self._lattice.cost)
         for place in self._site.places[: MAX_FIELD_BYTES // size]:
             column, row = self._site.grid.cell_of(place.pose.x_m, place.pose.y_m)
             if self._mapped.free[row, column]:
                 goal = self._lattice.index(column, row)
-                self._fields[goal] = costs_to(self._lattice, goal)
-                yield place.id
+                self._fields[goal] = yield from costs_in_slices(self._lattice, goal)
+
+    @property
+    def goals_known(self) -> int:
+        """Return to how many goals the exact costs are worked out."""
+        return len(self._fields)
 
     def route(
         self, request: RouteRequest, clock: Callable[[], float] = perf_counter

@@ -8,16 +8,19 @@ A diagonal is taken only where both cells beside it are free, so no way cuts a b
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from math import inf, sqrt
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 _SQRT2 = sqrt(2.0)
 
+SLICE = 1000
+"""Cells to settle in one go: some 5 ms."""
 _GREED = 1.0001
 """Estimates are stretched by this: among the many ways of one cost across open floor the search
 then finishes one instead of widening all. What it finds costs at most this much over the best."""
@@ -79,23 +82,35 @@ def find_path(
 
 def costs_to(lattice: Lattice, goal: int) -> array[float]:
     """Return the cost from every cell to the goal (Dijkstra); infinite where there is no way."""
+    work = costs_in_slices(lattice, goal)
+    while True:
+        try:
+            next(work)
+        except StopIteration as done:
+            return cast("array[float]", done.value)
+
+
+def costs_in_slices(lattice: Lattice, goal: int) -> Generator[None, None, array[float]]:
+    """Work out :func:`costs_to` a few milliseconds at a time, so that others may come between."""
     cost, moves = lattice.cost, _moves(lattice.stride)
     best = array("d", [inf]) * len(cost)
     best[goal] = 0.0
     heap = [(0.0, goal)]
     while heap:
-        so_far, cell = heappop(heap)
-        if so_far > best[cell]:
-            continue
-        here = cost[cell]
-        for step, half, beside, other in moves:
-            there = cell + step
-            price = cost[there]
-            if price < inf and cost[cell + beside] < inf and cost[cell + other] < inf:
-                total = so_far + half * (here + price)
-                if total < best[there]:
-                    best[there] = total
-                    heappush(heap, (total, there))
+        yield
+        for _ in range(min(SLICE, len(heap))):
+            so_far, cell = heappop(heap)
+            if so_far > best[cell]:
+                continue
+            here = cost[cell]
+            for step, half, beside, other in moves:
+                there = cell + step
+                price = cost[there]
+                if price < inf and cost[cell + beside] < inf and cost[cell + other] < inf:
+                    total = so_far + half * (here + price)
+                    if total < best[there]:
+                        best[there] = total
+                        heappush(heap, (total, there))
     return best
 
 

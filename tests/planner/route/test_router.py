@@ -65,7 +65,7 @@ def test_every_place_of_the_home_is_reached_from_every_other(
     home: Site, home_router: Router
 ) -> None:
     costmap = static_costmap(home, LIMITS.radius_m)
-    for a, b in list(permutations(home.places, 2))[::7]:
+    for a, b in list(permutations(home.places, 2))[::13]:
         result = home_router.route(RouteRequest(a.pose, b.pose))
         check_laws(home, costmap, result)
         assert (result.points[0].x_m, result.points[0].y_m) == (a.pose.x_m, a.pose.y_m)
@@ -121,10 +121,12 @@ def test_what_the_lidar_adds_is_kept_clear_of(
         check_laws(two_room, seen, result)
 
 
-def test_routes_with_costs_worked_out_beforehand_are_as_long(home: Site) -> None:
-    cold, warm = Router(home, LIMITS), Router(home, LIMITS)
-    assert len(list(warm.warm())) == len(home.places) + 1
-    for a, b in list(permutations(home.places, 2))[::23]:
+def test_routes_with_costs_worked_out_beforehand_are_as_long(two_room: Site) -> None:
+    cold, warm = Router(two_room, LIMITS), Router(two_room, LIMITS)
+    for _ in warm.warm():
+        pass
+    assert (cold.goals_known, warm.goals_known) == (0, len(two_room.places))
+    for a, b in permutations(two_room.places, 2):
         one, two = (router.route(RouteRequest(a.pose, b.pose)) for router in (cold, warm))
         assert two.length_m == pytest.approx(one.length_m, rel=0.03)
 
