@@ -162,6 +162,8 @@ class PortSubscriber(Generic[M]):
 
     def drain_bytes(self) -> list[bytes]:
         """Take all that is here, oldest first, unparsed."""
+        if not self._coming:
+            return []
         now = self.port.bus.tick
         while self._coming and self._coming[0][0] <= now:
             self._ring.append(self._coming.popleft()[1])
@@ -172,6 +174,8 @@ class PortSubscriber(Generic[M]):
     def drain(self) -> Drained[M]:
         """Take all that is here, parse at most the 4 newest, in order of arrival."""
         payloads = self.drain_bytes()
+        if not payloads:
+            return Drained((), 0)
         newest = payloads[-PARSED_PER_DRAIN:]
         return Drained(tuple(decode(self._key, raw) for raw in newest), len(payloads))
 
