@@ -81,8 +81,6 @@ class World:
 
     def contacts(self) -> int:
         """Count the robot's contacts with anything but the floor, now."""
-        if self._data.ncon == 0:
-            return 0
         pairs: NDArray[np.int32] = self._data.contact.geom
         return int(np.count_nonzero(pairs == self._chassis))
 

@@ -115,13 +115,6 @@ def _slab(line: Line, low: float, high: float, half_m: float) -> Rect:
     return Rect(low, line[1] - half_m, high, line[1] + half_m)
 
 
-def door_rects(home: Home) -> list[Rect]:
-    """Return each door's opening through the thickness of its wall."""
-    half_m = home.wall.thickness_m / 2
-    found = (door_edge(home, door) for door in home.doors)
-    return [_slab(edge[0], edge[1][0], edge[1][1], half_m) for edge in found if edge is not None]
-
-
 def furniture_shape(item: Furniture) -> Rect | Disc:
     """Return the outline of a piece of furniture."""
     if item.box is not None:

@@ -14,6 +14,7 @@ from wire import (
     DriveCommand,
     DriveState,
     Imu,
+    Misconfigured,
     Pose2,
     RobotDescription,
     Scan,
@@ -277,3 +278,26 @@ def test_a_deaf_drive_stops_by_itself(driver: Driver) -> None:
     driver.robot.faults.deaf = True
     last = driver.drive(4.0, 4.0, 1.0)[-1].drive
     assert (last.timed_out, last.enabled, last.echo_seq) == (True, False, 100)
+
+
+def test_an_unknown_obstacle_is_refused_with_those_that_exist(driver: Driver) -> None:
+    with pytest.raises(Misconfigured, match="obstacle_unknown: .*'cat'.*person_0, person_1"):
+        driver.robot.place_obstacle(1.0, 1.0, name="cat")
+
+
+def test_a_robot_without_imu_tells_none(repository: Path) -> None:
+    description = RobotDescription.model_validate({"inputs": {"imu": False}})
+    robot = SimRobot(repository / "sites" / "two_room", description)
+    assert {report.imu for report in robot.step_to(0.1)} == {None}
+
+
+def test_a_person_may_be_asked_away_over_the_wire(driver: Driver) -> None:
+    def ahead() -> float | None:
+        reports = driver.robot.step_to(driver.robot.time_s + 0.1)
+        return next(report.scan.ranges_m[180] for report in reports if report.scan)
+
+    free = ahead()
+    driver.robot.control(SimControl(id="t1", place_obstacle=(1.5, 3.0)))
+    assert ahead() == pytest.approx(3.0 - 0.25 - 1.9, abs=0.05)
+    driver.robot.control(SimControl(id="t2", remove_obstacle=True))
+    assert ahead() == pytest.approx(free, abs=0.1)

@@ -63,6 +63,14 @@ def test_the_command_line_checks_and_refuses(
     assert capsys.readouterr().err.startswith("home_invalid: ")
 
 
+def test_without_any_site_it_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["--check"]) == 2
+    assert capsys.readouterr().err.startswith("no_sites: ")
+
+
 def test_the_fence_names_the_map(site_dir: Path) -> None:
     fence = json.loads((site_dir / "fence.json").read_text("utf-8"))
     expected = map_id((site_dir / "map.yaml").read_bytes(), (site_dir / "map.pgm").read_bytes())
