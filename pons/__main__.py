@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
+from pathlib import Path
 
-from pons.settings import BadSetting, Settings, load
+from pons.settings import BadSetting, Settings, load, port_of
 
 EXIT_USAGE = 2
 
@@ -14,7 +16,10 @@ def parser() -> argparse.ArgumentParser:
     """Return the whole grammar of the command."""
     top = argparse.ArgumentParser(prog="pons", description="A sentence moves the robot.")
     words = top.add_subparsers(dest="word", required=True, metavar="COMMAND")
-    words.add_parser("up", help="start simulator, localization, bridge and planner")
+    started = words.add_parser("up", help="start simulator, localization, bridge and planner")
+    started.add_argument("--site", type=Path, help="folder of a site (PONS_SITE)")
+    started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
+    started.add_argument("--port", help="port of page and API (PONS_PORT)")
     said = words.add_parser("say", help="give a goal, in English or Chinese, and follow it")
     said.add_argument("text", nargs="+")
     said.add_argument("--no-wait", action="store_true", help="return when the goal is accepted")
@@ -47,21 +52,24 @@ def main(arguments: list[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
     try:
         settings = load()
+        if words == ["stop"]:  # before argparse: nothing may slow this down
+            from pons import stop
+
+            return stop.run(settings)
+        return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_USAGE
-    if words == ["stop"]:  # before argparse: nothing may slow this down
-        from pons import stop
-
-        return stop.run(settings)
-    return _dispatch(settings, parser().parse_args(words))
 
 
 def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
     if said.word == "up":
         from pons import up
 
-        return up.run(settings)
+        port = port_of(said.port) if said.port is not None else None
+        given = {"site": said.site, "robot": said.robot, "port": port}
+        chosen = {name: value for name, value in given.items() if value is not None}
+        return up.run(replace(settings, **chosen))
     if said.word == "replay":
         from pons import replay
 

@@ -46,11 +46,16 @@ def load() -> Settings:
         robot=Path(given.get("PONS_ROBOT", CHECKOUT / "robot.toml")).absolute(),
         site=Path(given.get("PONS_SITE", CHECKOUT / "sites" / "home")).absolute(),
         host=given.get("PONS_HOST", DEFAULT_HOST),
-        port=_port(given.get("PONS_PORT", str(DEFAULT_PORT))),
+        port=port_of(given.get("PONS_PORT", str(DEFAULT_PORT))),
     )
 
 
-def _port(text: str) -> int:
+def port_of(text: str) -> int:
+    """Return the number of a TCP port.
+
+    Raises:
+        BadSetting: it is none.
+    """
     if text.isdecimal() and 1 <= int(text) <= 65_535:
         return int(text)
-    raise BadSetting(f"bad_port: PONS_PORT is {text!r}; expected a number from 1 to 65535")
+    raise BadSetting(f"bad_port: the port is {text!r}; expected a number from 1 to 65535")
