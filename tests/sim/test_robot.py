@@ -281,7 +281,7 @@ def test_a_deaf_drive_stops_by_itself(driver: Driver) -> None:
 
 
 def test_an_unknown_obstacle_is_refused_with_those_that_exist(driver: Driver) -> None:
-    with pytest.raises(Misconfigured, match="obstacle_unknown: .*'cat'.*person_0, person_1"):
+    with pytest.raises(Misconfigured, match=r"obstacle_unknown: .*'cat'.*person_0, person_1"):
         driver.robot.place_obstacle(1.0, 1.0, name="cat")
 
 
