@@ -32,9 +32,11 @@ SOFT_WEIGHT = 4.0
 """A metre along a wall costs five, so the route goes through the middle of doors and corridors."""
 FENCE_MARGIN_M = 0.15
 """The bridge's FENCE gate slows what would stop nearer than this to the fence."""
-EXPLAINED_M = 0.12
-"""A lidar point this near to a mapped obstacle is that obstacle, seen through a pose error of
-0.02 m and 0.5 degrees at 5 m and half a cell. Without it noise at the jambs would close doors."""
+EXPLAINED_M = 0.10
+EXPLAINED_RAD = 0.02
+"""A lidar point this near to a mapped obstacle, and so much more for each metre it is away from the
+robot, is that obstacle, seen through two sigma of the pose's error (0.04 m and 1 degree), the
+lidar's noise and half a cell. Without it the noise at the jambs would close doors."""
 OWN_BODY_M = 0.20
 """A lidar point this near to the robot's centre is inside the robot."""
 
@@ -120,9 +122,9 @@ class Costmap:
         # Written as accepting conditions, so that what is not finite is dropped here.
         inside = (column >= 0) & (column < self.grid.width) & (row >= 0) & (row < self.grid.height)
         seen, column, row = seen[inside], column[inside].astype(int), row[inside].astype(int)
-        known = self.clearance_m[row, column] <= EXPLAINED_M
-        own = np.hypot(*(seen - np.asarray(robot_xy_m)).T) < OWN_BODY_M
-        return np.asarray(seen[~known & ~own], np.float64)
+        away_m = np.hypot(*(seen - np.asarray(robot_xy_m)).T)
+        known = self.clearance_m[row, column] <= EXPLAINED_M + EXPLAINED_RAD * away_m
+        return np.asarray(seen[~known & (away_m >= OWN_BODY_M)], np.float64)
 
 
 def static_costmap(site: Site, radius_m: float) -> Costmap:

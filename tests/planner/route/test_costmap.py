@@ -88,19 +88,26 @@ def test_what_is_explained_or_no_place_changes_nothing(point: tuple[float, float
     assert mapped.with_obstacles([], (1.0, 1.0)) is mapped
 
 
-def test_noise_on_the_jambs_does_not_close_the_doors(home: Site) -> None:
-    """Show lidar points of every mapped wall, 0.06 m off in a random direction."""
+@pytest.mark.parametrize("yaw_rad", [-0.0175, 0.0, 0.0175])
+@pytest.mark.parametrize("shift", [(0.04, 0.0), (0.0, -0.04), (-0.03, 0.03)])
+def test_walls_seen_through_a_wrong_pose_close_no_door(
+    home: Site, yaw_rad: float, shift: tuple[float, float]
+) -> None:
+    """Show every mapped wall within the lidar's reach as a robot two sigma astray would see it."""
     mapped = static_costmap(home, RADIUS_M)
     random = np.random.default_rng(1)
     rows, columns = np.nonzero(mapped.occupied)
-    walls = np.column_stack([columns, rows]) * home.grid.resolution_m + home.grid.origin_x_m
-    angle = random.uniform(0, 2 * np.pi, len(walls))
-    noisy = walls + 0.06 * np.column_stack([np.cos(angle), np.sin(angle)])
-    seen = mapped.with_obstacles([(x, y) for x, y in noisy.tolist()], (1.5, 2.2))
-    ends = [home.grid.cell_of(p.pose.x_m, p.pose.y_m) for p in home.places]
-    assert {int(seen.labels[row, column]) for column, row in ends} == {
-        int(seen.labels[ends[0][1], ends[0][0]])
-    }
+    walls = (np.column_stack([columns, rows]) + 0.5) * CELL_M + home.grid.origin_x_m
+    for place in home.places[::3]:
+        robot = np.array([place.pose.x_m, place.pose.y_m])
+        seen = (walls - robot)[np.hypot(*(walls - robot).T) <= 8.0]
+        turn = np.array([[np.cos(yaw_rad), np.sin(yaw_rad)], [-np.sin(yaw_rad), np.cos(yaw_rad)]])
+        astray = seen @ turn + robot + shift + random.normal(0.0, 0.01, seen.shape)
+        costmap = mapped.with_obstacles(
+            [(x, y) for x, y in astray.tolist()], (float(robot[0]), float(robot[1]))
+        )
+        ends = [home.grid.cell_of(p.pose.x_m, p.pose.y_m) for p in home.places]
+        assert len({int(costmap.labels[row, column]) for column, row in ends} - {0}) == 1
 
 
 def test_points_beyond_the_map_are_blocked() -> None:
