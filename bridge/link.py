@@ -36,6 +36,8 @@ from wire.keys import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from bridge.core.decision import Decision
     from wire import OpKind
     from wire.keys import Key
@@ -43,6 +45,8 @@ if TYPE_CHECKING:
 
 M = TypeVar("M", bound=Record)
 
+PARSED = 4
+"""At most so many newest messages of a key are worth parsing in one tick."""
 STOPS_KEPT = 4
 """Different stops that one tick answers; any one of them stops."""
 
@@ -121,7 +125,9 @@ class Link:
 
     def _stops(self, took: _Took) -> tuple[Stop, ...]:
         payloads = self._stop.drain_bytes()
-        took.count(STOP, len(payloads))
+        if not payloads:
+            return ()
+        took.arrived.append(ArrivedAt(STOP.path, len(payloads)))
         found: list[Stop] = []
         refused: Rejected | None = None
         for payload in reversed(payloads):
@@ -148,7 +154,11 @@ class Link:
 
 
 class _Took:
-    """Collect what one drain counted and refused."""
+    """Collect what one drain counted and refused.
+
+    Most keys are silent in most ticks, so each is first asked for bytes alone: 0.5 us, four times
+    cheaper than an empty list of messages.
+    """
 
     __slots__ = ("arrived", "rejected")
 
@@ -156,23 +166,22 @@ class _Took:
         self.arrived: list[ArrivedAt] = []
         self.rejected: list[RejectedAt] = []
 
-    def count(self, key: Key[M], arrived: int) -> None:
-        if arrived:
-            self.arrived.append(ArrivedAt(key.path, arrived))
-
     def all(self, key: Key[M], subscriber: Subscriber[M]) -> tuple[M, ...]:
-        drained = subscriber.drain()
-        if not drained.arrived:
+        """Return what came on a command key, at most PARSED of it, and count it all."""
+        payloads = subscriber.drain_bytes()
+        if not payloads:
             return ()
-        self.count(key, drained.arrived)
-        return self.sorted_out(key, drained.items)
+        self.arrived.append(ArrivedAt(key.path, len(payloads)))
+        return self._parsed(key, payloads[-PARSED:])
 
     def newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
-        items = subscriber.drain().items
-        good = self.sorted_out(key, items) if items else ()
+        """Return what came on a state key."""
+        payloads = subscriber.drain_bytes()
+        good = self._parsed(key, payloads[-1:]) if payloads else ()
         return good[-1] if good else None
 
-    def sorted_out(self, key: Key[M], items: tuple[M | Rejected, ...]) -> tuple[M, ...]:
+    def sorted_out(self, key: Key[M], items: Iterable[M | Rejected]) -> tuple[M, ...]:
+        """Return the messages and note the refusals."""
         good: list[M] = []
         for item in items:
             if isinstance(item, Rejected):
@@ -180,3 +189,6 @@ class _Took:
             else:
                 good.append(item)
         return tuple(good)
+
+    def _parsed(self, key: Key[M], payloads: list[bytes]) -> tuple[M, ...]:
+        return self.sorted_out(key, [decode(key, payload) for payload in payloads])

@@ -11,7 +11,7 @@ import time
 from typing import TYPE_CHECKING
 
 from bridge.core.kinematics import Wheels, feed_forward
-from wire import DriveCommand, DriveState, Rejected
+from wire import DriveCommand, DriveState, Rejected, decode
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE
 
 if TYPE_CHECKING:
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from wire import RobotDescription
     from wire.session import Session
 
+_PARSED = 4
+"""More than four ticks of readings at once are a stall's; the newest say all that counts."""
 _HALT_SENDS = 5
 _HALT_GAP_S = 0.01
 """A command sent once may be dropped on its way; five over 40 ms are not, or the robot is deaf and
@@ -41,7 +43,8 @@ class SimDrive:
         self._seq = 0
 
     def read(self) -> tuple[DriveState | Rejected, ...]:
-        return self._states.drain().items
+        payloads = self._states.drain_bytes()
+        return tuple([decode(DRIVE_STATE, payload) for payload in payloads[-_PARSED:]])
 
     def write(self, command: DriveCommand | None) -> None:
         if command is None:

@@ -46,7 +46,8 @@ def next_command(drive: Drive, ears: Subscriber[DriveCommand], sent: DriveComman
 
     def heard() -> bool:
         drive.write(sent)
-        got.extend(item for item in ears.drain().items if isinstance(item, DriveCommand))
+        items = [item for item in ears.drain().items if isinstance(item, DriveCommand)]
+        got.extend(item for item in items if item.seq == sent.seq)
         return bool(got)
 
     assert until(heard)
