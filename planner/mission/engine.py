@@ -53,7 +53,7 @@ class Engine:
         seen = Seen(status, off_path=horizon is not None and horizon.off_path)
         self.book, effects = advance(self.book, seen, now_s)
         self._used = status.seq
-        course = self._course(status)
+        course = self._course(horizon)
         self._owner, messages = on_status(
             self._identity, self._owner, status, course, self._used, now_s
         )
@@ -90,7 +90,7 @@ class Engine:
         status, wanted = self.book.status, wish(self.book)
         if status is None or wanted == self._wish:
             return ()
-        course = self._course(status)
+        course = self._course(self._cut(status))
         self._owner, messages = on_course(self._identity, self._owner, status, course, now_s)
         return messages
 
@@ -115,10 +115,14 @@ class Engine:
         following.progress_m = horizon.progress_m
         return horizon
 
-    def _course(self, status: Status) -> Course:
-        """Return what is wanted of the bridge now, cut on this status."""
+    def _course(self, horizon: Horizon | None) -> Course:
+        """Return what is wanted of the bridge now; ``horizon`` was cut on the status answered."""
         self._wish = wanted = wish(self.book)
-        horizon = self._cut(status)
-        if wanted.leg is None or horizon is None or not horizon.points:
+        following = self._following
+        ours = following is not None and (following.mission, following.leg) == (
+            wanted.mission,
+            wanted.leg,
+        )
+        if wanted.leg is None or not ours or horizon is None or not horizon.points:
             return Course(wanted.mission)
         return Course(wanted.mission, wanted.leg, horizon.points, horizon.final)

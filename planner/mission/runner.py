@@ -153,6 +153,7 @@ class Missions:
             await self._loop.settled()
         except JournalDown:
             self._loop.event(Cancel(goal_id))
+            self._keys.pop(idempotency_key or "", None)
             raise
         return self.goal(goal_id)
 

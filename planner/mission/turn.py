@@ -49,8 +49,9 @@ class Turn:
 
     def walk(self, **changes: Any) -> Walk | None:
         """Change the running step's memory, if a step runs."""
-        if self.book.walk is not None and changes:
-            self.set(walk=replace(self.book.walk, **changes))
+        walk = self.book.walk
+        if walk is not None and any(getattr(walk, k) != v for k, v in changes.items()):
+            self.set(walk=replace(walk, **changes))
         return self.book.walk
 
     @property

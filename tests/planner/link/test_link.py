@@ -1,0 +1,141 @@
+"""Try the link against a fake bridge: echoes, silence, proofs, ages."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Coroutine
+from math import pi
+from typing import Any, TypeVar
+
+import pytest
+
+from planner.link import BridgeSilent, Link, OperatorProofNeeded
+from planner.link.lidar import points_in_map
+from tests.planner.mission.fakes import FakeBridge, status
+from wire import VIRTUAL_KEY, Pose2, RobotDescription, Scan, Stop, authentic
+from wire.robot import LidarConfig
+
+ROBOT = RobotDescription()
+T = TypeVar("T")
+
+
+class Clock:
+    """Tell a time that tests move."""
+
+    def __init__(self, per_call_s: float = 0.0) -> None:
+        self.now_s, self.per_call_s = 10.0, per_call_s
+
+    def __call__(self) -> float:
+        self.now_s += self.per_call_s
+        return self.now_s
+
+
+def with_polls(bridge: FakeBridge, link: Link, work: Coroutine[Any, Any, T]) -> T:
+    """Run some work while a bridge goes on and the link is polled."""
+
+    async def together() -> T:
+        async def polls() -> None:
+            while True:
+                bridge.step()
+                link.poll()
+                await asyncio.sleep(0)
+
+        task = asyncio.create_task(polls())
+        try:
+            return await work
+        finally:
+            task.cancel()
+
+    return asyncio.run(together())
+
+
+def test_stop_is_repeated_until_echoed() -> None:
+    bridge = FakeBridge()
+    link = Link(bridge, ROBOT, clock=Clock())
+    result = with_polls(bridge, link, link.stop("test"))
+    assert result.echoed
+    assert bridge.held is not None
+    assert bridge.held.id == result.id
+
+
+def test_stop_gives_up_aloud_after_two_seconds() -> None:
+    bridge, clock = FakeBridge(deaf=True), Clock(per_call_s=0.5)
+    sent: list[object] = []
+    bridge.send = sent.append  # type: ignore[method-assign]  # a bridge that hears nothing
+    result = asyncio.run(Link(bridge, ROBOT, clock=clock).stop("test"))
+    assert not result.echoed
+    assert result.waited_s >= 2.0
+    assert len(sent) >= 2
+    assert all(isinstance(m, Stop) and m.id == result.id for m in sent)
+
+
+def test_operate_returns_the_verdict_or_raises() -> None:
+    bridge = FakeBridge()
+    link = Link(bridge, ROBOT, clock=Clock())
+    request = link.unsigned("test", request_id="r-1")
+    answer = with_polls(bridge, link, link.operate("disarm", request))
+    assert (answer.id, answer.kind, answer.accepted) == ("r-1", "disarm", True)
+    silent = Link(FakeBridge(deaf=True), ROBOT, clock=Clock(per_call_s=0.5))
+    with pytest.raises(BridgeSilent) as error:
+        asyncio.run(silent.operate("disarm", request))
+    assert error.value.code == "bridge_silent"
+    assert error.value.message["zh"]
+
+
+def test_virtual_drives_are_signed_for_and_no_other() -> None:
+    bridge, clock = FakeBridge(), Clock()
+    link = Link(bridge, ROBOT, clock=clock)
+    with pytest.raises(BridgeSilent):
+        link.sign_virtual("arm", "test")
+    bridge.step()
+    link.poll()
+    request = link.sign_virtual("arm", "test")
+    assert authentic(VIRTUAL_KEY, "arm", "r1", request.proof, request.id)
+    real = status(seq=9)
+    bridge.pending = real.model_copy(
+        update={"drive": real.drive.model_copy(update={"virtual": False, "kind": "serial"})}
+    )
+    link.poll()
+    with pytest.raises(OperatorProofNeeded) as error:
+        link.sign_virtual("arm", "test")
+    assert error.value.code == "operator_proof_needed"
+    clock.now_s += 2.0
+    with pytest.raises(BridgeSilent):
+        link.sign_virtual("arm", "test")
+
+
+def test_ages_run_on_our_own_clock() -> None:
+    bridge, clock = FakeBridge(), Clock()
+    link = Link(bridge, ROBOT, clock=clock)
+    assert link.status is None
+    assert (link.localization, link.odometry, link.scan) == (None, None, None)
+    bridge.step()
+    assert link.poll() is not None
+    assert link.poll() is None
+    clock.now_s += 0.75
+    assert link.status is not None
+    assert link.status.age_s == pytest.approx(0.75)
+
+
+def scan(*ranges_m: float | None) -> Scan:
+    return Scan(boot_id="b", seq=1, stamp_s=0.0, angle_min_rad=0.0, angle_increment_rad=0.5,
+                range_min_m=0.1, range_max_m=8.0, ranges_m=ranges_m)  # fmt: skip
+
+
+def test_obstacles_need_a_fresh_scan_and_a_pose() -> None:
+    bridge, clock = FakeBridge(), Clock()
+    link = Link(bridge, ROBOT, clock=clock)
+    scans = [scan(1.0)]
+    bridge.scan = lambda: scans.pop() if scans else None  # type: ignore[method-assign]  # one scan
+    assert link.obstacles() == ()
+    bridge.step()
+    link.poll()
+    assert link.obstacles() == ((1.0, 0.0),)
+    clock.now_s += 0.6
+    assert link.obstacles() == ()
+
+
+def test_returns_become_points_in_map_and_the_rest_nothing() -> None:
+    robot = Pose2(1.0, 2.0, pi / 2)
+    points = points_in_map(scan(2.0, None, 0.05, 5.0), LidarConfig(x_m=0.5), robot)
+    assert points == (pytest.approx((1.0, 4.5)),)

@@ -1,0 +1,140 @@
+"""Drive an engine against the fake bridge in simulated time: every effect is answered at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from planner.link import Identity
+from planner.mission.effects import (
+    AskBrain,
+    AskRoute,
+    Changed,
+    DropBrain,
+    Effect,
+    Journal,
+    SayAloud,
+)
+from planner.mission.engine import Engine, Output
+from planner.mission.events import Event, Planned, Restarted, Submitted
+from planner.mission.records import Book, Mission
+from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
+from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
+
+Reply = Callable[[AskBrain], Planned | None]
+Way = Callable[[AskRoute], str | None]
+"""Return the code of a failure, or None for a straight way."""
+
+
+def go(*places: str) -> StepPlan:
+    """Return a plan that goes to places."""
+    return StepPlan(steps=tuple(GoTo(place=place) for place in places))
+
+
+def talk(text: str = "hello", seconds: float = 0.2) -> StepPlan:
+    """Return a plan that says something, then waits."""
+    return StepPlan(steps=(Say(text=text), Wait(seconds=seconds)))
+
+
+@dataclass
+class Together:
+    """Hold planner and bridge on one simulated clock."""
+
+    plans: dict[str, StepPlan | None] = field(default_factory=dict)
+    bridge: FakeBridge = field(default_factory=FakeBridge)
+    planner_id: str = "p1"
+    disk: bool = True
+    """Entries are safe at once; False: not before ``sync``."""
+    way: Way = lambda ask: None
+    now_s: float = 100.0
+    disk_entries: list[Journal] = field(default_factory=list)
+    said: list[str] = field(default_factory=list)
+    routes: list[AskRoute] = field(default_factory=list)
+    dropped: list[str] = field(default_factory=list)
+    ids: int = 0
+
+    def __post_init__(self) -> None:
+        self.engine = Engine(Book(FACTS), Identity(self.planner_id, HASH, HASH, HASH))
+
+    @property
+    def book(self) -> Book:
+        return self.engine.book
+
+    def goal(self, goal_id: str) -> Mission:
+        return self.book.missions[goal_id]
+
+    def event(self, event: Event) -> None:
+        self.carry(self.engine.event(event, self.now_s))
+
+    def give(self, plan: StepPlan | None, **more: bool) -> str:
+        """Submit a goal that the brain will answer with this plan; None: it thinks on."""
+        self.ids += 1
+        goal_id = f"g{self.ids}"
+        self.plans[goal_id] = plan
+        self.event(Submitted(goal_id, f"text {goal_id}", Language.EN, **more))
+        return goal_id
+
+    def act(self) -> None:
+        """Clear the bridge's hold as a person's ``op/resume`` does."""
+        self.bridge.held = None
+
+    def carry(self, output: Output) -> None:
+        for message in output.messages:
+            self.bridge.hear(message)
+        for effect in output.effects:
+            self.answer(effect)
+
+    def answer(self, effect: Effect) -> None:
+        match effect:
+            case Journal():
+                self.disk_entries.append(effect)
+                if self.disk:
+                    self.carry(self.engine.journalled(effect, self.now_s))
+            case AskBrain():
+                plan = self.plans.get(effect.id)
+                if plan is not None:
+                    self.event(Planned(effect.id, plan))
+            case AskRoute():
+                self.routes.append(effect)
+                failure = self.way(effect)
+                points = straight(effect.start, effect.goal) if failure is None else None
+                self.carry(self.engine.routed(effect, points, failure, self.now_s))
+            case SayAloud():
+                self.said.append(effect.text)
+            case DropBrain():
+                self.dropped.append(effect.id)
+            case Changed():
+                pass
+
+    def sync(self) -> None:
+        """Let the disk catch up."""
+        for entry in tuple(self.disk_entries):
+            self.carry(self.engine.journalled(entry, self.now_s))
+
+    def run(self, seconds: float = PERIOD_S) -> None:
+        """Let simulated time pass."""
+        for _ in range(max(1, round(seconds / PERIOD_S))):
+            self.now_s += PERIOD_S
+            self.carry(self.engine.status(self.bridge.step(), self.now_s))
+
+    def run_until(self, goal_id: str, *states: GoalState, limit_s: float = 60.0) -> Mission:
+        """Let time pass until a goal is in one of these states."""
+        end_s = self.now_s + limit_s
+        while self.goal(goal_id).state not in states:
+            assert self.now_s < end_s, f"{goal_id} is still {self.goal(goal_id)}"
+            self.run()
+        return self.goal(goal_id)
+
+    def restart(self, planner_id: str = "p2") -> Together:
+        """Return a new planner process on the same disk and bridge; ours is dead."""
+        newest: dict[str, Mission] = {}
+        for entry in self.disk_entries:
+            newest.update({m.id: m for m in entry.missions})
+        queue = self.disk_entries[-1].queue if self.disk_entries else ()
+        bridge = self.bridge
+        bridge.owner = None
+        bridge.turn()
+        after = Together(plans=self.plans, bridge=bridge, planner_id=planner_id, now_s=self.now_s)
+        after.ids = self.ids
+        after.event(Restarted(tuple(newest.values()), queue, 0.0))
+        return after

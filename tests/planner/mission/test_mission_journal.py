@@ -1,0 +1,174 @@
+"""Try the journal: what is written comes back, however the process ended."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+import sqlalchemy as sa
+
+from planner.mission.effects import Journal
+from planner.mission.journal import GoalKey, MissionJournal
+from planner.mission.records import MAX_ENDED, Mission
+from planner.mission.writer import JournalWriter, Wanted
+from planner.plan import Code, GoalState, Language, Outcome, message
+from wire import Misconfigured
+
+
+def mission(
+    goal_id: str, order: int, state: GoalState = GoalState.QUEUED, step: int = 0
+) -> Mission:
+    outcome = None
+    if state is GoalState.SUCCEEDED:
+        outcome = Outcome(code=Code.DONE, message=message(Code.DONE))
+    return Mission(id=goal_id, order=order, text="去厨房", language=Language.ZH, state=state,
+                   outcome=outcome, step=step, limited={"max_speed": 3}, accepted_at=(1.0, 2.0, 3.0),
+                   created_unix_s=1.5, updated_unix_s=2.5)  # fmt: skip
+
+
+def test_the_newest_record_comes_back_and_every_transition_stays(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path / "home")
+    first, later = mission("a", 1), mission("a", 1, GoalState.RUNNING)
+    other = mission("b", 2)
+    journal.write((Journal(1, (first,), ("a",)),))
+    journal.write((Journal(2, (later, other), ("b",)),), (GoalKey("k", "f", "b"),))
+    journal.close()
+    kept = MissionJournal.in_home(tmp_path / "home").load()
+    assert kept.missions == (later, other)
+    assert kept.queue == ("b",)
+    assert kept.keys == (GoalKey("k", "f", "b"),)
+    engine = sa.create_engine(f"sqlite:///{tmp_path / 'home' / 'missions.db'}")
+    with engine.connect() as connection:
+        states = connection.execute(sa.text("select mission, state from transitions order by seq"))
+        assert [tuple(r) for r in states] == [("a", "queued"), ("a", "running"), ("b", "queued")]
+    engine.dispose()
+
+
+def test_all_open_missions_come_back_and_only_the_newest_ended(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    open_ = tuple(mission(f"o{i}", i) for i in range(5))
+    ended = tuple(mission(f"e{i}", 10 + i, GoalState.SUCCEEDED) for i in range(MAX_ENDED + 7))
+    journal.write((Journal(1, open_ + ended, ()),))
+    kept = journal.load().missions
+    journal.close()
+    assert kept == open_ + ended[7:]
+
+
+def test_a_journal_of_another_version_refuses_to_start(tmp_path: Path) -> None:
+    MissionJournal.in_home(tmp_path).close()
+    engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
+    with engine.begin() as connection:
+        connection.execute(sa.text("update facts set value = '99' where name = 'schema'"))
+    engine.dispose()
+    with pytest.raises(Misconfigured, match="schema 99, expected 1"):
+        MissionJournal.in_home(tmp_path)
+
+
+def test_what_is_no_database_refuses_to_start(tmp_path: Path) -> None:
+    (tmp_path / "missions.db").write_bytes(b"not a database at all, far from it" * 100)
+    with pytest.raises(Misconfigured, match="journal_unavailable"):
+        MissionJournal.in_home(tmp_path)
+
+
+def test_a_record_that_is_not_ours_is_named(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    journal.write((Journal(1, (mission("a", 1),), ()),))
+    engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
+    with engine.begin() as connection:
+        connection.execute(sa.text("update missions set record = '{}'"))
+    engine.dispose()
+    with pytest.raises(Misconfigured, match="journal_malformed"):
+        journal.load()
+    journal.close()
+
+
+def test_the_writer_reports_safe_only_what_is_written(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    safe: list[int] = []
+    written = threading.Event()
+
+    def done(entry: int) -> None:
+        safe.append(entry)
+        if entry == 5:
+            written.set()
+
+    writer = JournalWriter(journal, done, lambda why: None)
+    for number in range(1, 6):
+        writer.write(Wanted(Journal(number, (mission("a", 1, step=number),), ())))
+    assert written.wait(10.0)
+    writer.close()
+    assert safe == sorted(safe)
+    after = MissionJournal.in_home(tmp_path)
+    assert after.load().missions[0].step == 5
+    after.close()
+
+
+def test_a_disk_that_refuses_is_tried_again_and_nothing_is_called_safe(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    lock = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}").connect()
+    lock.execute(sa.text("drop table facts"))
+    lock.commit()
+    safe: list[int] = []
+    failed, done = threading.Event(), threading.Event()
+
+    def on_done(entry: int) -> None:
+        safe.append(entry)
+        done.set()
+
+    writer = JournalWriter(journal, on_done, lambda why: failed.set())
+    writer.write(Wanted(Journal(1, (mission("a", 1),), ())))
+    assert failed.wait(10.0)
+    assert safe == []
+    lock.execute(sa.text("create table facts (name varchar(32) primary key, value text not null)"))
+    lock.commit()
+    assert done.wait(10.0)
+    assert safe == [1]
+    writer.close()
+    lock.close()
+    lock.engine.dispose()
+
+
+CHILD = """
+import sys
+from pathlib import Path
+from planner.mission.effects import Journal
+from planner.mission.journal import MissionJournal
+from tests.planner.mission.test_mission_journal import mission
+from planner.plan import GoalState
+
+journal = MissionJournal.in_home(Path(sys.argv[1]))
+number = 0
+while True:
+    number += 1
+    pair = (mission("a", 1, GoalState.RUNNING, number), mission("b", 2, step=number))
+    journal.write((Journal(number, pair, ("b",)),))
+    print(number, flush=True)
+"""
+
+
+@pytest.mark.parametrize("delay_s", [0.0, 0.013, 0.037])
+def test_kill_at_any_instant_keeps_whole_entries(
+    tmp_path: Path, repository: Path, delay_s: float
+) -> None:
+    child = subprocess.Popen(
+        [sys.executable, "-c", CHILD, str(tmp_path)], stdout=subprocess.PIPE, cwd=repository
+    )
+    assert child.stdout is not None
+    for _ in range(5):
+        child.stdout.readline()
+    time.sleep(delay_s)  # the phase of the kill within a write, not a wait for anything
+    os.kill(child.pid, signal.SIGKILL)
+    last = [int(line) for line in child.stdout.read().split()][-1:] or [5]
+    child.stdout.close()
+    child.wait()
+    journal = MissionJournal.in_home(tmp_path)
+    kept = {m.id: m for m in journal.load().missions}
+    journal.close()
+    assert kept["a"].step == kept["b"].step, "both records of one entry, or neither"
+    assert kept["a"].step >= last[0], "what was reported written is there"

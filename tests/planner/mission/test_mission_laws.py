@@ -1,0 +1,271 @@
+"""Hold the reducer's laws against random histories: goals, orders, faults, losses, crashes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planner.mission.effects import STAND, AskRoute, Journal, SayAloud
+from planner.mission.events import (
+    Cancel,
+    Command,
+    Confirm,
+    Event,
+    Journalled,
+    Move,
+    Pause,
+    Planned,
+    Reply,
+    Restarted,
+    Resume,
+    Routed,
+    Seen,
+    Stopped,
+    Submitted,
+    Tick,
+)
+from planner.mission.records import Book, Mission
+from planner.mission.reducer import advance, wish
+from planner.mission.table import ALLOWED, refusal
+from planner.plan import (
+    Code,
+    GoalState,
+    GoTo,
+    Language,
+    Outcome,
+    Say,
+    StepPlan,
+    StepState,
+    Wait,
+    message,
+)
+from tests.planner.mission.fakes import FACTS, row, status
+from wire import Action, Held, HeldReason, LegReport, Mode, Pose2, Twist2
+
+IDS = ("g1", "g2", "g3")
+ids = st.sampled_from(IDS)
+plans = st.lists(
+    st.sampled_from([GoTo(place="kitchen"), GoTo(place="hall"), Say(text="hi"), Wait(seconds=0.3)]),
+    min_size=1,
+    max_size=3,
+).map(lambda steps: StepPlan(steps=tuple(steps)))
+FAILURE = Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why="x"))
+
+
+@st.composite
+def statuses(draw: st.DrawFn) -> dict[str, Any]:
+    """Return what a bridge might say, sense or nonsense."""
+    leg = draw(
+        st.none()
+        | st.builds(
+            LegReport,
+            mission=ids,
+            leg=st.integers(0, 3),
+            following=st.booleans(),
+            reached=st.booleans(),
+            residual_m=st.just(0.0),
+            residual_rad=st.just(0.0),
+            refusal=st.sampled_from([None, "fence_crossed"]),
+        )
+    )
+    names = draw(st.sets(st.sampled_from(["BUDGET", "STUCK", "OBSTACLE", "POSE_JUMP"]), max_size=1))
+    held = draw(st.sampled_from([None, None, None, "h1", "h2"]))
+    return {
+        "mode": draw(st.sampled_from([Mode.HOLD, Mode.ACTIVE, Mode.HOLD, *Mode])),
+        "held": Held(reason=draw(st.sampled_from(HeldReason)), id=held) if held else None,
+        "leg": leg,
+        "base_in_map": draw(st.sampled_from([Pose2(0, 0, 0), Pose2(4, 0, 0), None])),
+        "measured": Twist2(draw(st.sampled_from([0.0, 0.3])), 0.0),
+        "rows": tuple(row(n, draw(st.sampled_from([Action.CAP, Action.HOLD2]))) for n in names),
+        "blocked": draw(st.booleans()),
+        "boot": draw(st.sampled_from(["b1", "b1", "b1", "b2"])),
+    }
+
+
+events = st.one_of(
+    st.tuples(st.just("status"), statuses(), st.booleans()),
+    st.tuples(st.just("submit"), ids, st.booleans(), st.booleans()),
+    st.tuples(st.just("planned"), ids, plans | st.none()),
+    st.tuples(st.just("routed"), st.integers(0, 2), st.sampled_from([None, None, "no_route"])),
+    st.tuples(st.just("safe"), st.integers(0, 3)),
+    st.tuples(st.just("command"), st.sampled_from([Cancel, Pause, Resume, Confirm, Move]), ids),
+    st.tuples(st.just("reply"), ids),
+    st.tuples(st.just("stop")),
+    st.tuples(st.just("tick")),
+    st.tuples(st.just("crash")),
+    st.tuples(st.just("drive"), ids, plans),
+    st.tuples(st.just("drive"), ids, plans),
+    st.tuples(st.just("arrive")),
+)
+histories = st.lists(st.tuples(events, st.sampled_from([0.0, 0.05, 0.05, 1.0, 7.0])), max_size=60)
+
+
+class World:
+    """Feed a history to the reducer and keep what a judge needs."""
+
+    def __init__(self) -> None:
+        self.book, self.now_s, self.seq = Book(FACTS), 100.0, 0
+        self.disk: dict[str, Mission] = {}
+        self.entries: list[Journal] = []
+        self.written: dict[tuple[str, int], int] = {}
+        self.spoken: list[tuple[str, int]] = []
+        self.acted = True
+        self.stopped = False
+
+    def event(self, event: Event) -> None:
+        before = self.book
+        self.book, effects = advance(before, event, self.now_s)
+        assert (self.book, effects) == advance(before, event, self.now_s), "pure"
+        for effect in effects:
+            if isinstance(effect, Journal):
+                self._journal(effect)
+            if isinstance(effect, SayAloud):
+                mission = before.missions[effect.id]
+                self.spoken.append((effect.id, mission.step))
+                assert self.book.safe >= self.written[effect.id, mission.step]
+            if isinstance(effect, AskRoute):
+                assert self.book.missions[effect.id].state is GoalState.RUNNING
+        self.judge()
+
+    def _journal(self, entry: Journal) -> None:
+        self.entries.append(entry)
+        for mission in entry.missions:
+            if mission.state is GoalState.RUNNING and mission.step < len(mission.steps):
+                if mission.steps[mission.step].state is StepState.RUNNING:
+                    self.written.setdefault((mission.id, mission.step), entry.entry)
+
+    def judge(self) -> None:
+        book, wanted = self.book, wish(self.book)
+        running = [m for m in book.missions.values() if m.state is GoalState.RUNNING]
+        assert len(running) <= 1
+        assert [m.id for m in running] == ([book.running] if book.running else [])
+        assert (book.walk is not None) == bool(running)
+        queued = {m.id for m in book.missions.values() if m.state is GoalState.QUEUED}
+        assert set(book.queue) == queued
+        assert len(book.queue) == len(queued)
+        assert len(set(self.spoken)) == len(self.spoken), "said at most once"
+        if wanted.leg is not None:
+            mission = book.missions[wanted.mission or ""]
+            assert mission.state is GoalState.RUNNING
+            assert book.walk is not None
+            assert book.safe >= book.walk.record, "no motion before its beginning is on disk"
+            held = book.status.held if book.status is not None else None
+            assert held is None or held.id == book.pardoned, "no motion under a standing hold"
+            assert self.acted, "no motion after a restart or stop without a person's act"
+        for mission in book.missions.values():
+            if mission.ended:
+                assert mission.outcome is not None
+                assert all(
+                    s.state not in (StepState.RUNNING, StepState.PENDING) for s in mission.steps
+                )
+
+    def play(self, what: tuple[Any, ...]) -> None:
+        match what:
+            case ("status", fields, off_path):
+                self.seq += 1
+                self.event(Seen(status(seq=self.seq, **fields), off_path))
+            case ("submit", goal, confirm, replace):
+                self.acted = self.acted or goal not in self.book.missions
+                self.event(Submitted(goal, "x", Language.EN, confirm, replace))
+            case ("planned", goal, plan):
+                self.event(Planned(goal, plan, None if plan else FAILURE))
+            case ("routed", back, failure):
+                ticket = max(0, self.book.tickets - back)
+                for goal in IDS:
+                    self.event(Routed(goal, ticket, failure))
+            case ("safe", back):
+                self.event(Journalled(max(0, self.book.written - back)))
+            case ("command", kind, goal):
+                self.command(kind(goal))
+            case ("reply", goal):
+                self.command(Reply(goal, "yes"))
+            case ("stop",):
+                self.acted = False
+                self.event(Stopped("x"))
+                assert wish(self.book) == STAND
+                assert self.book.running is None
+            case ("tick",):
+                self.event(Tick())
+            case ("crash",):
+                self.crash()
+            case ("drive", goal, plan):  # what a good day looks like, so that laws meet motion
+                self.play(("status", {}, False))
+                self.play(("submit", goal, False, False))
+                for step in (("planned", goal, plan), ("safe", 0), ("routed", 0, None)):
+                    self.play(step)
+            case ("arrive",):
+                self.arrive()
+
+    def arrive(self) -> None:
+        """Let the bridge say that the leg in hand is reached."""
+        wanted = wish(self.book)
+        walk = self.book.walk
+        if wanted.mission is None or wanted.leg is None or walk is None or walk.goal is None:
+            return
+        leg = LegReport(mission=wanted.mission, leg=wanted.leg, following=False, reached=True,
+                        residual_m=0.0, residual_rad=0.0, refusal=None)  # fmt: skip
+        self.play(("status", {"leg": leg, "base_in_map": walk.goal}, False))
+        self.play(("safe", 0))
+        self.play(("routed", 0, None))
+
+    def command(self, command: Command) -> None:
+        before = self.book
+        refused = refusal(before, command)
+        if refused is None and isinstance(command, (Resume, Confirm, Reply)):
+            self.acted = True
+        self.event(command)
+        if refused is not None:
+            same = {i: m.state for i, m in before.missions.items()}
+            assert {i: m.state for i, m in self.book.missions.items()} == same
+
+    def crash(self) -> None:
+        """Lose the process: only entries on disk come back."""
+        safe = [e for e in self.entries if e.entry <= self.book.safe]
+        kept: dict[str, Mission] = {}
+        for entry in safe:
+            kept.update({m.id: m for m in entry.missions})
+        self.spoken_before = len(self.spoken)
+        self.entries, self.written = [], {}
+        self.book = Book(FACTS)
+        self.acted = False
+        self.event(Restarted(tuple(kept.values()), safe[-1].queue if safe else (), 0.0))
+        assert wish(self.book) == STAND
+
+
+@settings(max_examples=150)
+@given(histories)
+def test_no_history_breaks_a_law(history: list[tuple[tuple[Any, ...], float]]) -> None:
+    world = World()
+    for what, pause_s in history:
+        world.now_s += pause_s
+        world.play(what)
+
+
+def test_every_command_in_every_state_is_allowed_or_refused_with_what_exists() -> None:
+    """The table is whole: what is absent is a typed refusal that names the state."""
+    for kind, allowed in ALLOWED.items():
+        for state in GoalState:
+            mission = Mission(id="g1", order=1, text="x", language=Language.EN, state=state,
+                              created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
+            book = Book(FACTS, missions={"g1": mission})
+            command = Reply("g1", "x") if kind is Reply else kind("g1")  # type: ignore[call-arg]  # all others take an id
+            error = refusal(book, command)
+            assert (error is None) == (state in allowed)
+            if error is not None:
+                assert error.code == "bad_state"
+                assert state.value in error.message.en
+                after, effects = advance(book, command, 1.0)
+                assert (after, effects) == (book, ())
+
+
+def test_unknown_goals_are_named_with_what_exists() -> None:
+    mission = Mission(id="g1", order=1, text="x", language=Language.EN, state=GoalState.QUEUED,
+                      created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
+    book = Book(FACTS, missions={"g1": mission}, queue=("g1",))
+    for command in (Cancel("nope"), Move("g1", "nope")):
+        error = refusal(book, command)
+        assert error is not None
+        assert error.code == "unknown_goal"
+        assert "g1" in error.message.en
