@@ -64,7 +64,8 @@ class DriveConfig(Record):
     """Command to wheel response, never assumed better than this."""
     timeout_s: float = Field(default=0.2, ge=0.05, le=0.5)
     """The drive's own dead-man: without a command for this long it stops by itself."""
-    dead_zone_radps: float = Field(default=0.0, ge=0.0, le=2.0)
+    dead_zone_radps: float = Field(default=0.05, ge=0.0, le=2.0)
+    """The motor turns so much slower than told; the drive adds it to every command but zero."""
 
     @property
     def virtual(self) -> bool:
