@@ -139,7 +139,7 @@ def _ahead(picture: ScanPicture, start: Pose2, disc: float) -> Points:
 
 
 def _straight(points: Points, start: Pose2, disc: float, reach: float) -> float:
-    """Return how far a disc goes straight on until it touches a point that is a disc away now."""
+    """Return how far a disc goes straight on until it touches a point; none is inside it now."""
     c, s = cos(start.yaw_rad), sin(start.yaw_rad)
     off = start.y_m * c - start.x_m * s
     low, high = off - disc, off + disc
@@ -149,13 +149,12 @@ def _straight(points: Points, start: Pose2, disc: float, reach: float) -> float:
             ahead = x * c + y * s - begin
             if 0.0 < ahead < free + disc:
                 aside = y * c - x * s - off
-                if ahead * ahead + aside * aside >= disc * disc:
-                    free = min(free, ahead - sqrt(disc * disc - aside * aside))
+                free = min(free, ahead - sqrt(max(0.0, disc * disc - aside * aside)))
     return max(0.0, free)
 
 
 def _arc(points: Points, start: Pose2, curve: float, disc: float, reach: float) -> float:
-    """Return how far along a circle a disc goes until it touches a point that is a disc away now.
+    """Return how far along a circle a disc goes until it touches a point; none is inside it now.
 
     About the circle's centre, a point at distance D and angle a ahead of the robot is touched when
     the robot is acos((D^2 + rho^2 - disc^2) / 2 D rho) short of it (law of cosines). A point is
@@ -170,7 +169,7 @@ def _arc(points: Points, start: Pose2, curve: float, disc: float, reach: float) 
     free, far2 = reach, (reach + disc) * (reach + disc)
     for x, y in zip(*points, strict=True):
         px, py = x - x0, y - y0
-        if disc2 <= px * px + py * py < far2:
+        if px * px + py * py < far2:
             dx, dy = px + rx, py + ry
             square = dx * dx + dy * dy
             if inner < square < outer:

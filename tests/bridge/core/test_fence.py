@@ -56,6 +56,8 @@ def test_distance_to_the_boundary(x: float, y: float, margin: float) -> None:
     [
         ((1, 1), (1, 3), False),
         ((1, 1.5), (4, 1.5), True),
+        ((0.3, 1.5), (5.7, 1.5), True),
+        ((0.3, 2.5), (5.7, 2.5), False),
         ((5.9, 1), (6.1, 1), True),
         ((1.9, 0.9), (3.1, 0.9), False),
         ((1.9, 1.0), (3.1, 1.0), True),

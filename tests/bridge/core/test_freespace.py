@@ -106,6 +106,36 @@ def test_free_length_is_that_of_walking_the_arc(
     assert free == pytest.approx(walked, abs=0.004) or free <= walked <= free + 0.05
 
 
+@given(st.floats(-1.4, 1.4), st.sampled_from([0.4, -0.4]), st.floats(-3, 3), directions)
+def test_at_contact_there_is_no_way_round_the_circle(
+    aside: float, v: float, w: float, yaw: float
+) -> None:
+    toward = yaw + aside if v > 0 else yaw + pi + aside
+    made = ScanPicture(
+        base_in_odom=IDENTITY,
+        lidar_x_m=0.0,
+        lidar_y_m=0.0,
+        first_rad=toward,
+        step_rad=tau,
+        xs_m=(DISC * cos(toward),),
+        ys_m=(DISC * sin(toward),),
+        before=(0, 1),
+        nearest_m=DISC,
+    )
+    free = free_length(made, Pose2(0.0, 0.0, yaw), Twist2(v, w), RADIUS)
+    assert free.s_m <= 1e-6
+
+
+def test_what_lies_further_ahead_may_be_touched_first() -> None:
+    ranges = list(OPEN)
+    ranges[0] = 1.0  # touched after 0.65 m
+    ranges[26] = 0.775  # 0.70 ahead, 0.34 aside: touched after 0.61 m
+    free = free_length(picture(ranges), IDENTITY, Twist2(0.5, 0.0), RADIUS)
+    x, y = 0.775 * cos(26 * tau / 360), 0.775 * sin(26 * tau / 360)
+    assert x > 1.0 - DISC
+    assert free.s_m == pytest.approx(x - (DISC**2 - y**2) ** 0.5)
+
+
 def test_a_beam_under_range_is_an_obstacle_there() -> None:
     ranges: list[float | None] = [7.0] * 360
     ranges[0] = 0.01

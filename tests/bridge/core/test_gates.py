@@ -133,6 +133,28 @@ def test_what_cannot_be_judged_stands() -> None:
     assert late.shut
 
 
+def test_the_arc_the_robot_is_still_on_counts_too() -> None:
+    ranges: list[float | None] = [7.0] * 360
+    ranges[331] = 0.515  # (0.45, -0.25): in the way of going straight on, not of the curve left
+    scan = Scan(
+        boot_id="a",
+        seq=1,
+        stamp_s=0.0,
+        angle_min_rad=0.0,
+        angle_increment_rad=tau / 360,
+        range_min_m=0.12,
+        range_max_m=8.0,
+        ranges_m=tuple(ranges),
+    )
+    picture = ScanPicture.from_scan(scan, IDENTITY, ROBOT.lidar)
+    curve = Twist2(0.45, 1.0)
+    standing = obstacle_gate(picture, IDENTITY, curve, STILL, 0.05, ROBOT)
+    rolling = obstacle_gate(picture, IDENTITY, curve, Twist2(0.5, 0.0), 0.05, ROBOT)
+    assert standing.scale == 1.0
+    assert rolling.scale < 1.0
+    assert rolling.room_m < standing.room_m
+
+
 FENCE = build_fence("0" * 16, (((-2, -2), (2, -2), (2, 2), (-2, 2)),))
 REACTION = reaction_s(0.0, 0.0, LAG, LIMITS) + 0.1
 

@@ -114,6 +114,16 @@ def test_starting_is_gentle_and_stopping_is_not() -> None:
     assert 0.5 - stopped.sent.v_mps == pytest.approx(LIMITS.stop_jerk_mps3 * DT * DT)
 
 
+def test_acceleration_fades_out_at_the_target() -> None:
+    memory, steps = LimiterState(), [0.0]
+    while memory.sent.v_mps < 0.5:
+        following = shape(Twist2(0.5, 0.0), memory, BASE, LIMITS, DT)
+        steps.append(following.sent.v_mps - memory.sent.v_mps)
+        memory = following
+    assert max(steps) == pytest.approx(LIMITS.max_accel_mps2 * DT)
+    assert steps[-1] < 0.3 * max(steps)
+
+
 def test_jerk_yields_where_the_room_is_short() -> None:
     going = LimiterState(Twist2(0.5, 0.0))
     need = stopping_m(going.sent, 0.0, BASE, LIMITS, DT)

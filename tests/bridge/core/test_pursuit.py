@@ -187,9 +187,32 @@ def test_the_start_of_a_loop_is_not_its_end() -> None:
 
 def test_progress_never_falls() -> None:
     path = prepare(route(STRAIGHT), LIMITS)
-    state = follow(NEW, path, Pose2(0.4, 0, 0), STILL, BASE, LIMITS, LAG).state
+    state = follow(NEW, path, Pose2(0.45, 0, 0), STILL, BASE, LIMITS, LAG).state
     back = follow(state, path, Pose2(0.1, 0, 0), STILL, BASE, LIMITS, LAG).state
-    assert back.along_m == state.along_m == pytest.approx(0.4)
+    assert back.along_m == state.along_m == pytest.approx(0.45)
+
+
+def test_an_end_missed_by_little_or_too_often_is_left_at_that() -> None:
+    path = prepare(route(STRAIGHT), LIMITS)
+    state = FollowState(along_m=1.99)
+    little = follow(state, path, Pose2(2.0, 0.06, 0.0), STILL, BASE, LIMITS, LAG)
+    assert little.state.settled
+    assert little.target == STILL
+    more = follow(state, path, Pose2(2.0, 0.2, 0.0), STILL, BASE, LIMITS, LAG)
+    assert (more.state.turning, more.state.tries) == (True, 1)
+    assert more.target.w_radps < 0.0
+    often = FollowState(along_m=1.99, tries=3)
+    given_up = follow(often, path, Pose2(2.0, 0.2, 0.0), STILL, BASE, LIMITS, LAG)
+    assert given_up.target == STILL
+    assert not given_up.at_end
+
+
+def test_the_next_horizon_forgets_what_was_given_up() -> None:
+    given_up = FollowState(along_m=1.99, settled=True, tries=3)
+    path = prepare(route(STRAIGHT), LIMITS)
+    answer = follow(carried(given_up), path, Pose2(0.0, 0.0, 0.0), STILL, BASE, LIMITS, LAG)
+    assert answer.state.tries == 0
+    assert answer.target.v_mps > 0.0
 
 
 def test_a_path_without_points_asks_for_standstill() -> None:

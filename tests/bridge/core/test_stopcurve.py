@@ -37,6 +37,13 @@ def test_an_ordinary_stop_takes_speed_over_deceleration_and_the_jerk_time() -> N
     assert planned(plan, 0.6) == STILL
 
 
+def test_a_stop_begun_while_braking_is_shorter() -> None:
+    braking = LimiterState(Twist2(0.5, 0.0), -1.0, -1.0)
+    plan = plan_stop(braking, BASE, LIMITS, Profile.STOP)
+    assert plan.duration_s == pytest.approx(0.45 / 1.0 + 1.0 / 10.0)
+    assert planned(plan, 0.2).v_mps == pytest.approx(0.3)
+
+
 def test_standstill_needs_no_plan() -> None:
     assert plan_stop(LimiterState(), BASE, LIMITS, Profile.STOP) == NO_STOP
     assert planned(NO_STOP, 1.0) == STILL
