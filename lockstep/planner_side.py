@@ -11,7 +11,7 @@ from heapq import heappop, heappush
 from typing import TYPE_CHECKING, cast
 
 from lockstep.insist import Insistence, Request
-from lockstep.thinking import planned
+from lockstep.thinking import at_once
 from planner.brain import is_stop, language_of
 from planner.link import Identity, WireBus
 from planner.link.lidar import points_in_map
@@ -20,6 +20,7 @@ from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Restarted, Stopped, Submitted, Tick
 from planner.mission.facts import facts_of
 from planner.mission.records import Book, Mission
+from planner.mission.thinking import thinker
 from planner.route import RouteFailure, RouteRequest
 from wire import VIRTUAL_KEY, OpKind, OpRequest, Scan, Status, Stop, sign
 
@@ -65,8 +66,9 @@ class PlannerSide:
     ) -> None:
         self.planner_id = planner_id
         self.said: list[str] = []
-        self._scene, self._port, self._brain, self._pace = scene, port, brain, pace
+        self._scene, self._port, self._pace = scene, port, pace
         self._notebook = notebook
+        self._think = thinker(brain, scene.vocabulary)
         self._bus = WireBus(cast("Session", port))
         self._insistence = Insistence(pace)
         self._later: list[tuple[int, int, Callable[[float], Output]]] = []
@@ -169,7 +171,7 @@ class PlannerSide:
         heappush(self._later, (self._port.bus.tick + delay, self._count, act))
 
     def _thinking(self, ask: AskBrain) -> Callable[[float], Output]:
-        event = planned(self._brain, self._scene.vocabulary, ask)
+        event = at_once(self._think(ask))
         return lambda now_s: self.engine.event(event, now_s)
 
     def _writing(self, entry: Journal) -> Callable[[float], Output]:

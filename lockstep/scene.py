@@ -8,10 +8,11 @@ from pathlib import Path
 
 from bridge.core.fence import Fence
 from bridge.fence_file import load_fence
-from planner.plan import Bilingual, Entry, Vocabulary
+from planner.mission.facts import vocabulary_of
+from planner.plan import Vocabulary
 from planner.route import RouteLimits
 from planner.route.router import Router
-from planner.world import Place, Site
+from planner.world import Site
 from wire import RobotDescription
 
 SITES = Path(__file__).resolve().parents[1] / "sites"
@@ -49,19 +50,3 @@ def scene(folder: Path, robot: RobotDescription) -> Scene:
 def folder_of(site: Path | str) -> Path:
     """Return a site's folder; a bare name is one of the checkout's own sites."""
     return SITES / site if isinstance(site, str) else site
-
-
-def vocabulary_of(site: Site) -> Vocabulary:
-    """Return the closed world of names that a brain may plan in."""
-    return Vocabulary(entries=tuple(_entry(site, place) for place in site.places))
-
-
-def _entry(site: Site, place: Place) -> Entry:
-    around = site.room_at(place.pose.x_m, place.pose.y_m) if place.kind == "place" else None
-    return Entry(
-        id=place.id,
-        kind=place.kind,
-        name=Bilingual(en=place.name.en, zh=place.name.zh),
-        aliases=(*place.aliases.en, *place.aliases.zh),
-        room=around.id if around is not None else None,
-    )

@@ -6,40 +6,21 @@ from collections.abc import Generator
 
 import pytest
 
-from lockstep.thinking import NotAtOnce, at_once, planned
-from planner.brain import BrainDown, ScriptedBrain
-from planner.mission.effects import AskBrain
-from planner.plan import Bilingual, Code, Entry, GoTo, Language, StepPlan, Vocabulary
+from lockstep.thinking import NotAtOnce, at_once
+from planner.brain import BrainDown, ScriptedBrain, ThinkRequest
+from planner.plan import GoTo, StepPlan, Vocabulary
 
-WORLD = Vocabulary(
-    entries=(Entry(id="kitchen", kind="room", name=Bilingual(en="kitchen", zh="厨房")),)
-)
-ASK = AskBrain("g1", "go to the kitchen", Language.EN)
+ASK = ThinkRequest(text="go to the kitchen", vocabulary=Vocabulary())
 
 
 def test_a_script_is_played_without_an_event_loop() -> None:
     plan = StepPlan(steps=(GoTo(place="kitchen"),))
-    answer = planned(ScriptedBrain([plan]), WORLD, ASK)
-    assert answer.plan == plan
-    assert answer.brain is not None
-    assert answer.brain.name == "scripted"
+    assert at_once(ScriptedBrain([plan]).think(ASK)).plan == plan
 
 
-@pytest.mark.parametrize(
-    ("reply", "code"),
-    [
-        ("not json", Code.BAD_PLAN),
-        (BrainDown("no answer"), Code.MODEL_UNAVAILABLE),
-        (StepPlan(steps=(GoTo(place="moon"),)), Code.UNKNOWN_PLACE),
-    ],
-)
-def test_what_is_no_usable_plan_becomes_a_typed_failure(
-    reply: StepPlan | str | Exception, code: Code
-) -> None:
-    answer = planned(ScriptedBrain([reply]), WORLD, ASK)
-    assert answer.plan is None
-    assert answer.failure is not None
-    assert answer.failure.code is code
+def test_what_a_brain_raises_comes_through() -> None:
+    with pytest.raises(BrainDown):
+        at_once(ScriptedBrain([BrainDown("no answer")]).think(ASK))
 
 
 def test_a_brain_that_waits_is_refused_and_not_waited_for() -> None:
