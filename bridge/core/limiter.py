@@ -86,26 +86,23 @@ def shape(
     last = saturate(memory.sent, base, limits)
     wanted = saturate(target, base, limits) if profile is Profile.NORMAL else STILL
     dt_s = tick_length(dt_s, period_s)
-    decel = limits.hardest_decel_mps2 if profile is Profile.FASTEST else limits.max_decel_mps2
     left, right = rim_speeds(last, base.wheel_separation_m)
     left_to, right_to = rim_speeds(wanted, base.wheel_separation_m)
-    change = _Change(left, right, left_to - left, right_to - right)
-    k = min(
-        _share(left, change.left_by, limits.max_accel_mps2, decel, dt_s),
-        _share(right, change.right_by, limits.max_accel_mps2, decel, dt_s),
-    )
-    if profile is not Profile.FASTEST:
-        had = max(
-            _along(memory.left_mps2, change.left_by), _along(memory.right_mps2, change.right_by)
-        )
-        if (
-            not (change.slows and room_m is not None)
-            or stopping_m(last, had, base, limits, dt_s) <= room_m
-        ):
-            k = min(k, _jerk_share(change, had, limits, dt_s))
-    return LimiterState(
-        _between(last, wanted, k), k * change.left_by / dt_s, k * change.right_by / dt_s
-    )
+    left_by, right_by = left_to - left, right_to - right
+    if left_by == right_by == 0.0:
+        return LimiterState(wanted)
+    hardest = profile is Profile.FASTEST
+    decel = limits.hardest_decel_mps2 if hardest else limits.max_decel_mps2
+    accel = limits.max_accel_mps2
+    k = min(_share(left, left_by, accel, decel, dt_s), _share(right, right_by, accel, decel, dt_s))
+    if not hardest:
+        had = max(_along(memory.left_mps2, left_by), _along(memory.right_mps2, right_by))
+        calms = _calms(left, left_by) and _calms(right, right_by)
+        if not calms:
+            k = min(k, _jerk_share(left_by, right_by, had, limits.max_jerk_mps3, dt_s))
+        elif room_m is None or stopping_m(last, had, base, limits, dt_s) <= room_m:
+            k = min(k, _jerk_share(left_by, right_by, had, limits.stop_jerk_mps3, dt_s))
+    return LimiterState(_between(last, wanted, k), k * left_by / dt_s, k * right_by / dt_s)
 
 
 def tick_length(dt_s: float, period_s: float) -> float:
@@ -119,22 +116,8 @@ def tick_length(dt_s: float, period_s: float) -> float:
     return 0.5 * period_s if dt_s < 0.5 * period_s else period_s
 
 
-@dataclass(frozen=True, slots=True)
-class _Change:
-    """Hold both wheels' speeds [m/s] and by how much each is to change."""
-
-    left: float
-    right: float
-    left_by: float
-    right_by: float
-
-    @property
-    def slows(self) -> bool:
-        """Tell whether no wheel is to turn faster than it does, or away from rest."""
-        return _calms(self.left, self.left_by) and _calms(self.right, self.right_by)
-
-
 def _calms(speed: float, by: float) -> bool:
+    """Tell whether a wheel is not to turn faster than it does, or away from rest."""
     return by == 0.0 or (speed > 0.0 > by) or (speed < 0.0 < by)
 
 
@@ -157,18 +140,16 @@ def _share(speed: float, by: float, accel: float, decel: float, dt_s: float) -> 
     return min(1.0, reach / abs(by))
 
 
-def _jerk_share(change: _Change, had_mps2: float, limits: Limits, dt_s: float) -> float:
+def _jerk_share(
+    left_by: float, right_by: float, had_mps2: float, jerk: float, dt_s: float
+) -> float:
     """Return how much of the change the jerk limit allows.
 
     The fastest wheel's acceleration may grow by jerk x dt, from whatever either wheel already has
     in this direction, and is at most sqrt(2 jerk x rest), so that it fades out at the target.
     """
-    most = max(abs(change.left_by), abs(change.right_by))
-    if not most > 0.0:
-        return 1.0
-    jerk = limits.stop_jerk_mps3 if change.slows else limits.max_jerk_mps3
-    accel = min(had_mps2 + jerk * dt_s, sqrt(2 * jerk * most))
-    return accel * dt_s / most
+    most = max(abs(left_by), abs(right_by))
+    return min(had_mps2 + jerk * dt_s, sqrt(2 * jerk * most)) * dt_s / most
 
 
 def _along(accel: float, by: float) -> float:
