@@ -1,7 +1,7 @@
 """Stand in for bridge, router and site: small, deterministic, without wheels or physics.
 
-The bridge here keeps the wire's word (owner, epoch, held, grant, leg latched standing) and moves the
-robot along the horizon it was sent, at the waypoint's speed, in steps of one status.
+The bridge here keeps the wire's word (owner, epoch, held, grant, leg latched standing) and moves
+the robot along the horizon it was sent, at 0.5 m/s, in steps of one status.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from planner.mission.records import Facts, Target
 from planner.plan import Bilingual
 from planner.route import RoutePoint
 from wire import (
+    IDENTITY,
     Action,
     Answer,
     DriveReport,
@@ -114,7 +115,7 @@ class FakeBridge:
     held: Held | None = None
     granted: str | None = None
     leg: LegReport | None = None
-    pose: Pose2 = Pose2(0.0, 0.0, 0.0)
+    pose: Pose2 = IDENTITY
     odom_m: float = 0.0
     rows: tuple[RowReport, ...] = ()
     blocked: bool = False
@@ -143,6 +144,10 @@ class FakeBridge:
         self.granted, self.horizon = None, None
         if self.leg is not None:
             self.leg = self.leg.model_copy(update={"following": False})
+
+    def lose_owner(self) -> None:
+        self.owner = None
+        self.turn()
 
     def hold(self, reason: HeldReason, held_id: str = "h1") -> None:
         self.turn()

@@ -111,10 +111,10 @@ class Together:
         for entry in tuple(self.disk_entries):
             self.carry(self.engine.journalled(entry, self.now_s))
 
-    def run(self, seconds: float = PERIOD_S) -> None:
-        """Let simulated time pass."""
-        for _ in range(max(1, round(seconds / PERIOD_S))):
-            self.now_s += PERIOD_S
+    def run(self, seconds: float = PERIOD_S, every_s: float = PERIOD_S) -> None:
+        """Let simulated time pass, one status in each ``every_s``."""
+        for _ in range(max(1, round(seconds / every_s))):
+            self.now_s += every_s
             self.carry(self.engine.status(self.bridge.step(), self.now_s))
 
     def run_until(self, goal_id: str, *states: GoalState, limit_s: float = 60.0) -> Mission:
@@ -132,8 +132,7 @@ class Together:
             newest.update({m.id: m for m in entry.missions})
         queue = self.disk_entries[-1].queue if self.disk_entries else ()
         bridge = self.bridge
-        bridge.owner = None
-        bridge.turn()
+        bridge.lose_owner()
         after = Together(plans=self.plans, bridge=bridge, planner_id=planner_id, now_s=self.now_s)
         after.ids = self.ids
         after.event(Restarted(tuple(newest.values()), queue, 0.0))

@@ -259,8 +259,7 @@ def test_goal_without_a_bridge_pauses_disarmed() -> None:
 
 def test_short_loss_of_the_owner_goes_on_with_hello_and_grant(world: Together) -> None:
     goal = driving(world)
-    world.bridge.owner = None
-    world.bridge.turn()
+    world.bridge.lose_owner()
     world.bridge.mode = Mode.HOLD
     world.run_until(goal, SUCCEEDED)
     assert world.goal(goal).leg == 1
@@ -290,7 +289,7 @@ def test_a_row_that_stays_revokes_the_mission(
     goal = driving(world)
     world.bridge.rows = (row(name),)
     world.bridge.blocked = True
-    world.run(limit_s - 1.0)
+    world.run(limit_s - 1.0, every_s=0.5)
     assert world.goal(goal).state is RUNNING
     world.run(2.0)
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, reason)
@@ -429,7 +428,7 @@ def test_a_leg_that_nobody_follows_is_given_up(world: Together) -> None:
     goal = driving(world)
     world.bridge.owner, world.bridge.horizon = "p9", None
     world.bridge.turn()
-    world.run(40.0)
+    world.run(40.0, every_s=0.5)
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "blocked")
 
 

@@ -28,8 +28,8 @@ def mission(
     if state is GoalState.SUCCEEDED:
         outcome = Outcome(code=Code.DONE, message=message(Code.DONE))
     return Mission(id=goal_id, order=order, text="去厨房", language=Language.ZH, state=state,
-                   outcome=outcome, step=step, limited={"max_speed": 3}, accepted_at=(1.0, 2.0, 3.0),
-                   created_unix_s=1.5, updated_unix_s=2.5)  # fmt: skip
+                   outcome=outcome, step=step, limited={"max_speed": 3},
+                   accepted_at=(1.0, 2.0, 3.0), created_unix_s=1.5, updated_unix_s=2.5)  # fmt: skip
 
 
 def test_the_newest_record_comes_back_and_every_transition_stays(tmp_path: Path) -> None:

@@ -108,6 +108,7 @@ class World:
     def __init__(self) -> None:
         self.book, self.now_s, self.seq = Book(FACTS), 100.0, 0
         self.disk: dict[str, Mission] = {}
+        self.disk_queue: tuple[str, ...] = ()
         self.entries: list[Journal] = []
         self.written: dict[tuple[str, int], int] = {}
         self.spoken: list[tuple[str, int]] = []
@@ -132,9 +133,9 @@ class World:
     def _journal(self, entry: Journal) -> None:
         self.entries.append(entry)
         for mission in entry.missions:
-            if mission.state is GoalState.RUNNING and mission.step < len(mission.steps):
-                if mission.steps[mission.step].state is StepState.RUNNING:
-                    self.written.setdefault((mission.id, mission.step), entry.entry)
+            here = mission.steps[mission.step : mission.step + 1]
+            if mission.state is GoalState.RUNNING and here and here[0].state is StepState.RUNNING:
+                self.written.setdefault((mission.id, mission.step), entry.entry)
 
     def judge(self) -> None:
         book, wanted = self.book, wish(self.book)
@@ -177,6 +178,13 @@ class World:
                     self.event(Routed(goal, ticket, failure))
             case ("safe", back):
                 self.event(Journalled(max(0, self.book.written - back)))
+            case ("tick",):
+                self.event(Tick())
+            case _:
+                self.act(what)
+
+    def act(self, what: tuple[Any, ...]) -> None:
+        match what:
             case ("command", kind, goal):
                 self.command(kind(goal))
             case ("reply", goal):
@@ -186,8 +194,6 @@ class World:
                 self.event(Stopped("x"))
                 assert wish(self.book) == STAND
                 assert self.book.running is None
-            case ("tick",):
-                self.event(Tick())
             case ("crash",):
                 self.crash()
             case ("drive", goal, plan):  # what a good day looks like, so that laws meet motion
@@ -222,15 +228,14 @@ class World:
 
     def crash(self) -> None:
         """Lose the process: only entries on disk come back."""
-        safe = [e for e in self.entries if e.entry <= self.book.safe]
-        kept: dict[str, Mission] = {}
-        for entry in safe:
-            kept.update({m.id: m for m in entry.missions})
-        self.spoken_before = len(self.spoken)
+        for entry in self.entries:
+            if entry.entry <= self.book.safe:
+                self.disk.update({m.id: m for m in entry.missions})
+                self.disk_queue = entry.queue
         self.entries, self.written = [], {}
         self.book = Book(FACTS)
         self.acted = False
-        self.event(Restarted(tuple(kept.values()), safe[-1].queue if safe else (), 0.0))
+        self.event(Restarted(tuple(self.disk.values()), self.disk_queue, 0.0))
         assert wish(self.book) == STAND
 
 
