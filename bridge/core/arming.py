@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 STANDING_S = 0.5
 CLEAN_S = 2.0
 STICK_S = 0.25
+_OF_THE_BRAIN = "BRAIN_GONE"
 
 
 def arm_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
@@ -32,8 +33,10 @@ def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
     for name, up in s.rows.items():
         stage = STAGES[name]
         everyones = stage.binds == ALL or stage.row.startswith("LIDAR_")
+        if stage.row == _OF_THE_BRAIN:
+            continue  # it ends with the arming that it asks for
         stops = SEVERITY[stage.action] >= SEVERITY[Action.HOLD2]
-        if everyones and stops and tick.now_s - up.dirty_s < 0.1:
+        if everyones and stops and up.dirty_s >= tick.now_s - tick.dt_s:
             yield stage.row.lower(), up.evidence
     if s.lidar.received_s is None:
         yield "lidar_stale", "no scan has come yet"

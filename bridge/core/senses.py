@@ -15,6 +15,7 @@ from bridge.core.odometry import advance
 from bridge.core.scanpicture import ScanPicture
 from bridge.core.tick import STANDING_MPS, STANDING_RADPS
 from wire import compose, wrap
+from wire.geometry import MAX_COORDINATE_M
 
 if TYPE_CHECKING:
     from bridge.core.tick import Tick
@@ -52,7 +53,9 @@ def locate(tick: Tick) -> None:
     if tick.inbox.localization is not None:
         _hear_localization(tick, tick.inbox.localization)
     if pose_trouble(tick) is None and s.pose.localization is not None:
-        tick.robot_in_map = compose(s.pose.localization.odom_in_map, s.odometry.base_in_odom)
+        here = compose(s.pose.localization.odom_in_map, s.odometry.base_in_odom)
+        if abs(here.x_m) <= MAX_COORDINATE_M and abs(here.y_m) <= MAX_COORDINATE_M:
+            tick.robot_in_map = here  # anywhere else is no place, and POSE_LOST
 
 
 def pose_trouble(tick: Tick) -> str | None:

@@ -363,6 +363,7 @@ class World:
         request_id = self.op("arm")
         self.tick()
         assert self.verdict(request_id) == "ok"
+        self.run(0.04)  # until the status shows the new epoch
         return self
 
     def driving(self, goal_m: tuple[float, float] = (4.0, 0.0), mission: str = "m1") -> World:
@@ -407,7 +408,7 @@ class World:
         self.frozen_at = getattr(self, "frozen_at", None)
         here = self.here if not self.lidar_frozen else (self.frozen_at or self.here)
         self.frozen_at = here
-        beams = 120
+        beams = 72
         noise = 1e-6 * self.scans
         ranges = tuple(
             self._range(here, here.yaw_rad - 3.141592 + index * 6.283184 / beams) + noise
