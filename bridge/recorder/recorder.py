@@ -52,7 +52,7 @@ class Recorder:
     @property
     def ok(self) -> bool:
         """Say whether ticks are being taken now."""
-        return self._missing == 0 and self._alive()
+        return self._missing == 0 and not self._pipe.broken and self._running()
 
     @property
     def writer_pid(self) -> int | None:
@@ -70,8 +70,11 @@ class Recorder:
             self._until_segment = 0  # what was lost may have changed the state: say it anew
 
     def rest(self, now_s: float) -> None:
-        """Use a moment in which the robot has no torque: replace a dead writer, once a second."""
-        if self._alive() or not now_s - self._tried_s >= REVIVE_EVERY_S:
+        """Use a moment in which the robot has no torque: replace a dead writer, once a second.
+
+        Dead means reaped: one that hangs over a failing disk would hang again.
+        """
+        if self._running() or not now_s - self._tried_s >= REVIVE_EVERY_S:
             return
         self._tried_s = now_s
         log.warning("recorder_revived: the writer had died")
@@ -85,8 +88,8 @@ class Recorder:
         self._pipe.close()
         return self._writer is not None and self._writer.join()
 
-    def _alive(self) -> bool:
-        return not self._pipe.broken and self._writer is not None and self._writer.alive()
+    def _running(self) -> bool:
+        return self._writer is not None and self._writer.alive()
 
     def _room(self) -> bool:
         """After a gap, wait until half the pipe is free: a segment is long, gaps come in rows."""
