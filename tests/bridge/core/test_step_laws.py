@@ -1,0 +1,167 @@
+"""Hold the step to its laws under anything that an inbox can hold."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bridge.core import BridgeState, Decision, Inbox, step
+from bridge.core.codec import DECISION, INBOX, STATE
+from bridge.core.kinematics import fastest_rim
+from bridge.core.modes import LATCHED, MOVING, POWERED
+from tests.bridge.core.hostile import Hostile
+from tests.bridge.core.scripted import World
+from wire import Mode, Status, encode
+
+EPS = 1e-9
+TICKS = 60
+seeds = st.integers(0, 2**32)
+starts = st.sampled_from(["boot", "ready", "armed", "driving", "stopping", "teleop", "estopped"])
+
+
+@cache
+def prepared(start: str) -> World:
+    """Bring a well-behaved world to where the hostile part begins."""
+    world = World()
+    if start == "ready":
+        world.ready()
+    elif start == "armed":
+        world.armed()
+    elif start in {"driving", "stopping", "estopped"}:
+        world.driving()
+        if start == "stopping":
+            world.stop()
+            world.tick()
+        elif start == "estopped":
+            world.op("estop")
+            world.tick()
+    elif start == "teleop":
+        world.armed()
+        world.teleop(0.0, held=False)
+        world.tick()
+        for _ in range(10):
+            world.teleop(0.4, held=True)
+            world.run(0.05)
+        assert world.mode is Mode.TELEOP
+    return world
+
+
+def check(world: World, before: BridgeState, decision: Decision) -> None:
+    """Assert every law of one step."""
+    after = decision.state
+    robot = world.core.robot
+    sent, had = after.motion.limiter.sent, before.motion.limiter.sent
+    assert abs(sent.v_mps) <= robot.limits.max_speed_mps + EPS
+    assert abs(sent.w_radps) <= robot.limits.max_turn_radps + EPS
+    if decision.command is None:
+        assert after.mode is Mode.SELFTEST
+        assert after.selftest.phase == "withhold"
+    else:
+        most = robot.limits.max_wheel_radps + EPS
+        assert abs(decision.command.left_radps) <= most
+        assert abs(decision.command.right_radps) <= most
+        assert decision.command.seq == before.command_seq + 1
+        if decision.command.enable:
+            assert after.mode in POWERED | {Mode.ESTOPPED}
+        else:
+            assert decision.command.left_radps == decision.command.right_radps == 0.0
+    if after.mode not in MOVING:
+        separation_m = robot.base.wheel_separation_m
+        assert fastest_rim(sent, separation_m) <= fastest_rim(had, separation_m) + EPS
+    accepted = {
+        answered.answer.kind
+        for answered in after.operator.answers
+        if answered not in before.operator.answers and answered.answer.accepted
+    }
+    if after.mode in POWERED and before.mode not in POWERED:
+        assert "arm" in accepted
+    if before.mode in LATCHED and after.mode not in LATCHED:
+        assert "reset" in accepted
+        assert after.mode not in POWERED
+    if "stop" in accepted:
+        assert after.mode not in MOVING
+        assert after.epoch_no > before.epoch_no
+        assert after.held is not None
+        assert after.grants.mission is None
+    if after.mode is Mode.ACTIVE:
+        assert after.held is None
+        assert after.grants.mission is not None
+    for answered in before.operator.answers[-32:]:
+        repeats = [
+            item
+            for item in after.operator.answers
+            if (item.answer.kind, item.answer.id) == (answered.answer.kind, answered.answer.id)
+        ]
+        assert repeats == [answered], "one id, one verdict"
+    assert len(after.operator.answers) <= 64
+    assert len(after.grants.book) <= 64
+    assert len(after.voice.ring) <= 256
+
+
+def play(start: str, seed: int, ticks: int = TICKS) -> list[tuple[Inbox, float, Decision]]:
+    """Run a hostile script and check every step."""
+    world = prepared(start)
+    hostile = Hostile(seed, world.core)
+    state, now_s = world.state, world.now_s
+    played = []
+    for _ in range(ticks):
+        now_s += hostile.gap_s()
+        inbox = hostile.inbox(state, now_s)
+        decision = step(world.core, state, inbox, now_s)
+        check(world, state, decision)
+        played.append((inbox, now_s, decision))
+        state = decision.state
+    return played
+
+
+@given(starts, seeds)
+@settings(max_examples=60)
+def test_no_sequence_of_inputs_breaks_a_law(start: str, seed: int) -> None:
+    play(start, seed)
+
+
+@given(starts, seeds)
+@settings(max_examples=15)
+def test_a_step_leaves_its_argument_as_it_was(start: str, seed: int) -> None:
+    world = prepared(start)
+    kept = STATE.write(world.state)
+    for _, _, decision in play(start, seed, 10):
+        assert decision.state is not world.state
+    assert STATE.write(world.state) == kept
+
+
+@given(starts, seeds)
+@settings(max_examples=15)
+def test_what_is_written_comes_back_and_decides_the_same(start: str, seed: int) -> None:
+    world = prepared(start)
+    state = STATE.read(STATE.write(world.state))
+    assert state == world.state
+    for inbox, now_s, decision in play(start, seed, 20):
+        copy = INBOX.read(INBOX.write(inbox))
+        assert copy == inbox
+        replayed = step(world.core, state, copy, now_s)
+        assert replayed == decision
+        assert DECISION.read(DECISION.write(decision)) == decision
+        state = STATE.read(STATE.write(replayed.state))
+
+
+@given(starts, seeds)
+@settings(max_examples=30)
+def test_every_status_can_be_said_on_the_wire(start: str, seed: int) -> None:
+    for _, _, decision in play(start, seed, 30):
+        if decision.status is not None:
+            data = encode(decision.status)
+            assert Status.model_validate_json(data, strict=True) == decision.status
+            assert len(data) <= 32_768
+
+
+def test_the_hostile_world_reaches_every_mode() -> None:
+    seen = {
+        decision.state.mode
+        for start in ("boot", "ready", "armed", "driving", "teleop", "estopped")
+        for seed in range(6)
+        for _, _, decision in play(start, seed)
+    }
+    assert seen == set(Mode) - {Mode.BOOT}, "the laws are only worth what they were tried on"
