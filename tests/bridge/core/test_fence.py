@@ -82,6 +82,12 @@ def test_an_edge_shared_by_two_outlines_is_no_fence() -> None:
     assert TWINS.margin_m(2.9, 1.5) == pytest.approx(SIGHT_M)
 
 
+def test_a_fence_that_allows_nothing_lets_nothing_in() -> None:
+    nothing = build_fence(MAP, ())
+    assert not nothing.allows(0, 0)
+    assert nothing.margin_m(0, 0) == -SIGHT_M
+
+
 def test_the_slowest_zone_rules() -> None:
     zones = (Zone(box(0, 0, 2, 2), 0.3), Zone(box(1, 1, 3, 3), 0.2))
     fence = build_fence(MAP, (box(0, 0, 6, 4),), (), zones)

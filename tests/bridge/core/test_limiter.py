@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
@@ -148,6 +148,17 @@ def test_the_stopping_length_is_enough_and_not_much_more() -> None:
     assert need - 0.02 <= gone <= need
 
 
+def test_a_turn_in_place_and_standstill_need_no_path() -> None:
+    assert stopping_m(STILL, 0.0, BASE, LIMITS, DT) == 0.0
+    assert stopping_m(Twist2(0.0, 1.0), 0.0, BASE, LIMITS, DT) == 0.0
+
+
+def test_a_wheel_that_need_not_change_holds_nothing_up() -> None:
+    pivot = Twist2(0.1, 0.4)  # the left wheel stands
+    memory = shape(pivot, LimiterState(), BASE, unjerked(1.0, 1.0), DT)
+    assert rim_speeds(memory.sent, BASE.wheel_separation_m) == pytest.approx((0.0, 0.01))
+
+
 def test_the_hardest_stop_has_no_jerk_limit() -> None:
     memory = LimiterState(Twist2(0.5, 0.0))
     for _ in range(20):
@@ -254,6 +265,7 @@ def test_a_stop_ends_in_time_and_only_slows(memory: LimiterState, profile: Profi
         memory = following
 
 
+@settings(max_examples=30)
 @given(memories, speeds)
 def test_the_target_is_reached_exactly_and_kept(memory: LimiterState, target: Twist2) -> None:
     wanted = saturate(target, BASE, LIMITS)
