@@ -1,0 +1,94 @@
+"""Run the benches: ``python -m bench [--long] [NAME …]``.
+
+Prints a table per measurement with the goals beside it, and appends everything to one file,
+``$PONS_HOME/bench/results.jsonl``. ``--long`` goes on where an interrupted long run of the same
+commit and machine stopped. Exit status: 0 measured, 1 something could not be measured, 130 Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bench.lab import Lab, Measure, Missed
+from bench.measure import ALL
+from bench.report import Row, table
+from bench.store import Store
+from pons.http import PlannerDown, Refused
+from wire import Misconfigured
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+INTERRUPTED = 130
+TROUBLE = (Missed, Misconfigured, PlannerDown, Refused, OSError, subprocess.SubprocessError)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Measure, print, append."""
+    given = _options(arguments)
+    signal.signal(signal.SIGTERM, _as_interrupt)
+    home = Path(os.environ.get("PONS_HOME") or ".pons").absolute()
+    store = Store(home / "bench" / "results.jsonl", resume=given.long and not given.afresh)
+    wanted = (
+        [one for one in ALL if one.NAME in given.names] if given.names else _default(given.long)
+    )
+    print(f"{store.machine}; commit {store.commit}; results go to {store.path}", flush=True)
+    failed = 0
+    try:
+        for one in wanted:
+            failed += _take(one, Lab(store, given.long, one.NAME))
+    except KeyboardInterrupt:
+        print("\nbench: interrupted; all processes are ended, what was measured is kept")
+        return INTERRUPTED
+    return 1 if failed else 0
+
+
+def _take(one: Measure, lab: Lab) -> int:
+    """Run one measurement; what can't be measured is said and does not end the others."""
+    began_s = time.monotonic()
+    try:
+        rows = one.measure(lab)
+    except TROUBLE as trouble:
+        rows = [Row(one.NAME, "", "", value="not measured", note=_line(trouble), valid=False)]
+    for row in rows:
+        lab.store.append("row", one.NAME, row.record())
+    print(
+        f"\n{one.TITLE} ({one.NAME}, {time.monotonic() - began_s:.0f} s)\n{table(rows)}", flush=True
+    )
+    return sum(row.figures is None and not row.valid for row in rows)
+
+
+def _line(trouble: BaseException) -> str:
+    return " | ".join(str(trouble).splitlines())[:500]
+
+
+def _default(long: bool) -> list[Measure]:
+    return [one for one in ALL if long or not one.LONG_ONLY]
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    names = [one.NAME for one in ALL]
+    parser = argparse.ArgumentParser(prog="python -m bench", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(names)}")
+    parser.add_argument("--long", action="store_true", help="take more, and what takes longer")
+    parser.add_argument("--afresh", action="store_true", help="with --long: resume nothing")
+    given = parser.parse_args(arguments)
+    unknown = sorted(set(given.names) - set(names))
+    if unknown:
+        parser.error(f"unknown measurement {', '.join(unknown)}; there are: {', '.join(names)}")
+    return given
+
+
+def _as_interrupt(_number: int, _frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+if __name__ == "__main__":
+    sys.exit(main())

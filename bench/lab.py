@@ -1,0 +1,85 @@
+"""Give a measurement what it needs: a place for its files, progress, and slices that resume."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, Protocol
+
+from bench.report import Row
+from bench.store import Store
+
+
+class Measure(Protocol):
+    """Be one measurement: a module with these names."""
+
+    NAME: str
+    TITLE: str
+    LONG_ONLY: bool
+
+    @staticmethod
+    def measure(lab: Lab) -> list[Row]:
+        """Measure and return the rows of a table."""
+
+
+@dataclass
+class Lab:
+    """Serve one run of the benches."""
+
+    store: Store
+    long: bool
+    name: str = ""
+
+    def count(self, quick: int, long: int) -> int:
+        """Return how often to repeat: enough for the minutes there are."""
+        return long if self.long else quick
+
+    def say(self, text: str) -> None:
+        """Show progress on standard error; a terminal keeps one line of it."""
+        end = "\x1b[K\r" if sys.stderr.isatty() else "\n"
+        print(f"bench {self.name}: {text}", end=end, file=sys.stderr, flush=True)
+
+    def slices(self, what: str, count: int, take: Callable[[int], Any]) -> Iterator[Any]:
+        """Yield the data of each slice; what an earlier long run has taken is not taken again.
+
+        Args:
+            what: names the slices within this measurement.
+            count: how many are wanted.
+            take: measures the slice of an index; returns what JSON can hold.
+        """
+        name = f"{self.name}.{what}"
+        known = self.store.slices(name)
+        for index in range(count):
+            if index not in known:
+                self.say(f"{what} {index + 1}/{count}")
+                known[index] = take(index)
+                self.store.append("slice", name, {"index": index, "data": known[index]})
+            yield known[index]
+
+    @contextmanager
+    def folder(self) -> Iterator[Path]:
+        """Lend an empty folder with a short name, as socket paths end at 107 bytes."""
+        with TemporaryDirectory(prefix="pb-", ignore_cleanup_errors=True) as name:
+            yield Path(name)
+
+
+def until(done: Callable[[], object], limit_s: float, what: str, pause_s: float = 0.005) -> None:
+    """Wait for something outside.
+
+    Raises:
+        Missed: it did not come in time.
+    """
+    end_s = time.monotonic() + limit_s
+    while not done():
+        if time.monotonic() > end_s:
+            raise Missed(f"{what}: not within {limit_s:.1f} s")
+        time.sleep(pause_s)
+
+
+class Missed(Exception):
+    """What a measurement waited for did not come."""

@@ -1,0 +1,33 @@
+"""List the measurements in the order in which they run: the cheapest first."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+from bench.measure import (
+    brain_silent,
+    clone_to_url,
+    core_step,
+    footprint,
+    goal_to_waypoint,
+    lockstep_speed,
+    test_time,
+    tick_lateness,
+)
+
+if TYPE_CHECKING:
+    from bench.lab import Measure
+
+ALL: tuple[Measure, ...] = cast(
+    "tuple[Measure, ...]",
+    (
+        core_step,
+        lockstep_speed,
+        tick_lateness,
+        footprint,
+        goal_to_waypoint,
+        brain_silent,
+        clone_to_url,
+        test_time,
+    ),
+)

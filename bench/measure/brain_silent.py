@@ -1,0 +1,162 @@
+"""Kill and freeze the brain at random moments of a drive and see when the bridge holds.
+
+Real bridge, simulator and localization; the brain is a stub that speaks with the planner's own link
+code. The age is that of the newest echoed status at the tick that decided HOLD2, whole periods that
+the host took away included. A restart unasked is motion after a kill before a person acted.
+"""
+
+from __future__ import annotations
+
+import time
+from contextlib import ExitStack
+from math import ceil
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from bench.figures import none_in
+from bench.lab import until
+from bench.report import Row, row_of
+from bench.robot import SLOW, Robot
+from bench.stubs import Legs, Stub
+from wire import Mode
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bench.lab import Lab
+    from wire import Status
+
+NAME = "brain_silent"
+TITLE = "brain silent -> HOLD2"
+LONG_ONLY = False
+GOAL = "each <= 31"
+TICK_S = 0.01
+BODY = ("sim", "localization", "bridge")
+PER_SLICE = 20
+SLICES = 5
+MOVING_MPS = 0.1
+WATCH_S = 0.15
+"""How long a new brain asks in vain before a person resumes."""
+
+
+def measure(lab: Lab) -> list[Row]:
+    """Take 100 kills and 100 freezes."""
+    rows: list[Row] = []
+    for way, take in (("kill", _kills), ("freeze", _freezes)):
+        runs = list(lab.slices(way, SLICES, lambda index, take=take: _run(lab, index, take)))  # type: ignore[misc]  # the default binds the loop's function
+        ticks = [ceil(age / TICK_S - 1e-6) for run in runs for age in run["ages_s"]]
+        slowest = min(run["slowest"] for run in runs)
+        late = sum(tick > 31 for tick in ticks)
+        asked = sum(run["cycles"] for run in runs)
+        note = f"{late} over 31; {len(ticks)} of {asked} held; slowest simulator {slowest:.2f} x"
+        samples = [float(tick) for tick in ticks]
+        rows.append(row_of(f"{way} -> HOLD2", "ticks", GOAL, samples, note, valid=slowest >= SLOW))
+        if way == "kill":
+            unasked = sum(run["unasked"] for run in runs)
+            said = none_in(asked) if unasked == 0 else f"{unasked} of {asked}"
+            rows.append(Row("restarts unasked after a kill", "", "0", value=said))
+    return rows
+
+
+def _run(
+    lab: Lab, index: int, take: Callable[[Lab, Robot, Random, ExitStack], int]
+) -> dict[str, Any]:
+    chance = Random(index)
+    with lab.folder() as home, Robot(home, "two_room", tapped=True, only=BODY) as robot:
+        with ExitStack() as stubs:
+            robot.make_ready()
+            robot.forget()
+            unasked = take(lab, robot, chance, stubs)
+        noted = robot.end_bridge()
+        held = [s for s in noted["silences"] if s["from"] == Mode.ACTIVE.value]
+        return {
+            "ages_s": [one["age_s"] for one in held if one["age_s"] is not None],
+            "cycles": PER_SLICE,
+            "unasked": unasked,
+            "slowest": robot.slowest,
+        }
+
+
+def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack) -> int:
+    """Kill stub after stub; return how often one of them moved unasked."""
+    legs, unasked = Legs(robot), 0
+    following = _stub(robot, stubs, 0)
+    for number in range(PER_SLICE):
+        lab.say(f"kill {number + 1}/{PER_SLICE}")
+        stub, following = following, _stub(robot, stubs, number + 1)
+        _send_off(robot, stub, legs, number)
+        if number > 0:  # this planner's id is new: it must wait for a person
+            unasked += _moved_within(robot, WATCH_S)
+        _until_moving(robot)
+        time.sleep(chance.uniform(0.0, 0.3))
+        stub.kill()
+        until(lambda: _stands(robot.status), 5.0, "standing after a kill", 0.002)
+        stub.end()
+    return unasked
+
+
+def _freezes(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack) -> int:
+    """Freeze one stub again and again; it goes on by itself each time."""
+    stub = _stub(robot, stubs, 0)
+    _send_off(robot, stub, Legs(robot), 0)
+    for number in range(PER_SLICE):
+        lab.say(f"freeze {number + 1}/{PER_SLICE}")
+        _until_moving(robot)
+        time.sleep(chance.uniform(0.0, 0.3))
+        stub.freeze()
+        time.sleep(chance.uniform(0.5, 0.8))
+        until(lambda: _stands(robot.status), 5.0, "standing after a freeze", 0.002)
+        stub.thaw()
+    return 0
+
+
+def _stub(robot: Robot, stubs: ExitStack, number: int) -> Stub:
+    stub = Stub(robot, f"stub-{number}")
+    stubs.callback(stub.end)
+    return stub
+
+
+def _send_off(robot: Robot, stub: Stub, legs: Legs, number: int) -> None:
+    status = robot.status
+    until(lambda: robot.status is not None and robot.status.base_in_map is not None, 5.0, "a pose")
+    pose = status.base_in_map if status is not None else None
+    if pose is not None:
+        stub.go(f"mission-{number}", legs.between(pose, "living_room", "kitchen"))
+
+
+def _until_moving(robot: Robot) -> None:
+    """Let a person resume where the bridge holds, until the robot drives."""
+    end_s = time.monotonic() + 10.0
+    while not _moves(robot.status):
+        status = robot.status
+        if status is not None and status.held is not None and status.owner is not None:
+            robot.operate("resume")
+        time.sleep(0.005)
+        if time.monotonic() > end_s:
+            until(lambda: _moves(robot.status), 0.1, f"driving ({robot.describe()})")
+
+
+def _moved_within(robot: Robot, seconds: float) -> int:
+    end_s = time.monotonic() + seconds
+    while time.monotonic() < end_s:
+        status = robot.status
+        if status is not None and (status.mode is Mode.ACTIVE or _moves(status)):
+            return 1
+        time.sleep(0.005)
+    return 0
+
+
+def _moves(status: Status | None) -> bool:
+    return (
+        status is not None
+        and status.mode is Mode.ACTIVE
+        and abs(status.measured.v_mps) > MOVING_MPS
+    )
+
+
+def _stands(status: Status | None) -> bool:
+    return (
+        status is not None
+        and status.mode in (Mode.HOLD, Mode.STOPPING)
+        and abs(status.measured.v_mps) < 0.02
+    )

@@ -1,0 +1,38 @@
+"""Measure ``make test`` on two cores, from this checkout with its environment made."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import time
+from typing import TYPE_CHECKING, Any
+
+from bench.machine import ROOT
+from bench.report import Row, row_of
+
+if TYPE_CHECKING:
+    from bench.lab import Lab
+
+NAME = "test_time"
+TITLE = "make test"
+LONG_ONLY = True
+
+
+def measure(lab: Lab) -> list[Row]:
+    """Run it once or as often as a long run is repeated; a failed run is invalid."""
+    runs = list(lab.slices("run", 1, lambda index: _run()))
+    passed = all(run["exit"] == 0 for run in runs)
+    cores = runs[0]["cores"]
+    note = f"{cores} cores" if passed else "tests failed"
+    return [row_of("make test", "s", "<= 300", [r["took_s"] for r in runs], note, valid=passed)]
+
+
+def _run() -> dict[str, Any]:
+    cores = sorted(os.sched_getaffinity(0))[:2]
+    began_s = time.monotonic()
+    done = subprocess.run(
+        ["make", "test"], cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        check=False, preexec_fn=lambda: os.sched_setaffinity(0, cores),
+    )  # fmt: skip
+    took_s = time.monotonic() - began_s
+    return {"took_s": took_s, "exit": done.returncode, "cores": len(cores)}
