@@ -1,0 +1,73 @@
+"""Bridge, simulator and localization may die too: nothing moves unasked, and all comes back."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from tests.e2e.polling import until
+from tests.e2e.robot import Robot
+from wire import Mode
+
+pytestmark = pytest.mark.e2e
+
+DEAD_MAN_S = 0.2
+NOTICE_S = 0.15
+"""A period of command and state each, the judge's own poll, and a busy machine."""
+
+
+def test_a_killed_bridge_is_stopped_by_the_drives_own_time_out(robot: Robot) -> None:
+    place, goal = robot.drive_off()
+    boot = robot.judge.status.boot
+    killed_s = robot.system.kill("bridge")
+    until(lambda: robot.judge.drives.last.timed_out, 2.0, "the drive's time-out")
+    fired_s = next(
+        at_s for at_s, s in robot.judge.drives.since(killed_s) if s.timed_out and not s.enabled
+    )
+    assert fired_s - killed_s < DEAD_MAN_S + NOTICE_S
+    stood_s = robot.assert_stops(killed_s, 1.5)
+    until(lambda: robot.judge.status.boot != boot, 15.0, "a new bridge", robot.system.said)
+    robot.judge.until_mode(Mode.DISARMED)
+    paused = robot.system.until_goal(goal["id"], "paused")
+    assert paused["reason"] == "disarmed"
+    robot.judge.assert_never_moves(1.0)
+    robot.judge.assert_stood(stood_s)
+    assert robot.judge.status.mode is Mode.DISARMED
+    done = robot.system.pons("arm")
+    assert done.returncode == 0, done.stderr
+    done = robot.system.pons("resume")
+    assert done.returncode == 0, done.stderr
+    robot.arrive(place, goal)
+
+
+def test_a_killed_simulator_comes_back_and_waits_for_a_person(robot: Robot) -> None:
+    _, goal = robot.drive_off()
+    boot = robot.judge.truth.boot_id
+    robot.system.kill("sim")
+    until(lambda: robot.judge.truth.boot_id != boot, 20.0, "a new simulator", robot.system.said)
+    back_s = time.monotonic()
+    robot.judge.until_mode(Mode.DISARMED, Mode.FAULT)
+    paused = robot.system.until_goal(goal["id"], "paused", "failed")
+    assert paused["state"] == "paused", paused
+    robot.judge.assert_never_moves(1.0)
+    robot.judge.assert_stood(back_s)
+    robot.rest()
+    place, goal = robot.drive_off()
+    robot.arrive(place, goal)
+
+
+def test_a_killed_localization_stops_the_robot_until_it_is_back(robot: Robot) -> None:
+    place, goal = robot.drive_off()
+    pid = robot.system.child("localization").pid
+    killed_s = robot.system.kill("localization")
+    robot.assert_stops(killed_s)
+    assert "POSE_LOST" in {row.row for row in robot.judge.status.rows}, robot.judge.describe()
+    until(
+        lambda: robot.system.child("localization").pid != pid,
+        15.0,
+        "another localization",
+        robot.system.said,
+    )
+    # The same planner, no stop, no disarm, under 5 s: going on needs no person.
+    robot.arrive(place, goal)
