@@ -93,4 +93,13 @@ def _inside(points: Sequence[Waypoint], robot_in_map: Pose2, fence: Fence) -> bo
         return False
     if not fence.allows(first.x_m, first.y_m):
         return False
-    return not any(fence.crosses(a.x_m, a.y_m, b.x_m, b.y_m) for a, b in pairwise(points))
+    clear_m = 0.0  # around the segment's start, as far as is known; saves most of the tests
+    for a, b in pairwise(points):
+        gap_m = hypot(b.x_m - a.x_m, b.y_m - a.y_m)
+        if not gap_m < clear_m:
+            clear_m = fence.margin_m(a.x_m, a.y_m)
+        if gap_m < clear_m:
+            clear_m -= gap_m
+        elif fence.crosses(a.x_m, a.y_m, b.x_m, b.y_m):
+            return False
+    return True

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -97,6 +99,24 @@ def test_the_fence_is_tested_on_segments() -> None:
         Waypoint(x_m=5.07, y_m=1.02, speed_mps=0.3),
     ]
     assert judged(cut, near) == ("fence_crossed",)
+
+
+def test_a_fence_far_along_is_seen() -> None:
+    along = [i * 0.2 for i in range(30)]
+    assert judged(line(*along)) == ("fence_crossed",)
+    assert judged(line(*along[:25])) == ()
+    beside = [Waypoint(x_m=x, y_m=1.01, speed_mps=0.3) for x in along]
+    assert judged(beside, Pose2(0.0, 1.0, 0.0)) == ()
+
+
+@given(st.lists(st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)), min_size=2, max_size=40))
+def test_clearance_saves_tests_but_misses_nothing(steps: list[tuple[float, float]]) -> None:
+    x, y, points = 4.6, 0.9, [Waypoint(x_m=4.6, y_m=0.9, speed_mps=0.3)]
+    for dx, dy in steps:
+        x, y = x + dx, y + dy
+        points.append(Waypoint(x_m=x, y_m=y, speed_mps=0.3))
+    crossed = any(FENCE.crosses(a.x_m, a.y_m, b.x_m, b.y_m) for a, b in pairwise(points))
+    assert ("fence_crossed" in judged(points, Pose2(4.6, 0.9, 0.0))) is crossed
 
 
 def test_a_robot_outside_may_come_back_in() -> None:
