@@ -13,7 +13,7 @@ from wire import RobotDescription
 
 ROOT = Path(__file__).parents[2]
 SITE = ROOT / "sites" / "two_room"
-LIMIT_S = 15.0
+LIMIT_S = 25.0
 
 
 class FakeClock:
