@@ -92,7 +92,7 @@ class Hostile:
         return tuple(make() for _ in range(count))  # type: ignore[operator]
 
     def _maybe(self, share: float, make: object) -> T | None:
-        return make() if self.random.random() < share else None  # type: ignore[operator,no-any-return]
+        return make() if self.random.random() < share else None  # type: ignore[operator]
 
     def _next(self) -> int:
         self.seq += 1

@@ -100,7 +100,7 @@ def test_without_a_proof_nothing_starts(
     request_id = world.op(kind, authentic=authentic, nonce=nonce)
     world.tick()
     assert world.verdict(request_id) == code
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
     assert world.state.held is not None
 
 
@@ -142,20 +142,20 @@ def test_one_id_gets_one_verdict_and_no_proof_works_twice() -> None:
     request_id = world.op("arm", nonce=nonce)
     again = world.extra
     world.tick()
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.op("disarm")
     world.until(Mode.DISARMED, 1.0)
     world.run(0.6)
     world.extra = again
     world.tick()
-    assert world.mode is Mode.DISARMED, "a repeat is ignored"
+    assert world.is_in(Mode.DISARMED), "a repeat is ignored"
     for number in range(70):
         world.stop(f"flood{number}")
     world.tick()
     assert all(item.answer.id != request_id for item in world.state.operator.answers)
     world.extra = again
     world.tick()
-    assert world.mode is Mode.DISARMED, "nor after its verdict was pushed out of memory"
+    assert world.is_in(Mode.DISARMED), "nor after its verdict was pushed out of memory"
     assert world.verdict(request_id) == "repeated"
 
 
@@ -177,7 +177,7 @@ def test_arming_says_what_it_lacks(spoil: Callable[[World], None], code: str) ->
     request_id = world.op("arm")
     world.tick()
     assert world.verdict(request_id) == code
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
 
 
 def test_arming_needs_a_standing_robot_and_a_free_stick() -> None:
@@ -197,21 +197,21 @@ def test_arming_needs_a_standing_robot_and_a_free_stick() -> None:
     world.run(0.3)
     world.op("arm")
     world.tick()
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
 
 
 def test_a_lost_pose_or_brain_keeps_nobody_from_arming() -> None:
     world = World(planner=None, localization_silent=True).ready()
     world.op("arm")
     world.tick()
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
 
 
 def test_disarming_ramps_first_and_sets_no_hold() -> None:
     world = World().driving()
     world.op("disarm")
     world.tick()
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     assert world.last is not None
     assert world.last.command is not None
     assert world.last.command.enable

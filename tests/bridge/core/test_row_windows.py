@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import Inbox, RejectedAt
-from bridge.core.rows import ROWS, STAGES, Clears
+from bridge.core.rows import ROWS, STAGES, Clears, Row
 from tests.bridge.core.scripted import PERIOD_S, World, config
 from wire import SEVERITY, Action, EstopLink, Mode, Rejected, RobotDescription
 
@@ -34,9 +34,8 @@ def raised(world: World, stage: str) -> bool:
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
-def test_only_what_caps_or_holds_clears_by_itself(row: object) -> None:
-    assert row in ROWS
-    for stage in row.stages:  # type: ignore[attr-defined]
+def test_only_what_caps_or_holds_clears_by_itself(row: Row) -> None:
+    for stage in row.stages:
         if stage.clears in {Clears.AUTO, Clears.ON_GRANT}:
             assert SEVERITY[stage.action] <= SEVERITY[Action.HOLD2]
         assert (stage.action is Action.CAP) == (
@@ -64,12 +63,12 @@ def test_brain_late_caps_at_half_after_150_ms_and_lost_holds_after_300() -> None
     until_age(world, echo_s, 16)
     assert raised(world, "BRAIN_LATE.0")
     assert world.state.motion.cap == 0.5
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     until_age(world, echo_s, 29)
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     until_age(world, echo_s, 31)
     assert raised(world, "BRAIN_LOST.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     assert world.state.ownership.owner is None
     assert world.state.grants.mission is None
 
@@ -81,11 +80,11 @@ def test_silence_is_held_within_31_ticks_of_the_newest_echo(phase: int) -> None:
     assert world.planner is not None
     world.planner.silent = True
     echo_s = world.state.ownership.echo_s
-    while world.mode is Mode.ACTIVE:
+    while world.is_in(Mode.ACTIVE):
         world.tick()
         echo_s = world.state.ownership.echo_s
         assert age_ticks(world, echo_s) <= 31
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
 
 
 def test_brain_gone_disarms_after_5_s() -> None:
@@ -93,14 +92,14 @@ def test_brain_gone_disarms_after_5_s() -> None:
     assert world.planner is not None
     world.planner.silent = True
     until_age(world, world.state.ownership.echo_s, 499)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     silent_for(world, 2)
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
     assert raised(world, "BRAIN_GONE.0")
     world.op("arm")
     world.run(0.1)
     assert not raised(world, "BRAIN_GONE.0")
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
 
 
 def test_a_brain_that_thinks_on_stale_data_is_held_after_1_s() -> None:
@@ -112,10 +111,10 @@ def test_a_brain_that_thinks_on_stale_data_is_held_after_1_s() -> None:
     world.run(0.1)
     used_s = world.state.ownership.used_s
     until_age(world, used_s, 99)
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     silent_for(world, 2)
     assert raised(world, "BRAIN_STALE.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     world.planner.used = None
     world.run(0.3)
     assert raised(world, "BRAIN_STALE.0")
@@ -131,10 +130,10 @@ def test_an_old_horizon_is_held_after_its_ttl() -> None:
     world.tick()
     sent_s = world.state.leg.sent_s
     until_age(world, sent_s, 49)
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     silent_for(world, 2)
     assert raised(world, "CMD_STALE.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     world.planner.next_horizon_s = 0.0
     world.until(Mode.ACTIVE, 2.0)
     assert not raised(world, "CMD_STALE.0")
@@ -151,11 +150,11 @@ def test_four_bad_messages_are_forgiven_and_five_are_not() -> None:
     world.tick()
     assert not raised(world, "CMD_BAD.0")
     world.run(2.5)
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     bad_bytes(world, 6)
     world.tick()
     assert raised(world, "CMD_BAD.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     world.until(Mode.ACTIVE, 4.0)
 
 
@@ -179,7 +178,7 @@ def test_a_spent_grant_holds_at_once_and_a_new_mission_goes_on() -> None:
     assert raised(world, "BUDGET.0")
     assert world.state.grants.metres == 0.0
     world.run(2.0)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.planner.mission = "m2"
     world.until(Mode.ACTIVE, 1.0)
     assert not raised(world, "BUDGET.0")
@@ -188,7 +187,7 @@ def test_a_spent_grant_holds_at_once_and_a_new_mission_goes_on() -> None:
     world.op("resume")
     world.planner.mission = "m1"
     world.run(1.0)
-    assert world.mode is Mode.HOLD, "what m1 had is spent for good"
+    assert world.is_in(Mode.HOLD), "what m1 had is spent for good"
 
 
 def test_the_operator_cap_is_spent_and_refilled_by_a_person() -> None:
@@ -198,7 +197,7 @@ def test_the_operator_cap_is_spent_and_refilled_by_a_person() -> None:
     world.until(Mode.STOPPING, 0.5)
     assert raised(world, "BUDGET.0")
     world.run(2.0)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.op("resume")
     world.until(Mode.ACTIVE, 1.0)
 
@@ -208,14 +207,14 @@ def test_a_silent_lidar_holds_after_250_ms_and_disarms_after_5_s_more() -> None:
     world.lidar_silent = True
     received_s = world.state.lidar.received_s
     until_age(world, received_s, 24)
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     silent_for(world, 2)
     assert raised(world, "LIDAR_STALE.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     world.run(4.9)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.run(0.3)
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
     request_id = world.op("arm")
     world.tick()
     assert world.verdict(request_id) == "lidar_stale"
@@ -223,7 +222,7 @@ def test_a_silent_lidar_holds_after_250_ms_and_disarms_after_5_s_more() -> None:
     world.run(0.3)
     world.op("arm")
     world.tick()
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     assert not raised(world, "LIDAR_STALE.1")
 
 
@@ -231,10 +230,10 @@ def test_a_lidar_that_comes_back_is_trusted_after_1_s() -> None:
     world = World().driving((5.0, 0.0))
     world.lidar_silent = True
     world.run(1.0)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.lidar_silent = False
     world.run(0.9)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.until(Mode.ACTIVE, 0.4)
 
 
@@ -243,7 +242,7 @@ def test_equal_scans_while_moving_are_a_frozen_lidar() -> None:
     world.lidar_frozen = True
     world.run(0.7)
     assert raised(world, "LIDAR_STALE.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
 
 
 @pytest.mark.parametrize("way", ["silent", "poor"])
@@ -256,10 +255,10 @@ def test_a_lost_pose_holds(way: str) -> None:
         world.localization_silent = True
         received_s = world.state.pose.received_s
         until_age(world, received_s, 29)
-        assert world.mode is Mode.ACTIVE
+        assert world.is_in(Mode.ACTIVE)
         silent_for(world, 2)
     assert raised(world, "POSE_LOST.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     assert world.status is not None
     world.quality, world.localization_silent = 1.0, False
     world.until(Mode.ACTIVE, 2.0)
@@ -273,11 +272,11 @@ def test_a_lost_pose_caps_the_stick() -> None:
     world.tick()
     world.teleop(0.5, held=True)
     world.tick()
-    assert world.mode is Mode.TELEOP
+    assert world.is_in(Mode.TELEOP)
     for _ in range(30):
         world.run(0.05)
         world.teleop(0.5, held=True)
-    assert world.mode is Mode.TELEOP
+    assert world.is_in(Mode.TELEOP)
     assert world.sent.v_mps == pytest.approx(0.2)
 
 
@@ -286,10 +285,10 @@ def test_a_silent_drive_holds_after_80_ms() -> None:
     world.drive_silent = True
     received_s = world.state.drive.received_s
     until_age(world, received_s, 7)
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     silent_for(world, 2)
     assert raised(world, "ENC_STALE.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     world.drive_silent = False
     world.until(Mode.ACTIVE, 2.0)
 
@@ -316,7 +315,7 @@ def test_a_deaf_drive_holds_after_10_commands_and_faults_after_50() -> None:
     assert not raised(world, "DRIVER_NACK.0")
     silent_for(world, 4)
     assert raised(world, "DRIVER_NACK.0")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     silent_for(world, 60)
     assert raised(world, "DRIVER_NACK.1")
     world.until(Mode.FAULT, 2.0)
@@ -328,7 +327,7 @@ def test_a_deaf_drive_holds_after_10_commands_and_faults_after_50() -> None:
     world.run(1.5)
     world.op("reset")
     world.tick()
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
 
 
 def test_a_drive_that_restarted_disarms() -> None:
@@ -358,7 +357,7 @@ def test_lateness_caps_gaps_hold_and_three_gaps_disarm() -> None:
     assert not raised(world, "LOOP_LATE.0")
     world.tick(0.11)
     assert raised(world, "LOOP_LATE.1")
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     world.until(Mode.ACTIVE, 2.0)
     world.tick(0.11)
     world.run(0.6)
@@ -373,7 +372,7 @@ def test_a_host_that_stalls_for_30_ms_disarms_nobody() -> None:
         world.late(0.008, missed=2)
         world.tick(0.04)
         world.run(0.3)
-        assert world.mode is Mode.ACTIVE
+        assert world.is_in(Mode.ACTIVE)
 
 
 def test_not_real_time_is_only_shown_on_a_virtual_drive() -> None:
@@ -387,7 +386,7 @@ def test_the_drives_stop_input_latches_until_reset() -> None:
     world = World().driving()
     world.drive.estop_pressed = True
     world.tick()
-    assert world.mode is Mode.ESTOPPED
+    assert world.is_in(Mode.ESTOPPED)
     assert world.last is not None
     assert world.last.command is not None
     assert world.last.command.enable, "torque brakes until the robot stands"
@@ -400,9 +399,9 @@ def test_the_drives_stop_input_latches_until_reset() -> None:
     world.run(0.1)
     world.op("reset")
     world.tick()
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
     world.run(3.0)
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
 
 
 def test_an_estop_message_needs_no_proof() -> None:
@@ -410,19 +409,19 @@ def test_an_estop_message_needs_no_proof() -> None:
     request_id = world.op("estop", authentic=False)
     world.tick()
     assert world.verdict(request_id) == "ok"
-    assert world.mode is Mode.ESTOPPED
+    assert world.is_in(Mode.ESTOPPED)
 
 
 def test_a_reset_is_no_way_around_the_self_test() -> None:
     world = World(drive=World().drive)
     world.drive.estop_pressed = True
     world.run(1.0)
-    assert world.mode is Mode.ESTOPPED
+    assert world.is_in(Mode.ESTOPPED)
     world.drive.estop_pressed = False
     world.run(0.2)
     world.op("reset")
     world.tick()
-    assert world.mode is Mode.SELFTEST
+    assert world.is_in(Mode.SELFTEST)
 
 
 def test_a_stop_that_does_not_slow_the_robot_cuts_the_torque() -> None:
@@ -440,16 +439,16 @@ def test_a_stop_link_that_falls_silent_counts_as_pressed() -> None:
     robot = RobotDescription.model_validate({"inputs": {"estop_link": True}})
     world = World(core=config(robot))
     world.run(3.0)
-    assert world.mode is Mode.SELFTEST
+    assert world.is_in(Mode.SELFTEST)
     assert world.status is not None
     assert world.status.waiting_for == ("estop_link",)
     world.extra = Inbox(estop_link=EstopLink(seq=1, pressed=False))
     world.tick()
     received_s = world.state.buttons.link_received_s
     until_age(world, received_s, 49)
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
     silent_for(world, 2)
-    assert world.mode is Mode.ESTOPPED
+    assert world.is_in(Mode.ESTOPPED)
 
 
 def test_stage_names_are_unique() -> None:

@@ -34,7 +34,7 @@ def test_reached_stays_until_the_next_leg() -> None:
     assert world.planner is not None
     world.run(1.0)
     assert world.state.leg.reached
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.planner.leg, world.planner.goal_m = 2, (2.0, 0.0)
     world.until(Mode.ACTIVE, 0.5)
     assert not world.state.leg.reached
@@ -92,7 +92,7 @@ def test_what_is_wrong_is_a_fault(name: str, drive: FakeDrive, code: str) -> Non
     request_id = world.op("reset")
     world.tick()
     assert world.verdict(request_id) == "ok"
-    assert world.mode is Mode.SELFTEST
+    assert world.is_in(Mode.SELFTEST)
     world.until(Mode.DISARMED)
 
 
@@ -100,7 +100,7 @@ def test_what_has_not_arrived_is_waited_for_by_name() -> None:
     world = World(lidar_silent=True, drive_silent=True, planner=None)
     world.run(1.0)
     assert world.status is not None
-    assert world.mode is Mode.SELFTEST
+    assert world.is_in(Mode.SELFTEST)
     assert {"drive", "drive_echo", "lidar", "lidar_baseline"} <= set(world.status.waiting_for)
     world.drive_silent = False
     world.run(2.0)
@@ -114,13 +114,13 @@ def test_stop_holds_until_a_person_resumes() -> None:
     epoch = world.state.epoch_no
     stop_id = world.stop()
     world.tick()
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
     assert world.state.epoch_no == epoch + 1
     assert world.state.held is not None
     assert world.state.held.reason is HeldReason.STOP
     world.until(Mode.HOLD, 2.0)
     world.run(3.0)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     assert world.verdict(stop_id) == "ok"
     assert world.status is not None
     assert ("grant", "held") in {(a.kind, a.code) for a in world.status.answers}
@@ -152,7 +152,7 @@ def test_a_stop_wins_over_all_that_came_with_it() -> None:
     assert world.verdict(request_id) == "stopped"
     assert world.state.held is not None
     assert world.state.grants.mission is None
-    assert world.mode is Mode.STOPPING
+    assert world.is_in(Mode.STOPPING)
 
 
 def test_a_short_silence_of_the_planner_goes_on_by_itself() -> None:
@@ -186,13 +186,13 @@ def test_a_long_silence_disarms_and_a_person_must_arm() -> None:
     assert world.planner is not None
     world.planner.silent = True
     world.run(7.0)
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
     assert world.last is not None
     assert world.last.command is not None
     assert not world.last.command.enable
     world.planner.silent = False
     world.run(2.0)
-    assert world.mode is Mode.DISARMED
+    assert world.is_in(Mode.DISARMED)
     world.op("arm")
     world.until(Mode.ACTIVE, 1.0)
 
@@ -215,7 +215,7 @@ def test_another_planner_is_told_and_then_held() -> None:
     assert world.state.ownership.owner.planner_id == "p2"
     assert world.state.held is not None
     assert world.state.held.reason is HeldReason.NEW_PLANNER
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.op("resume")
     world.until(Mode.ACTIVE, 1.0)
 
@@ -267,22 +267,22 @@ def test_teleop_takes_over_only_after_released_and_neutral() -> None:
     world = World().driving()
     world.teleop(0.3, held=True)
     world.tick()
-    assert world.mode is Mode.ACTIVE
+    assert world.is_in(Mode.ACTIVE)
     world.teleop(0.0, held=False)
     world.tick()
     world.teleop(0.3, held=True)
     world.tick()
-    assert world.mode is Mode.TELEOP
+    assert world.is_in(Mode.TELEOP)
     for _ in range(40):
         world.run(0.05)
         world.teleop(0.3, held=True)
-    assert world.mode is Mode.TELEOP
+    assert world.is_in(Mode.TELEOP)
     assert 0.25 < world.sent.v_mps <= 0.3
     world.teleop(0.0, held=False)
     world.tick()
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     world.run(2.0)
-    assert world.mode is Mode.HOLD, "the planner stays held after a take-over"
+    assert world.is_in(Mode.HOLD), "the planner stays held after a take-over"
     assert world.sent.v_mps == 0.0
     assert world.state.held is not None
     assert world.state.held.reason is HeldReason.TELEOP
@@ -296,11 +296,11 @@ def test_a_silent_stick_lets_go() -> None:
     world.tick()
     world.teleop(0.3, held=True)
     world.tick()
-    assert world.mode is Mode.TELEOP
+    assert world.is_in(Mode.TELEOP)
     world.run(0.24)
-    assert world.mode is Mode.TELEOP
+    assert world.is_in(Mode.TELEOP)
     world.run(0.03)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
 
 
 def test_the_first_hand_keeps_the_stick() -> None:
@@ -321,7 +321,7 @@ def test_an_obstacle_blocks_and_its_leaving_frees() -> None:
     world = World().driving((4.0, 0.0))
     world.obstacle_m = (3.0, 0.0, 0.3)
     world.run(12.0)
-    assert world.mode is Mode.HOLD
+    assert world.is_in(Mode.HOLD)
     assert world.state.gate.blocked
     assert world.status is not None
     assert world.status.blocked
