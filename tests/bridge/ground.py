@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, initial, step
@@ -68,13 +67,3 @@ def run_core(
         take(state, inbox, now_s, decision)
         state = decision.state
     return state
-
-
-def with_drive_echo(inbox: Inbox, state: BridgeState) -> Inbox:
-    """Let each drive reading echo the newest command."""
-    return replace(
-        inbox,
-        drive=tuple(
-            reading.model_copy(update={"echo_seq": state.command_seq}) for reading in inbox.drive
-        ),
-    )
