@@ -6,9 +6,8 @@ For the API's handlers (``link`` is ``missions.link``):
   ``odometry``, ``scan``; ``link.obstacles()`` gives lidar points in ``map``.
 - ``await link.operate(kind, request) -> wire.Answer``: arm, disarm, estop, reset, resume, repeated
   until echoed; raises ``BridgeSilent`` after 2 s. ``answer.accepted`` is the verdict.
-- ``link.unsigned(source, proof=None, request_id="") -> OpRequest`` relays the caller's own proof or
-  none; ``link.sign_virtual(kind, source) -> OpRequest`` signs on a virtual drive and raises
-  ``OperatorProofNeeded`` (HTTP 403) on any other.
+- Requests come signed: the API's handlers sign for a virtual drive, and relay a person's own proof
+  otherwise. Nothing here can make a proof.
 - ``await link.stop(source) -> StopResult``: never refused, never raises; but handlers call
   ``missions.stop`` so that the missions hear it too.
 - ``link.teleop(wire.Velocity)``.
@@ -17,7 +16,7 @@ For the API's handlers (``link`` is ``missions.link``):
 """
 
 from planner.link.bus import Bus, WireBus
-from planner.link.errors import BridgeSilent, LinkError, OperatorProofNeeded
+from planner.link.errors import BridgeSilent, LinkError
 from planner.link.link import Aged, Link, StopResult
 from planner.link.owner import (
     STANDING,
@@ -38,7 +37,6 @@ __all__ = [
     "Identity",
     "Link",
     "LinkError",
-    "OperatorProofNeeded",
     "OwnerState",
     "StopResult",
     "WireBus",

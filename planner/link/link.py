@@ -15,30 +15,25 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from planner.link.bus import Bus
-from planner.link.errors import BridgeSilent, OperatorProofNeeded
+from planner.link.errors import BridgeSilent
 from planner.link.lidar import points_in_map
 from wire import (
-    VIRTUAL_KEY,
     Answer,
     Event,
     Localization,
     Odometry,
     OpKind,
     OpRequest,
-    Proof,
     Record,
     RobotDescription,
     Scan,
     Status,
     Stop,
     Velocity,
-    sign,
 )
 
 ECHO_S = 2.0
 REPEAT_S = 0.05
-FRESH_S = 1.0
-"""A status older than this says nothing about now."""
 SCAN_FRESH_S = 0.5
 
 T = TypeVar("T")
@@ -162,26 +157,6 @@ class Link:
         if answer is None:
             raise BridgeSilent(kind, ECHO_S)
         return answer
-
-    def unsigned(self, source: str, proof: Proof | None = None, request_id: str = "") -> OpRequest:
-        """Make a request that carries the caller's own proof, or none (disarm, estop)."""
-        return OpRequest(id=request_id or self._new_id(), source=source, proof=proof)
-
-    def sign_virtual(self, kind: OpKind, source: str) -> OpRequest:
-        """Sign a request with the simulator's published key. For the API's handlers alone.
-
-        Raises:
-            BridgeSilent: no fresh status says which drive this is and which nonce is valid.
-            OperatorProofNeeded: the drive is not virtual.
-        """
-        status = self.status
-        if status is None or not status.age_s <= FRESH_S:
-            raise BridgeSilent(kind, FRESH_S)
-        if not status.value.drive.virtual:
-            raise OperatorProofNeeded(kind, status.value.drive.kind)
-        request_id = self._new_id()
-        proof = sign(VIRTUAL_KEY, kind, status.value.robot, status.value.nonce, request_id)
-        return OpRequest(id=request_id, source=source, proof=proof)
 
     def _resolve(self, status: Status) -> None:
         if not self._waiting:

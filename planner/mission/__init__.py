@@ -16,9 +16,8 @@
     snapshot() -> dict with seq, planner_id, running, queue, goals, status
     failed -> what ended the mission loop, if anything did;  journal_trouble -> str | None
 
-``act`` is the person's signed ``op/resume`` (``wire.OpRequest``), which clears the bridge's hold:
-handlers make it by ``link.sign_virtual("resume", source)`` or relay the caller's own proof by
-``link.unsigned(source, proof, id)``. Without it a goal given while a hold stands pauses after 2 s.
+``act`` is the person's signed ``op/resume`` (``wire.OpRequest``), made by the API's handlers, which
+clears the bridge's hold. Without it a goal given while a hold stands pauses after 2 s.
 
 Events: {"type": "goal", "goal": …}, {"type": "status", "status": wire.Status (dump it yourself)},
 {"type": "bridge", "event": …}, {"type": "say", "goal", "text"}, {"type": "first_waypoint", "goal",
@@ -42,7 +41,7 @@ from planner.mission.effects import (
     SayAloud,
     Wish,
 )
-from planner.mission.engine import Engine, Output
+from planner.mission.engine import Engine, Leg, Output
 from planner.mission.errors import (
     BadState,
     IdempotencyConflict,
@@ -97,6 +96,7 @@ __all__ = [
     "Journal",
     "JournalDown",
     "Journalled",
+    "Leg",
     "Mission",
     "MissionError",
     "MissionJournal",

@@ -25,6 +25,15 @@ class Output:
     effects: tuple[Effect, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """Show the leg that is driven: its goal, its number and its whole path."""
+
+    mission: str
+    leg: int
+    points: tuple[RoutePoint, ...]
+
+
 @dataclass(slots=True)
 class Following:
     """Remember the path of the leg that is streamed."""
@@ -46,6 +55,14 @@ class Engine:
         self._following: Following | None = None
         self._wish = Wish()
         self._used = 0
+
+    @property
+    def leg(self) -> Leg | None:
+        """Return the leg that is wanted now, for people to see; None while standing is wanted."""
+        following, wanted = self._following, wish(self.book)
+        if following is None or (following.mission, following.leg) != (wanted.mission, wanted.leg):
+            return None
+        return Leg(following.mission, following.leg, following.path.points)
 
     def status(self, status: Status, now_s: float) -> Output:
         """Judge one bridge status and answer it as the owner."""

@@ -25,14 +25,14 @@ from planner.mission.effects import (
     Journal,
     SayAloud,
 )
-from planner.mission.engine import Engine, Output
+from planner.mission.engine import Engine, Leg, Output
 from planner.mission.events import Event, Journalled, Restarted, Tick
 from planner.mission.helpers import Answers, Helpers, Router, Think
 from planner.mission.hub import Hub
 from planner.mission.journal import GoalKey, MissionJournal
 from planner.mission.records import Book
 from planner.mission.safekeeping import Safekeeping
-from planner.mission.sight import standing
+from planner.mission.sight import at_rest
 from planner.mission.view import goal_of
 from planner.route import RoutePoint
 from wire import OpRequest, Status, Waypoints
@@ -72,6 +72,11 @@ class Loop:
     def book(self) -> Book:
         """Return the book as it stands."""
         return self._engine.book
+
+    @property
+    def leg(self) -> Leg | None:
+        """Return the leg that is driven now."""
+        return self._engine.leg
 
     @property
     def failed(self) -> BaseException | None:
@@ -160,7 +165,7 @@ class Loop:
             for event in self._link.events():
                 self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
             newest = self.book.status
-            self._collector.maybe(now_s, standing=newest is None or standing(newest))
+            self._collector.maybe(now_s, standing=newest is None or at_rest(newest))
 
     def _tell_status(self, status: Status, now_s: float) -> None:
         news = (status.mode, status.epoch, status.held, status.owner)

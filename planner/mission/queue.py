@@ -6,8 +6,6 @@ goal that a person gives afterwards, or a resume, goes on.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from planner.mission.effects import DropBrain
 from planner.mission.records import Mission
 from planner.mission.turn import Turn
@@ -176,9 +174,3 @@ def note_step(turn: Turn, mission: Mission, **changes: object) -> Mission:
     steps = list(mission.plan.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
     return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
-
-
-def lose_leg(turn: Turn) -> None:
-    """Stand: nothing of the leg is streamed any more."""
-    if turn.book.walk is not None:
-        turn.set(walk=replace(turn.book.walk, leg=None))

@@ -14,7 +14,7 @@ from planner.brain.protocol import Brain
 from planner.brain.stoplane import is_stop
 from planner.link import Identity, Link, StopResult
 from planner.mission.accept import body_of, language_of
-from planner.mission.engine import Engine
+from planner.mission.engine import Engine, Leg
 from planner.mission.errors import (
     IdempotencyConflict,
     JournalDown,
@@ -213,6 +213,10 @@ class Missions:
         return await saying
 
     # Watching -----------------------------------------------------------------------------------
+
+    def path(self) -> Leg | None:
+        """Return the leg that is driven now, with its whole path."""
+        return self._loop.leg
 
     def subscribe(self) -> Subscription:
         """Iterate over (seq, event) from now on; take a ``snapshot`` after, and drop older seqs."""

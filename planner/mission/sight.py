@@ -21,6 +21,11 @@ def standing(status: Status) -> bool:
     return still and abs(status.measured.w_radps) < STANDING_RADPS
 
 
+def at_rest(status: Status) -> bool:
+    """Tell whether nothing drives the robot and it stands: time for work that may pause us."""
+    return status.mode not in (Mode.ACTIVE, Mode.TELEOP, Mode.STOPPING) and standing(status)
+
+
 def cannot_move(status: Status | None) -> str | None:
     """Return the pause reason of a mode in which nothing can be granted, or None."""
     if status is None or status.mode in (Mode.BOOT, Mode.SELFTEST, Mode.DISARMED):

@@ -9,10 +9,10 @@ from typing import Any, TypeVar
 
 import pytest
 
-from planner.link import BridgeSilent, Link, OperatorProofNeeded
+from planner.link import BridgeSilent, Link
 from planner.link.lidar import points_in_map
-from tests.planner.mission.fakes import FakeBridge, status
-from wire import VIRTUAL_KEY, Pose2, RobotDescription, Scan, Stop, authentic
+from tests.planner.mission.fakes import FakeBridge
+from wire import OpRequest, Pose2, RobotDescription, Scan, Stop
 from wire.robot import LidarConfig
 
 ROBOT = RobotDescription()
@@ -72,7 +72,7 @@ def test_stop_gives_up_aloud_after_two_seconds() -> None:
 def test_operate_returns_the_verdict_or_raises() -> None:
     bridge = FakeBridge()
     link = Link(bridge, ROBOT, clock=Clock())
-    request = link.unsigned("test", request_id="r-1")
+    request = OpRequest(id="r-1", source="test")
     answer = with_polls(bridge, link, link.operate("disarm", request))
     assert (answer.id, answer.kind, answer.accepted) == ("r-1", "disarm", True)
     silent = Link(FakeBridge(deaf=True), ROBOT, clock=Clock(per_call_s=0.5))
@@ -80,28 +80,6 @@ def test_operate_returns_the_verdict_or_raises() -> None:
         asyncio.run(silent.operate("disarm", request))
     assert error.value.code == "bridge_silent"
     assert error.value.message["zh"]
-
-
-def test_virtual_drives_are_signed_for_and_no_other() -> None:
-    bridge, clock = FakeBridge(), Clock()
-    link = Link(bridge, ROBOT, clock=clock)
-    with pytest.raises(BridgeSilent):
-        link.sign_virtual("arm", "test")
-    bridge.step()
-    link.poll()
-    request = link.sign_virtual("arm", "test")
-    assert authentic(VIRTUAL_KEY, "arm", "r1", request.proof, request.id)
-    real = status(seq=9)
-    bridge.pending = real.model_copy(
-        update={"drive": real.drive.model_copy(update={"virtual": False, "kind": "serial"})}
-    )
-    link.poll()
-    with pytest.raises(OperatorProofNeeded) as error:
-        link.sign_virtual("arm", "test")
-    assert error.value.code == "operator_proof_needed"
-    clock.now_s += 2.0
-    with pytest.raises(BridgeSilent):
-        link.sign_virtual("arm", "test")
 
 
 def test_ages_run_on_our_own_clock() -> None:

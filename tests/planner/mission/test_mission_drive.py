@@ -16,6 +16,7 @@ from planner.mission.events import (
     Submitted,
     Tick,
 )
+from planner.mission.records import MAX_ENDED
 from planner.plan import (
     Answer,
     Bilingual,
@@ -34,6 +35,7 @@ from planner.plan import (
 from tests.planner.mission.fakes import FakeBridge, row
 from tests.planner.mission.lockstep import Together, go, talk
 from wire import Action, HeldReason, LegReport, Mode, Pose2
+from wire import Answer as BridgeAnswer
 
 RUNNING, PAUSED, QUEUED = GoalState.RUNNING, GoalState.PAUSED, GoalState.QUEUED
 SUCCEEDED, FAILED, CANCELLED = GoalState.SUCCEEDED, GoalState.FAILED, GoalState.CANCELLED
@@ -574,3 +576,81 @@ def test_an_external_owner_is_never_pushed_aside() -> None:
     goal = world.give(go("kitchen"))
     world.run(0.5)
     assert world.goal(goal).state is PAUSED or world.bridge.waypoints == []
+
+
+def test_the_operators_budget_pauses_and_a_person_goes_on(world: Together) -> None:
+    goal = driving(world)
+    spent = {"operator_metres": 0.0, "rows": (row("BUDGET"),)}
+    said = world.bridge.step().model_copy(update=spent)
+    world.carry(world.engine.status(said, world.now_s + 0.05))
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "budget")
+    world.event(Resume(goal))
+    world.run_until(goal, SUCCEEDED)
+
+
+@pytest.mark.parametrize("code", ["budget", "not_owner"])
+def test_a_refused_grant_ends_the_mission_only_where_nothing_can_help(
+    world: Together, code: str
+) -> None:
+    goal = driving(world)
+    world.bridge.turn()
+    refused = BridgeAnswer(id=goal, kind="grant", accepted=False, code=code, detail="")
+    said = world.bridge.step().model_copy(update={"answers": (refused,)})
+    world.carry(world.engine.status(said, world.now_s + 0.05))
+    assert (world.goal(goal).state is FAILED) == (code == "budget")
+
+
+def test_a_hold_by_fault_names_its_row(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.rows = (row("DRIVER_NACK", Action.STOP1),)
+    world.bridge.hold(HeldReason.FAULT)
+    world.run()
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "fault(DRIVER_NACK)")
+
+
+def test_thinking_and_queued_goals_can_be_paused_and_resumed(world: Together) -> None:
+    running, queued, thinking = driving(world), world.give(go("hall")), world.give(None)
+    world.event(Pause(thinking))
+    assert (world.goal(thinking).state, world.dropped) == (PAUSED, [thinking])
+    world.event(Pause(queued))
+    assert world.goal(queued).held
+    world.run_until(running, SUCCEEDED)
+    assert standing_still(world)
+    world.event(Resume(queued))
+    world.run_until(queued, SUCCEEDED)
+    world.plans[thinking] = go("dock")
+    world.event(Resume(thinking))
+    world.run_until(thinking, SUCCEEDED)
+
+
+def test_a_goal_put_last_is_last(world: Together) -> None:
+    driving(world)
+    second, third, fourth = (world.give(go("hall")) for _ in range(3))
+    world.event(Move(second))
+    assert world.book.queue == (third, fourth, second)
+    assert world.disk_entries[-1].queue == world.book.queue, "the order outlives us"
+
+
+def test_only_so_many_ended_goals_stay_at_hand(world: Together) -> None:
+    running = driving(world)
+    goals = [world.give(go("cellar")) for _ in range(MAX_ENDED + 5)]
+    assert len(world.book.missions) == MAX_ENDED + 1
+    assert goals[4] not in world.book.missions
+    assert {goals[5], goals[-1], running} <= set(world.book.missions)
+
+
+def test_coming_back_without_a_pose_to_come_back_to_fails(world: Together) -> None:
+    world.bridge.localized = False
+    world.run()
+    goal = world.give(StepPlan(steps=(ComeBack(),)))
+    assert (world.goal(goal).state, world.goal(goal).reason) == (FAILED, "no_route")
+
+
+def test_a_goal_given_before_the_robot_is_localized_starts_once_it_is(world: Together) -> None:
+    world.bridge.localized = False
+    world.run()
+    goal = world.give(go("kitchen"))
+    world.run(2.0)
+    assert world.routes == []
+    world.bridge.localized = True
+    world.run_until(goal, SUCCEEDED)

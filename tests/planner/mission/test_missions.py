@@ -31,7 +31,7 @@ from planner.plan import Bilingual, Clarify, Code, Goal, GoalState, GoTo, Say, S
 from planner.route import RouteFailure, RouteRequest, RouteResult
 from planner.world import Site
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
-from wire import Mode, Pose2, RobotDescription, Status
+from wire import Mode, OpRequest, Pose2, RobotDescription, Status
 
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
 SOFA = StepPlan(steps=(GoTo(place="sofa"),))
@@ -150,7 +150,7 @@ def test_stop_is_never_asked_of_a_brain_and_pauses(tmp_path: Path, site: Site) -
             assert world.missions.goal(goal.id).reason == "stop"
             assert len(world.brain.asked) == 1
             assert world.bridge.held is not None
-            act = world.missions.link.sign_virtual("resume", "test")
+            act = OpRequest(id="act-1", source="test")
             await world.missions.resume(act=act)
             await world.reach(goal.id, GoalState.SUCCEEDED)
 
@@ -213,7 +213,7 @@ def test_a_new_process_takes_up_paused_and_moves_only_when_told(tmp_path: Path, 
             seq = bridge.seq
             await world.until(lambda: bridge.seq > seq + 60)
             assert len(bridge.moved_epochs) == moved
-            act = world.missions.link.sign_virtual("resume", "test")
+            act = OpRequest(id="act-1", source="test")
             await world.missions.resume(goal.id, act=act)
             await world.reach(goal.id, GoalState.SUCCEEDED)
 
