@@ -57,7 +57,7 @@ class Planner:
         limits = RouteLimits.of(self.description)
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
         link = Link(WireBus(self._session), self.description)
-        self.robot = LinkedRobot(link)
+        self.robot = LinkedRobot(link, self.description)
         self.goals = Missions(
             site=self.site,
             robot=self.description,

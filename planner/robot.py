@@ -6,7 +6,7 @@ import logging
 from typing import TYPE_CHECKING, Any
 
 from planner.link import BridgeSilent, Link
-from wire import Answer, OpKind, OpRequest, Status, Velocity
+from wire import Answer, OpKind, OpRequest, RobotDescription, Status, Velocity
 
 if TYPE_CHECKING:
     from planner.link import Aged
@@ -17,14 +17,19 @@ log = logging.getLogger(__name__)
 class LinkedRobot:
     """Answer the routes from one link. Never blocks."""
 
-    def __init__(self, link: Link) -> None:
+    def __init__(self, link: Link, description: RobotDescription) -> None:
         self._link = link
+        self.description = description
         self._steered: tuple[str, int] = ("", 0)
 
     @property
     def status(self) -> Status | None:
         """Return the newest status, however old; its age stands in ``ages_s``."""
         return self._link.status.value if self._link.status else None
+
+    def obstacles(self) -> tuple[tuple[float, float], ...]:
+        """Return what the lidar sees now as points in ``map`` [m]."""
+        return self._link.obstacles()
 
     def ages_s(self) -> dict[str, float | None]:
         """Return how long ago each source was last heard, on our own clock."""

@@ -6,6 +6,7 @@ name that somebody points at 127.0.0.1, must not drive the robot.
 
 from __future__ import annotations
 
+import base64
 import hmac
 import ipaddress
 from dataclasses import dataclass
@@ -36,6 +37,12 @@ STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
 
 
+SUBPROTOCOL = "pons.v1"
+TOKEN_PREFIX = "bearer."
+"""A browser can't set a header on a WebSocket: it offers ``pons.v1, bearer.TOKEN`` as subprotocols,
+the token in unpadded base64url; only the first is ever chosen, so the token is not echoed."""
+
+
 @dataclass(frozen=True, slots=True)
 class Access:
     """Hold the rules of one planner."""
@@ -63,7 +70,12 @@ class Access:
         host = headers.get("host", "")
         self._check_host(host)
         self._check_origin(headers.get("origin"), host)
-        role = self._role(headers.get("authorization", ""))
+        if method in SAFE_METHODS and not websocket and _is_page(path):
+            return Role.VIEWER  # the page holds no secret, and a browser asks for it without token
+        token = _bearer(headers.get("authorization", ""))
+        if websocket and not token:
+            token = _offered(headers.get("sec-websocket-protocol", ""))
+        role = self._role(token)
         if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
             _check_type(headers.get("content-type", ""))
             if role is not Role.OPERATOR:
@@ -84,15 +96,13 @@ class Access:
             return
         raise NotAllowed(403, "foreign_origin", f"origin {origin[:80]!r} is not this page's")
 
-    def _role(self, authorization: str) -> Role:
+    def _role(self, token: str) -> Role:
         if self.loopback and not self.operator_token:
             return Role.OPERATOR
-        scheme, _, token = authorization.partition(" ")
-        if scheme.lower() == "bearer":
-            if _same(token, self.operator_token):
-                return Role.OPERATOR
-            if _same(token, self.viewer_token):
-                return Role.VIEWER
+        if _same(token, self.operator_token):
+            return Role.OPERATOR
+        if _same(token, self.viewer_token):
+            return Role.VIEWER
         raise NotAllowed(401, "token_needed", "send Authorization: Bearer with a valid token")
 
 
@@ -104,6 +114,28 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+def _is_page(path: str) -> bool:
+    return path == "/" or path.startswith("/assets/")
+
+
+def _bearer(authorization: str) -> str:
+    scheme, _, token = authorization.partition(" ")
+    return token if scheme.lower() == "bearer" else ""
+
+
+def _offered(subprotocols: str) -> str:
+    """Return the token among the subprotocols that a browser offers; empty if there is none."""
+    for offer in subprotocols.split(","):
+        name = offer.strip()
+        if name.startswith(TOKEN_PREFIX):
+            text = name.removeprefix(TOKEN_PREFIX)
+            try:
+                return base64.b64decode(text + "=" * (-len(text) % 4), b"-_", True).decode()
+            except ValueError:
+                return ""
+    return ""
 
 
 def _same(given: str, expected: str) -> bool:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fastapi import FastAPI, Request
-from starlette.responses import HTMLResponse, JSONResponse
+from starlette.responses import JSONResponse
 
-from planner.api import events, goals, health, operator, problems, robot
+from planner.api import events, goals, health, operator, pages, problems, robot
 from planner.api.guard import Guard
 from planner.api.ports import Services
 from planner.mission.errors import MissionError
@@ -15,31 +15,25 @@ from planner.mission.errors import MissionError
 if TYPE_CHECKING:
     from collections.abc import Callable
     from contextlib import AbstractAsyncContextManager
+    from pathlib import Path
 
     from planner.api.access import Access
 
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."
 
-_PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Pons</title></head><body>
-<h1>Pons</h1>
-<p>The planner runs. Give a goal from a shell / 规划器已运行，可在终端下达任务:</p>
-<pre>pons say "go to the living room"
-pons say 去厨房
-pons stop</pre>
-<p><a href="/v1/robot">robot</a> · <a href="/v1/goals">goals</a> ·
-<a href="/v1/places">places</a> · <a href="/openapi.json">API</a></p>
-</body></html>
-"""
-
 
 def build(
     services: Services,
     access: Access,
     lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] | None = None,
+    *,
+    page: Path = pages.BUILT,
 ) -> FastAPI:
-    """Return the application; documentation pages that load scripts from elsewhere stay off."""
+    """Return the application; documentation pages that load scripts from elsewhere stay off.
+
+    ``page`` is the folder of the built page; where it is not built, ``/`` says so.
+    """
     app = FastAPI(
         title="Pons",
         version=API_VERSION,
@@ -52,13 +46,9 @@ def build(
         app.include_router(part.routes(services))
     problems.install(app)
     app.add_exception_handler(MissionError, _mission)
-    app.add_api_route("/", _page, include_in_schema=False)
+    app.include_router(pages.routes(page))
     app.add_middleware(Guard, access=access)
     return app
-
-
-async def _page() -> HTMLResponse:
-    return HTMLResponse(_PAGE)
 
 
 async def _mission(_: Request, error: Exception) -> JSONResponse:

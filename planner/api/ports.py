@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Sequence
 
+    from planner.mission import Leg
     from planner.plan import Goal, Language
     from planner.world import Site
-    from wire import Answer, OpKind, OpRequest, Status
+    from wire import Answer, OpKind, OpRequest, RobotDescription, Status
 
 
 class Stopped(Protocol):
@@ -56,6 +57,8 @@ class Goals(Protocol):
 
     async def stop(self, source: str) -> Stopped: ...
 
+    def path(self) -> Leg | None: ...
+
     def subscribe(self) -> AsyncIterator[tuple[int, dict[str, Any]]]: ...
 
 
@@ -64,6 +67,11 @@ class Robot(Protocol):
 
     @property
     def status(self) -> Status | None: ...
+
+    @property
+    def description(self) -> RobotDescription: ...
+
+    def obstacles(self) -> Sequence[tuple[float, float]]: ...
 
     def ages_s(self) -> dict[str, float | None]: ...
 

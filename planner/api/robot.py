@@ -57,6 +57,29 @@ def robot_view(services: Services) -> dict[str, Any]:
     }
 
 
+def about(services: Services) -> dict[str, Any]:
+    """Return what does not change while the planner runs: the robot's body and its limits."""
+    robot = services.robot.description
+    return {
+        "base": robot.base.model_dump(mode="json"),
+        "limits": robot.limits.model_dump(mode="json"),
+    }
+
+
+def scan_view(services: Services) -> list[int]:
+    """Return what the lidar sees as x, y, x, y, … in ``map`` [cm]: half the bytes of metres."""
+    return [round(100.0 * value) for point in services.robot.obstacles() for value in point]
+
+
+def path_view(services: Services) -> dict[str, Any] | None:
+    """Return the running leg's whole path in ``map`` [m]; none while nothing is driven."""
+    leg = services.goals.path()
+    if leg is None:
+        return None
+    points = [[round(point.x_m, 3), round(point.y_m, 3)] for point in leg.points]
+    return {"goal": leg.mission, "leg": leg.leg, "points": points}
+
+
 def _map(services: Services) -> dict[str, Any]:
     grid, fence = services.site.grid, services.site.fence
     return {

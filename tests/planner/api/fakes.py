@@ -9,11 +9,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
 from planner.world import Site
 from tests.wire.examples import STATUS
-from wire import Answer, OpKind, OpRequest, Status
+from wire import Answer, OpKind, OpRequest, RobotDescription, Status
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -38,6 +39,7 @@ class FakeGoals:
         self.changes: list[dict[str, Any]] = []
         self.acts: list[OpRequest | None] = []
         self.stops: list[str] = []
+        self.leg: Leg | None = None
 
     async def submit(
         self,
@@ -91,6 +93,9 @@ class FakeGoals:
         self.stops.append(source)
         return StopEcho()
 
+    def path(self) -> Leg | None:
+        return self.leg
+
     async def subscribe(self) -> AsyncIterator[tuple[int, dict[str, Any]]]:
         for seq, change in enumerate(self.changes):
             yield seq, change
@@ -104,6 +109,7 @@ class FakeRobot:
         self._status = status
         self.asked: list[tuple[OpKind, OpRequest]] = []
         self.steers: list[tuple[str, float, float, bool]] = []
+        self.points: list[tuple[float, float]] = []
         self.verdict: Answer | None = Answer(
             id="x", kind="arm", accepted=True, code="ok", detail=""
         )
@@ -111,6 +117,13 @@ class FakeRobot:
     @property
     def status(self) -> Status | None:
         return self._status
+
+    @property
+    def description(self) -> RobotDescription:
+        return RobotDescription()
+
+    def obstacles(self) -> Sequence[tuple[float, float]]:
+        return self.points
 
     def ages_s(self) -> dict[str, float | None]:
         return {"status": 0.02, "localization": 0.1, "scan": None}
