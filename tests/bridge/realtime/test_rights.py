@@ -7,12 +7,13 @@ import os
 import resource
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
 import pytest
 
-from bridge.realtime import Right, all_granted, lock_memory, pin, take_fifo
+from bridge.realtime import Right, all_granted, lock_memory, pin, rights, take_fifo
 
 
 def refuse(*_: Any) -> NoReturn:
@@ -27,12 +28,31 @@ def libc(answer: int) -> Callable[..., SimpleNamespace]:
     return lambda *_, **__: SimpleNamespace(mlockall=lambda _: answer)
 
 
-def test_memory_is_not_locked_under_a_finite_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+def capabilities(folder: Path, line: str) -> Path:
+    path = folder / "status"
+    path.write_text(f"Name:\tbridge\n{line}\n")
+    return path
+
+
+@pytest.mark.parametrize("line", ["CapEff:\t0000000000000000", "CapEff:\tnone", "CapEff:", ""])
+def test_memory_is_not_locked_under_a_finite_limit(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, line: str
+) -> None:
+    monkeypatch.setattr(rights, "_STATUS", capabilities(tmp_path, line))
     monkeypatch.setattr(resource, "getrlimit", limit(8 << 20))
     monkeypatch.setattr(ctypes, "CDLL", refuse)  # not even tried
     assert lock_memory() == Right(
         "mlockall", granted=False, detail="RLIMIT_MEMLOCK is 8388608 bytes"
     )
+
+
+def test_a_limit_that_does_not_bind_us_is_none(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(rights, "_STATUS", capabilities(tmp_path, "CapEff:\t0000000000004000"))
+    monkeypatch.setattr(resource, "getrlimit", limit(8 << 20))
+    monkeypatch.setattr(ctypes, "CDLL", libc(0))
+    assert lock_memory().granted
 
 
 def test_a_refused_lock_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
