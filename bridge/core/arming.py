@@ -36,7 +36,8 @@ def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
         if stage.row == _OF_THE_BRAIN:
             continue  # it ends with the arming that it asks for
         stops = SEVERITY[stage.action] >= SEVERITY[Action.HOLD2]
-        if everyones and stops and up.dirty_s >= tick.now_s - tick.dt_s:
+        clean_s = CLEAN_S if stage.clears is Clears.ON_RESET else tick.dt_s
+        if everyones and stops and not tick.now_s - up.dirty_s > clean_s:
             yield stage.row.lower(), up.evidence
     if s.lidar.received_s is None:
         yield "lidar_stale", "no scan has come yet"
@@ -57,6 +58,9 @@ def reset_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
         return
     if pressed(tick) is not None:
         yield "estop_pressed", pressed(tick) or ""
+    pressed_s = s.buttons.pressed_s
+    if pressed_s is not None and not tick.now_s - pressed_s >= CLEAN_S:
+        yield "estop_just_released", f"the input must have been free for {CLEAN_S} s"
     if not tick.still_for(STANDING_S):
         yield "not_standing", f"the robot must have stood for {STANDING_S} s"
     for name, up in s.rows.items():

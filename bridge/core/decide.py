@@ -6,6 +6,7 @@ Rows are evaluated here and never from callbacks.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core import (
@@ -17,11 +18,13 @@ from bridge.core import (
     selftest,
     stops,
 )
+from bridge.core.epoch import hold, shelved
 from bridge.core.legs import callable_horizon, judge_arrival
 from bridge.core.modes import Fact
 from bridge.core.operator import estop
+from bridge.core.state import Gate
 from bridge.core.transition import escalate, go
-from wire import SEVERITY, Action, Mode
+from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
     from bridge.core.tick import Tick
@@ -37,6 +40,10 @@ DETECTORS = (
     detect_loop.rights,
 )
 """Each takes the tick and a list to which it adds what it sees. Adding a row adds one here."""
+
+REVOKED_S = 30.0
+"""A mission that a HOLD2 has kept waiting for so long needs a person to go on."""
+REVOKED_BLOCKED_S = 300.0
 
 _FOLLOWS = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.TELEOP})
 _HOLD2 = SEVERITY[Action.HOLD2]
@@ -69,8 +76,33 @@ def decide(tick: Tick) -> None:
     elif must_stop and s.mode is Mode.STOPPING:
         _worsen(tick, action, why, reset_needed=reset_needed)
     stops.judge(tick)
+    _tire(tick, must_stop=must_stop)
     if not must_stop:
         _call(tick)
+
+
+def _tire(tick: Tick, *, must_stop: bool) -> None:
+    """While holding: forget a horizon grown old, and revoke a mission that waits for too long.
+
+    A stale horizon matters while it moves the robot; a standing one just needs another.
+    """
+    s = tick.s
+    waits = s.mode is Mode.HOLD and s.grants.mission is not None
+    blocked = s.gate.blocked
+    if not (waits and (must_stop or blocked)):
+        s.waits_since_s = None
+    elif s.waits_since_s is None:
+        s.waits_since_s = tick.now_s
+    elif tick.now_s - s.waits_since_s >= (REVOKED_S if must_stop else REVOKED_BLOCKED_S):
+        why = latch.worst(tick)[1] if must_stop else "obstacle"
+        tick.say("mission_revoked", f"{s.grants.mission} {why}")
+        s.grants = shelved(s.grants)
+        s.waits_since_s = None
+        hold(tick, HeldReason.FAULT, why)
+    if s.mode is Mode.HOLD and s.leg.horizon is not None and not callable_horizon(tick):
+        s.leg = replace(s.leg, horizon=None, path=None)
+    if blocked and s.grants.mission is None:
+        s.gate = Gate()
 
 
 def _worsen(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> None:

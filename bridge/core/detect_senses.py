@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.ages import sensor_age_s
@@ -76,7 +77,9 @@ def drive(tick: Tick, dirty: Dirty) -> None:
 def buttons(tick: Tick, dirty: Dirty) -> None:
     """Judge the protective-stop inputs."""
     evidence = pressed(tick)
-    if evidence is None and tick.s.buttons.ordered:
+    if evidence is not None:
+        tick.s.buttons = replace(tick.s.buttons, pressed_s=tick.now_s)
+    elif tick.s.buttons.ordered:
         evidence = "asked for by message"
     if evidence is not None:
         dirty.append(("ESTOP.0", evidence))

@@ -103,8 +103,12 @@ def clear_on_hello(tick: Tick) -> None:
 
 
 def clear_on_arm(tick: Tick) -> None:
-    """Let go what arming ends."""
-    _let_go(tick, lambda stage: stage.clears in {Clears.ON_REARM, Clears.ON_GRANT})
+    """Let go what arming ends.
+
+    What needs a reset and rose while the drive was off never made a FAULT that could be reset: the
+    person who arms has it before them, and arming has waited until it was clean.
+    """
+    _let_go(tick, lambda stage: stage.clears not in {Clears.AUTO, Clears.REBOOT})
 
 
 def clear_on_reset(tick: Tick) -> None:

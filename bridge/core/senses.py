@@ -83,7 +83,8 @@ def _hear_drive(tick: Tick, state: DriveState) -> None:
         return
     if reborn:
         drive.reborn_s = tick.now_s
-        drive.behind_base = s.command_seq
+    if reborn or last is None:
+        drive.behind_base = s.command_seq  # it cannot echo what was said before it lived
     s.odometry = advance(s.odometry, state, tick.config.robot.base, rezero=reborn)
     drive.newest, drive.received_s = state, tick.now_s
     echoed = state.echo_seq if state.echo_boot == tick.config.boot else 0

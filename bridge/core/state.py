@@ -117,8 +117,9 @@ class BridgeState:
     held: Held | None = None
     source: str = ""
     """Who moves the robot: W waypoints, X external, T teleop, or nobody."""
+    waits_since_s: float | None = None
+    """Since when a granted mission stands in HOLD because of a row or an obstacle."""
     bad_bucket: float = 0.0
-    bad_s: float = 0.0
     rows: dict[str, RowUp] = field(default_factory=dict)
     """Stages that are up, by name; never written to, replaced when one rises or clears."""
     odometry: OdometryState = field(default_factory=OdometryState)

@@ -58,6 +58,8 @@ class ButtonMemory:
 
     link_pressed: bool = False
     link_received_s: float | None = None
+    pressed_s: float | None = None
+    """When an input was last seen pressed."""
     ordered: bool = False
     """op/estop was said since the last reset."""
 

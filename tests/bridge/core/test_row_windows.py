@@ -396,7 +396,11 @@ def test_the_drives_stop_input_latches_until_reset() -> None:
     world.tick()
     assert world.verdict(request_id) == "estop_pressed"
     world.drive.estop_pressed = False
-    world.run(0.1)
+    world.run(1.9)
+    request_id = world.op("reset")
+    world.tick()
+    assert world.verdict(request_id) == "estop_just_released"
+    world.run(0.2)
     world.op("reset")
     world.tick()
     assert world.is_in(Mode.DISARMED)
@@ -418,7 +422,7 @@ def test_a_reset_is_no_way_around_the_self_test() -> None:
     world.run(1.0)
     assert world.is_in(Mode.ESTOPPED)
     world.drive.estop_pressed = False
-    world.run(0.2)
+    world.run(2.2)
     world.op("reset")
     world.tick()
     assert world.is_in(Mode.SELFTEST)
@@ -453,3 +457,45 @@ def test_a_stop_link_that_falls_silent_counts_as_pressed() -> None:
 
 def test_stage_names_are_unique() -> None:
     assert len(STAGES) == sum(len(row.stages) for row in ROWS)
+
+
+def test_a_drive_that_comes_late_is_not_blamed_for_what_it_never_heard() -> None:
+    world = World(drive_silent=True)
+    world.run(3.0)
+    world.drive_silent = False
+    world.armed()
+    world.run(0.5)
+    assert world.is_in(Mode.HOLD)
+    assert not raised(world, "DRIVER_NACK.1")
+
+
+def test_a_row_that_needs_a_reset_but_rose_while_disarmed_ends_with_arming() -> None:
+    world = World().ready()
+    world.drive.deaf = True
+    world.run(0.8)
+    assert raised(world, "DRIVER_NACK.1")
+    world.drive.deaf = False
+    world.run(1.0)
+    request_id = world.op("arm")
+    world.tick()
+    assert world.verdict(request_id) == "driver_nack"
+    world.run(1.2)
+    world.op("arm")
+    world.run(1.0)
+    assert world.is_in(Mode.HOLD)
+
+
+def test_a_mission_that_waits_for_30_s_is_revoked_until_a_person_acts() -> None:
+    world = World().driving((5.0, 0.0))
+    world.localization_silent = True
+    world.run(29.0)
+    assert world.state.grants.mission == "m1"
+    world.run(3.0)
+    assert world.state.grants.mission is None
+    assert world.state.held is not None
+    assert world.state.held.id == "pose_lost"
+    world.localization_silent = False
+    world.run(1.0)
+    assert world.is_in(Mode.HOLD)
+    world.op("resume")
+    world.until(Mode.ACTIVE, 1.0)
