@@ -10,24 +10,20 @@ from __future__ import annotations
 import argparse
 import os
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bench.lab import Lab, Measure, Missed
+from bench.lab import TROUBLE, Lab, Measure, line
 from bench.measure import ALL
 from bench.report import Row, table
 from bench.store import Store
-from pons.http import PlannerDown, Refused
-from wire import Misconfigured
 
 if TYPE_CHECKING:
     from types import FrameType
 
 INTERRUPTED = 130
-TROUBLE = (Missed, Misconfigured, PlannerDown, Refused, OSError, subprocess.SubprocessError)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -56,17 +52,13 @@ def _take(one: Measure, lab: Lab) -> int:
     try:
         rows = one.measure(lab)
     except TROUBLE as trouble:
-        rows = [Row(one.NAME, "", "", value="not measured", note=_line(trouble), valid=False)]
+        rows = [Row(one.NAME, "", "", value="not measured", note=line(trouble), valid=False)]
     for row in rows:
         lab.store.append("row", one.NAME, row.record())
     print(
         f"\n{one.TITLE} ({one.NAME}, {time.monotonic() - began_s:.0f} s)\n{table(rows)}", flush=True
     )
     return sum(row.figures is None and not row.valid for row in rows)
-
-
-def _line(trouble: BaseException) -> str:
-    return " | ".join(str(trouble).splitlines())[:500]
 
 
 def _default(long: bool) -> list[Measure]:

@@ -6,13 +6,16 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from subprocess import SubprocessError
 from tempfile import TemporaryDirectory
 from typing import Any, Protocol
 
 from bench.report import Row
 from bench.store import Store
+from pons.http import PlannerDown, Refused
+from wire import Misconfigured
 
 
 class Measure(Protocol):
@@ -27,6 +30,14 @@ class Measure(Protocol):
         """Measure and return the rows of a table."""
 
 
+class Missed(Exception):
+    """What a measurement waited for did not come."""
+
+
+TROUBLE = (Missed, Misconfigured, PlannerDown, Refused, OSError, SubprocessError)
+"""What a slice may end in without being a defect of the bench."""
+
+
 @dataclass
 class Lab:
     """Serve one run of the benches."""
@@ -34,6 +45,8 @@ class Lab:
     store: Store
     long: bool
     name: str = ""
+    lost: list[str] = field(default_factory=list)
+    """Slices that could not be taken, and why."""
 
     def count(self, quick: int, long: int) -> int:
         """Return how often to repeat: enough for the minutes there are."""
@@ -57,7 +70,11 @@ class Lab:
         for index in range(count):
             if index not in known:
                 self.say(f"{what} {index + 1}/{count}")
-                known[index] = take(index)
+                try:
+                    known[index] = take(index)
+                except TROUBLE as trouble:  # one slice lost is no reason to lose the others
+                    self.lost.append(f"{what} {index + 1}: {line(trouble)}")
+                    continue
                 self.store.append("slice", name, {"index": index, "data": known[index]})
             yield known[index]
 
@@ -81,5 +98,6 @@ def until(done: Callable[[], object], limit_s: float, what: str, pause_s: float 
         time.sleep(pause_s)
 
 
-class Missed(Exception):
-    """What a measurement waited for did not come."""
+def line(trouble: BaseException) -> str:
+    """Write what went wrong in one line."""
+    return " | ".join(str(trouble).splitlines())[:300]

@@ -18,6 +18,7 @@ from bench.lab import Missed, until
 from pons.http import PlannerDown, Refused, call
 from pons.processes import Child
 from pons.settings import CHECKOUT, Settings
+from sim import PERIODS
 from wire import VIRTUAL_KEY, Mode, OpKind, OpRequest, SimTruth, Status, load_robot, sign
 from wire.keys import OPS, SIM_TRUTH, STATUS, Party
 from wire.session import open_session
@@ -59,7 +60,7 @@ class Robot:
             name: self._child(TAPPED if tapped and name == "bridge" else name, words[name])
             for name in only
         }
-        self.slowest = float("inf")
+        self._truths_seen: list[SimTruth] = []
         self._stack = ExitStack()
 
     def __enter__(self) -> Self:
@@ -89,22 +90,27 @@ class Robot:
 
     @property
     def status(self) -> Status | None:
-        """Return the newest status; every look also notes how fast the simulator runs."""
+        """Return the newest status; every look also notes how far the simulator is."""
         self._status = self._statuses.newest() or self._status
         for truth in self._truths.drain().items:
             if isinstance(truth, SimTruth):
-                self.slowest = min(self.slowest, truth.real_time_factor)
+                self._truths_seen = [*self._truths_seen[:1], truth]
         return self._status
 
     @property
-    def valid(self) -> bool:
-        """Tell whether the simulator kept up since ``forget``."""
-        return self.slowest >= SLOW
+    def speed(self) -> float:
+        """Return simulated over real time since ``forget``; zero where nothing was heard."""
+        if len(self._truths_seen) < 2:
+            return 0.0
+        first, last = self._truths_seen
+        real_s = last.stamp_s - first.stamp_s
+        simulated_s = (last.seq - first.seq) * PERIODS.truth_ticks * PERIODS.tick_s
+        return simulated_s / real_s if real_s > 0.0 else 0.0
 
     def forget(self) -> None:
         """Begin to judge the simulator anew."""
         self.status  # noqa: B018  # drains what came before
-        self.slowest = float("inf")
+        self._truths_seen = []
 
     def pid(self, name: str) -> int:
         """Return a child's process id.

@@ -111,7 +111,7 @@ def tapped_step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: flo
 
 def _note_silence(state: BridgeState, decision: Decision, now_s: float) -> None:
     """Note, at the tick where BRAIN_LOST rises, how old the newest echoed status is."""
-    lost = "BRAIN_LOST" in decision.state.rows
+    lost = any(stage.startswith("BRAIN_LOST") for stage in decision.state.rows)
     if lost and not TAP.was_lost:
         echo_s = decision.state.ownership.echo_s
         TAP.silences.append(

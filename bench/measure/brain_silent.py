@@ -1,15 +1,15 @@
 """Kill and freeze the brain at random moments of a drive and see when the bridge holds.
 
 Real bridge, simulator and localization; the brain is a stub that speaks with the planner's own link
-code. The age is that of the newest echoed status at the tick that decided HOLD2, whole periods that
-the host took away included. A restart unasked is motion after a kill before a person acted.
+code. Counted from the newest echoed status to the tick that decided HOLD2, in periods of the loop's
+absolute schedule: what the host took away is included, a tick's own lateness is rounded off. A
+restart unasked is motion after a kill before a person acted.
 """
 
 from __future__ import annotations
 
 import time
 from contextlib import ExitStack
-from math import ceil
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -44,11 +44,13 @@ def measure(lab: Lab) -> list[Row]:
     rows: list[Row] = []
     for way, take in (("kill", _kills), ("freeze", _freezes)):
         runs = list(lab.slices(way, SLICES, lambda index, take=take: _run(lab, index, take)))  # type: ignore[misc]  # the default binds the loop's function
-        ticks = [ceil(age / TICK_S - 1e-6) for run in runs for age in run["ages_s"]]
-        slowest = min(run["slowest"] for run in runs)
+        ticks = [round(age / TICK_S) for run in runs for age in run["ages_s"]]
+        slowest = min((run["speed"] for run in runs), default=0.0)
         late = sum(tick > 31 for tick in ticks)
         asked = sum(run["cycles"] for run in runs)
-        note = f"{late} over 31; {len(ticks)} of {asked} held; slowest simulator {slowest:.2f} x"
+        note = (
+            f"{late} over 31; {len(ticks)} of {asked} held; slowest run's simulator {slowest:.2f} x"
+        )
         samples = [float(tick) for tick in ticks]
         rows.append(row_of(f"{way} -> HOLD2", "ticks", GOAL, samples, note, valid=slowest >= SLOW))
         if way == "kill":
@@ -73,7 +75,7 @@ def _run(
             "ages_s": [one["age_s"] for one in held if one["age_s"] is not None],
             "cycles": PER_SLICE,
             "unasked": unasked,
-            "slowest": robot.slowest,
+            "speed": robot.speed,
         }
 
 

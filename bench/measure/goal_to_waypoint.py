@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from bench.lab import until
 from bench.report import Row, row_of
-from bench.robot import Robot
+from bench.robot import SLOW, Robot
 from wire import Mode
 
 if TYPE_CHECKING:
@@ -43,9 +43,9 @@ def measure(lab: Lab) -> list[Row]:
         for data in lab.slices(site, lab.count(2, 5), lambda i, site=site: _slice(lab, site, i)):  # type: ignore[misc]  # the default binds the loop's site
             first_ms += data["first_ms"]
             wheel_us += data["wheel_us"]
-            slowest.append(data["slowest"])
-        valid = min(slowest) >= 0.95
-        note = f"offline brain; slowest simulator {min(slowest):.2f} x"
+            slowest.append(data["speed"])
+        valid = min(slowest, default=0.0) >= SLOW
+        note = f"offline brain; slowest run's simulator {min(slowest, default=0.0):.2f} x"
         rows += [
             row_of(f"goal -> first waypoint, {site}", "ms", GOAL, first_ms, note, valid=valid),
             row_of(
@@ -76,7 +76,7 @@ def _slice(lab: Lab, site: str, index: int) -> dict[str, Any]:
         return {
             "first_ms": [(arrived_s[g] - asked_s[g]) * 1e3 for g in asked_s if g in arrived_s],
             "wheel_us": noted["wheel_us"],
-            "slowest": robot.slowest,
+            "speed": robot.speed,
         }
 
 
