@@ -199,7 +199,6 @@ def stop(turn: Turn) -> None:
     for mission in tuple(turn.book.missions.values()):
         if mission.state is GoalState.PLANNING:
             pause_planning(turn, mission, reason)
-    hold_queue(turn)
     turn.set(pardoned=None, pardon_until_s=float("-inf"))
 
 

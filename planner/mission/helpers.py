@@ -33,6 +33,8 @@ class Answers:
     planned: Callable[[Planned], None]
     routed: Callable[[AskRoute, tuple[RoutePoint, ...] | None, str | None], None]
     obstacles: Callable[[], tuple[tuple[float, float], ...]]
+    broken: Callable[[BaseException], None]
+    """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
 
 
 class Helpers:
@@ -68,8 +70,13 @@ class Helpers:
     def _start(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        task.add_done_callback(self._ended)
         return task
+
+    def _ended(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled() and (error := task.exception()) is not None:
+            self._answers.broken(error)
 
     def _drop(self, mission_id: str) -> None:
         task = self._thoughts.pop(mission_id, None)

@@ -65,6 +65,7 @@ class Loop:
         self._helpers: Helpers | None = None
         self._safe: Safekeeping | None = None
         self._task: asyncio.Task[None] | None = None
+        self._broken: BaseException | None = None
         self._ticked_s = self._told_s = float("-inf")
         self._told: tuple[object, ...] = ()
 
@@ -99,7 +100,7 @@ class Loop:
         """
         kept = await asyncio.to_thread(self._journal.load)
         self._safe = Safekeeping(self._journal, self._on_safe)
-        answers = Answers(self.event, self._on_routed, self._link.obstacles)
+        answers = Answers(self.event, self._on_routed, self._link.obstacles, self._break)
         self._helpers = Helpers(think, router, answers)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         self.event(Restarted(kept.missions, kept.queue, offset_s))
@@ -149,9 +150,10 @@ class Loop:
         self.hub.publish({"type": "act", "accepted": answer.accepted, "code": answer.code})
 
     async def _pump(self) -> None:
-        while True:
+        while self._broken is None:
             self._once()
             await asyncio.sleep(POLL_S)
+        raise self._broken
 
     def _once(self) -> None:
         """Do one round: hear, reduce, say."""
@@ -174,7 +176,15 @@ class Loop:
             self.hub.publish({"type": "status", "status": status})
 
     def _on_safe(self, entry: int) -> None:
-        self.event(Journalled(entry))
+        try:
+            self.event(Journalled(entry))
+        except Exception as error:
+            self._break(error)
+            raise
+
+    def _break(self, error: BaseException) -> None:
+        """End the loop with an error that came up beside it."""
+        self._broken = error
 
     def _on_routed(
         self, ask: AskRoute, points: tuple[RoutePoint, ...] | None, failure: str | None

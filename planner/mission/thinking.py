@@ -25,10 +25,12 @@ def thinker(brain: Brain, vocabulary: Vocabulary) -> Think:
             thought = await brain.think(request)
         except PlanRejected as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
-            return Planned(ask.id, None, _outcome(Code.BAD_PLAN, why=str(error)[:200]), brain.tag)
+            said = _outcome(Code.BAD_PLAN, why=str(error)[:200])
+            return Planned(ask.id, None, said, error.brain or brain.tag)
         except BrainDown as error:
             log.warning("goal %s: the brain is down: %s", ask.id, error)
-            return Planned(ask.id, None, _outcome(Code.MODEL_UNAVAILABLE), brain.tag)
+            said = _outcome(Code.MODEL_UNAVAILABLE)
+            return Planned(ask.id, None, said, error.brain or brain.tag)
         judged = validate_plan(thought.plan, vocabulary)
         if isinstance(judged, Rejection):
             return Planned(ask.id, None, judged.outcome, thought.brain)

@@ -26,7 +26,9 @@ from planner.mission import (
     QueueFull,
     UnknownGoal,
 )
+from planner.mission.events import Journalled
 from planner.mission.hub import MAX_WAITING, Hub
+from planner.mission.loop import Loop
 from planner.plan import Bilingual, Clarify, Code, Goal, GoalState, GoTo, Say, StepPlan
 from planner.route import RouteFailure, RouteRequest, RouteResult
 from planner.world import Site
@@ -369,3 +371,32 @@ def test_a_listener_that_falls_behind_is_told_so() -> None:
         assert [event["number"] async for _, event in slow] == [MAX_WAITING + 1, MAX_WAITING + 2]
 
     run(story())
+
+
+@pytest.mark.parametrize("handler", ["_on_routed", "event"])
+def test_a_fault_of_ours_ends_the_loop_aloud(
+    tmp_path: Path, site: Site, monkeypatch: pytest.MonkeyPatch, handler: str
+) -> None:
+    def broken(loop: Loop, *answer: object) -> None:
+        if handler == "_on_routed" or isinstance(answer[0], Journalled):
+            raise ZeroDivisionError("a fault of ours")
+        ours(loop, *answer)
+
+    ours = getattr(Loop, handler)
+
+    async def story() -> None:
+        monkeypatch.setattr(Loop, handler, broken)
+        async with planner(tmp_path, site) as world:
+            asyncio.get_running_loop().set_exception_handler(lambda loop, context: None)
+            await world.missions.submit("go to the kitchen")
+            await world.until(lambda: world.missions.failed is not None)
+            assert isinstance(world.missions.failed, ZeroDivisionError)
+            assert world.bridge.waypoints == []
+            raise Done
+
+    with pytest.raises(Done):
+        run(story())
+
+
+class Done(Exception):
+    """Leave a planner that is known to have failed."""
