@@ -9,7 +9,7 @@ when nobody drains it. Publishing never waits: a frozen peer loses messages, the
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import zenoh
 
@@ -66,13 +66,16 @@ class Subscriber(Generic[M]):
     def drain(self) -> Drained[M]:
         """Take all that is waiting, parse at most the 4 newest, in order of arrival."""
         payloads = self.drain_bytes()
+        if not payloads:  # most keys, in most ticks
+            return _NOTHING
         return Drained(
             tuple(decode(self._key, raw) for raw in payloads[-_PARSED_PER_DRAIN:]), len(payloads)
         )
 
     def newest(self) -> M | None:
         """Take all that is waiting and return the newest that is a message."""
-        for item in reversed(self.drain().items):
+        for raw in reversed(self.drain_bytes()[-_PARSED_PER_DRAIN:]):
+            item = decode(self._key, raw)
             if isinstance(item, self._key.message):
                 return item
         return None
@@ -92,6 +95,9 @@ class Drained(Generic[M]):
     def __init__(self, items: tuple[M | Rejected, ...], arrived: int) -> None:
         self.items = items
         self.arrived = arrived
+
+
+_NOTHING: Drained[Any] = Drained((), 0)
 
 
 class Session:
