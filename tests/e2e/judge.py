@@ -141,7 +141,7 @@ class Judge:
         return (
             f"mode {status.mode} held {status.held} epoch {status.epoch} owner {status.owner} "
             f"waiting {status.waiting_for} rows {rows} leg {status.leg} truth ({pose.x_m:.2f}, "
-            f"{pose.y_m:.2f}) v {truth.twist.v_mps:.2f}; events {codes}"
+            f"{pose.y_m:.2f}) v {truth.twist.v_mps:.3f} w {truth.twist.w_radps:.3f}; events {codes}"
         )
 
     # A span -------------------------------------------------------------------------------------

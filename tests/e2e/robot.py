@@ -23,6 +23,8 @@ FAR_M = 1.0
 THERE_M = 0.25
 """Reached is 0.10 m by the robot's own pose; the stand-in's noise (sigma 0.02 m) comes on top."""
 FACING_RAD = 0.25
+SETTLE_S = 0.5
+"""Reached is judged on the encoders; the truth is heard a period later, and bodies rock."""
 STOP_LIMIT_S = 2.0
 """0.3 s to notice, a status more, 0.5 m/s at 1 m/s2 and the drive's lag make 1 s; twice that."""
 
@@ -116,7 +118,7 @@ class Robot:
 
     def assert_there(self, place: Place) -> None:
         """Hold that the robot really stands at a place, and has touched nothing."""
-        assert self.judge.standing(), self.judge.describe()
+        self.judge.until_standing(SETTLE_S)
         pose = self.judge.truth.base_in_map
         if place.polygon is not None:
             assert place.contains(pose.x_m, pose.y_m), (place.id, self.judge.describe())

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from tests.e2e.robot import Robot
+from tests.e2e.robot import SETTLE_S, Robot
 from tests.e2e.system import ENDED
 
 pytestmark = pytest.mark.e2e
@@ -46,7 +46,7 @@ def test_several_places_in_order_and_back(robot: Robot) -> None:
     pose = robot.judge.truth.base_in_map
     assert abs(pose.x_m - began.x_m) < 0.25
     assert abs(pose.y_m - began.y_m) < 0.25
-    assert robot.judge.standing()
+    robot.judge.until_standing(SETTLE_S)
     robot.judge.assert_no_contact()
     driven_m = robot.judge.path_m(began_s)
     assert abs(ended["outcome"]["metres"] - driven_m) < 0.1 + 0.1 * driven_m
