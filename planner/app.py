@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import signal
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planner.api import Access, build
-from planner.brain import OfflineBrain
+from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.link import Link, WireBus
 from planner.mission import MissionJournal, Missions
 from planner.robot import LinkedRobot
 from planner.route import RouteLimits, RouteWorker
+from planner.settings import load_settings
 from planner.world import Site
 from wire import RobotDescription, load_robot
 from wire.keys import Party
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
 
     from fastapi import FastAPI
 
+    from planner.brain.endpoint import EndpointBrain
+    from planner.settings import Settings
 
 log = logging.getLogger(__name__)
 
@@ -48,8 +52,11 @@ class Planner:
         """Load everything and take the planner's place in the home folder.
 
         Raises:
-            Misconfigured, SiteError: robot.toml or the site is wrong, or a planner runs here.
+            Misconfigured, SiteError: robot.toml, settings.toml or the site is wrong, or a planner
+                runs here.
         """
+        self.settings = load_settings(where.home, os.environ)
+        self._model = _model(self.settings, where.home)
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
@@ -63,7 +70,7 @@ class Planner:
             robot=self.description,
             link=link,
             router=self._router,
-            brain=OfflineBrain(),
+            brain=_brain(self._model),
             journal=self._journal,
         )
 
@@ -76,8 +83,27 @@ class Planner:
         """End all parts; what ran comes back paused in the next process."""
         await self.goals.close()
         await self._router.close()
+        if self._model is not None:
+            await self._model.close()
         self._journal.close()
         self._session.close()
+
+
+def _model(settings: Settings, home: Path) -> EndpointBrain | None:
+    """Return the brain of the model that the owner has set, if one is."""
+    if settings.model is None:
+        return None
+    from planner.brain.endpoint import EndpointBrain, warm_up  # httpx costs 0.1 s: not for nothing
+
+    logging.getLogger("httpx").setLevel(logging.WARNING)  # a line for each call is too much
+    model = EndpointBrain(settings.model, home)
+    warm_up()
+    log.info("plans come from %s at %s", model.tag.name, model.address.host)
+    return model
+
+
+def _brain(model: EndpointBrain | None) -> Brain:
+    return OfflineBrain() if model is None else FallbackBrain(model, OfflineBrain())
 
 
 def application(planner: Planner, access: Access) -> FastAPI:

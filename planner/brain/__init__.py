@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from planner.brain.errors import BrainDown, Misconfigured, PlanRejected
+    from planner.brain.fallback import FallbackBrain
     from planner.brain.offline import OfflineBrain, language_of
     from planner.brain.protocol import Brain, ThinkRequest, Thought
     from planner.brain.scripted import ScriptedBrain
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 _DOORS = {
     "Brain": "protocol",
     "BrainDown": "errors",
+    "FallbackBrain": "fallback",
     "Misconfigured": "errors",
     "OfflineBrain": "offline",
     "PlanRejected": "errors",
@@ -32,6 +34,7 @@ _DOORS = {
 __all__ = [
     "Brain",
     "BrainDown",
+    "FallbackBrain",
     "Misconfigured",
     "OfflineBrain",
     "PlanRejected",

@@ -2,17 +2,37 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from planner.plan import BrainTag
+
 
 class PlanRejected(Exception):
     """The model's fault: goes back to it, at most as often as the budget has repairs."""
 
     code = "bad_plan"
 
+    def __init__(self, detail: str, brain: BrainTag | None = None) -> None:
+        super().__init__(detail)
+        self.brain = brain
+        """Who thought last, where another than the brain that was asked."""
+
 
 class BrainDown(Exception):
-    """Nobody's fault here: back off, then fall back to the offline brain."""
+    """Nobody's fault here: back off, then fall back to the offline brain.
+
+    ``why`` is one of the keys of ``planner.brain.reasons``.
+    """
 
     code = "model_unavailable"
+
+    def __init__(
+        self, detail: str, brain: BrainTag | None = None, *, why: str = "unavailable"
+    ) -> None:
+        super().__init__(detail)
+        self.brain = brain
+        self.why = why
 
 
 class Misconfigured(Exception):

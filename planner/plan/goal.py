@@ -89,10 +89,14 @@ class PlanRecord(Frozen):
 
 
 class BrainTag(Frozen):
-    """Name the brain that planned, with its version."""
+    """Name the brain that planned, with its version, and the brain it stood in for, if it did."""
 
     name: str
     version: str
+    prompt: str | None = None  # version and hash of the prompt that a model was asked with
+    fallback_from: str | None = None  # the model that should have planned
+    fallback_reason: str | None = None  # stable code of why it did not
+    fallback_message: Bilingual | None = None  # the same for a person
 
 
 class Goal(Frozen):

@@ -1,0 +1,8 @@
+"""Ask a model over HTTP for a plan. The only place of the planner that knows httpx."""
+
+from planner.brain.endpoint.address import Address
+from planner.brain.endpoint.brain import EndpointBrain, warm_up
+from planner.brain.endpoint.client import MAX_REPLY_BYTES
+from planner.brain.endpoint.judge import Unusable, judge
+
+__all__ = ["MAX_REPLY_BYTES", "Address", "EndpointBrain", "Unusable", "judge", "warm_up"]

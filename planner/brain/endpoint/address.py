@@ -1,0 +1,121 @@
+"""Judge where a model's endpoint may be: http or https, a plain host, nowhere on the link.
+
+Link-local addresses hold the metadata services of clouds, which give out credentials to whoever
+asks; no model lives there. Names are judged by what they are and, before a call, by what they
+resolve to.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import socket
+from dataclasses import dataclass
+from urllib.parse import urlsplit
+
+from wire import Misconfigured
+
+MAX_URL = 2000
+_METADATA_NAMES = ("metadata", "metadata.google.internal", "metadata.goog", "instance-data")
+_METADATA_ADDRESSES = frozenset(
+    map(ipaddress.ip_address, ("100.100.100.200", "fd00:ec2::254", "168.63.129.16"))
+)
+_LOOPBACK_NAMES = frozenset({"localhost", "localhost.localdomain", "ip6-localhost"})
+
+Ip = ipaddress.IPv4Address | ipaddress.IPv6Address
+
+
+@dataclass(frozen=True, slots=True)
+class Address:
+    """Hold the one URL that is asked."""
+
+    url: str
+    """Of the chat completions, whole."""
+    host: str
+    port: int
+    local: bool
+    """On this machine."""
+    literal: bool
+    """The host is a number, so nothing needs to be resolved."""
+
+    @classmethod
+    def parse(cls, base: str) -> Address:
+        """Return the address below a base URL.
+
+        Raises:
+            Misconfigured: ``model_url``, with what is wrong; user names and passwords in it are
+                not repeated.
+        """
+        if not (0 < len(base) <= MAX_URL and base.isascii() and base.isprintable()):
+            raise _wrong("must be plain ASCII text without spaces")
+        try:
+            parts = urlsplit(base)
+            port = parts.port
+        except ValueError:
+            raise _wrong("is no URL") from None
+        if parts.scheme not in ("http", "https"):
+            raise _wrong(f"has the scheme {parts.scheme!r}; expected http or https")
+        if parts.username is not None or parts.password is not None:
+            raise _wrong("carries a user name or password; set the key apart from it")
+        if parts.query or parts.fragment or " " in base or "\\" in base:
+            raise _wrong("must end with the path: no query, no fragment, no spaces")
+        host = (parts.hostname or "").rstrip(".")
+        if not host:
+            raise _wrong("names no host")
+        number = _number(host)
+        if _metadata_name(host) or (number is not None and not allowed(number)):
+            raise _wrong(f"leads to {host}: link-local and metadata addresses are never asked")
+        if port is None:
+            port = 443 if parts.scheme == "https" else 80
+        local = host in _LOOPBACK_NAMES or (number is not None and number.is_loopback)
+        shown = f"[{host}]" if ":" in host else host
+        url = f"{parts.scheme}://{shown}:{port}{_path(parts.path)}"
+        return cls(url, host, port, local, number is not None)
+
+
+def allowed(number: Ip) -> bool:
+    """Tell whether an address may be asked at all."""
+    if isinstance(number, ipaddress.IPv6Address):
+        inner = number.ipv4_mapped or number.sixtofour
+        if inner is not None and not allowed(inner):
+            return False
+    wrong = number.is_link_local or number.is_multicast or number.is_unspecified
+    return not wrong and number not in _METADATA_ADDRESSES
+
+
+def refused_among(found: list[str]) -> str | None:
+    """Return the first resolved address that may not be asked, or None."""
+    for text in found:
+        try:
+            number = ipaddress.ip_address(text.split("%", maxsplit=1)[0])
+        except ValueError:
+            return text
+        if not allowed(number):
+            return text
+    return None
+
+
+def _number(host: str) -> Ip | None:
+    """Return the address that a host's text is, in any spelling that a resolver accepts."""
+    try:
+        return ipaddress.ip_address(host.split("%", maxsplit=1)[0])
+    except ValueError:
+        pass
+    try:  # 0xA9FEA9FE, 2852039166, 0251.0376.0251.0376 and 169.254.43518 are all one address
+        return ipaddress.IPv4Address(socket.inet_aton(host))
+    except OSError:
+        return None
+
+
+def _metadata_name(host: str) -> bool:
+    return host.lower() in _METADATA_NAMES
+
+
+def _path(path: str) -> str:
+    path = path.rstrip("/")
+    if path.endswith("/chat/completions"):
+        return path
+    return f"{path or '/v1'}/chat/completions"
+
+
+def _wrong(what: str) -> Misconfigured:
+    return Misconfigured("model_url", f"the model's URL {what}")

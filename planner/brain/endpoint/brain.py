@@ -1,0 +1,157 @@
+"""Ask a model for a plan: prompt, call, judge, one repair turn, all inside one deadline.
+
+Never returns what is no plan of the closed vocabulary, and never asks a third time.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import importlib
+import logging
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from planner.brain.endpoint.address import Address
+from planner.brain.endpoint.client import BadRequest, Client
+from planner.brain.endpoint.dialect import Body, Dialects, body_of
+from planner.brain.endpoint.judge import Planned, Unusable, clean, judge
+from planner.brain.endpoint.reply import Reply, read_reply
+from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.prompt import Prompt
+from planner.brain.protocol import ThinkRequest, Thought
+from planner.brain.schema import Message, schema_of
+from planner.plan import BrainTag, Code, Refuse, message, same
+from planner.settings import ModelSettings
+from wire import Misconfigured
+
+if TYPE_CHECKING:
+    import httpx
+
+log = logging.getLogger(__name__)
+
+MAX_STEPS_DOWN = 4
+"""Refused bodies until the ladder and the parameters are used up."""
+_MODEL_WILL_NOT = "the model declined: {words}"
+
+
+class EndpointBrain:
+    """Plan by a model behind an OpenAI-compatible endpoint."""
+
+    def __init__(
+        self,
+        settings: ModelSettings,
+        home: Path,
+        *,
+        prompt: Prompt | None = None,
+        transport: httpx.AsyncBaseTransport | None = None,
+    ) -> None:
+        """Judge the address and read the prompt; nothing is asked yet.
+
+        Args:
+            settings: where and how.
+            home: where the dialect is remembered.
+            prompt: another than prompts/plan.md.
+            transport: another than the network, for tests.
+
+        Raises:
+            Misconfigured: ``model_url``, ``model_offhost``, ``prompt_missing``,
+                ``prompt_malformed``.
+        """
+        self.address = Address.parse(settings.url)
+        if not self.address.local and not settings.allow_offhost:
+            raise Misconfigured(
+                "model_offhost",
+                f"what people say would be sent to {self.address.host}; if that is meant, set "
+                "allow_offhost = true in [model], or PONS_MODEL_ALLOW_OFFHOST=1",
+            )
+        self._settings = settings
+        self._prompt = prompt or Prompt.load()
+        self._dialects = Dialects(home, settings, self.address.url)
+        self._client = Client(self.address, settings, transport)
+        self._turns = asyncio.Semaphore(settings.parallel)
+        self._tag = BrainTag(
+            name=clean(settings.name),
+            version=str(self._prompt.version),
+            prompt=self._prompt.tag,
+        )
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the model's name, and the prompt it is asked with."""
+        return self._tag
+
+    async def close(self) -> None:
+        """Give the connections back."""
+        await self._client.close()
+
+    async def think(self, request: ThinkRequest) -> Thought:
+        """Return the model's plan of a sentence.
+
+        Raises:
+            PlanRejected: neither reply is a plan.
+            BrainDown: the model does not answer, or not within the deadline.
+        """
+        end_s = time.monotonic() + self._settings.timeout_s
+        try:
+            async with asyncio.timeout(self._settings.timeout_s), self._turns:
+                return await self._talk(request, end_s)
+        except TimeoutError:
+            told = f"no plan within {self._settings.timeout_s:g} s"
+            raise BrainDown(told, why="timeout") from None
+
+    async def _talk(self, request: ThinkRequest, end_s: float) -> Thought:
+        messages = self._prompt.messages(request)
+        schema = schema_of(request.vocabulary)
+        first = await self._ask(messages, schema, end_s)
+        plan = _plan_of(first, request)
+        if not isinstance(plan, Unusable):
+            return Thought(plan=plan, brain=self._tag, calls=1, tokens=first.tokens)
+        log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
+        again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
+        second = await self._ask(again, schema, end_s)
+        spent = first.tokens + second.tokens
+        mended = _plan_of(second, request)
+        if isinstance(mended, Unusable):
+            raise PlanRejected(f"asked twice: {mended}"[:400])
+        return Thought(plan=mended, brain=self._tag, calls=2, tokens=spent)
+
+    async def _ask(self, messages: list[Message], schema: Body, end_s: float) -> Reply:
+        """Ask once, in the simplest dialect that is needed."""
+        dialect = self._dialects.now
+        complaint = ""
+        for _ in range(MAX_STEPS_DOWN):
+            body = body_of(self._settings, dialect, messages, schema)
+            try:
+                raw = await self._client.post(body, end_s - time.monotonic())
+            except BadRequest as refused:
+                complaint = str(refused)
+                if refused.generated is not None:
+                    return Reply(self._client.struck(refused.generated), trouble=complaint)
+                simpler = dialect.simpler(complaint.lower())
+                if simpler is None:
+                    break
+                dialect = simpler
+                continue
+            reply = read_reply(raw)
+            self._dialects.keep(dialect)
+            return replace(reply, text=self._client.struck(reply.text))
+        raise BrainDown(complaint, why="bad_request")
+
+
+def _plan_of(reply: Reply, request: ThinkRequest) -> Planned | Unusable:
+    if reply.refusal is not None:
+        words = clean(reply.refusal)[:200]
+        rule = same(_MODEL_WILL_NOT.format(words=words))
+        said = message(Code.UNSAFE, part=same(clean(request.text)[:60]), rule=rule)
+        return Refuse(code=Code.UNSAFE, reason=said)
+    judged = judge(reply.text, request.vocabulary)
+    if isinstance(judged, Unusable) and reply.trouble is not None:
+        return Unusable((reply.trouble, *judged.reasons))
+    return judged
+
+
+def warm_up() -> None:
+    """Load what httpx loads at its first call (0.15 s), so that no goal pays for it."""
+    importlib.import_module("anyio._backends._asyncio")

@@ -1,0 +1,83 @@
+"""Find the one JSON object in what a model wrote. Text in, objects out; knows no plan.
+
+Models wrap their JSON in code fences, in thoughts and in prose, and write it twice. Nothing is
+mended here: what is cut off or holds NaN is no JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+MAX_CHARACTERS = 64_000
+"""A plan of 20 steps has under 16 000; the bound keeps reading quick."""
+MAX_STARTS = 40
+"""Braces at which an object is looked for."""
+
+_THOUGHT = re.compile(r"<(think|thinking|reasoning|thought)>.*?</\1>", re.DOTALL | re.IGNORECASE)
+_THOUGHT_END = re.compile(r"</(?:think|thinking|reasoning|thought)>", re.IGNORECASE)
+_THOUGHT_OPEN = re.compile(r"<(?:think|thinking|reasoning|thought)>", re.IGNORECASE)
+_FENCE = re.compile(r"```[a-zA-Z]*\s*\n?(.*?)```", re.DOTALL)
+
+
+class NoObject(Exception):
+    """There is no one object in the text; the message tells the model why."""
+
+
+def one_object(text: str) -> dict[str, Any]:
+    """Return the one object that a reply consists of; the same object twice counts as one.
+
+    Raises:
+        NoObject: there is none, or there are several.
+    """
+    if len(text) > MAX_CHARACTERS:
+        raise NoObject(f"the reply has {len(text)} characters; at most {MAX_CHARACTERS} are read")
+    spoken = _without_thoughts(text)
+    fenced = [found for block in _FENCE.findall(spoken) for found in _objects(block)]
+    found = fenced or _objects(spoken)
+    distinct = [each for i, each in enumerate(found) if each not in found[:i]]
+    if not distinct:
+        raise NoObject(_why_none(text, spoken))
+    if len(distinct) > 1:
+        raise NoObject(f"the reply holds {len(distinct)} JSON objects; expected exactly one")
+    return distinct[0]
+
+
+def _without_thoughts(text: str) -> str:
+    """Drop thoughts: closed ones, those that began before the reply, those that never end."""
+    spoken = _THOUGHT.sub("", text)
+    spoken = _THOUGHT_END.split(spoken)[-1]
+    return _THOUGHT_OPEN.split(spoken)[0]
+
+
+def _objects(text: str) -> list[dict[str, Any]]:
+    """Return the outermost objects of a text, at most a handful."""
+    decoder = json.JSONDecoder(parse_constant=_no_constant)
+    found: list[dict[str, Any]] = []
+    at = text.find("{")
+    for _ in range(MAX_STARTS):
+        if at < 0:
+            break
+        try:
+            value, end = decoder.raw_decode(text, at)
+        except (ValueError, RecursionError):
+            end = at + 1
+        else:
+            found.append(value)
+        at = text.find("{", end)
+    return found
+
+
+def _no_constant(name: str) -> float:
+    raise ValueError(f"{name} is no JSON number")
+
+
+def _why_none(text: str, spoken: str) -> str:
+    if not text.strip():
+        return "the reply is empty"
+    if not spoken.strip():
+        return "the reply holds thoughts alone and no JSON object"
+    if "{" not in spoken:
+        return "the reply holds no JSON object"
+    return "the reply's JSON is cut off, too deep or malformed"

@@ -1,0 +1,89 @@
+"""Ask the model; where it fails, let the offline brain answer what it can, visibly.
+
+The thought then carries the offline brain's tag with the model's name and the reason. What the
+offline brain can't do alone ends typed: the model is unavailable, or wrote no usable plan.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable
+
+from planner.brain.breaker import Breaker
+from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.protocol import Brain, ThinkRequest, Thought
+from planner.brain.reasons import reason
+from planner.plan import BrainTag, Clarify, Code
+
+log = logging.getLogger(__name__)
+
+HOPELESS = frozenset({"bad_key", "unknown_model", "redirect", "refused_address"})
+"""Only the owner can mend these."""
+
+
+class FallbackBrain:
+    """Think with a model, and without it where it fails."""
+
+    def __init__(
+        self, model: Brain, offline: Brain, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._model, self._offline, self._clock = model, offline, clock
+        self.breaker = Breaker()
+        self.last_failure: str | None = None
+        """Why the model was last not believed; None once it answered."""
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the model's name."""
+        return self._model.tag
+
+    async def think(self, request: ThinkRequest) -> Thought:
+        """Return the model's thought, else the offline brain's.
+
+        Raises:
+            BrainDown: the model is down and the offline brain does not understand the sentence.
+            PlanRejected: the model wrote no plan and neither does the offline brain.
+        """
+        if not self.breaker.lets(self._clock()):
+            rests_s = self.breaker.rests_s(self._clock())
+            return await self._instead(request, BrainDown(f"{rests_s:.0f} s more", why="resting"))
+        try:
+            thought = await self._model.think(request)
+        except BrainDown as down:
+            self.last_failure = down.why
+            self.breaker.failed(self._clock(), hopeless=down.why in HOPELESS)
+            return await self._instead(request, down)
+        except PlanRejected as rejected:
+            # It answers: what it writes is judged anew each time.
+            self.last_failure = rejected.code
+            self.breaker.succeeded()
+            return await self._instead(request, rejected)
+        except BaseException:  # cancelled, or a fault of ours: no word about the model
+            self.breaker.dropped()
+            raise
+        self.last_failure = None
+        self.breaker.succeeded()
+        return thought
+
+    async def _instead(self, request: ThinkRequest, failure: BrainDown | PlanRejected) -> Thought:
+        why = failure.why if isinstance(failure, BrainDown) else failure.code
+        log.warning("%s: %s (%s); the offline brain answers", self.tag.name, why, failure)
+        thought = await self._offline.think(request)
+        tag = thought.brain.model_copy(
+            update={
+                "fallback_from": self.tag.name,
+                "fallback_reason": why,
+                "fallback_message": reason(why),
+            }
+        )
+        if _lost(thought):
+            failure.brain = tag
+            raise failure
+        return thought.model_copy(update={"brain": tag})
+
+
+def _lost(thought: Thought) -> bool:
+    """Tell whether the offline brain understood nothing, and has nothing to offer."""
+    plan = thought.plan
+    return isinstance(plan, Clarify) and plan.code is Code.NOT_UNDERSTOOD and not plan.options

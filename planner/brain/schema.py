@@ -1,0 +1,109 @@
+"""Own the shape in which a model replies: one flat object, and its plain JSON schema per request.
+
+Flat, because servers turn a schema into a grammar and few of them know `$ref`, `oneOf`, `const` or
+patterns. Steps and their fields come from the plan's own models, so that a step which becomes
+runnable is offered at once. What the schema can't say is judged by `endpoint.judge`.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, Literal, get_args
+
+from planner.plan import RUNNABLE, Code, Frozen, Step, Vocabulary
+
+NAME = "plan"
+"""The schema's name, and the forced tool's."""
+KINDS = ("plan", "answer", "clarify", "refuse")
+CLARIFY_CODES = (Code.AMBIGUOUS, Code.UNKNOWN_PLACE, Code.NOT_UNDERSTOOD, Code.CONDITIONAL)
+REFUSE_CODES = (
+    Code.NO_CAPABILITY,
+    Code.NO_CAMERA,
+    Code.UNSAFE,
+    Code.NEGATED,
+    Code.CONDITIONAL,
+    Code.OUT_OF_SCOPE,
+    Code.NOT_UNDERSTOOD,
+)
+Message = dict[Literal["role", "content"], str]
+_PLACES = frozenset({"place", "places"})
+
+
+def step_models(runnable: frozenset[str] = RUNNABLE) -> dict[str, type[Frozen]]:
+    """Return the models of the steps that may be offered, by their kind, in the plan's order."""
+    union, *_ = get_args(Step)
+    models = {_kind(model): model for model in get_args(union)}
+    return {kind: model for kind, model in models.items() if kind in runnable}
+
+
+def step_line(model: type[Frozen]) -> str:
+    """Describe one step to a model: its shape and what it does."""
+    fields = [f'"kind":"{_kind(model)}"']
+    fields += [f'"{name}":{_wanted(name, shape)}' for name, shape in _fields(model).items()]
+    return f"{{{','.join(fields)}}} {(model.__doc__ or '').splitlines()[0]}"
+
+
+@lru_cache(maxsize=16)
+def schema_of(vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE) -> dict[str, Any]:
+    """Return the schema of a reply in one closed world. Shared: never change it."""
+    ids = [entry.id for entry in vocabulary.entries]
+    models = step_models(runnable)
+    if not ids:  # an empty enum is no schema
+        models = {k: m for k, m in models.items() if not _PLACES & _fields(m).keys()}
+    step: dict[str, Any] = {"kind": {"type": "string", "enum": list(models)}}
+    for model in models.values():
+        for name, shape in _fields(model).items():
+            step.setdefault(name, _plain(name, shape, ids))
+    codes = dict.fromkeys(code.value for code in (*CLARIFY_CODES, *REFUSE_CODES))
+    return _object(
+        {
+            "kind": {"type": "string", "enum": list(KINDS)},
+            "steps": {"type": "array", "items": _object(step)},
+            "code": {"type": "string", "enum": list(codes)},
+            "en": {"type": "string"},
+            "zh": {"type": "string"},
+            "options": {"type": "array", "items": {"type": "string"}},
+        }
+    )
+
+
+def _object(properties: dict[str, Any]) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": ["kind"],
+        "additionalProperties": False,
+    }
+
+
+def _kind(model: type[Frozen]) -> str:
+    (kind,) = get_args(model.model_fields["kind"].annotation)
+    return str(kind)
+
+
+@lru_cache(maxsize=64)
+def _fields(model: type[Frozen]) -> dict[str, dict[str, Any]]:
+    """Return the JSON schemas of a step's own fields."""
+    properties: dict[str, dict[str, Any]] = model.model_json_schema()["properties"]
+    return {name: shape for name, shape in properties.items() if name != "kind"}
+
+
+def _type(shape: dict[str, Any]) -> str:
+    """Return the JSON type of a field; of an optional one, the type where it is there."""
+    return str(shape.get("type") or shape["anyOf"][0]["type"])
+
+
+def _plain(name: str, shape: dict[str, Any], ids: list[str]) -> dict[str, Any]:
+    kind = _type(shape)
+    one = {"type": "string", "enum": ids} if name in _PLACES else {"type": kind}
+    return {"type": "array", "items": one} if kind == "array" else one
+
+
+def _wanted(name: str, shape: dict[str, Any]) -> str:
+    """Say in a word what a field holds."""
+    if name in _PLACES:
+        return "[id,…]" if _type(shape) == "array" else "id"
+    if _type(shape) == "string":
+        return '"…"'
+    low = shape.get("minimum", shape.get("exclusiveMinimum"))
+    return f"{low:g} to {shape['maximum']:g}"

@@ -1,0 +1,164 @@
+"""Load the owner's settings once, at the start. What is unknown or contradictory refuses to start.
+
+Nothing but a model setting switches a model on: `[model]` in settings.toml, or PONS_MODEL_URL. Keys
+that other programs use (OPENAI_API_KEY and the like) are never looked at.
+"""
+
+from __future__ import annotations
+
+import logging
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from planner.settings.model import ModelSettings
+from wire import Misconfigured
+
+log = logging.getLogger(__name__)
+
+FILE = "settings.toml"
+MAX_BYTES = 64 * 1024
+MAX_KEY_BYTES = 8 * 1024
+_KEY_SOURCES = ("key", "key_env", "key_file")
+_YES = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
+
+
+class Settings(BaseModel):
+    """Hold all that the owner has set."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", hide_input_in_errors=True)
+
+    model: ModelSettings | None = None
+    """None: the offline brain alone."""
+
+
+def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
+    """Read settings.toml of a home folder, then what the environment puts in its place.
+
+    Raises:
+        Misconfigured: ``settings_unreadable``, ``settings_malformed``, ``model_incomplete``,
+            ``model_key``.
+    """
+    tables = _tables(home / FILE)
+    model = tables.pop("model", None)
+    if model is not None and not isinstance(model, dict):
+        raise Misconfigured("settings_malformed", f"{FILE}: [model] must be a table")
+    chosen = _with_environment(_with_key(model, home, environment), environment)
+    return _checked({**tables, "model": chosen})
+
+
+def _tables(path: Path) -> dict[str, Any]:
+    if not path.exists():
+        return {}
+    try:
+        with path.open("rb") as file:
+            raw = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise Misconfigured("settings_unreadable", f"{path}: {error.strerror}") from None
+    if len(raw) > MAX_BYTES:
+        raise Misconfigured("settings_malformed", f"{path} is over {MAX_BYTES} bytes")
+    try:
+        return tomllib.loads(raw.decode())
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError):
+        # The parser's own words may quote the line that holds a key.
+        raise Misconfigured("settings_malformed", f"{path} is no TOML in UTF-8") from None
+
+
+def _with_key(
+    model: dict[str, Any] | None, home: Path, environment: Mapping[str, str]
+) -> dict[str, Any] | None:
+    """Put the key itself in the place of where it lies."""
+    if model is None:
+        return None
+    given = [name for name in _KEY_SOURCES if name in model]
+    if len(given) > 1:
+        raise Misconfigured("model_key", f"{FILE}: give one of {', '.join(given)}, not all")
+    rest = {name: value for name, value in model.items() if name not in _KEY_SOURCES}
+    if not given:
+        return rest
+    source, value = given[0], model[given[0]]
+    if not isinstance(value, str) or not value:
+        raise Misconfigured("model_key", f"{FILE}: {source} must be a text that is not empty")
+    key = {"key": lambda: value, "key_env": lambda: environment.get(value, "")}.get(
+        source, lambda: _key_in(home / value)
+    )()
+    return {**rest, "key": _clean_key(key, f"{FILE}: {source}")}
+
+
+def _key_in(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            return file.read(MAX_KEY_BYTES).decode("ascii", "replace")
+    except OSError as error:
+        raise Misconfigured("model_key", f"key_file {path}: {error.strerror}") from None
+
+
+def _clean_key(key: str, where: str) -> str:
+    """Return a key that can stand in a header. Its text is never part of an error."""
+    key = key.strip()
+    if not key:
+        raise Misconfigured("model_key", f"{where} leads to no key")
+    if not (key.isascii() and key.isprintable() and " " not in key):
+        raise Misconfigured("model_key", f"{where}: a key is one word of plain ASCII")
+    return key
+
+
+def _with_environment(
+    model: dict[str, Any] | None, environment: Mapping[str, str]
+) -> dict[str, Any] | None:
+    """Let PONS_MODEL_URL, PONS_MODEL, PONS_MODEL_KEY and PONS_MODEL_ALLOW_OFFHOST win."""
+    url, name = environment.get("PONS_MODEL_URL", ""), environment.get("PONS_MODEL", "")
+    key, offhost = (environment.get(f"PONS_MODEL_{n}", "") for n in ("KEY", "ALLOW_OFFHOST"))
+    if model is None and not url:
+        if name or key:
+            detail = "PONS_MODEL or PONS_MODEL_KEY is set, but no PONS_MODEL_URL and no [model]"
+            raise Misconfigured("model_incomplete", detail)
+        return None
+    chosen = dict(model or {})
+    if url:
+        if "key" in chosen and not _same_place(str(chosen.get("url", "")), url):
+            # The key belongs to the host that it was written down for.
+            log.warning("the key in %s is not used: PONS_MODEL_URL is another host", FILE)
+            del chosen["key"]
+        chosen["url"] = url
+    if name:
+        chosen["name"] = name
+    if key:
+        chosen["key"] = _clean_key(key, "PONS_MODEL_KEY")
+    if offhost:
+        if offhost.lower() not in _YES:
+            raise Misconfigured(
+                "settings_malformed", f"PONS_MODEL_ALLOW_OFFHOST is {offhost!r}; expected 1 or 0"
+            )
+        chosen["allow_offhost"] = _YES[offhost.lower()]
+    return chosen
+
+
+def _same_place(one: str, other: str) -> bool:
+    try:
+        a, b = urlsplit(one), urlsplit(other)
+        return (a.scheme, a.hostname, a.port) == (b.scheme, b.hostname, b.port)
+    except ValueError:
+        return False
+
+
+def _checked(tables: dict[str, Any]) -> Settings:
+    try:
+        return Settings.model_validate(tables)
+    except ValidationError as wrong:
+        problems = [_told(error["loc"], error["type"], error["msg"]) for error in wrong.errors()]
+        code = "model_incomplete" if all("missing" in p for p in problems) else "settings_malformed"
+        raise Misconfigured(code, f"{FILE}: {'; '.join(problems)}") from None
+
+
+def _told(where: tuple[int | str, ...], kind: str, text: str) -> str:
+    name = ".".join(map(str, where))
+    if kind == "extra_forbidden":
+        tables = {"": Settings.model_fields, "model": ModelSettings.model_fields}
+        known = tables.get(".".join(map(str, where[:-1])), {})
+        return f"unknown key {name!r}; known: {', '.join(known)}"
+    return f"{name} is missing" if kind == "missing" else f"{name}: {text}"
