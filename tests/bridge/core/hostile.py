@@ -8,6 +8,7 @@ Values that are no message (NaN, infinity, beyond bounds) never pass the codec: 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
 from typing import TypeVar
 
@@ -44,40 +45,64 @@ class Hostile:
 
     def __init__(self, seed: int, config: CoreConfig) -> None:
         self.random = Random(seed)
+        self.seed = seed
         self.config = config
         self.past: list[Inbox] = []
-        self.seq = 0
-        self.calm = self.random.random()
-        """How often a value is what a well-behaved sender would say."""
+        self.seq = 1_000  # beyond what the well-behaved world has said
+        self.manners = {
+            part: self.random.choice([0.5, 0.95, 0.999, 1.0, 1.0])
+            for part in ("drive", "senses", "orders", "loop", "people")
+        }
+        """How often each part of the world says what a well-behaved one would. A world in which
+        all is broken at once never gets anywhere that matters."""
+        self.calm = 1.0
 
     def gap_s(self) -> float:
-        usual = self.random.random() < 0.9
+        usual = self.random.random() < max(0.9, self.manners["loop"])
         return 0.01 if usual else self.random.choice([0.0, 1e-9, 0.03, 0.2, 1.0, -1.0, 6.0, 1e6])
 
     def inbox(self, state: BridgeState, now_s: float) -> Inbox:
-        if self.past and self.random.random() < 0.05:
+        if self.past and self.random.random() < 0.05 * (1.0 - self.manners["orders"]):
             return self.random.choice(self.past)
         self.state, self.now_s = state, now_s
-        inbox = Inbox(
-            stops=self._some(0.02, self._stop),
+        rude = 1.0 - self.manners["people"]
+        self.calm = self.manners["people"]
+        people = Inbox(
+            stops=self._some(0.1 * rude, self._stop),
             ops=self._some(0.1, self._op),
+            teleop=self._some(0.3 if self.seed % 3 == 0 else 0.0, self._velocity),
+            estop_link=self._maybe(
+                0.1, lambda: EstopLink(seq=1, pressed=self.random.random() < rude)
+            ),
+            recorder_ok=self._say(True, False),
+        )
+        self.calm = self.manners["orders"]
+        orders = replace(
+            people,
             hellos=self._some(0.2, self._hello),
             grants=self._some(0.2, self._grant),
             heartbeats=self._some(0.4, self._heartbeat),
-            localization=self._maybe(0.3, self._localization),
-            teleop=self._some(0.3, self._velocity),
-            external=self._some(0.1, self._velocity),
+            external=self._some(0.1 * (1.0 - self.calm), self._velocity),
             waypoints=self._some(0.4, self._waypoints),
-            drive=self._some(0.9, self._drive),
-            scan=self._maybe(0.2, self._scan),
-            estop_link=self._maybe(
-                0.1, lambda: EstopLink(seq=1, pressed=self.random.random() < 0.1)
-            ),
-            rejected=self._some(0.05, self._rejected),
+            rejected=self._some(0.3 * (1.0 - self.calm), self._rejected),
             arrived=(ArrivedAt("cmd/hello", 1),),
+        )
+        self.calm = self.manners["senses"]
+        senses = replace(
+            orders,
+            localization=self._maybe(0.3, self._localization),
+            scan=self._maybe(0.2, self._scan),
+        )
+        self.calm = self.manners["drive"]
+        driven = replace(
+            senses,
+            drive=self._some(1.0, self._drive) if self.calm < 1.0 else (self._drive(),),
+        )
+        self.calm = self.manners["loop"]
+        inbox = replace(
+            driven,
             loop=LoopFacts(late_s=self._say(0.0, 0.006, 10.0), missed_ticks=self._say(0, 2, 9999)),
             real_time=self._say(True, False),
-            recorder_ok=self._say(True, False),
             sensors_same_host=self._say(True, False),
             localization_same_host=self._say(True, False),
         )
@@ -118,7 +143,8 @@ class Hostile:
         nonce = f"{self.config.boot}.{self._say(operator.nonce_no, 0, operator.nonce_no - 1)}"
         proof = Proof(nonce=nonce.replace("-", ""), mac="0" * 64)
         request = OpRequest(id=self._id(), source="op", proof=self._say(proof, None))
-        kind = self.random.choice(("arm", "resume", "reset", *OPS))
+        calm: tuple[OpKind, ...] = ("arm", "resume", "reset")
+        kind = self.random.choice((*calm, *OPS) if self.calm < 1.0 else calm)
         return OpArrived(kind, request, self._say(True, False))
 
     def _hello(self) -> Hello:
@@ -207,7 +233,7 @@ class Hostile:
             right_rad=_angle(self._say(right + 0.01 * sent, right, 1e9, -1e9)),
             left_radps=self._say(sent, 0.0, 1_000.0, -1_000.0),
             right_radps=self._say(sent, 0.0, 1_000.0, -1_000.0),
-            estop_pressed=self.random.random() < 0.005,
+            estop_pressed=self.random.random() < 0.1 * (1.0 - self.calm),
         )
 
     def _localization(self) -> Localization:
