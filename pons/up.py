@@ -16,6 +16,7 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
+from pons.homelock import HomeLock, HomeTaken
 from pons.http import PlannerDown, Refused, call
 from pons.processes import REFUSED_TO_START, Child
 from wire import Misconfigured, RobotDescription, load_robot
@@ -145,7 +146,7 @@ def check(settings: Settings) -> RobotDescription:
     """Look for what would fail later and less clearly.
 
     Raises:
-        CannotStart: the port is taken, a file is missing or wrong, or the disk is full.
+        CannotStart: a file is missing or wrong, or the disk is full.
     """
     try:
         robot = load_robot(settings.robot)
@@ -161,7 +162,6 @@ def check(settings: Settings) -> RobotDescription:
     free = shutil.disk_usage(settings.home).free
     if not free >= MIN_FREE_BYTES:
         raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
-    _check_port(settings)
     return robot
 
 
@@ -181,14 +181,20 @@ def run(settings: Settings) -> int:
     """Be ``pons up``."""
     try:
         robot = check(settings)
-        supervisor = Supervisor(settings, robot)
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, _handler(supervisor))
-        say(f"starting {robot.id} in {settings.site.name} (state in {settings.home})")
-        return supervisor.run()
-    except CannotStart as why:
+        with HomeLock(settings.home):
+            _check_port(settings)
+            return _supervise(settings, robot)
+    except (CannotStart, HomeTaken) as why:
         print(f"pons up: {why}", file=sys.stderr)
         return REFUSED_TO_START
+
+
+def _supervise(settings: Settings, robot: RobotDescription) -> int:
+    supervisor = Supervisor(settings, robot)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _handler(supervisor))
+    say(f"starting {robot.id} in {settings.site.name} (state in {settings.home})")
+    return supervisor.run()
 
 
 def _handler(supervisor: Supervisor) -> _Handler:
