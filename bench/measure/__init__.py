@@ -11,7 +11,7 @@ from bench.measure import (
     footprint,
     goal_to_waypoint,
     lockstep_speed,
-    test_time,
+    suite_time,
     tick_lateness,
 )
 
@@ -28,6 +28,6 @@ ALL: tuple[Measure, ...] = cast(
         goal_to_waypoint,
         brain_silent,
         clone_to_url,
-        test_time,
+        suite_time,
     ),
 )

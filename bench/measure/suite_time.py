@@ -13,7 +13,7 @@ from bench.report import Row, row_of
 if TYPE_CHECKING:
     from bench.lab import Lab
 
-NAME = "test_time"
+NAME = "suite_time"
 TITLE = "make test"
 LONG_ONLY = True
 
