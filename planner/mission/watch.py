@@ -28,7 +28,7 @@ from planner.mission.walk import (
     on_arrival,
 )
 from planner.plan import Code, GoalState, PauseReason, fault
-from wire import Status
+from wire import Mode, Status
 
 SILENCE_S = 5.0
 """After so long without a word from the bridge nothing goes on unasked."""
@@ -82,7 +82,7 @@ def _interrupted(turn: Turn, status: Status, silent_s: float) -> bool:
     """Pause or fail the running mission where something stronger than its plan says so."""
     hold = standing_hold(turn)
     if hold is not None:
-        pause_running(turn, fault(_row(status)) if hold == "fault" else hold)
+        pause_running(turn, _fault_reason(status) if hold == "fault" else hold)
         return True
     if not _drives_on(turn):
         return False
@@ -96,9 +96,12 @@ def _interrupted(turn: Turn, status: Status, silent_s: float) -> bool:
     return _spent(turn, status) or _held_too_long(turn, status)
 
 
-def _row(status: Status) -> str:
+def _fault_reason(status: Status) -> str:
+    """Name what holds: a protective stop by its own name, anything else by its row."""
+    if status.mode is Mode.ESTOPPED:
+        return PauseReason.ESTOP.value
     rows = holding_rows(status) or status.rows
-    return max(rows, key=lambda r: r.for_s).row if rows else "HELD"
+    return fault(max(rows, key=lambda r: r.for_s).row if rows else "HELD")
 
 
 def _drives_on(turn: Turn) -> bool:

@@ -608,6 +608,15 @@ def test_a_hold_by_fault_names_its_row(world: Together) -> None:
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "fault(DRIVER_NACK)")
 
 
+def test_a_protective_stop_pauses_by_its_own_name(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.rows = (row("ESTOP", Action.FAST1),)
+    world.bridge.mode = Mode.ESTOPPED
+    world.bridge.hold(HeldReason.FAULT)
+    world.run()
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "estop")
+
+
 def test_thinking_and_queued_goals_can_be_paused_and_resumed(world: Together) -> None:
     running, queued, thinking = driving(world), world.give(go("hall")), world.give(None)
     world.event(Pause(thinking))
