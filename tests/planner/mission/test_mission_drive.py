@@ -611,8 +611,8 @@ def test_a_hold_by_fault_names_its_row(world: Together) -> None:
 def test_a_protective_stop_pauses_by_its_own_name(world: Together) -> None:
     goal = driving(world)
     world.bridge.rows = (row("ESTOP", Action.FAST1),)
-    world.bridge.mode = Mode.ESTOPPED
     world.bridge.hold(HeldReason.FAULT)
+    world.bridge.mode = Mode.ESTOPPED
     world.run()
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "estop")
 
