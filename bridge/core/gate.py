@@ -18,13 +18,15 @@ from bridge.core.kinematics import scaled
 from bridge.core.obstaclegate import obstacle_gate
 from bridge.core.state import Gate
 from bridge.core.tick import STANDING_MPS, STANDING_RADPS
-from wire import STILL, Mode, Twist2
+from wire import STILL, Mode, Twist2, wrap
 
 if TYPE_CHECKING:
     from bridge.core.freespace import FreeLength
     from bridge.core.tick import Tick
 
 SHUT_S = 0.5
+TURNED_RAD = 0.05
+"""Progress by turning, as the row STUCK counts it; a creep of 0.3 rad/s takes a quarter second."""
 FREE_M = 0.3
 FREE_SCANS = 5
 TELEOP_FENCE_MPS = 0.2
@@ -63,13 +65,19 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
         motion.bound_by = "unseen"
         passed = scaled(passed, UNKNOWN_MPS / fastest)
     passed = _inside_fence(tick, passed)
-    _note(tick, shut=_next_to_nothing(passed) and not _next_to_nothing(twist))
+    _note(tick, shut=_shut(twist, passed))
     return passed
 
 
-def _next_to_nothing(twist: Twist2) -> bool:
-    """Tell whether what passes would count as standing."""
-    return abs(twist.v_mps) < STANDING_MPS and abs(twist.w_radps) < STANDING_RADPS
+def _shut(asked: Twist2, passed: Twist2) -> bool:
+    """Tell whether nothing of the way asked for passes.
+
+    Where a way is asked for, the turn that passes beside it is no way: it would swing to and fro
+    before a closed door for ever.
+    """
+    if abs(asked.v_mps) >= STANDING_MPS:
+        return abs(passed.v_mps) < STANDING_MPS
+    return abs(asked.w_radps) >= STANDING_RADPS > abs(passed.w_radps)
 
 
 def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
@@ -124,13 +132,17 @@ def reconsider(tick: Tick, asked: Twist2) -> None:
 
 
 def _note(tick: Tick, *, shut: bool) -> None:
+    """Call it blocked after 0.5 s; a robot that turns away meanwhile is given the time anew.
+
+    The follower's wish sways with the pose's noise, so a turn to and fro is no turning away.
+    """
     s = tick.s
-    gate = s.gate
+    gate, yaw_rad = s.gate, s.odometry.base_in_odom.yaw_rad
     if not shut:
         if gate.shut_since_s is not None:
             s.gate = replace(gate, shut_since_s=None)
-    elif gate.shut_since_s is None:
-        s.gate = replace(gate, shut_since_s=tick.now_s)
+    elif gate.shut_since_s is None or abs(wrap(yaw_rad - gate.shut_yaw_rad)) >= TURNED_RAD:
+        s.gate = replace(gate, shut_since_s=tick.now_s, shut_yaw_rad=yaw_rad)
     elif s.mode is Mode.ACTIVE and not gate.blocked and tick.now_s - gate.shut_since_s >= SHUT_S:
         s.gate = Gate(blocked=True)
         tick.say("blocked", f"the way is not free, asked {s.motion.asked.v_mps:.2f} m/s")

@@ -330,3 +330,12 @@ def test_an_obstacle_blocks_and_its_leaving_frees() -> None:
     world.until(Mode.ACTIVE, 2.0)
     world.until(Mode.HOLD, 15.0)
     assert world.state.leg.reached
+
+
+def test_a_turn_that_passes_beside_a_closed_way_is_no_way() -> None:
+    world = World().driving((4.0, 0.3))
+    world.obstacle_m = (3.0, 0.0, 0.5)
+    world.run(12.0)
+    assert world.is_in(Mode.HOLD)
+    assert world.state.gate.blocked
+    assert world.state.waits_since_s is not None
