@@ -10,6 +10,7 @@ from pathlib import Path
 from pons.settings import BadSetting, Settings, load, port_of
 
 EXIT_USAGE = 2
+MOCK_LLM = "mock-llm"
 
 
 def parser() -> argparse.ArgumentParser:
@@ -36,6 +37,7 @@ def parser() -> argparse.ArgumentParser:
         words.add_parser(kind, help=what)
     again = words.add_parser("replay", help="run a recording again and compare every command")
     again.add_argument("file")
+    words.add_parser(MOCK_LLM, help="serve a model that is none, with faults: mock-llm --help")
     return top
 
 
@@ -56,6 +58,10 @@ def main(arguments: list[str] | None = None) -> int:
             from pons import stop
 
             return stop.run(settings)
+        if words[:1] == [MOCK_LLM]:  # reads its own words; its web server is not for the others
+            from pons.mock_llm.command import main as mock_llm
+
+            return mock_llm(words[1:])
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)

@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 from planner.brain.breaker import Breaker
 from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.offline.guard import refuse_bad_text
 from planner.brain.protocol import Brain, ThinkRequest, Thought
 from planner.brain.reasons import reason
 from planner.plan import BrainTag, Clarify, Code
@@ -45,6 +46,8 @@ class FallbackBrain:
             BrainDown: the model is down and the offline brain does not understand the sentence.
             PlanRejected: the model wrote no plan and neither does the offline brain.
         """
+        if refuse_bad_text(request.text) is not None:  # no model is paid to read what is no text
+            return await self._offline.think(request)
         if not self.breaker.lets(self._clock()):
             rests_s = self.breaker.rests_s(self._clock())
             return await self._instead(request, BrainDown(f"{rests_s:.0f} s more", why="resting"))

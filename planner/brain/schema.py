@@ -15,7 +15,14 @@ from planner.plan import RUNNABLE, Code, Frozen, Step, Vocabulary
 NAME = "plan"
 """The schema's name, and the forced tool's."""
 KINDS = ("plan", "answer", "clarify", "refuse")
-CLARIFY_CODES = (Code.AMBIGUOUS, Code.UNKNOWN_PLACE, Code.NOT_UNDERSTOOD, Code.CONDITIONAL)
+CLARIFY_CODES = (
+    Code.AMBIGUOUS,
+    Code.UNKNOWN_PLACE,
+    Code.NOT_UNDERSTOOD,
+    Code.CONDITIONAL,
+    Code.NO_CAPABILITY,
+    Code.NO_CAMERA,
+)
 REFUSE_CODES = (
     Code.NO_CAPABILITY,
     Code.NO_CAMERA,

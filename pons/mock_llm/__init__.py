@@ -1,0 +1,11 @@
+"""Serve the offline brain over the OpenAI protocol, with switches for what real servers do wrong.
+
+The tests' main model, and a demonstration's. It knows no site: the closed world is read from each
+request, so any client that sends our prompt or a schema with places gets a plan.
+"""
+
+from pons.mock_llm.app import build
+from pons.mock_llm.serve import Options, run
+from pons.mock_llm.switches import FAULTS, Switches
+
+__all__ = ["FAULTS", "Options", "Switches", "build", "run"]

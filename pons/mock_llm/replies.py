@@ -1,0 +1,113 @@
+"""Write what a model would: the offline brain's plan in the prompt's shape, and bad copies of it.
+
+Pure. The hostile replies are what must never move a robot.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from planner.brain.schema import CLARIFY_CODES, REFUSE_CODES
+from planner.plan import Answer, Clarify, Code, Refuse, StepPlan
+
+NOWHERE = ("wine_cellar", "helipad", "nuclear_reactor")
+GARBAGE = (
+    "Sure! I would love to drive there for you. Let me think about the best way…",
+    '{"kind": "plan", "steps": [{"kind": "go_to", "place": ',
+    "<html><body><h1>It works!</h1></body></html>",
+    '{"kind": "dance", "moves": 3}',
+)
+
+
+def reply_of(plan: StepPlan | Answer | Clarify | Refuse) -> dict[str, Any]:
+    """Return a plan in the flat shape that the prompt asks for."""
+    match plan:
+        case StepPlan():
+            steps = [step.model_dump(mode="json", exclude_none=True) for step in plan.steps]
+            return {"kind": "plan", "steps": steps}
+        case Answer():
+            return {"kind": "answer", **plan.text.model_dump()}
+        case Clarify():
+            options = [option.text for option in plan.options]
+            code = _one_of(plan.code, CLARIFY_CODES)
+            return {"kind": "clarify", "code": code, **plan.question.model_dump(),
+                    "options": options}  # fmt: skip
+        case Refuse():
+            code = _one_of(plan.code, REFUSE_CODES)
+            return {"kind": "refuse", "code": code, **plan.reason.model_dump()}
+
+
+def _one_of(code: Code, codes: tuple[Code, ...]) -> str:
+    return (code if code in codes else Code.NOT_UNDERSTOOD).value
+
+
+def hallucinated(reply: dict[str, Any]) -> dict[str, Any]:
+    """Return a plan to places that do not exist, however the order was understood."""
+    steps = reply.get("steps") or [{"kind": "go_to", "place": ""}]
+    moved = [
+        {**step, "place": NOWHERE[i % len(NOWHERE)]} if "place" in step else step
+        for i, step in enumerate(steps)
+    ]
+    return {"kind": "plan", "steps": moved}
+
+
+def shaped(fault: str | None, text: str) -> str | None:
+    """Return a good reply as a fault writes it."""
+    if fault == "fenced":
+        return f"Here is the plan you asked for:\n```json\n{text}\n```\nHave a nice day!"
+    if fault == "thinking":
+        other = '{"kind":"plan","steps":[{"kind":"return_home"}]}'
+        return f"<think>Perhaps {other}? No.</think>\n{text}"
+    if fault == "twice":
+        return f"{text}\n{text}"
+    if fault == "truncated":
+        return text[: max(1, len(text) - 7)]
+    return None if fault == "null" else text
+
+
+def hostile(number: int, place: str) -> str:
+    """Return one of the hostile replies; ``place`` exists in the closed world."""
+    return _HOSTILE[number % len(_HOSTILE)].replace("PLACE", place)
+
+
+def _dump(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _plan(*steps: dict[str, Any], **more: Any) -> str:
+    return _dump({"kind": "plan", "steps": list(steps), **more})
+
+
+_GO = {"kind": "go_to", "place": "PLACE"}
+_HTML = "<img src=x onerror=fetch('//evil.invalid')><script>alert(1)</script>"
+_DEEP = 3000
+
+_HOSTILE: tuple[str, ...] = (
+    _plan(*[_GO] * 10_000),
+    _plan({"kind": "go_to", "x_m": 3.0, "y_m": -2.0}),
+    _plan({**_GO, "speed_mps": 3.0}),
+    _plan({"kind": "go_to_point", "x": 500, "y": 500, "place": "PLACE"}),
+    _plan({"kind": "go_to", "place": _HTML}),
+    _plan({"kind": "go_to", "place": "../../etc/passwd"}),
+    _plan({"kind": "go_to", "place": ["PLACE"]}),
+    _plan({"kind": "go_to", "place": {"id": "PLACE"}}),
+    _plan({"kind": "wait", "seconds": 1e999}, _GO),
+    '{"kind":"plan","steps":[{"kind":"wait","seconds":NaN},{"kind":"go_to","place":"PLACE"}]}',
+    _plan({"kind": "wait", "seconds": "600; rm -rf /"}, _GO),
+    _plan({"kind": "drive", "velocity": [9, 9]}, _GO),
+    _dump({"kind": "refuse", "code": "unsafe", "en": "No.", "zh": "不。", "steps": [_GO]}),
+    _dump({"kind": "answer", "en": "Yes.", "zh": "好。", "waypoints": [{"x": 1, "y": 2}]}),
+    _dump({"kind": "refuse", "code": "arrived", "en": "I am there.", "zh": "到了。"}),
+    _dump({"kind": "clarify", "code": "ambiguous", "en": _HTML, "zh": 7, "options": [{"a": 1}]}),
+    _plan(_GO) + _plan({"kind": "return_home"}),
+    _plan(_GO, override_safety=True),
+    '{"kind":"plan","steps":[' + '{"kind":["' * _DEEP,
+    "[" * _DEEP + "]" * _DEEP,
+    '{"kind":"plan","kind":"refuse","steps":[{"kind":"go_to","place":"PLACE"}]}',
+    _dump({"kind": "plan", "steps": {"0": _GO}}),
+    _dump({"kind": "plan", "steps": []}),
+    "null",
+    "",
+)
+HOSTILE_COUNT = len(_HOSTILE)

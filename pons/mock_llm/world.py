@@ -1,0 +1,97 @@
+"""Read the order and the closed world out of a chat request. Any client's; nothing is required."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+from pydantic import ValidationError
+
+from planner.brain import ThinkRequest
+from planner.plan import Bilingual, Entry, Language, Vocabulary
+
+MAX_DEPTH = 12
+MAX_PLACES = 2000
+_LINE = re.compile(r"^([a-z0-9][a-z0-9_]{0,63}): (\[.*\])$", re.MULTILINE)
+_CHINESE = re.compile(r"[\u3400-\u9fff]")
+
+
+def request_of(body: dict[str, Any]) -> ThinkRequest:
+    """Return what the offline brain is to think about."""
+    texts = [(m.get("role"), _words(m.get("content"))) for m in _dicts(body.get("messages"))]
+    vocabulary = _vocabulary("\n".join(text for _, text in texts), body)
+    for role, text in texts:  # our prompt's message; a repair turn comes after it
+        order = _order(text) if role == "user" else None
+        if order is not None:
+            return _asked(order, vocabulary)
+    said = [text for role, text in texts if role == "user"]
+    return ThinkRequest(text=said[-1] if said else "", vocabulary=vocabulary)
+
+
+def _asked(order: dict[str, Any], vocabulary: Vocabulary) -> ThinkRequest:
+    room, language = order.get("robot_is_in"), order.get("language")
+    return ThinkRequest(
+        text=str(order["order"]),
+        vocabulary=vocabulary,
+        room=room if isinstance(room, str) else None,
+        language=Language(language) if language in set(Language) else None,
+    )
+
+
+def _order(text: str) -> dict[str, Any] | None:
+    """Return the object with the order, also where the system's words stand before it."""
+    try:
+        found = json.loads(text[max(0, text.rfind('\n{"order"')) :])
+    except (ValueError, RecursionError):
+        return None
+    return found if isinstance(found, dict) and isinstance(found.get("order"), str) else None
+
+
+def _vocabulary(text: str, body: dict[str, Any]) -> Vocabulary:
+    """Return the places: the prompt's lines, then what the schema lists beyond them."""
+    named = {found[1]: _entry(found[1], found[2]) for found in _LINE.finditer(text)}
+    entries = {id_: entry for id_, entry in named.items() if entry is not None}
+    for id_ in _ids(body, 0):
+        words = id_.replace("_", " ")
+        try:
+            entries.setdefault(id_, Entry(id=id_, kind="place", name=Bilingual(en=words, zh=words)))
+        except ValidationError:
+            continue  # an enum of other things
+    return Vocabulary(entries=tuple(entries.values())[:MAX_PLACES])
+
+
+def _entry(id_: str, listed: str) -> Entry | None:
+    try:
+        names = [name for name in json.loads(listed) if isinstance(name, str) and name.strip()]
+        english = next((n for n in names if not _CHINESE.search(n)), id_.replace("_", " "))
+        chinese = next((n for n in names if _CHINESE.search(n)), english)
+        name = Bilingual(en=english, zh=chinese)
+        return Entry(id=id_, kind="place", name=name, aliases=tuple(names))
+    except (ValueError, RecursionError, ValidationError):
+        return None
+
+
+def _ids(node: object, depth: int) -> list[str]:
+    """Return the ids that a schema somewhere in the request allows for a place."""
+    if depth > MAX_DEPTH:
+        return []
+    if isinstance(node, list):
+        return [id_ for each in node for id_ in _ids(each, depth + 1)]
+    if not isinstance(node, dict):
+        return []
+    place = node.get("place")
+    allowed = place.get("enum") if isinstance(place, dict) else None
+    here = [id_ for id_ in allowed if isinstance(id_, str)] if isinstance(allowed, list) else []
+    return [*here, *(id_ for each in node.values() for id_ in _ids(each, depth + 1))]
+
+
+def _words(content: object) -> str:
+    """Return a message's text, whether it is one or a list of parts."""
+    if isinstance(content, str):
+        return content
+    return "\n".join(str(part.get("text", "")) for part in _dicts(content))
+
+
+def _dicts(value: object) -> list[dict[str, Any]]:
+    return [each for each in value if isinstance(each, dict)] if isinstance(value, list) else []
