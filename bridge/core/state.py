@@ -66,6 +66,9 @@ class Gate:
     """Remember the obstacle gate."""
 
     shut_since_s: float | None = None
+    """Since when the way asked for is shut and the robot has not turned away from it."""
+    shut_yaw_rad: float = 0.0
+    """Heading in ``odom`` at that time."""
     blocked: bool = False
     free_scans: int = 0
     judged_scan: int = -1
