@@ -26,7 +26,8 @@ def hear_waypoints(tick: Tick, new: Waypoints) -> None:
     if sent_s is None:
         return
     s = tick.s
-    if s.grants.mission is None or s.grants.mission != new.mission:
+    owner = s.ownership.owner
+    if owner is None or owner.kind != "planner" or s.grants.mission != new.mission:
         tick.drop("no_grant")
         return
     if s.ownership.waypoints_seq is not None and not new.seq > s.ownership.waypoints_seq:

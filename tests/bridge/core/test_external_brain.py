@@ -1,0 +1,110 @@
+"""Let another brain steer by velocity: owned, granted, aged and stopped like a planner."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from tests.bridge.core.scripted import FakePlanner, World
+from wire import Action, Mode, Velocity
+
+
+def external_world() -> World:
+    """Arm a world that an external brain owns and has a grant in."""
+    planner = FakePlanner(planner_id="x1", mission="m1")
+    planner.next_horizon_s = 1e9
+    world = World(planner=planner)
+    hello = planner.hello
+
+    def as_external(status: object) -> object:
+        return hello(status).model_copy(update={"kind": "external"})  # type: ignore[arg-type]
+
+    planner.hello = as_external  # type: ignore[method-assign,assignment]
+    world.armed()
+    world.run(0.3)
+    assert world.state.ownership.owner is not None
+    assert world.state.ownership.owner.kind == "external"
+    assert world.state.grants.mission == "m1"
+    return world
+
+
+def say(world: World, v_mps: float, *, held: bool = True, seq: int | None = None) -> None:
+    status = world.status
+    assert status is not None
+    world.ids += 1
+    velocity = Velocity(
+        source_id="x1",
+        epoch=status.epoch,
+        seq=world.ids if seq is None else seq,
+        seen=status.seq,
+        v_mps=v_mps,
+        w_radps=0.0,
+        dead_man=held,
+    )
+    world.extra = replace(world.extra, external=(velocity,))
+
+
+def drive_for(world: World, seconds: float, v_mps: float = 0.3) -> None:
+    for _ in range(round(seconds / 0.05)):
+        say(world, v_mps)
+        world.run(0.05)
+
+
+def test_it_drives_within_limits_and_stands_when_it_lets_go() -> None:
+    world = external_world()
+    drive_for(world, 2.0)
+    assert world.is_in(Mode.ACTIVE)
+    assert world.sent.v_mps == pytest.approx(0.3)
+    assert world.state.grants.metres < 20.0, "metered like a planner"
+    drive_for(world, 2.0, v_mps=9.0)
+    assert world.sent.v_mps <= world.core.robot.limits.max_speed_mps
+    for _ in range(40):
+        say(world, 0.3, held=False)
+        world.run(0.05)
+    assert world.is_in(Mode.HOLD)
+    assert world.sent.v_mps == 0.0
+
+
+def test_an_old_velocity_holds_after_a_quarter_second() -> None:
+    world = external_world()
+    drive_for(world, 1.0)
+    world.run(0.15)
+    assert world.is_in(Mode.ACTIVE)
+    world.run(0.15)
+    assert "CMD_STALE.1" in world.rows()
+    assert world.is_in(Mode.STOPPING)
+    world.run(2.0)
+    assert world.is_in(Mode.HOLD)
+
+
+def test_going_backwards_in_number_is_scored() -> None:
+    world = external_world()
+    drive_for(world, 1.0)
+    for _ in range(7):
+        say(world, 0.3, seq=1)
+        world.tick()
+    assert "CMD_BAD.0" in world.rows()
+
+
+def test_a_planners_waypoints_are_not_its_to_send() -> None:
+    world = external_world()
+    drive_for(world, 0.5)
+    assert world.planner is not None
+    world.planner.next_horizon_s, world.planner.goal_m = 0.0, (4.0, 0.0)
+    world.tick()
+    assert world.last is not None
+    assert "no_grant" in world.last.reasons
+    assert world.state.leg.horizon is None
+
+
+def test_stop_outranks_it() -> None:
+    world = external_world()
+    drive_for(world, 1.0)
+    world.stop()
+    world.tick()
+    assert world.is_in(Mode.STOPPING)
+    assert world.state.stopping is not None
+    assert world.state.stopping.action is Action.HOLD2
+    drive_for(world, 2.0)
+    assert world.is_in(Mode.HOLD), "held until a person resumes"
