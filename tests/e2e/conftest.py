@@ -5,7 +5,7 @@ Owns the life of the shared robot and what a failed story shows.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -14,9 +14,11 @@ import pytest
 from tests.e2e.robot import Robot
 from tests.e2e.system import new_home
 
+FAILED = pytest.StashKey[bool]()
+
 
 class Garage:
-    """Hand out a robot at rest; make a new one where the old one can't be brought to rest."""
+    """Hand out one robot, story after story."""
 
     def __init__(self) -> None:
         self._robot: Robot | None = None
@@ -24,15 +26,8 @@ class Garage:
 
     def robot(self) -> Robot:
         """Return the robot, at rest."""
-        if self._robot is not None and self._robot.healthy():
-            try:
-                self._robot.rest()
-            except (AssertionError, OSError):
-                self._scrap()
-            else:
-                return self._robot
-        else:
-            self._scrap()
+        if self._robot is not None:
+            return self._robot
         home = new_home()
         self._homes.append(home)
         self._robot = Robot(Path(home.name))
@@ -40,7 +35,8 @@ class Garage:
         self._robot.rest()
         return self._robot
 
-    def _scrap(self) -> None:
+    def scrap(self) -> None:
+        """Give up a robot that a failed story has left in an unknown state."""
         if self._robot is not None:
             self._robot.system.destroy()
             self._robot.judge.close()
@@ -63,9 +59,14 @@ def garage() -> Iterator[Garage]:
 
 
 @pytest.fixture
-def robot(garage: Garage) -> Robot:
-    """Return a robot at rest on the two-room site."""
-    return garage.robot()
+def robot(garage: Garage, request: pytest.FixtureRequest) -> Iterator[Robot]:
+    """Return a robot at rest on the two-room site; hold that every story ends where it can rest."""
+    found = garage.robot()
+    yield found
+    if request.node.stash.get(FAILED, False):
+        garage.scrap()
+    else:
+        found.rest()
 
 
 @pytest.fixture
@@ -78,12 +79,13 @@ def home() -> Iterator[Path]:
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
-) -> Iterator[None]:
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
     """Show the ends of all logs, and the bridge's last events, beside a failed story."""
     report = yield
-    robots = [found for found in getattr(item, "funcargs", {}).values() if isinstance(found, Robot)]
-    if getattr(report, "failed", False):
-        for found in robots:
+    if report.failed:
+        item.stash[FAILED] = True
+        watched = getattr(item, "funcargs", {}).values()
+        for found in (thing for thing in watched if isinstance(thing, Robot)):
             report.sections.append(("logs", found.system.logs()))
             report.sections.append(("bridge events", _events(found)))
     return report

@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from itertools import pairwise
 from math import hypot
 from pathlib import Path
 from types import TracebackType
@@ -31,7 +32,8 @@ class Log(Generic[M]):
     """Keep what one key said, with the moment of receipt."""
 
     def __init__(self, ears: Subscriber[M], kind: type[M]) -> None:
-        self._ears, self._kind = ears, kind
+        self._ears: Subscriber[M] = ears
+        self._kind: type[M] = kind
         self._kept: deque[tuple[float, M]] = deque(maxlen=KEEP)
 
     def drain(self, now_s: float) -> None:
@@ -149,8 +151,7 @@ class Judge:
     def path_m(self, from_s: float, to_s: float = float("inf")) -> float:
         """Return how far the robot really drove in a span."""
         poses = [truth.base_in_map for _, truth in self.truths.since(from_s, to_s)]
-        steps = zip(poses, poses[1:], strict=False)
-        return sum(hypot(b.x_m - a.x_m, b.y_m - a.y_m) for a, b in steps)
+        return sum(hypot(b.x_m - a.x_m, b.y_m - a.y_m) for a, b in pairwise(poses))
 
     def assert_stood(self, from_s: float, to_s: float | None = None) -> None:
         """Hold that neither wheels nor robot moved in a span."""

@@ -51,11 +51,6 @@ class Robot:
 
     # Rest ---------------------------------------------------------------------------------------
 
-    def healthy(self) -> bool:
-        """Tell whether this system is still worth a story."""
-        up = self.system.up
-        return up is not None and up.poll() is None and len(self.system.processes()) >= 5
-
     def rest(self) -> None:
         """Bring it to HOLD: armed, nothing held, no open goal, standing, ready."""
         for process in self.system.processes():

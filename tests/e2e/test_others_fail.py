@@ -22,9 +22,7 @@ def test_a_killed_bridge_is_stopped_by_the_drives_own_time_out(robot: Robot) -> 
     boot = robot.judge.status.boot
     killed_s = robot.system.kill("bridge")
     until(lambda: robot.judge.drives.last.timed_out, 2.0, "the drive's time-out")
-    fired_s = next(
-        at_s for at_s, s in robot.judge.drives.since(killed_s) if s.timed_out
-    )
+    fired_s = next(at_s for at_s, s in robot.judge.drives.since(killed_s) if s.timed_out)
     assert fired_s - killed_s < DEAD_MAN_S + NOTICE_S
     stood_s = robot.assert_stops(killed_s, 1.5)
     until(lambda: robot.judge.status.boot != boot, 15.0, "a new bridge", robot.system.said)

@@ -67,7 +67,7 @@ def test_a_stranger_who_claims_the_robot_moves_nothing(robot: Robot, home: Path)
         says = [stranger.publisher(key) for key in (HELLO, GRANT, HEARTBEAT, WAYPOINTS)]
         for number in range(1, 41):
             for mouth, message in zip(says, lies(robot, number), strict=True):
-                mouth.put(message)  # type: ignore[arg-type]  # each mouth got its own kind
+                mouth.put(message)
             answers = robot.judge.status.answers
             refused += [a for a in answers if a.id == ROGUE]
             until(robot.judge.describe, 1.0, "a status")
