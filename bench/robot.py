@@ -131,12 +131,16 @@ class Robot:
         """
         try:
             if "planner" in self.children:
-                until(self._answers, limit_s, "the planner's /readyz", 0.05)
+                self.await_planner(limit_s)
             until(lambda: self._in(Mode.DISARMED, Mode.HOLD), limit_s, "self test", 0.02)
             until(self._armed, limit_s, "arming", 0.2)
         except Missed as missed:
             logs = "\n".join(f"{c.name}: {c.last_words(3)}" for c in self.children.values())
             raise Missed(f"{missed}; {self.describe()}\n{logs}") from None
+
+    def await_planner(self, limit_s: float = 60.0) -> None:
+        """Wait until the planner is ready. Raises Missed."""
+        until(self._answers, limit_s, "the planner's /readyz", 0.05)
 
     def say(self, text: str) -> str:
         """Give a goal over HTTP and return its id."""

@@ -11,6 +11,7 @@ from bench.measure import (
     footprint,
     goal_to_waypoint,
     lockstep_speed,
+    planner_silent,
     suite_time,
     tick_lateness,
 )
@@ -27,6 +28,7 @@ ALL: tuple[Measure, ...] = cast(
         footprint,
         goal_to_waypoint,
         brain_silent,
+        planner_silent,
         clone_to_url,
         suite_time,
     ),
