@@ -1,0 +1,48 @@
+/** Say everything in the person's language. The only door to the catalogues. */
+import { effect, signal } from "@preact/signals";
+import type { Bilingual, Language } from "../wire/types";
+import { en, type Key } from "./en";
+import rows from "./rows.json";
+import { zh } from "./zh";
+
+const SLOT = "pons.language";
+const CATALOGUES: Record<Language, Record<Key, string>> = { en, zh };
+
+export const language = signal<Language>("en");
+
+export function startLanguage(): void {
+  const kept = localStorage.getItem(SLOT);
+  const wanted = kept ?? navigator.language;
+  language.value = wanted.toLowerCase().startsWith("zh") ? "zh" : "en";
+  effect(() => {
+    document.documentElement.lang = language.value === "zh" ? "zh-CN" : "en";
+    document.title = t("page.title");
+  });
+}
+
+export function choose(wanted: Language): void {
+  language.value = wanted;
+  localStorage.setItem(SLOT, wanted);
+}
+
+/** Return a sentence with its blanks filled. */
+export function t(key: Key, facts: Readonly<Record<string, string>> = {}): string {
+  const sentence: string = CATALOGUES[language.value][key];
+  return sentence.replace(/\{(\w+)\}/g, (blank, name: string) => facts[name] ?? blank);
+}
+
+/** Return the sentence of a code from outside, or the code itself where there is none. */
+export function word(family: string, code: string): string {
+  const key = `${family}.${code}`;
+  return Object.hasOwn(en, key) ? t(key as Key) : code;
+}
+
+export const say = (words: Bilingual): string => words[language.value];
+
+/** Return the bridge's own sentence for a row. */
+export function rowWords(row: string): string {
+  const known = (rows as Record<string, Bilingual>)[row];
+  return known ? say(known) : row;
+}
+
+export type { Key };

@@ -1,0 +1,61 @@
+/** Start the page: Stop first, then the socket, then what is seen. */
+import "leaflet/dist/leaflet.css";
+import "uplot/dist/uPlot.min.css";
+import "./styles/base.css";
+import "./styles/layout.css";
+import "./styles/panels.css";
+import "./styles/map.css";
+import "./styles/stop.css";
+import { effect } from "@preact/signals";
+import { render } from "preact";
+import { App } from "./app";
+import { startLanguage } from "./i18n";
+import { fetchGrid, fetchPlaces } from "./net/api";
+import { EventSocket } from "./net/socket";
+import { startToken, tokenNeeded } from "./net/token";
+import { began, grid, open, places, receive, startClock, wantsSnapshot } from "./state/store";
+import { listen } from "./stop/keys";
+import { startStopper, stop } from "./stop/stopper";
+
+const RETRY_MS = 2000;
+
+const socket = new EventSocket({
+  opened: () => {
+    began();
+    void load();
+  },
+  closed: () => {
+    open.value = false;
+    void load(); // tells a planner that wants a token from one that is gone
+  },
+  heard: receive,
+});
+startStopper((message) => socket.send(message));
+listen(stop);
+startToken();
+startLanguage();
+startClock();
+effect(() => {
+  if (wantsSnapshot.value) socket.send({ snapshot: true });
+});
+socket.connect();
+
+let loading = false;
+
+/** Load what does not change while a planner runs; again until it is there. */
+async function load(): Promise<void> {
+  if (loading) return;
+  loading = true;
+  try {
+    const [site, cells] = await Promise.all([fetchPlaces(), fetchGrid()]);
+    places.value = site;
+    grid.value = cells;
+  } catch {
+    if (open.value || tokenNeeded.value) setTimeout(() => void load(), RETRY_MS);
+  } finally {
+    loading = false;
+  }
+}
+
+const page = document.getElementById("page");
+if (page) render(<App again={() => socket.again()} />, page);

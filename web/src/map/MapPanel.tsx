@@ -1,0 +1,115 @@
+/** Show the map, and make a click on it a goal: at once when idle, after a choice when busy. */
+import { effect, signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { language, say, t } from "../i18n";
+import { seconds } from "../panels/format";
+import { give, tell } from "../state/acts";
+import { fresh } from "../state/moment";
+import { about, age, grid, isBusy, path, places, robot, scan } from "../state/store";
+import type { Place } from "../wire/types";
+import { type Point, resolve } from "./resolve";
+import { MapView } from "./view";
+
+type Choice = { readonly place: Place; readonly left: number; readonly top: number };
+
+const choice = signal<Choice | null>(null);
+
+export function MapPanel() {
+  const place = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (place.current === null) return;
+    const view: MapView = new MapView(place.current, (point) => clicked(point, view));
+    const ends = [...follow(view), () => view.close()];
+    return () => {
+      for (const end of ends) end();
+    };
+  }, []);
+  return (
+    <section class="map-panel" aria-label={t("map.label")}>
+      <div ref={place} class="map" id="map" />
+      <Ages />
+      {choice.value && <Ask choice={choice.value} />}
+    </section>
+  );
+}
+
+/** Keep the drawing to the signals; return what ends it. */
+function follow(view: MapView): (() => void)[] {
+  const { drawing } = view;
+  return [
+    effect(() => {
+      if (grid.value) view.showGrid(grid.value);
+    }),
+    effect(() => {
+      language.value;
+      view.showNames(places.value, (shown) => say(shown.name));
+    }),
+    effect(() => view.showZoom(t("map.zoom_in"), t("map.zoom_out"))),
+    effect(() => {
+      if (about.value) drawing.showBody(about.value.base.radius_m);
+    }),
+    effect(() => drawing.showPath(path.value)),
+    effect(() => drawing.showScan(scan.value, !fresh(age("scan")))),
+    effect(() => drawing.showRobot(robot.value?.status?.base_in_map ?? null, !fresh(poseAge()))),
+  ];
+}
+
+/** The pose is the bridge's, made of localization: it is as old as the older of the two. */
+function poseAge(): number | null {
+  const [bridge, localization] = [age("status"), age("localization")];
+  return bridge === null || localization === null ? null : Math.max(bridge, localization);
+}
+
+function clicked(point: Point, view: MapView): void {
+  choice.value = null;
+  const place = resolve(places.value, point);
+  if (place === null) {
+    tell(t("map.nothing"));
+  } else if (isBusy.value) {
+    choice.value = { place, ...view.pixel(point) };
+  } else {
+    void go(place, false);
+  }
+}
+
+async function go(place: Place, replace: boolean): Promise<void> {
+  choice.value = null;
+  const text = t("goal.to", { name: say(place.name) });
+  if (await give(text, replace)) tell(t("goal.sent", { text }));
+}
+
+function Ask({ choice: { place, left, top } }: { choice: Choice }) {
+  const box = useRef<HTMLFieldSetElement>(null);
+  useEffect(() => {
+    const element = box.current;
+    const within = element?.parentElement;
+    if (!element || !within) return;
+    const most = within.clientWidth - element.offsetWidth - 8;
+    element.style.left = `${Math.max(8, Math.min(left, most))}px`;
+    element.style.top = `${Math.max(8, Math.min(top, within.clientHeight - element.offsetHeight - 8))}px`;
+    element.querySelector("button")?.focus();
+  }, [left, top]);
+  return (
+    <fieldset ref={box} class="map-choice" aria-label={say(place.name)}>
+      <strong class="clip">{t("map.busy", { name: say(place.name) })}</strong>
+      <button type="button" class="main" onClick={() => void go(place, true)}>
+        {t("goal.replace")}
+      </button>
+      <button type="button" onClick={() => void go(place, false)}>
+        {t("goal.queue")}
+      </button>
+      <button type="button" class="quiet" onClick={() => (choice.value = null)}>
+        {t("op.no")}
+      </button>
+    </fieldset>
+  );
+}
+
+function Ages() {
+  const old = [
+    fresh(poseAge()) ? null : t("map.stale", { age: seconds(poseAge()) }),
+    fresh(age("scan")) ? null : t("map.scan_stale", { age: seconds(age("scan")) }),
+  ].filter((text) => text !== null);
+  if (robot.value === null || old.length === 0) return null;
+  return <p class="map-ages">{old.join(" · ")}</p>;
+}

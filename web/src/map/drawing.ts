@@ -1,0 +1,107 @@
+/**
+ * Draw what lies and moves on the map as one SVG in metres, y up: rooms, fence, zones, scan, path,
+ * robot. Leaflet scales it; nothing here knows pixels.
+ */
+import type { Grid, Path, Place, Pose, Scan } from "../wire/types";
+import { unwound } from "./resolve";
+
+const SVG = "http://www.w3.org/2000/svg";
+
+type Outline = readonly (readonly [number, number])[];
+
+export const outlineOf = (points: Outline): string =>
+  `M${points.map(([x, y]) => `${x} ${y}`).join("L")}`;
+
+/** Return dots: lines of no length with round ends. */
+export function dots(scan: Scan): string {
+  let path = "";
+  for (let index = 0; index + 1 < scan.length; index += 2) {
+    path += `M${(scan[index] ?? 0) / 100} ${(scan[index + 1] ?? 0) / 100}h0`;
+  }
+  return path;
+}
+
+function make<K extends keyof SVGElementTagNameMap>(
+  name: K,
+  attributes: Record<string, string>,
+): SVGElementTagNameMap[K] {
+  const element = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  return element;
+}
+
+export class Drawing {
+  readonly svg = make("svg", { class: "drawing", "aria-hidden": "true" });
+  private readonly rooms = make("g", {});
+  private readonly fence = make("path", { class: "fence" });
+  private readonly zones = make("path", { class: "zone" });
+  private readonly scan = make("path", { class: "scan" });
+  private readonly path = make("path", { class: "way" });
+  private readonly goal = make("circle", { class: "way-end", r: "0.14" });
+  private readonly robot = make("g", { class: "robot" });
+  private degrees = 0;
+
+  constructor() {
+    const up = make("g", { transform: "scale(1,-1)" });
+    up.append(this.rooms, this.zones, this.fence, this.scan, this.path, this.goal, this.robot);
+    this.svg.append(up);
+    this.showBody(0.3);
+    this.showRobot(null, true);
+    this.showPath(null);
+  }
+
+  /** Cover a map, in metres. */
+  cover(grid: Grid): void {
+    const { x_m, y_m } = grid.origin;
+    const wide = grid.width * grid.resolution_m;
+    const high = grid.height * grid.resolution_m;
+    this.svg.setAttribute("viewBox", `${x_m} ${-(y_m + high)} ${wide} ${high}`);
+    const { allowed, keep_outs, speed_zones } = grid.fence;
+    const closed = (outlines: readonly Outline[]): string =>
+      outlines.map((outline) => `${outlineOf(outline)}Z`).join("");
+    this.fence.setAttribute("d", closed([...allowed, ...keep_outs]));
+    this.zones.setAttribute("d", closed(speed_zones.map((zone) => zone.polygon)));
+  }
+
+  showRooms(places: readonly Place[]): void {
+    this.rooms.replaceChildren(
+      ...places.flatMap((place, index) =>
+        place.polygon
+          ? [make("path", { class: `room tint-${index % 4}`, d: `${outlineOf(place.polygon)}Z` })]
+          : [],
+      ),
+    );
+  }
+
+  /** Draw the robot's disc, with a wedge to the front. */
+  showBody(radius: number): void {
+    const nose = `M${radius * 0.95} 0L${-radius * 0.35} ${radius * 0.55}L${-radius * 0.1} 0L${
+      -radius * 0.35
+    } ${-radius * 0.55}Z`;
+    this.robot.replaceChildren(
+      make("circle", { class: "disc", r: String(radius) }),
+      make("path", { class: "nose", d: nose }),
+    );
+  }
+
+  showRobot(pose: Pose | null, stale: boolean): void {
+    this.robot.style.display = pose ? "" : "none";
+    this.robot.classList.toggle("stale", stale);
+    if (!pose) return;
+    this.degrees = unwound(this.degrees, (pose.yaw_rad * 180) / Math.PI);
+    this.robot.style.transform = `translate(${pose.x_m}px, ${pose.y_m}px) rotate(${this.degrees}deg)`;
+  }
+
+  showPath(path: Path | null): void {
+    const last = path?.points.at(-1);
+    this.path.setAttribute("d", path && last ? outlineOf(path.points) : "");
+    this.goal.style.display = last ? "" : "none";
+    this.goal.setAttribute("cx", String(last?.[0] ?? 0));
+    this.goal.setAttribute("cy", String(last?.[1] ?? 0));
+  }
+
+  showScan(scan: Scan, stale: boolean): void {
+    this.scan.setAttribute("d", dots(scan));
+    this.scan.classList.toggle("stale", stale);
+  }
+}

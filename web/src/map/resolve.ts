@@ -1,0 +1,51 @@
+/** Find what a click on the map means: a place near it, else the room around it. Pure. */
+import type { Place } from "../wire/types";
+
+export const NEAR_M = 0.45;
+
+export type Point = { readonly x: number; readonly y: number };
+
+export function resolve(places: readonly Place[], point: Point): Place | null {
+  const near = places
+    .filter((place) => place.kind === "place")
+    .map((place) => ({
+      place,
+      away: Math.hypot(place.pose.x_m - point.x, place.pose.y_m - point.y),
+    }))
+    .filter(({ away }) => away <= NEAR_M)
+    .sort((a, b) => a.away - b.away)[0];
+  if (near) return near.place;
+  const room = places.find(
+    (place) => place.kind === "room" && place.polygon && contains(place.polygon, point),
+  );
+  return room ?? null;
+}
+
+/** Say whether a polygon holds a point: crossings of a ray to the right. */
+export function contains(
+  polygon: readonly (readonly [number, number])[],
+  { x, y }: Point,
+): boolean {
+  let inside = false;
+  for (let i = 0, j = polygon.length - 1; i < polygon.length; j = i, i += 1) {
+    const [xi = 0, yi = 0] = polygon[i] ?? [];
+    const [xj = 0, yj = 0] = polygon[j] ?? [];
+    if (yi > y !== yj > y && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) inside = !inside;
+  }
+  return inside;
+}
+
+/** Return the middle of a polygon's bounding box, where its name is written. */
+export function middle(polygon: readonly (readonly [number, number])[]): Point {
+  const xs = polygon.map(([x]) => x);
+  const ys = polygon.map(([, y]) => y);
+  return {
+    x: (Math.min(...xs) + Math.max(...xs)) / 2,
+    y: (Math.min(...ys) + Math.max(...ys)) / 2,
+  };
+}
+
+/** Return the angle nearest to `before` that points the same way, so that a turn takes no detour. */
+export function unwound(before: number, degrees: number): number {
+  return before + ((((degrees - before) % 360) + 540) % 360) - 180;
+}

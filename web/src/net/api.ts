@@ -1,0 +1,106 @@
+/** Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. */
+import type { Bilingual, Goal, Grid, Place } from "../wire/types";
+import type { OperatorProof } from "./proof";
+import { authorization, tokenNeeded } from "./token";
+
+export class ApiError extends Error {
+  constructor(
+    readonly code: string,
+    readonly detail: string,
+    readonly words: Bilingual | null = null,
+  ) {
+    super(`${code}: ${detail}`);
+  }
+}
+
+const TIMEOUT_MS = 8000;
+
+type Json = { readonly [key: string]: unknown };
+
+export async function call(
+  method: "GET" | "POST",
+  path: string,
+  body?: object,
+  headers: Record<string, string> = {},
+): Promise<unknown> {
+  const request: RequestInit = {
+    method,
+    headers: { "content-type": "application/json", ...authorization(), ...headers },
+    signal: AbortSignal.timeout(TIMEOUT_MS),
+    cache: "no-store",
+  };
+  if (body !== undefined) request.body = JSON.stringify(body);
+  let answer: Response;
+  try {
+    answer = await fetch(path, request);
+  } catch {
+    throw new ApiError("planner_silent", "");
+  }
+  const content = (await answer.json().catch(() => ({}))) as Json;
+  if (answer.ok) return content;
+  if (answer.status === 401) tokenNeeded.value = true;
+  throw new ApiError(
+    typeof content.code === "string" ? content.code : `http_${answer.status}`,
+    typeof content.detail === "string" ? content.detail : "",
+    (content.message as Bilingual | undefined) ?? null,
+  );
+}
+
+/** Return an unguessable id; crypto.randomUUID is missing on plain HTTP from another machine. */
+export function newId(prefix: string): string {
+  const bytes = crypto.getRandomValues(new Uint8Array(12));
+  return `${prefix}-${[...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("")}`;
+}
+
+const withProof = (operator: OperatorProof | null): object => (operator ? { operator } : {});
+
+export async function giveGoal(
+  text: string,
+  replace: boolean,
+  operator: OperatorProof | null,
+): Promise<Goal> {
+  const body = { text, ...(replace ? { replace } : {}), ...withProof(operator) };
+  const key = { "idempotency-key": newId("page") };
+  return (await call("POST", "/v1/goals", body, key)) as Goal;
+}
+
+export type GoalVerb = "cancel" | "pause" | "resume" | "confirm";
+
+export async function actOnGoal(
+  id: string,
+  verb: GoalVerb,
+  operator: OperatorProof | null = null,
+): Promise<Goal> {
+  return (await call(
+    "POST",
+    `/v1/goals/${encodeURIComponent(id)}/${verb}`,
+    withProof(operator),
+  )) as Goal;
+}
+
+export async function answerGoal(
+  id: string,
+  text: string,
+  operator: OperatorProof | null,
+): Promise<Goal> {
+  const body = { text, ...withProof(operator) };
+  return (await call("POST", `/v1/goals/${encodeURIComponent(id)}/answer`, body)) as Goal;
+}
+
+export async function moveGoal(id: string, before: string | null): Promise<Goal> {
+  return (await call("POST", `/v1/goals/${encodeURIComponent(id)}/move`, { before })) as Goal;
+}
+
+export type Act = "arm" | "disarm" | "reset" | "resume" | "estop";
+
+export async function operate(kind: Act, operator: OperatorProof | null): Promise<void> {
+  await call("POST", `/v1/${kind}`, { source: "page", ...withProof(operator) });
+}
+
+export async function fetchPlaces(): Promise<readonly Place[]> {
+  return ((await call("GET", "/v1/places")) as { places: Place[] }).places;
+}
+
+export async function fetchGrid(): Promise<Grid> {
+  return (await call("GET", "/v1/map")) as Grid;
+}

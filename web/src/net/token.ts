@@ -1,0 +1,43 @@
+/**
+ * Hold the API token that a planner on an outside address asks for. It comes from the address's
+ * fragment (which no server sees) or from the person, and lives as long as the browser's tab.
+ */
+import { signal } from "@preact/signals";
+
+const SLOT = "pons.token";
+
+export const tokenNeeded = signal(false);
+let token = "";
+
+export function startToken(): void {
+  const given = new URLSearchParams(location.hash.slice(1)).get("token");
+  if (given) {
+    setToken(given);
+    window.history.replaceState(null, "", location.pathname + location.search);
+  } else {
+    token = sessionStorage.getItem(SLOT) ?? "";
+  }
+}
+
+export function setToken(given: string): void {
+  token = given.trim();
+  sessionStorage.setItem(SLOT, token);
+  tokenNeeded.value = false;
+}
+
+export function authorization(): Record<string, string> {
+  return token ? { authorization: `Bearer ${token}` } : {};
+}
+
+/** Return what a WebSocket offers: it can set no header, so the token goes as a subprotocol. */
+export function subprotocols(): string[] {
+  return token ? ["pons.v1", `bearer.${base64url(token)}`] : ["pons.v1"];
+}
+
+function base64url(text: string): string {
+  const bytes = new TextEncoder().encode(text);
+  return btoa(String.fromCharCode(...bytes))
+    .replaceAll("+", "-")
+    .replaceAll("/", "_")
+    .replaceAll("=", "");
+}

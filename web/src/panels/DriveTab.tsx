@@ -1,0 +1,94 @@
+/** Gather what a person needs to drive: the goal box, what runs, what waits, what was before. */
+import { t, word } from "../i18n";
+import { act, give, moveFirst } from "../state/acts";
+import { sortedGoals } from "../state/store";
+import type { Goal } from "../wire/types";
+import { GoalBox } from "./GoalBox";
+import { Ended, GoalCard, Steps } from "./GoalCard";
+import { reasonWords } from "./steps";
+
+const SHOWN_PAST = 20;
+
+export function DriveTab() {
+  const { current, queued, past } = sortedGoals.value;
+  return (
+    <>
+      <GoalBox />
+      <section class="card" aria-labelledby="now-title" id="now">
+        <h2 id="now-title">{t("goal.now")}</h2>
+        {current.length === 0 && <p class="fine">{t("goal.none")}</p>}
+        {current.map((goal) => (
+          <GoalCard key={goal.id} goal={goal} />
+        ))}
+      </section>
+      {queued.length > 0 && <Queue goals={queued} />}
+      {past.length > 0 && <Past goals={past.slice(0, SHOWN_PAST)} />}
+    </>
+  );
+}
+
+function Queue({ goals }: { goals: readonly Goal[] }) {
+  return (
+    <section class="card" aria-labelledby="queue-title" id="queue">
+      <h2 id="queue-title">
+        {t("goal.queue.title")} <span class="fine">{goals.length}</span>
+      </h2>
+      <ol class="queue">
+        {goals.map((goal, index) => (
+          <li key={goal.id} data-goal={goal.id}>
+            <span class="said" dir="auto">
+              {goal.text}
+              {goal.reason && <span class="reason"> {reasonWords(goal.reason)}</span>}
+            </span>
+            <span class="buttons">
+              {index > 0 && (
+                <button
+                  type="button"
+                  aria-label={t("goal.first")}
+                  onClick={() => void moveFirst(goal)}
+                >
+                  ↑
+                </button>
+              )}
+              {goal.reason === "held" && (
+                <button type="button" class="main" onClick={() => void act(goal, "resume")}>
+                  {t("goal.resume")}
+                </button>
+              )}
+              <button type="button" onClick={() => void act(goal, "cancel")}>
+                {t("goal.cancel")}
+              </button>
+            </span>
+          </li>
+        ))}
+      </ol>
+    </section>
+  );
+}
+
+function Past({ goals }: { goals: readonly Goal[] }) {
+  return (
+    <section class="card" aria-labelledby="past-title" id="past">
+      <h2 id="past-title">{t("goal.past")}</h2>
+      <ul class="past">
+        {goals.map((goal) => (
+          <li key={goal.id} data-goal={goal.id} data-state={goal.state}>
+            <details>
+              <summary>
+                <span class={`chip state-${goal.state}`}>{word("state", goal.state)}</span>
+                <span class="said clip" dir="auto">
+                  {goal.text}
+                </span>
+              </summary>
+              {goal.outcome && <Ended outcome={goal.outcome} />}
+              {goal.plan && <Steps steps={goal.plan.steps} />}
+              <button type="button" onClick={() => void give(goal.text)}>
+                {t("goal.again")}
+              </button>
+            </details>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

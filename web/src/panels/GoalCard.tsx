@@ -1,0 +1,141 @@
+/** Show one goal: what was said, its steps with reasons, what it asks, how it ended, its buttons. */
+import { useSignal } from "@preact/signals";
+import { say, t, word } from "../i18n";
+import { act, answer } from "../state/acts";
+import type { Goal, Outcome, Step } from "../wire/types";
+import { fixed } from "./format";
+import { needed, reasonWords, stepWords } from "./steps";
+
+const MARKS: { readonly [state: string]: string } = {
+  pending: "○",
+  running: "▶",
+  succeeded: "✓",
+  failed: "✕",
+  skipped: "–",
+};
+
+export function GoalCard({ goal }: { goal: Goal }) {
+  return (
+    <article class={`goal goal-${goal.state}`} data-state={goal.state} data-goal={goal.id}>
+      <header>
+        <p class="said" dir="auto">
+          {goal.text}
+        </p>
+        <span class={`chip state-${goal.state}`}>{word("state", goal.state)}</span>
+      </header>
+      {goal.reason && <p class="reason">{reasonWords(goal.reason)}</p>}
+      {goal.plan && goal.plan.steps.length > 0 && <Steps steps={goal.plan.steps} />}
+      {goal.state === "needs_clarification" && <Question goal={goal} />}
+      {goal.outcome && <Ended outcome={goal.outcome} />}
+      {goal.brain && <p class="fine">{t("goal.brain", { name: goal.brain.name })}</p>}
+      <Buttons goal={goal} />
+    </article>
+  );
+}
+
+export function Steps({ steps }: { steps: readonly Step[] }) {
+  return (
+    <ol class="steps" aria-label={t("goal.steps")}>
+      {steps.map((step, index) => (
+        <li key={index} class={`step step-${step.state}`}>
+          <span class="mark" aria-hidden="true">
+            {MARKS[step.state] ?? "•"}
+          </span>
+          <span class="what">
+            {stepWords(step)}
+            <span class="unseen"> ({word("state", step.state)})</span>
+            {step.reason && <span class="reason"> {reasonWords(step.reason)}</span>}
+            {typeof step.residual_m === "number" && (
+              <span class="fine">
+                {" "}
+                {t("step.left", { metres: fixed(step.residual_m, 2, "m") })}
+              </span>
+            )}
+          </span>
+        </li>
+      ))}
+    </ol>
+  );
+}
+
+function Question({ goal }: { goal: Goal }) {
+  const reply = useSignal("");
+  const plan = goal.plan;
+  return (
+    <div class="clarify">
+      {plan?.text && <p dir="auto">{say(plan.text)}</p>}
+      <div class="buttons">
+        {(plan?.options ?? []).map((option) => (
+          <button
+            key={option.text}
+            type="button"
+            class="clip"
+            onClick={() => void answer(goal, option.text)}
+          >
+            {say(option.label)}
+          </button>
+        ))}
+      </div>
+      <form
+        class="goal-row"
+        onSubmit={(event) => {
+          event.preventDefault();
+          const text = reply.value.trim();
+          if (text) void answer(goal, text);
+        }}
+      >
+        <input
+          type="text"
+          aria-label={t("goal.reply")}
+          placeholder={t("goal.reply")}
+          maxLength={2000}
+          value={reply.value}
+          onInput={(event) => (reply.value = event.currentTarget.value)}
+        />
+        <button type="submit">{t("goal.reply.send")}</button>
+      </form>
+    </div>
+  );
+}
+
+export function Ended({ outcome }: { outcome: Outcome }) {
+  const figures =
+    typeof outcome.metres === "number" && outcome.metres > 0
+      ? t("goal.figures", {
+          metres: fixed(outcome.metres, 1, "m"),
+          seconds: fixed(outcome.seconds, 1, "s"),
+        })
+      : "";
+  const more = [figures, needed("goal.limited", outcome.limited_by ?? [])].filter((text) => text);
+  return (
+    <div class="outcome" data-code={outcome.code}>
+      <p dir="auto">{say(outcome.message)}</p>
+      {more.length > 0 && <p class="fine">{more.join(" · ")}</p>}
+    </div>
+  );
+}
+
+function Buttons({ goal }: { goal: Goal }) {
+  const verbs = {
+    confirm: goal.state === "awaiting_confirmation",
+    resume: goal.state === "paused" || goal.reason === "held",
+    pause: goal.state === "running",
+    cancel: true,
+  } as const;
+  return (
+    <div class="buttons">
+      {(["confirm", "resume", "pause", "cancel"] as const)
+        .filter((verb) => verbs[verb])
+        .map((verb) => (
+          <button
+            key={verb}
+            type="button"
+            class={verb === "confirm" || verb === "resume" ? "main" : ""}
+            onClick={() => void act(goal, verb)}
+          >
+            {t(`goal.${verb}`)}
+          </button>
+        ))}
+    </div>
+  );
+}

@@ -1,0 +1,51 @@
+/** Say what keeps the robot from driving, in sentences, with the button that a person may press. */
+import { rowWords, t, word } from "../i18n";
+import { age, bridgeFresh, status } from "../state/store";
+import type { Status } from "../wire/types";
+import { Deliberate } from "./Deliberate";
+import { seconds } from "./format";
+
+export function Notice() {
+  const said = status.value;
+  if (said === null) return null;
+  const items = reasons(said);
+  if (items.length === 0) return null;
+  const stale = bridgeFresh.value ? "" : "stale";
+  return (
+    <section class={`card notice ${stale}`} aria-labelledby="notice-title" id="notice">
+      <h2 id="notice-title">
+        {t("notice.title")}
+        {stale && <span class="old"> {t("link.age", { age: seconds(age("status")) })}</span>}
+      </h2>
+      <ul>
+        {items.map((item) => (
+          <li key={item}>{item}</li>
+        ))}
+      </ul>
+      <Remedy said={said} />
+    </section>
+  );
+}
+
+function reasons(said: Status): string[] {
+  const rows = said.rows.filter((row) => row.binding).map((row) => rowWords(row.row));
+  const waiting = said.waiting_for.map((code) => rowOr(code));
+  const held = said.held ? [word("held", said.held.reason)] : [];
+  const latched = ["ESTOPPED", "FAULT"].includes(said.mode) ? [t("notice.latched")] : [];
+  const disarmed = said.mode === "DISARMED" ? [t("notice.disarmed")] : [];
+  const blocked = said.blocked ? [t("notice.blocked")] : [];
+  const lacks = waiting.length > 0 ? [t("notice.waiting", { what: waiting.join(", ") })] : [];
+  return [...new Set([...rows, ...blocked, ...held, ...latched, ...disarmed, ...lacks])];
+}
+
+/** Some wants bear a row's name in lower case. */
+function rowOr(code: string): string {
+  const words = rowWords(code.toUpperCase());
+  return words === code.toUpperCase() ? code.replaceAll("_", " ") : words;
+}
+
+function Remedy({ said }: { said: Status }) {
+  if (["ESTOPPED", "FAULT"].includes(said.mode)) return <Deliberate kind="reset" where="notice" />;
+  if (said.mode === "DISARMED") return <Deliberate kind="arm" where="notice" />;
+  return said.held ? <Deliberate kind="resume" where="notice" /> : null;
+}

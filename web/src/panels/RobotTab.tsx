@@ -1,0 +1,180 @@
+/** Gather what the bridge says of itself, and the orders that are none of a goal's. */
+import { rowWords, t, word } from "../i18n";
+import { forgetKey, hasKey, needsKey } from "../net/proof";
+import { Plots } from "../plots/Plots";
+import { fresh } from "../state/moment";
+import { age, bridgeFresh, gaps, ignored, robot, status } from "../state/store";
+import type { Status } from "../wire/types";
+import { Deliberate, KeyBox } from "./Deliberate";
+import { fixed, seconds } from "./format";
+import { limitWords, nameOf } from "./steps";
+
+type Pair = readonly [label: string, value: string];
+
+function Pairs({ pairs }: { pairs: readonly Pair[] }) {
+  return (
+    <dl class="pairs">
+      {pairs.map(([label, value]) => (
+        <div key={label}>
+          <dt>{label}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+export function RobotTab() {
+  const said = status.value;
+  const stale = bridgeFresh.value ? "" : "stale";
+  return (
+    <>
+      <section class="card" aria-labelledby="orders-title">
+        <h2 id="orders-title">{t("robot.orders")}</h2>
+        <div class="orders">
+          <Deliberate kind="arm" where="robot" />
+          <Deliberate kind="disarm" where="robot" />
+          <Deliberate kind="reset" where="robot" />
+          <Deliberate kind="resume" where="robot" />
+          <Deliberate kind="estop" where="robot" />
+        </div>
+        {needsKey(said) && !hasKey.value && <KeyBox />}
+        {hasKey.value && (
+          <button type="button" onClick={forgetKey}>
+            {t("op.key.forget")}
+          </button>
+        )}
+      </section>
+      {said && (
+        <div class={stale}>
+          <State said={said} />
+          <Limits said={said} />
+          <Rows said={said} />
+        </div>
+      )}
+      <Links />
+      <Plots />
+    </>
+  );
+}
+
+function State({ said }: { said: Status }) {
+  const pose = said.base_in_map;
+  const three = (a: number, b: number, c: number, unit: string): string =>
+    `${fixed(a, 2)} / ${fixed(b, 2)} / ${fixed(c, 2)} ${unit}`;
+  const drive = [
+    said.drive.virtual ? t("robot.virtual") : said.drive.kind,
+    said.drive.enabled ? t("robot.powered") : t("robot.unpowered"),
+  ].join(", ");
+  const { asked, sent, measured } = said;
+  return (
+    <section class="card" aria-labelledby="state-title">
+      <h2 id="state-title">
+        {t("robot.state")}
+        {!bridgeFresh.value && (
+          <span class="old"> {t("link.age", { age: seconds(age("status")) })}</span>
+        )}
+      </h2>
+      <Pairs
+        pairs={[
+          [t("robot.mode"), word("mode", said.mode)],
+          [t("robot.held"), said.held ? word("reason", said.held.reason) : t("robot.no")],
+          [t("robot.room"), nameOf(robot.value?.room ?? null) || "–"],
+          [
+            t("robot.pose"),
+            pose
+              ? `${fixed(pose.x_m, 2)}, ${fixed(pose.y_m, 2)} m, ${fixed((pose.yaw_rad * 180) / Math.PI, 0)}°`
+              : "–",
+          ],
+          [t("robot.speed"), three(asked.v_mps, sent.v_mps, measured.v_mps, "m/s")],
+          [t("robot.turn"), three(asked.w_radps, sent.w_radps, measured.w_radps, "rad/s")],
+          [t("robot.drive"), drive],
+          [
+            t("robot.battery"),
+            said.drive.battery === null ? "–" : fixed(said.drive.battery * 100, 0, "%"),
+          ],
+          [t("robot.owner"), said.owner?.planner_id ?? t("robot.nobody")],
+          [t("robot.epoch"), said.epoch],
+        ]}
+      />
+    </section>
+  );
+}
+
+function Limits({ said }: { said: Status }) {
+  const { limits } = said;
+  return (
+    <section class="card" aria-labelledby="limits-title">
+      <h2 id="limits-title">{t("limits.title")}</h2>
+      <Pairs
+        pairs={[
+          [t("limits.speed"), fixed(limits.v_mps, 2, "m/s")],
+          [t("limits.turn"), fixed(limits.w_radps, 2, "rad/s")],
+          [t("limits.by"), limitWords(limits.by)],
+          [t("limits.free"), fixed(limits.free_m, 2, "m")],
+          [t("limits.margin"), fixed(limits.margin_m, 2, "m")],
+          [
+            t("limits.left"),
+            `${fixed(said.operator_metres, 0, "m")}, ${seconds(said.operator_seconds)}`,
+          ],
+        ]}
+      />
+    </section>
+  );
+}
+
+function Rows({ said }: { said: Status }) {
+  return (
+    <section class="card" aria-labelledby="rows-title">
+      <h2 id="rows-title">{t("rows.title")}</h2>
+      {said.rows.length === 0 && <p class="fine">{t("rows.none")}</p>}
+      <ul class="rows">
+        {said.rows.map((row) => (
+          <li key={row.row} class={row.binding ? "" : "quiet"}>
+            <strong>{rowWords(row.row)}</strong>
+            <span class="fine">
+              {row.row} · {row.action} · {row.evidence} ·{" "}
+              {t("rows.for", { age: seconds(row.for_s) })}
+              {!row.binding && ` · ${t("notice.shown_only")}`}
+            </span>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+const SOURCES = ["page", "status", "localization", "odometry", "scan"] as const;
+
+function Links() {
+  const ticks = status.value?.ticks;
+  return (
+    <section class="card" aria-labelledby="links-title" id="links">
+      <h2 id="links-title">{t("links.title")}</h2>
+      <dl class="pairs">
+        {SOURCES.map((source) => (
+          <div key={source} class={fresh(age(source)) ? "" : "stale"} data-source={source}>
+            <dt>{t(`links.${source}`)}</dt>
+            <dd>
+              {age(source) === null
+                ? t("link.never")
+                : t("link.age", { age: seconds(age(source)) })}
+            </dd>
+          </div>
+        ))}
+        <div>
+          <dt>{t("links.ignored")}</dt>
+          <dd id="ignored">{ignored.value}</dd>
+        </div>
+        <div>
+          <dt>{t("links.gaps")}</dt>
+          <dd>{gaps.value}</dd>
+        </div>
+        <div>
+          <dt>{t("links.ticks")}</dt>
+          <dd>{ticks ? `${ticks.missed} / ${ticks.ticks}` : "–"}</dd>
+        </div>
+      </dl>
+    </section>
+  );
+}

@@ -1,0 +1,45 @@
+/** Say one step, and why a goal or step is as it is, in the person's language. */
+import { rowWords, say, t, word } from "../i18n";
+import { places } from "../state/store";
+import type { Spot, Step } from "../wire/types";
+import { fixed } from "./format";
+
+export function nameOf(id: string | null): string {
+  const place = places.value.find((known) => known.id === id);
+  return place ? say(place.name) : (id ?? "");
+}
+
+export function stepWords(step: Step): string {
+  const template = word(`step`, step.kind);
+  return template === step.kind ? step.kind : template.replace("{what}", what(step)).trim();
+}
+
+function what(step: Step): string {
+  if (typeof step.seconds === "number") return fixed(step.seconds, 0, "s");
+  if (typeof step.angle_rad === "number") return `${fixed((step.angle_rad * 180) / Math.PI, 0)}°`;
+  if (typeof step.distance_m === "number") return fixed(step.distance_m, 2, "m");
+  const object = step.object ?? step.text ?? "";
+  const place = nameOf(step.place) || (step.places ?? []).map(nameOf).join(", ");
+  return object && place ? `${object} (${place})` : object || place;
+}
+
+const FAULT = /^fault\((\w+)\)$/;
+
+export function reasonWords(reason: string | null): string {
+  if (!reason) return "";
+  const row = FAULT.exec(reason)?.[1];
+  return row ? rowWords(row) : word("reason", reason);
+}
+
+export function spotWords(spot: Spot | null): string {
+  return spot ? nameOf(spot.place ?? spot.room) : "";
+}
+
+/** Say what sets a limit: a gate by its name, a row by its sentence. */
+export function limitWords(by: string): string {
+  const known = word("by", by);
+  return known === by ? rowWords(by.toUpperCase()) : known;
+}
+
+export const needed = (key: "goal.limited", names: readonly string[]): string =>
+  names.length > 0 ? t(key, { what: names.map(limitWords).join(", ") }) : "";

@@ -1,0 +1,94 @@
+/** Do what a person asks for, and tell how it went. Components call these and nothing below them. */
+import { signal } from "@preact/signals";
+import { say, t, word } from "../i18n";
+import {
+  type Act,
+  ApiError,
+  actOnGoal,
+  answerGoal,
+  type GoalVerb,
+  giveGoal,
+  moveGoal,
+  operate,
+} from "../net/api";
+import { prove, proveGoal } from "../net/proof";
+import type { Goal } from "../wire/types";
+import { learn, sortedGoals, status } from "./store";
+
+export type Note = { readonly id: number; readonly text: string; readonly bad: boolean };
+
+/** What was told last; shown for a while and read aloud. */
+export const note = signal<Note | null>(null);
+
+export function tell(text: string, bad = false): void {
+  note.value = { id: (note.peek()?.id ?? 0) + 1, text, bad };
+}
+
+export function explain(error: unknown): string {
+  if (!(error instanceof ApiError)) return String(error);
+  if (error.words) return say(error.words);
+  const known = word("error", error.code);
+  if (known !== error.code) return known;
+  return t("error.other", { code: error.code, detail: error.detail });
+}
+
+/** Run a request; tell its failure. Return whether it went well. */
+async function attempt(request: () => Promise<Goal | undefined>): Promise<boolean> {
+  try {
+    const goal = await request();
+    if (goal) learn(goal);
+    return true;
+  } catch (error) {
+    tell(explain(error), true);
+    return false;
+  }
+}
+
+export function give(text: string, replace = false): Promise<boolean> {
+  return attempt(() => {
+    remember(text);
+    return giveGoal(text, replace, proveGoal(status.value));
+  });
+}
+
+export function act(goal: Goal, verb: GoalVerb): Promise<boolean> {
+  const asPerson = verb === "resume" || verb === "confirm";
+  return attempt(() => actOnGoal(goal.id, verb, asPerson ? proveGoal(status.value) : null));
+}
+
+export function answer(goal: Goal, text: string): Promise<boolean> {
+  return attempt(() => answerGoal(goal.id, text, proveGoal(status.value)));
+}
+
+export function moveFirst(goal: Goal): Promise<boolean> {
+  const next = sortedGoals.value.queued[0];
+  return attempt(() => moveGoal(goal.id, next && next.id !== goal.id ? next.id : null));
+}
+
+export function order(kind: Act): Promise<boolean> {
+  return attempt(async () => {
+    await operate(kind, prove(kind, status.value));
+    tell(t("op.done", { what: t(`op.${kind}`) }));
+    return undefined;
+  });
+}
+
+const SLOT = "pons.said";
+const MAX_SAID = 50;
+const MAX_KEPT_CHARACTERS = 2000;
+
+/** Return what was said on this browser before, newest first. */
+export function said(): readonly string[] {
+  try {
+    const kept: unknown = JSON.parse(localStorage.getItem(SLOT) ?? "[]");
+    return Array.isArray(kept) ? kept.filter((text) => typeof text === "string") : [];
+  } catch {
+    return [];
+  }
+}
+
+function remember(text: string): void {
+  const kept = text.slice(0, MAX_KEPT_CHARACTERS);
+  const list = [kept, ...said().filter((known) => known !== kept)].slice(0, MAX_SAID);
+  localStorage.setItem(SLOT, JSON.stringify(list));
+}

@@ -1,0 +1,38 @@
+/** Sort goals for the page: what runs, what waits for a person, what is queued, what has ended. */
+import type { Goal } from "../wire/types";
+
+const ENDED = new Set(["succeeded", "failed", "refused", "cancelled"]);
+
+export const ended = (goal: Goal): boolean => ENDED.has(goal.state);
+
+export type Sorted = {
+  readonly current: readonly Goal[]; // running first, then those that wait for a person
+  readonly queued: readonly Goal[]; // next first
+  readonly past: readonly Goal[]; // newest first
+};
+
+const RANK: { readonly [state: string]: number } = {
+  running: 0,
+  planning: 1,
+  needs_clarification: 2,
+  awaiting_confirmation: 2,
+  paused: 3,
+};
+
+export function sorted(goals: readonly Goal[]): Sorted {
+  const open = goals.filter((goal) => !ended(goal));
+  return {
+    current: open
+      .filter((goal) => goal.state !== "queued")
+      .sort((a, b) => (RANK[a.state] ?? 9) - (RANK[b.state] ?? 9)),
+    queued: open
+      .filter((goal) => goal.state === "queued")
+      .sort((a, b) => (a.position ?? 99) - (b.position ?? 99)),
+    past: goals.filter(ended),
+  };
+}
+
+/** Say whether a new goal would have to wait. */
+export function busy(goals: readonly Goal[]): boolean {
+  return goals.some((goal) => ["running", "planning", "queued"].includes(goal.state));
+}

@@ -1,0 +1,161 @@
+/**
+ * Turn what came over the socket into a frame, or nothing. Half frames, unknown kinds and numbers
+ * that are not finite are no frames; whoever calls counts them.
+ */
+import type { BridgeEvent, Frame, Goal, Path, Robot, Scan, Status } from "./types";
+
+type Bag = { readonly [key: string]: unknown };
+
+const bag = (value: unknown): value is Bag =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
+const finite = (value: unknown): value is number => Number.isFinite(value);
+const text = (value: unknown): value is string => typeof value === "string";
+const textOrNull = (value: unknown): boolean => value === null || text(value);
+const finiteOrNull = (value: unknown): boolean => value === null || finite(value);
+const all = (value: unknown, ok: (item: unknown) => boolean): boolean =>
+  Array.isArray(value) && value.every(ok);
+
+const pose = (value: unknown): boolean =>
+  bag(value) && finite(value.x_m) && finite(value.y_m) && finite(value.yaw_rad);
+const twist = (value: unknown): boolean =>
+  bag(value) && finite(value.v_mps) && finite(value.w_radps);
+const point = (value: unknown): boolean =>
+  Array.isArray(value) && value.length === 2 && value.every(finite);
+const words = (value: unknown): boolean => bag(value) && text(value.en) && text(value.zh);
+
+const row = (value: unknown): boolean =>
+  bag(value) &&
+  text(value.row) &&
+  text(value.action) &&
+  text(value.evidence) &&
+  finite(value.for_s);
+
+function isStatus(value: unknown): value is Status {
+  if (!bag(value)) return false;
+  const { limits, ticks, drive, held, owner } = value;
+  return (
+    [value.robot, value.boot, value.mode, value.epoch, value.nonce].every(text) &&
+    [value.seq, value.operator_metres, value.operator_seconds].every(finite) &&
+    (owner === null || (bag(owner) && text(owner.planner_id))) &&
+    (held === null || (bag(held) && text(held.reason) && text(held.id))) &&
+    (value.base_in_map === null || pose(value.base_in_map)) &&
+    [value.asked, value.sent, value.measured].every(twist) &&
+    bag(limits) &&
+    twist(limits) &&
+    text(limits.by) &&
+    finiteOrNull(limits.free_m) &&
+    all(value.rows, row) &&
+    all(value.waiting_for, text) &&
+    bag(drive) &&
+    text(drive.kind) &&
+    typeof drive.virtual === "boolean" &&
+    bag(ticks) &&
+    [ticks.ticks, ticks.missed, ticks.late_p50_us, ticks.late_max_us].every(finite)
+  );
+}
+
+function isRobot(value: unknown): value is Robot {
+  return (
+    bag(value) &&
+    (value.status === null || isStatus(value.status)) &&
+    textOrNull(value.room) &&
+    text(value.site) &&
+    text(value.map_id) &&
+    bag(value.ages_s) &&
+    Object.values(value.ages_s).every(finiteOrNull)
+  );
+}
+
+const step = (value: unknown): boolean => bag(value) && text(value.kind) && text(value.state);
+const option = (value: unknown): boolean => bag(value) && text(value.text) && words(value.label);
+
+export function isGoal(value: unknown): value is Goal {
+  if (!bag(value)) return false;
+  const { plan, outcome } = value;
+  return (
+    [value.id, value.text, value.state, value.created].every(text) &&
+    textOrNull(value.reason) &&
+    finiteOrNull(value.position) &&
+    (plan === null ||
+      (bag(plan) &&
+        text(plan.kind) &&
+        all(plan.steps, step) &&
+        all(plan.options, option) &&
+        (plan.text === null || words(plan.text)))) &&
+    (outcome === null || (bag(outcome) && text(outcome.code) && words(outcome.message)))
+  );
+}
+
+const isPath = (value: unknown): value is Path | null =>
+  value === null ||
+  (bag(value) && text(value.goal) && finite(value.leg) && all(value.points, point));
+
+const isScan = (value: unknown): value is Scan => all(value, finite);
+
+const isAbout = (value: unknown): boolean =>
+  bag(value) &&
+  bag(value.base) &&
+  [value.base.wheel_radius_m, value.base.wheel_separation_m, value.base.radius_m].every(finite) &&
+  bag(value.limits) &&
+  finite(value.limits.max_speed_mps);
+
+const isEvent = (value: unknown): value is BridgeEvent =>
+  bag(value) && text(value.code) && text(value.mode) && text(value.detail) && finite(value.seq);
+
+/** Return the frame, or null for anything that is none. Never throws. */
+export function decode(data: unknown): Frame | null {
+  const came = parsed(data);
+  if (came === null || !finite(came.seq)) return null;
+  const { seq } = came;
+  const change = bag(came.change) ? came.change : {};
+  switch (came.kind) {
+    case "snapshot":
+      return isRobot(came.robot) &&
+        all(came.goals, isGoal) &&
+        isAbout(came.about) &&
+        isPath(came.path) &&
+        isScan(came.scan)
+        ? (came as Frame)
+        : null;
+    case "robot":
+      return isRobot(came.robot) ? { seq, kind: "robot", robot: came.robot } : null;
+    case "path":
+      return isPath(came.path) ? { seq, kind: "path", path: came.path } : null;
+    case "scan":
+      return isScan(came.scan) ? { seq, kind: "scan", scan: came.scan } : null;
+    case "goal":
+      return isGoal(change.goal) ? { seq, kind: "goal", goal: change.goal } : null;
+    case "say":
+      return text(change.text) ? { seq, kind: "say", text: change.text } : null;
+    case "act":
+      return text(change.code)
+        ? { seq, kind: "act", accepted: change.accepted === true, code: change.code }
+        : null;
+    case "bridge":
+      return isEvent(change.event) ? { seq, kind: "bridge", event: change.event } : null;
+    case "first_waypoint":
+      return finite(change.seconds)
+        ? { seq, kind: "first_waypoint", seconds: change.seconds }
+        : null;
+    case "gap":
+      return { seq, kind: "gap" };
+    case "stopped":
+      return { seq, kind: "stopped", confirmed: came.confirmed === true };
+    case "problem":
+      return text(came.code) && text(came.detail)
+        ? { seq, kind: "problem", code: came.code, detail: came.detail }
+        : null;
+    default:
+      return null;
+  }
+}
+
+function parsed(data: unknown): Bag | null {
+  if (!text(data)) return null;
+  try {
+    const value: unknown = JSON.parse(data);
+    return bag(value) ? value : null;
+  } catch {
+    return null;
+  }
+}

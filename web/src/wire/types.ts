@@ -1,0 +1,197 @@
+/** Name what the planner sends: the part of it that this page reads. Types only. */
+
+export type Language = "en" | "zh";
+export type Bilingual = { readonly en: string; readonly zh: string };
+
+export type Pose = { readonly x_m: number; readonly y_m: number; readonly yaw_rad: number };
+export type Twist = { readonly v_mps: number; readonly w_radps: number };
+
+export type Row = {
+  readonly row: string;
+  readonly action: string;
+  readonly for_s: number;
+  readonly evidence: string;
+  readonly binding: boolean;
+};
+
+export type Limits = {
+  readonly v_mps: number;
+  readonly w_radps: number;
+  readonly by: string;
+  readonly free_m: number | null;
+  readonly margin_m: number | null;
+};
+
+export type Ticks = {
+  readonly ticks: number;
+  readonly missed: number;
+  readonly late_p50_us: number;
+  readonly late_max_us: number;
+  readonly dropped: number;
+};
+
+/** The bridge's word, as wire/status.py has it. */
+export type Status = {
+  readonly robot: string;
+  readonly boot: string;
+  readonly seq: number;
+  readonly mode: string;
+  readonly epoch: string;
+  readonly nonce: string;
+  readonly owner: { readonly planner_id: string; readonly kind: string } | null;
+  readonly held: { readonly reason: string; readonly id: string } | null;
+  readonly base_in_map: Pose | null;
+  readonly asked: Twist;
+  readonly sent: Twist;
+  readonly measured: Twist;
+  readonly limits: Limits;
+  readonly rows: readonly Row[];
+  readonly waiting_for: readonly string[];
+  readonly blocked: boolean;
+  readonly operator_metres: number;
+  readonly operator_seconds: number;
+  readonly drive: {
+    readonly kind: string;
+    readonly virtual: boolean;
+    readonly enabled: boolean;
+    readonly battery: number | null;
+    readonly real_time: boolean;
+  };
+  readonly ticks: Ticks;
+};
+
+export type Ages = { readonly [source: string]: number | null };
+
+export type Robot = {
+  readonly status: Status | null;
+  readonly room: string | null;
+  readonly ages_s: Ages;
+  readonly site: string;
+  readonly map_id: string;
+};
+
+export type Step = {
+  readonly kind: string;
+  readonly place: string | null;
+  readonly places: readonly string[];
+  readonly object: string | null;
+  readonly text: string | null;
+  readonly seconds: number | null;
+  readonly angle_rad: number | null;
+  readonly distance_m: number | null;
+  readonly state: string;
+  readonly residual_m: number | null;
+  readonly reason: string | null;
+};
+
+export type Option = { readonly label: Bilingual; readonly text: string };
+
+export type Plan = {
+  readonly kind: string;
+  readonly steps: readonly Step[];
+  readonly code: string | null;
+  readonly text: Bilingual | null;
+  readonly options: readonly Option[];
+};
+
+export type Spot = {
+  readonly place: string | null;
+  readonly room: string | null;
+  readonly x_m: number | null;
+  readonly y_m: number | null;
+};
+
+export type Outcome = {
+  readonly code: string;
+  readonly message: Bilingual;
+  readonly asked: Spot | null;
+  readonly reached: Spot | null;
+  readonly metres: number | null;
+  readonly seconds: number | null;
+  readonly limited_by: readonly string[];
+};
+
+export type Goal = {
+  readonly id: string;
+  readonly text: string;
+  readonly language: string;
+  readonly state: string;
+  readonly reason: string | null;
+  readonly plan: Plan | null;
+  readonly outcome: Outcome | null;
+  readonly brain: { readonly name: string; readonly version: string } | null;
+  readonly position: number | null;
+  readonly created: string;
+  readonly updated: string;
+};
+
+export type About = {
+  readonly base: {
+    readonly wheel_radius_m: number;
+    readonly wheel_separation_m: number;
+    readonly radius_m: number;
+  };
+  readonly limits: { readonly max_speed_mps: number; readonly max_turn_radps: number };
+};
+
+export type Path = {
+  readonly goal: string;
+  readonly leg: number;
+  readonly points: readonly (readonly [number, number])[];
+};
+
+/** x, y, x, y, … in map, centimetres. */
+export type Scan = readonly number[];
+
+export type BridgeEvent = {
+  readonly seq: number;
+  readonly code: string;
+  readonly mode: string;
+  readonly detail: string;
+};
+
+export type Frame = { readonly seq: number } & (
+  | {
+      readonly kind: "snapshot";
+      readonly robot: Robot;
+      readonly goals: readonly Goal[];
+      readonly about: About;
+      readonly path: Path | null;
+      readonly scan: Scan;
+    }
+  | { readonly kind: "robot"; readonly robot: Robot }
+  | { readonly kind: "path"; readonly path: Path | null }
+  | { readonly kind: "scan"; readonly scan: Scan }
+  | { readonly kind: "goal"; readonly goal: Goal }
+  | { readonly kind: "say"; readonly text: string }
+  | { readonly kind: "act"; readonly accepted: boolean; readonly code: string }
+  | { readonly kind: "bridge"; readonly event: BridgeEvent }
+  | { readonly kind: "first_waypoint"; readonly seconds: number }
+  | { readonly kind: "gap" }
+  | { readonly kind: "stopped"; readonly confirmed: boolean }
+  | { readonly kind: "problem"; readonly code: string; readonly detail: string }
+);
+
+export type Place = {
+  readonly id: string;
+  readonly kind: "room" | "place";
+  readonly name: Bilingual;
+  readonly polygon: readonly (readonly [number, number])[] | null;
+  readonly pose: Pose;
+};
+
+type Outline = readonly (readonly [number, number])[];
+
+export type Grid = {
+  readonly map_id: string;
+  readonly width: number;
+  readonly height: number;
+  readonly resolution_m: number;
+  readonly origin: { readonly x_m: number; readonly y_m: number };
+  readonly cells: string;
+  readonly fence: {
+    readonly allowed: readonly Outline[];
+    readonly keep_outs: readonly Outline[];
+    readonly speed_zones: readonly { readonly polygon: Outline; readonly max_speed_mps: number }[];
+  };
+};
