@@ -22,7 +22,7 @@ from planner.brain.errors import BrainDown, PlanRejected
 from planner.brain.prompt import Prompt
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.brain.schema import Message, schema_of
-from planner.plan import BrainTag, Code, Refuse, message, same
+from planner.plan import PLAN, Bilingual, BrainTag, Code, Refuse, message, same
 from planner.settings import ModelSettings
 from wire import Misconfigured
 
@@ -33,7 +33,6 @@ log = logging.getLogger(__name__)
 
 MAX_STEPS_DOWN = 4
 """Refused bodies until the ladder and the parameters are used up."""
-_MODEL_WILL_NOT = "the model declined: {words}"
 
 
 class EndpointBrain:
@@ -105,14 +104,14 @@ class EndpointBrain:
         messages = self._prompt.messages(request)
         schema = schema_of(request.vocabulary)
         first = await self._ask(messages, schema, end_s)
-        plan = _plan_of(first, request)
+        plan = self._plan_of(first, request)
         if not isinstance(plan, Unusable):
             return Thought(plan=plan, brain=self._tag, calls=1, tokens=first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
         second = await self._ask(again, schema, end_s)
         spent = first.tokens + second.tokens
-        mended = _plan_of(second, request)
+        mended = self._plan_of(second, request)
         if isinstance(mended, Unusable):
             raise PlanRejected(f"asked twice: {mended}"[:400])
         return Thought(plan=mended, brain=self._tag, calls=2, tokens=spent)
@@ -134,22 +133,34 @@ class EndpointBrain:
                     break
                 dialect = simpler
                 continue
-            reply = read_reply(raw)
+            try:
+                reply = read_reply(raw)
+            except BrainDown as down:
+                raise BrainDown(self._client.struck(str(down)), why=down.why) from None
             self._dialects.keep(dialect)
             return replace(reply, text=self._client.struck(reply.text))
         raise BrainDown(complaint, why="bad_request")
 
+    def _plan_of(self, reply: Reply, request: ThinkRequest) -> Planned | Unusable:
+        """Judge a reply. The key, which a server may spell as it likes, is struck out last."""
+        struck = self._client.struck
+        if reply.refusal is not None:
+            return _declined(struck(reply.refusal), request)
+        judged = judge(reply.text, request.vocabulary)
+        if not isinstance(judged, Unusable):
+            written = judged.model_dump_json()
+            safe = struck(written)
+            return judged if safe == written else PLAN.validate_json(safe)
+        reasons = judged.reasons if reply.trouble is None else (reply.trouble, *judged.reasons)
+        return Unusable(tuple(map(struck, reasons)))
 
-def _plan_of(reply: Reply, request: ThinkRequest) -> Planned | Unusable:
-    if reply.refusal is not None:
-        words = clean(reply.refusal)[:200]
-        rule = same(_MODEL_WILL_NOT.format(words=words))
-        said = message(Code.UNSAFE, part=same(clean(request.text)[:60]), rule=rule)
-        return Refuse(code=Code.UNSAFE, reason=said)
-    judged = judge(reply.text, request.vocabulary)
-    if isinstance(judged, Unusable) and reply.trouble is not None:
-        return Unusable((reply.trouble, *judged.reasons))
-    return judged
+
+def _declined(words: str, request: ThinkRequest) -> Refuse:
+    """Take a model's own refusal as one: the offline brain must not do what a model would not."""
+    told = clean(words)[:200]
+    rule = Bilingual(en=f"the model declined: {told}", zh=f"模型拒绝了：{told}")
+    said = message(Code.UNSAFE, part=same(clean(request.text)[:60]), rule=rule)
+    return Refuse(code=Code.UNSAFE, reason=said)
 
 
 def warm_up() -> None:

@@ -130,7 +130,7 @@ class Client:
         if 200 <= status < 300:
             return raw
         content = read_json(raw)
-        said = f"status {status}: {complaint_of(content)}"
+        said = self.struck(f"status {status}: {complaint_of(content)}")
         if status in (400, 422):
             raise BadRequest(said, generated_by(content))
         if status in (401, 403):

@@ -103,7 +103,12 @@ class Dialects:
         self._path = home / FILE
         self._key = hashlib.sha256(f"{url}\n{settings.name}".encode()).hexdigest()[:24]
         self._fixed = settings.mode
-        self._now = self._read()
+        known = self._all().get(self._key)
+        self._kept = isinstance(known, dict)
+        dialect = _dialect(known) if isinstance(known, dict) else Dialect()
+        if self._fixed:
+            dialect = replace(dialect, mode=self._fixed, fixed=True)
+        self._now = dialect
 
     @property
     def now(self) -> Dialect:
@@ -112,9 +117,9 @@ class Dialects:
 
     def keep(self, dialect: Dialect) -> None:
         """Remember what the server took. A disk that refuses costs a call at the next start."""
-        if dialect == self._now and self._key in self._all():
+        if dialect == self._now and self._kept:
             return
-        self._now = dialect
+        self._now, self._kept = dialect, True
         kept = {k: v for k, v in self._all().items() if k != self._key}
         kept = dict([*kept.items()][-(MAX_KEPT - 1) :])
         kept[self._key] = asdict(replace(dialect, fixed=False))
@@ -125,11 +130,6 @@ class Dialects:
             fresh.replace(self._path)
         except OSError as error:
             log.warning("%s could not be written: %s", self._path, error.strerror)
-
-    def _read(self) -> Dialect:
-        known = self._all().get(self._key)
-        dialect = _dialect(known) if isinstance(known, dict) else Dialect()
-        return replace(dialect, mode=self._fixed, fixed=True) if self._fixed else dialect
 
     def _all(self) -> dict[str, Any]:
         try:

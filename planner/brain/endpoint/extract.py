@@ -18,6 +18,7 @@ MAX_STARTS = 40
 _THOUGHT = re.compile(r"<(think|thinking|reasoning|thought)>.*?</\1>", re.DOTALL | re.IGNORECASE)
 _THOUGHT_END = re.compile(r"</(?:think|thinking|reasoning|thought)>", re.IGNORECASE)
 _THOUGHT_OPEN = re.compile(r"<(?:think|thinking|reasoning|thought)>", re.IGNORECASE)
+_MEANT = re.compile(r'\{\s*["{\[}]')  # "{name}" in prose is no object, '{"kind' is
 _FENCE = re.compile(r"```[a-zA-Z]*\s*\n?(.*?)```", re.DOTALL)
 
 
@@ -52,7 +53,10 @@ def _without_thoughts(text: str) -> str:
 
 
 def _objects(text: str) -> list[dict[str, Any]]:
-    """Return the outermost objects of a text, at most a handful."""
+    """Return the outermost objects of a text, at most a handful; none where one is broken.
+
+    What lies inside a broken object was never meant alone, so it is not looked at.
+    """
     decoder = json.JSONDecoder(parse_constant=_no_constant)
     found: list[dict[str, Any]] = []
     at = text.find("{")
@@ -62,6 +66,8 @@ def _objects(text: str) -> list[dict[str, Any]]:
         try:
             value, end = decoder.raw_decode(text, at)
         except (ValueError, RecursionError):
+            if _MEANT.match(text, at):
+                return []
             end = at + 1
         else:
             found.append(value)

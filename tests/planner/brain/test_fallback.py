@@ -1,0 +1,166 @@
+"""Check the breaker's hysteresis, and that falling back is seen and typed."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.brain import (
+    BrainDown,
+    FallbackBrain,
+    OfflineBrain,
+    PlanRejected,
+    ScriptedBrain,
+    ThinkRequest,
+    Thought,
+)
+from planner.brain.breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
+from planner.brain.reasons import REASONS, reason
+from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, message
+
+BY_MODEL = StepPlan(steps=(Wait(seconds=1.0),))
+BY_GRAMMAR = StepPlan(steps=(GoTo(place="kitchen"),))
+DOWN = BrainDown("gone", why="timeout")
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.now_s = 100.0
+
+    def __call__(self) -> float:
+        return self.now_s
+
+
+def ask(brain: FallbackBrain, home: Vocabulary, text: str = "go to the kitchen") -> Thought:
+    return asyncio.run(brain.think(ThinkRequest(text=text, vocabulary=home)))
+
+
+def test_a_model_that_answers_is_believed(home: Vocabulary) -> None:
+    thought = ask(FallbackBrain(ScriptedBrain([BY_MODEL]), OfflineBrain()), home)
+    assert (thought.plan, thought.brain.name) == (BY_MODEL, "scripted")
+    assert thought.brain.fallback_from is None
+
+
+@pytest.mark.parametrize(
+    ("reply", "why"), [(DOWN, "timeout"), ("not json", "bad_plan"), (BrainDown("x"), "unavailable")]
+)
+def test_a_model_that_fails_is_replaced_and_named(
+    reply: str | Exception, why: str, home: Vocabulary
+) -> None:
+    brain = FallbackBrain(ScriptedBrain([reply]), OfflineBrain())
+    thought = ask(brain, home)
+    assert thought.plan == BY_GRAMMAR
+    tag = thought.brain
+    assert (tag.name, tag.fallback_from, tag.fallback_reason) == ("offline", "scripted", why)
+    assert tag.fallback_message == REASONS[why]
+    assert brain.last_failure == why
+
+
+@pytest.mark.parametrize(("reply", "kind"), [(DOWN, BrainDown), ("not json", PlanRejected)])
+def test_what_neither_understands_ends_typed(
+    reply: str | Exception, kind: type[Exception], home: Vocabulary
+) -> None:
+    with pytest.raises(kind) as failed:
+        ask(FallbackBrain(ScriptedBrain([reply]), OfflineBrain()), home, "colourless green ideas")
+    assert isinstance(failed.value, BrainDown | PlanRejected)
+    assert failed.value.brain is not None
+    assert failed.value.brain.fallback_from == "scripted"
+
+
+def test_a_refusal_by_the_model_is_no_failure(home: Vocabulary) -> None:
+    no = Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example="x"))
+    thought = ask(FallbackBrain(ScriptedBrain([no]), OfflineBrain()), home)
+    assert thought.plan == no
+
+
+@pytest.mark.parametrize("text", ["", " \n", "\x00", "a" * 5000, "???"])
+def test_no_model_is_asked_to_read_what_is_no_text(text: str, home: Vocabulary) -> None:
+    model = ScriptedBrain([BY_MODEL])
+    assert ask(FallbackBrain(model, OfflineBrain()), home, text).plan.kind == "refuse"
+    assert model.asked == []
+
+
+def test_a_failing_model_is_rested_visibly_and_heals(home: Vocabulary) -> None:
+    clock = Clock()
+    model = ScriptedBrain([DOWN] * TRIPS + [BY_MODEL])
+    brain = FallbackBrain(model, OfflineBrain(), clock)
+    for _ in range(TRIPS):
+        ask(brain, home)
+    assert ask(brain, home).brain.fallback_reason == "resting"
+    assert len(model.asked) == TRIPS
+    clock.now_s += FIRST_REST_S
+    for _ in range(HEALS):
+        assert not brain.breaker.closed
+        assert ask(brain, home).plan == BY_MODEL
+    assert brain.breaker.closed
+
+
+def test_a_wrong_key_rests_at_once(home: Vocabulary) -> None:
+    model = ScriptedBrain([BrainDown("401", why="bad_key")])
+    brain = FallbackBrain(model, OfflineBrain(), Clock())
+    assert ask(brain, home).brain.fallback_reason == "bad_key"
+    assert ask(brain, home).brain.fallback_reason == "resting"
+    assert len(model.asked) == 1
+
+
+def test_bad_plans_rest_nobody(home: Vocabulary) -> None:
+    model = ScriptedBrain(["no"])
+    brain = FallbackBrain(model, OfflineBrain(), Clock())
+    for _ in range(2 * TRIPS):
+        assert ask(brain, home).brain.fallback_reason == "bad_plan"
+    assert len(model.asked) == 2 * TRIPS
+
+
+def test_one_trial_at_a_time_and_a_cancelled_one_says_nothing(home: Vocabulary) -> None:
+    async def story() -> None:
+        clock = Clock()
+        model = ScriptedBrain([], hangs=True)
+        brain = FallbackBrain(model, OfflineBrain(), clock)
+        brain.breaker.failed(clock.now_s, hopeless=True)
+        clock.now_s += FIRST_REST_S
+        request = ThinkRequest(text="go to the kitchen", vocabulary=home)
+        trial = asyncio.create_task(brain.think(request))
+        await asyncio.sleep(0)
+        assert (await brain.think(request)).brain.fallback_reason == "resting"
+        trial.cancel()
+        await asyncio.gather(trial, return_exceptions=True)
+        assert brain.breaker.lets(clock.now_s)
+
+    asyncio.run(story())
+
+
+_EVENTS = st.lists(
+    st.tuples(st.sampled_from(["ask_ok", "ask_bad", "drop", "late"]), st.floats(0.0, 400.0)),
+    max_size=60,
+)
+
+
+@given(_EVENTS)
+def test_the_breaker_never_sticks_and_rests_within_bounds(events: list[tuple[str, float]]) -> None:
+    breaker, now_s = Breaker(), 0.0
+    for what, pause_s in events:
+        now_s += pause_s
+        assert 0.0 <= breaker.rests_s(now_s) <= LONGEST_REST_S
+        if what == "late":
+            breaker.failed(now_s)
+        elif breaker.lets(now_s):
+            if what == "ask_bad":
+                breaker.failed(now_s)
+            else:
+                {"ask_ok": breaker.succeeded, "drop": breaker.dropped}[what]()
+    now_s += LONGEST_REST_S
+    for _ in range(HEALS):
+        assert breaker.lets(now_s)
+        breaker.succeeded()
+    assert breaker.closed
+
+
+def test_every_reason_speaks_both_languages() -> None:
+    for code, said in REASONS.items():
+        assert said.en.endswith(".")
+        assert said.zh.endswith("。")
+        assert reason(code) == said
+    assert reason("never heard of") == REASONS["unavailable"]
