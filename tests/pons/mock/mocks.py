@@ -1,0 +1,57 @@
+"""Run a mock model on a real port, in a thread of the test's own process."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import httpx
+import uvicorn
+
+from pons.mock_llm import Switches, build
+
+START_LIMIT_S = 20.0
+
+
+class RunningMock:
+    """Be one mock that listens."""
+
+    def __init__(self, url: str) -> None:
+        self.url = url
+        self._root = url.removesuffix("/v1")
+
+    def set(self, **switches: Any) -> dict[str, Any]:
+        """Change how it behaves."""
+        reply = httpx.post(f"{self._root}/mock", json=switches, trust_env=False)
+        assert reply.status_code == 200, reply.text
+        found: dict[str, Any] = reply.json()
+        return found
+
+    def report(self) -> dict[str, Any]:
+        """Return what it has served."""
+        found: dict[str, Any] = httpx.get(f"{self._root}/mock", trust_env=False).json()
+        return found
+
+
+@contextmanager
+def running_mock(switches: Switches | None = None) -> Iterator[RunningMock]:
+    """Serve until the block ends; what hangs lets go."""
+    app = build(switches)
+    config = uvicorn.Config(app, log_level="error", timeout_graceful_shutdown=2)
+    server = uvicorn.Server(config)
+    app.state.mock.ending = lambda: server.should_exit
+    with socket.socket() as ears:
+        ears.bind(("127.0.0.1", 0))
+        ears.listen(64)
+        port = ears.getsockname()[1]
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [ears]}, daemon=True)
+        thread.start()
+        try:
+            yield RunningMock(f"http://127.0.0.1:{port}/v1")
+        finally:
+            server.should_exit = True
+            thread.join(START_LIMIT_S)
+            assert not thread.is_alive()

@@ -1,0 +1,247 @@
+"""Check the mock as any client meets it, and every switch against the real endpoint client."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import psutil
+import pytest
+
+from planner.brain import BrainDown, OfflineBrain, PlanRejected, ThinkRequest, Thought
+from planner.brain.endpoint import EndpointBrain
+from planner.plan import GoTo, StepPlan, Vocabulary
+from planner.settings import ModelSettings
+from pons.mock_llm import FAULTS, Switches
+from pons.mock_llm.world import request_of
+from tests.planner.brain.conftest import HOME
+from tests.pons.mock.mocks import RunningMock, running_mock
+
+KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
+KEY = "sk-test-0451-0451"
+MEMORY_MB = 40.0
+"""A thousand times less than what `huge` sends, and room for an interpreter's own moods."""
+
+
+@pytest.fixture(scope="module")
+def mock() -> Iterator[RunningMock]:
+    """Serve one mock for the module's tests."""
+    with running_mock() as served:
+        yield served
+
+
+def ask(mock: RunningMock, home: Path, text: str = "go to the kitchen", **more: Any) -> Thought:
+    settings = {"url": mock.url, "name": "m", "key": KEY, "timeout_s": 5.0, **more}
+
+    async def once() -> Thought:
+        brain = EndpointBrain(ModelSettings.model_validate(settings), home)
+        try:
+            return await brain.think(ThinkRequest(text=text, vocabulary=HOME, room="study"))
+        finally:
+            await brain.close()
+
+    return asyncio.run(once())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "go to the kitchen",
+        "去厨房，然后等三秒",
+        "go to the sofa, then say hello and come back",
+        "where are you",
+        "don't go to the kitchen",
+        "go to the bedroom or the kitchen",
+        "bring me a cup from the kitchen",
+        "去客厅看看有没有人",
+    ],
+)
+def test_it_plans_as_the_offline_brain_does(mock: RunningMock, text: str, tmp_path: Path) -> None:
+    mock.set()
+    by_model = ask(mock, tmp_path, text).plan
+    request = ThinkRequest(text=text, vocabulary=HOME, room="study")
+    by_grammar = asyncio.run(OfflineBrain().think(request)).plan
+    assert by_model.kind == by_grammar.kind
+    if isinstance(by_grammar, StepPlan):
+        assert by_model == by_grammar
+    else:
+        assert getattr(by_model, "code", None) == getattr(by_grammar, "code", None)
+
+
+def test_any_client_gets_a_plan_in_its_own_closed_world() -> None:
+    world = {"properties": {"steps": {"items": {"properties": {"place": {"enum": ["lab", "9$"]}}}}}}
+    body = {
+        "messages": [{"role": "user", "content": [{"type": "text", "text": "go to the lab"}]}],
+        "response_format": {"type": "json_schema", "json_schema": {"schema": world}},
+    }
+    asked = request_of(body)
+    assert asked.text == "go to the lab"
+    assert list(asked.vocabulary.by_id) == ["lab"]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        {},
+        {"messages": None},
+        {"messages": [7, None, {"role": "user"}, {"role": "user", "content": 7}]},
+        {"messages": [{"role": "user", "content": '{"order":7}'}]},
+        {"messages": [{"role": "user", "content": "x: [[[["}], "tools": [[[[]]]]},
+    ],
+)
+def test_no_body_is_too_odd(body: dict[str, Any]) -> None:
+    assert isinstance(request_of(body), ThinkRequest)
+
+
+@pytest.mark.parametrize("body", [b"", b"[]", b"{", b"\xff", b"[" * 100_000])
+def test_what_is_no_request_gets_a_400(mock: RunningMock, body: bytes) -> None:
+    mock.set()
+    reply = httpx.post(f"{mock.url}/chat/completions", content=body, trust_env=False)
+    assert reply.status_code == 400
+    assert reply.json()["error"]["message"]
+
+
+def test_forced_tool_stream_and_models_are_served_too(mock: RunningMock) -> None:
+    mock.set()
+    said = [{"role": "user", "content": "go to the lab"}]
+    schema = {"properties": {"place": {"type": "string", "enum": ["lab"]}}}
+    tool = {"type": "function", "function": {"name": "plan", "parameters": schema}}
+    body = {"messages": said, "tools": [tool], "tool_choice": {"type": "function"}}
+    url = f"{mock.url}/chat/completions"
+    message = httpx.post(url, json=body, trust_env=False).json()["choices"][0]["message"]
+    assert message["content"] is None
+    plan = {"kind": "plan", "steps": [{"kind": "go_to", "place": "lab"}]}
+    assert json.loads(message["tool_calls"][0]["function"]["arguments"]) == plan
+    streamed = httpx.post(url, json={"messages": said, "stream": True}, trust_env=False)
+    events = [line[6:] for line in streamed.text.splitlines() if line.startswith("data: ")]
+    assert events[-1] == "[DONE]"
+    deltas = [json.loads(event)["choices"][0]["delta"] for event in events[:-1]]
+    json.loads("".join(delta.get("content", "") for delta in deltas))
+    models = httpx.get(f"{mock.url}/models", trust_env=False).json()
+    assert models["data"][0]["id"] == "pons-mock"
+
+
+@pytest.mark.parametrize("fault", ["fenced", "thinking", "twice", "no_schema"])
+def test_what_can_be_read_is_read_at_once(mock: RunningMock, fault: str, tmp_path: Path) -> None:
+    mock.set(fault=fault)
+    thought = ask(mock, tmp_path)
+    assert (thought.plan, thought.calls) == (KITCHEN, 1)
+
+
+@pytest.mark.parametrize("fault", ["garbage", "hallucinate", "hostile", "truncated", "null"])
+def test_what_is_no_plan_is_repaired_once(mock: RunningMock, fault: str, tmp_path: Path) -> None:
+    mock.set(fault=fault, times=1)
+    thought = ask(mock, tmp_path)
+    assert (thought.plan, thought.calls) == (KITCHEN, 2)
+    mock.set(fault=fault)
+    before = mock.report()["calls"]
+    with pytest.raises(PlanRejected):
+        ask(mock, tmp_path)
+    assert mock.report()["calls"] == before + 2
+
+
+@pytest.mark.parametrize(
+    ("switches", "why"),
+    [
+        ({"fault": "status", "status": 500}, "server_error"),
+        ({"fault": "status", "status": 503, "retry_after": "60"}, "server_error"),
+        ({"fault": "status", "status": 429, "retry_after": "60"}, "rate_limited"),
+        ({"fault": "status", "status": 401}, "bad_key"),
+        ({"fault": "status", "status": 404}, "unknown_model"),
+        ({"fault": "redirect"}, "redirect"),
+        ({"fault": "hang"}, "timeout"),
+        ({"fault": "drip"}, "timeout"),
+        ({"delay_s": 30.0}, "timeout"),
+    ],
+)
+def test_a_server_that_fails_is_down_with_the_reason(
+    mock: RunningMock, switches: dict[str, Any], why: str, tmp_path: Path
+) -> None:
+    mock.set(**switches)
+    with pytest.raises(BrainDown) as down:
+        ask(mock, tmp_path, timeout_s=1.5)
+    assert down.value.why == why
+
+
+@pytest.mark.parametrize("fault", ["huge", "endless"])
+def test_memory_stays_flat_whatever_is_sent(mock: RunningMock, fault: str, tmp_path: Path) -> None:
+    mock.set(fault=fault)
+    process = psutil.Process()
+    ask_down(mock, tmp_path)
+    before = process.memory_info().rss
+    for _ in range(5):
+        ask_down(mock, tmp_path)
+    assert (process.memory_info().rss - before) / 1e6 < MEMORY_MB
+
+
+def ask_down(mock: RunningMock, home: Path) -> None:
+    with pytest.raises(BrainDown) as down:
+        ask(mock, home)
+    assert down.value.why == "too_large"
+
+
+def test_a_key_that_is_echoed_is_struck_out(mock: RunningMock, tmp_path: Path) -> None:
+    mock.set(fault="echo_key")
+    told = ask(mock, tmp_path).model_dump_json()
+    assert "the key is Bearer ***" in told
+    assert KEY not in told
+
+
+def test_switches_are_checked_and_counted(mock: RunningMock) -> None:
+    for wrong in ({"fault": "dance"}, {"delay_s": -1}, {"status": 200}, {"times": 0}, {"x": 1}):
+        reply = httpx.post(mock.url.replace("/v1", "/mock"), json=wrong, trust_env=False)
+        assert reply.status_code == 422
+    mock.set(fault="garbage", times=2)
+    assert mock.report()["switches"]["fault"] == "garbage"
+
+
+def test_every_fault_is_described() -> None:
+    assert all(Switches(fault=fault) for fault in FAULTS)
+    assert all(FAULTS.values())
+
+
+def test_an_empty_world_moves_nowhere() -> None:
+    assert request_of({"messages": []}).vocabulary == Vocabulary()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_command_prints_its_url_and_ends_clean(number: signal.Signals) -> None:
+    command = [sys.executable, "-m", "pons", "mock-llm", "--hang", "--delay", "0.01"]
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
+    )
+    try:
+        assert process.stdout is not None
+        url = process.stdout.readline().removeprefix("pons mock-llm: ").strip()
+        with httpx.Client(trust_env=False, timeout=0.3) as client, pytest.raises(httpx.ReadTimeout):
+            client.post(f"{url}/chat/completions", json={"messages": []})
+        began_s = time.monotonic()
+        process.send_signal(number)
+        _, said = process.communicate(timeout=10.0)
+    finally:
+        process.kill()
+        process.wait()
+    assert process.returncode in (0, -number)
+    assert "Traceback" not in said, said
+    assert time.monotonic() - began_s < 10.0
+
+
+@pytest.mark.parametrize(
+    "words", [["--port", "x"], ["--status", "200"], ["--delay", "-1"], ["--hang", "--drip"], ["x"]]
+)
+def test_wrong_words_end_with_2(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    from pons.__main__ import main
+
+    with pytest.raises(SystemExit) as ended:
+        main(["mock-llm", *words])
+    assert ended.value.code == 2
+    assert "mock-llm" in capsys.readouterr().err
