@@ -55,10 +55,13 @@ def _take(one: Measure, lab: Lab) -> int:
         rows = [Row(one.NAME, "", "", value="not measured", note=line(trouble), valid=False)]
     for row in rows:
         lab.store.append("row", one.NAME, row.record())
-    print(
-        f"\n{one.TITLE} ({one.NAME}, {time.monotonic() - began_s:.0f} s)\n{table(rows)}", flush=True
-    )
-    return sum(row.figures is None and not row.valid for row in rows)
+    took_s = time.monotonic() - began_s
+    print(f"\n{one.TITLE} ({one.NAME}, {took_s:.0f} s)\n{table(rows)}")
+    for lost in lab.lost:
+        lab.store.append("lost", one.NAME, {"slice": lost})
+        print(f"lost: {lost}")
+    sys.stdout.flush()
+    return sum(row.figures is None and not row.valid for row in rows) + len(lab.lost)
 
 
 def _default(long: bool) -> list[Measure]:

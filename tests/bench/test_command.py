@@ -58,6 +58,22 @@ def test_rows_are_printed_and_appended_whatever_happened(
     assert ("nothing came" if fails else ">= 10") in capsys.readouterr().out
 
 
+def test_a_lost_slice_is_shown_and_told_by_the_exit_status(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def measure(bench: Lab) -> list[Row]:
+        def take(index: int) -> float:
+            raise Missed("no robot")
+
+        return [row_of("speed", "x", "", list(bench.slices("one", 1, take)))]
+
+    monkeypatch.setattr("bench.__main__.ALL", (Fake,))
+    monkeypatch.setattr(Fake, "measure", measure)
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    assert main([]) == 1
+    assert "lost: one 1: no robot" in capsys.readouterr().out
+
+
 def test_an_unknown_name_is_refused_with_what_exists(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["no_such_bench"])
