@@ -6,6 +6,10 @@ export const en = {
   "page.language": "Language",
   "page.broken": "A part of this page has failed: {why}. Stop still works. Reload the page.",
 
+  "unit.s": "{n} s",
+  "unit.min": "{n} min",
+  "unit.h": "{n} h",
+
   "link.live": "live",
   "link.lost": "planner lost, {age}",
   "link.bridge_silent": "bridge silent, {age}",
@@ -52,6 +56,20 @@ export const en = {
   "notice.latched": "It stays stopped until a person resets it.",
   "notice.blocked": "The way is blocked.",
   "notice.shown_only": "shown only",
+
+  "want.drive": "the drive",
+  "want.drive_echo": "the drive's answer",
+  "want.drive_timeout": "the drive's own dead-man test",
+  "want.encoders_still": "still wheels",
+  "want.lidar": "the lidar",
+  "want.lidar_baseline": "enough lidar scans",
+  "want.lidar_stale": "a lidar scan",
+  "want.estop_link": "the stop button's link",
+  "want.not_standing": "the robot to stand still",
+  "want.stick_not_neutral": "the joystick to be let go",
+  "want.recorder_down": "the recorder",
+  "want.estop_pressed": "the stop button to be released",
+  "want.estop_just_released": "the stop button to stay released",
 
   "op.arm": "Arm",
   "op.arm.ask": "Power the drive? The robot will stand, and drive when it has a goal.",

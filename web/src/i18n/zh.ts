@@ -8,6 +8,10 @@ export const zh: Record<Key, string> = {
   "page.language": "语言",
   "page.broken": "页面的一部分出错：{why}。停止按钮仍然有效，请重新加载页面。",
 
+  "unit.s": "{n} 秒",
+  "unit.min": "{n} 分钟",
+  "unit.h": "{n} 小时",
+
   "link.live": "实时",
   "link.lost": "规划器失联 {age}",
   "link.bridge_silent": "安全桥无响应 {age}",
@@ -54,6 +58,20 @@ export const zh: Record<Key, string> = {
   "notice.latched": "需要有人复位，否则一直停住。",
   "notice.blocked": "前方受阻。",
   "notice.shown_only": "仅显示",
+
+  "want.drive": "驱动",
+  "want.drive_echo": "驱动应答",
+  "want.drive_timeout": "驱动超时测试",
+  "want.encoders_still": "车轮静止",
+  "want.lidar": "激光雷达",
+  "want.lidar_baseline": "足够的激光雷达数据",
+  "want.lidar_stale": "激光雷达数据",
+  "want.estop_link": "停止按钮连接",
+  "want.not_standing": "机器人静止",
+  "want.stick_not_neutral": "松开手柄",
+  "want.recorder_down": "记录器",
+  "want.estop_pressed": "松开停止按钮",
+  "want.estop_just_released": "停止按钮保持松开",
 
   "op.arm": "解锁",
   "op.arm.ask": "给驱动上电？机器人会保持静止，有任务时才行驶。",

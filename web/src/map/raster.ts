@@ -36,9 +36,13 @@ export function picture(grid: Grid, floor: Rgb, wall: Rgb): string | null {
   return canvas.toDataURL("image/png");
 }
 
-/** Return a CSS variable's colour (`#rrggbb`) as numbers. */
-export function colour(name: string): Rgb {
-  const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const number = Number.parseInt(text.slice(1), 16);
+/** Return a CSS variable's colour, `#rrggbb` or `#rgb`, as numbers. */
+export function rgb(text: string): Rgb {
+  const digits = text.trim().slice(1);
+  const wide = digits.length === 3 ? [...digits].map((digit) => digit + digit).join("") : digits;
+  const number = Number.parseInt(wide, 16);
   return [(number >> 16) & 255, (number >> 8) & 255, number & 255];
 }
+
+export const colour = (name: string): Rgb =>
+  rgb(getComputedStyle(document.documentElement).getPropertyValue(name));

@@ -36,6 +36,7 @@ function Queue({ goals }: { goals: readonly Goal[] }) {
       <ol class="queue">
         {goals.map((goal, index) => (
           <li key={goal.id} data-goal={goal.id}>
+            <span class="fine">{index + 1}.</span>
             <span class="said" dir="auto">
               {goal.text}
               {goal.reason && <span class="reason"> {reasonWords(goal.reason)}</span>}

@@ -29,7 +29,8 @@ export function Notice() {
 
 function reasons(said: Status): string[] {
   const rows = said.rows.filter((row) => row.binding).map((row) => rowWords(row.row));
-  const waiting = said.waiting_for.map((code) => rowOr(code));
+  const up = new Set(said.rows.map((row) => row.row.toLowerCase()));
+  const waiting = said.waiting_for.filter((code) => !up.has(code)).map((code) => wanted(code));
   const held = said.held ? [word("held", said.held.reason)] : [];
   const latched = ["ESTOPPED", "FAULT"].includes(said.mode) ? [t("notice.latched")] : [];
   const disarmed = said.mode === "DISARMED" ? [t("notice.disarmed")] : [];
@@ -38,8 +39,10 @@ function reasons(said: Status): string[] {
   return [...new Set([...rows, ...blocked, ...held, ...latched, ...disarmed, ...lacks])];
 }
 
-/** Some wants bear a row's name in lower case. */
-function rowOr(code: string): string {
+/** Name what is waited for; some wants bear a row's name in lower case. */
+function wanted(code: string): string {
+  const known = word("want", code);
+  if (known !== code) return known;
   const words = rowWords(code.toUpperCase());
   return words === code.toUpperCase() ? code.replaceAll("_", " ") : words;
 }

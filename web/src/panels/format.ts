@@ -1,4 +1,5 @@
-/** Write numbers for people. Pure; a number that is not there is a dash. */
+/** Write numbers for people; a number that is not there is a dash. */
+import { t } from "../i18n";
 
 export function fixed(value: number | null | undefined, digits: number, unit = ""): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
@@ -10,10 +11,10 @@ export function fixed(value: number | null | undefined, digits: number, unit = "
 /** Write an age: tenths while it is young, then whole seconds, minutes, hours. */
 export function seconds(value: number | null): string {
   if (value === null || !Number.isFinite(value)) return "–";
-  if (value < 10) return `${value.toFixed(1)} s`;
-  if (value < 120) return `${Math.round(value)} s`;
-  if (value < 7200) return `${Math.round(value / 60)} min`;
-  return `${Math.round(value / 3600)} h`;
+  if (value < 10) return t("unit.s", { n: value.toFixed(1) });
+  if (value < 120) return t("unit.s", { n: String(Math.round(value)) });
+  if (value < 7200) return t("unit.min", { n: String(Math.round(value / 60)) });
+  return t("unit.h", { n: String(Math.round(value / 3600)) });
 }
 
 export function clock(wallMs: number): string {

@@ -5,6 +5,7 @@ import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { type Sample, series, WINDOW_S } from "../state/history";
 import { history, now } from "../state/store";
+import { span } from "./span";
 
 export type Line = {
   readonly label: string;
@@ -110,11 +111,4 @@ function make(element: HTMLElement, lines: readonly Line[], least: number): uPlo
     [[], ...lines.map(() => [])] as uPlot.AlignedData,
     element,
   );
-}
-
-/** Return the y range: around the values, and never so near that noise looks like motion. */
-export function span(low: number | null, high: number | null, least: number): [number, number] {
-  const bottom = Math.min(low ?? 0, 0);
-  const top = Math.max(high ?? 0, bottom + least);
-  return [bottom < 0 ? Math.min(bottom, -least) * 1.1 : 0, top * 1.1];
 }

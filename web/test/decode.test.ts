@@ -1,0 +1,70 @@
+import { describe, expect, it } from "vitest";
+import { decode } from "../src/wire/decode";
+import { goal, robot, snapshot, status } from "./examples";
+
+const text = (frame: object): string => JSON.stringify(frame);
+
+describe("decode", () => {
+  it("takes whole frames", () => {
+    expect(decode(text(snapshot()))?.kind).toBe("snapshot");
+    expect(decode(text({ seq: 2, kind: "robot", robot }))?.kind).toBe("robot");
+    expect(decode(text({ seq: 2, kind: "robot", robot: { ...robot, status: null } }))?.kind).toBe(
+      "robot",
+    );
+    expect(decode(text({ seq: 3, kind: "goal", change: { goal: goal("a") } }))?.kind).toBe("goal");
+    expect(decode(text({ seq: 4, kind: "stopped", confirmed: false }))).toEqual({
+      seq: 4,
+      kind: "stopped",
+      confirmed: false,
+    });
+  });
+
+  const whole = text(snapshot());
+  it.each([1, 2, 10, 100, whole.length - 1])("takes no half frame (%i characters)", (length) => {
+    expect(decode(whole.slice(0, length))).toBeNull();
+  });
+
+  it.each([
+    ["an unknown kind", { seq: 1, kind: "surprise" }],
+    ["no kind", { seq: 1 }],
+    ["no seq", { kind: "gap" }],
+    ["a list", [1, 2]],
+    ["a number", 7],
+    ["null", null],
+    ["a robot that is none", { seq: 1, kind: "robot", robot: { status: {} } }],
+    [
+      "a mode that is a number",
+      { seq: 1, kind: "robot", robot: { ...robot, status: { ...status, mode: 3 } } },
+    ],
+    [
+      "a goal without a text",
+      { seq: 1, kind: "goal", change: { goal: { ...goal("a"), text: null } } },
+    ],
+    [
+      "steps that are no list",
+      {
+        seq: 1,
+        kind: "goal",
+        change: { goal: { ...goal("a"), plan: { kind: "plan", steps: 3 } } },
+      },
+    ],
+    [
+      "a path of strings",
+      { seq: 1, kind: "path", path: { goal: "g", leg: 1, points: [["1", "2"]] } },
+    ],
+    ["a scan with a hole", { seq: 1, kind: "scan", scan: [1, null] }],
+  ])("takes nothing with %s", (_, frame) => {
+    expect(decode(JSON.stringify(frame))).toBeNull();
+  });
+
+  it("takes no number that is not finite", () => {
+    const broken = text({ seq: 2, kind: "robot", robot }).replace('"x_m":1', '"x_m":1e999');
+    expect(broken).toContain("1e999");
+    expect(decode(broken)).toBeNull();
+    expect(decode('{"seq":1e999,"kind":"gap"}')).toBeNull();
+  });
+
+  it("takes no bytes", () => {
+    expect(decode(new ArrayBuffer(8))).toBeNull();
+  });
+});

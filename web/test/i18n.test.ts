@@ -1,0 +1,41 @@
+import { describe, expect, it } from "vitest";
+import { en } from "../src/i18n/en";
+import rows from "../src/i18n/rows.json";
+import { zh } from "../src/i18n/zh";
+
+const blanks = (sentence: string): string[] => (sentence.match(/\{\w+\}/g) ?? []).sort();
+
+describe("catalogues", () => {
+  it("have the same keys in the same order", () => {
+    expect(Object.keys(zh)).toEqual(Object.keys(en));
+  });
+
+  it.each(Object.keys(en) as (keyof typeof en)[])("%s has words and the same blanks", (key) => {
+    expect(en[key].trim()).not.toBe("");
+    expect(zh[key].trim()).not.toBe("");
+    expect(blanks(zh[key])).toEqual(blanks(en[key]));
+  });
+
+  it("are in their language", () => {
+    const same = new Set(["by.robot", "error.other"]);
+    const chinese = Object.entries(zh).filter(([key]) => !same.has(key));
+    for (const [key, sentence] of chinese) {
+      const bare = sentence.replace(/\{\w+\}/g, "");
+      if (/[a-z]{3}/i.test(bare) || bare.length > 3)
+        expect(sentence, key).toMatch(/[\u4e00-\u9fff]/);
+    }
+    for (const sentence of Object.values(en)) expect(sentence).not.toMatch(/[\u4e00-\u9fff]/);
+  });
+
+  it("never call our stop what it is not", () => {
+    const all = [...Object.values(en), ...Object.values(zh)].join("\n");
+    expect(all).not.toMatch(/emergency stop|certified|safety-rated|紧急停止|急停/i);
+  });
+
+  it("say every row in both languages", () => {
+    for (const words of Object.values(rows)) {
+      expect(words.en).not.toBe("");
+      expect(words.zh).toMatch(/[\u4e00-\u9fff]/);
+    }
+  });
+});

@@ -1,0 +1,99 @@
+import { describe, expect, it } from "vitest";
+import { dots } from "../src/map/drawing";
+import { pixels, rgb } from "../src/map/raster";
+import { contains, middle, resolve, unwound } from "../src/map/resolve";
+import type { Grid, Place } from "../src/wire/types";
+
+const pose = (x_m: number, y_m: number) => ({ x_m, y_m, yaw_rad: 0 });
+const square = [
+  [0, 0],
+  [3, 0],
+  [3, 3],
+  [0, 3],
+] as const;
+const room: Place = {
+  id: "kitchen",
+  kind: "room",
+  name: { en: "kitchen", zh: "厨房" },
+  polygon: square,
+  pose: pose(1.5, 1.5),
+};
+const sofa: Place = {
+  id: "sofa",
+  kind: "place",
+  name: { en: "sofa", zh: "沙发" },
+  polygon: null,
+  pose: pose(1, 1),
+};
+const desk: Place = { ...sofa, id: "desk", pose: pose(1.3, 1) };
+
+describe("a click", () => {
+  it("means the nearest place where one is near", () => {
+    expect(resolve([room, sofa, desk], { x: 1.1, y: 1 })?.id).toBe("sofa");
+    expect(resolve([room, sofa, desk], { x: 1.25, y: 1 })?.id).toBe("desk");
+  });
+
+  it("means the room elsewhere, and nothing outside", () => {
+    expect(resolve([room, sofa], { x: 2.5, y: 2.5 })?.id).toBe("kitchen");
+    expect(resolve([room, sofa], { x: 3.5, y: 2.5 })).toBeNull();
+    expect(resolve([], { x: 1, y: 1 })).toBeNull();
+  });
+});
+
+describe("polygons", () => {
+  it("hold their inside, notches left out", () => {
+    const notched = [
+      [0, 0],
+      [4, 0],
+      [4, 4],
+      [2, 4],
+      [2, 2],
+      [0, 2],
+    ] as const;
+    expect(contains(notched, { x: 1, y: 1 })).toBe(true);
+    expect(contains(notched, { x: 1, y: 3 })).toBe(false);
+    expect(contains(notched, { x: 3, y: 3 })).toBe(true);
+  });
+
+  it("have a middle", () => {
+    expect(middle(square)).toEqual({ x: 1.5, y: 1.5 });
+  });
+});
+
+describe("headings", () => {
+  it("turn the short way round", () => {
+    expect(unwound(170, -170)).toBe(190);
+    expect(unwound(190, -160)).toBe(200);
+    expect(unwound(-179, 179)).toBe(-181);
+    expect(unwound(0, 90)).toBe(90);
+    expect(unwound(725, 0)).toBe(720);
+  });
+});
+
+describe("the picture", () => {
+  const grid = {
+    width: 2,
+    height: 2,
+    resolution_m: 1,
+    origin: { x_m: 0, y_m: 0 },
+    cells: btoa("\x00\x01\x02\x00"),
+  } as Grid;
+
+  it("has its first row at the top, unknown see-through", () => {
+    const data = pixels(grid, [1, 2, 3], [4, 5, 6]);
+    expect([...(data ?? [])]).toEqual([0, 0, 0, 0, 1, 2, 3, 255, 1, 2, 3, 255, 4, 5, 6, 255]);
+  });
+
+  it("is none where cells are missing", () => {
+    expect(pixels({ ...grid, height: 3 }, [0, 0, 0], [0, 0, 0])).toBeNull();
+  });
+
+  it("reads short and long colours", () => {
+    expect(rgb(" #fff")).toEqual([255, 255, 255]);
+    expect(rgb("#102030")).toEqual([16, 32, 48]);
+  });
+
+  it("draws a dot for each lidar point and none for half a point", () => {
+    expect(dots([100, -250, 7])).toBe("M1 -2.5h0");
+  });
+});

@@ -1,0 +1,54 @@
+import { describe, expect, it } from "vitest";
+import { FIRST_MS, LONGEST_MS, waitMs } from "../src/net/backoff";
+import { fixed, seconds } from "../src/panels/format";
+import { busy, sorted } from "../src/state/goals";
+import { goal } from "./examples";
+
+describe("back-off", () => {
+  it("grows to a bound", () => {
+    expect(waitMs(0, 1)).toBe(FIRST_MS);
+    expect(waitMs(1, 1)).toBe(2 * FIRST_MS);
+    expect(waitMs(1000, 1)).toBe(LONGEST_MS);
+    expect(waitMs(1000, 0)).toBe(0.75 * LONGEST_MS);
+  });
+});
+
+describe("numbers", () => {
+  it.each([
+    [0.04, "0.0 s"],
+    [9.94, "9.9 s"],
+    [61, "61 s"],
+    [600, "10 min"],
+    [10_000, "3 h"],
+    [null, "–"],
+    [Number.NaN, "–"],
+  ])("%s s is %s", (value, text) => {
+    expect(seconds(value)).toBe(text);
+  });
+
+  it("have no minus zero and no NaN", () => {
+    expect(fixed(-0.001, 2, "m")).toBe("0.00 m");
+    expect(fixed(Number.NaN, 2, "m")).toBe("–");
+    expect(fixed(undefined, 2)).toBe("–");
+  });
+});
+
+describe("goals", () => {
+  it("are sorted into what runs, waits and was", () => {
+    const found = sorted([
+      goal("z", "succeeded"),
+      goal("q2", "queued", { position: 1 }),
+      goal("p", "paused"),
+      goal("q1", "queued", { position: 0 }),
+      goal("r", "running"),
+    ]);
+    expect(found.current.map(({ id }) => id)).toEqual(["r", "p"]);
+    expect(found.queued.map(({ id }) => id)).toEqual(["q1", "q2"]);
+    expect(found.past.map(({ id }) => id)).toEqual(["z"]);
+  });
+
+  it("that are paused or ended keep nobody waiting", () => {
+    expect(busy([goal("a", "paused"), goal("b", "failed")])).toBe(false);
+    expect(busy([goal("a", "queued")])).toBe(true);
+  });
+});
