@@ -70,7 +70,7 @@ class Planner:
             robot=self.description,
             link=link,
             router=self._router,
-            brain=_brain(self._model),
+            brain=_brain(self._model, self.settings),
             journal=self._journal,
         )
 
@@ -102,8 +102,10 @@ def _model(settings: Settings, home: Path) -> EndpointBrain | None:
     return model
 
 
-def _brain(model: EndpointBrain | None) -> Brain:
-    return OfflineBrain() if model is None else FallbackBrain(model, OfflineBrain())
+def _brain(model: EndpointBrain | None, settings: Settings) -> Brain:
+    if model is None or settings.model is None:
+        return OfflineBrain()
+    return FallbackBrain(model, OfflineBrain(), rest_s=settings.model.rest_s)
 
 
 def application(planner: Planner, access: Access) -> FastAPI:

@@ -23,11 +23,16 @@ class Breaker:
     """In a row, while closed."""
     successes: int = 0
     """In a row, on trial."""
-    rest_s: float = FIRST_REST_S
+    first_rest_s: float = FIRST_REST_S
+    rest_s: float = 0.0
+    """The next rest; begins with the first one again once all is well."""
     open_until_s: float | None = None
     """None: closed."""
     trying: bool = False
     """A trial is under way."""
+
+    def __post_init__(self) -> None:
+        self.rest_s = self.first_rest_s
 
     @property
     def closed(self) -> bool:
@@ -53,7 +58,7 @@ class Breaker:
         if self.open_until_s is not None:
             self.successes += 1
             if self.successes >= HEALS:
-                self.open_until_s, self.successes, self.rest_s = None, 0, FIRST_REST_S
+                self.open_until_s, self.successes, self.rest_s = None, 0, self.first_rest_s
 
     def failed(self, now_s: float, *, hopeless: bool = False) -> None:
         """Note a failure; a hopeless one (a wrong key) opens at once."""

@@ -10,7 +10,7 @@ import logging
 import time
 from collections.abc import Callable
 
-from planner.brain.breaker import Breaker
+from planner.brain.breaker import FIRST_REST_S, Breaker
 from planner.brain.errors import BrainDown, PlanRejected
 from planner.brain.offline.guard import refuse_bad_text
 from planner.brain.protocol import Brain, ThinkRequest, Thought
@@ -27,10 +27,14 @@ class FallbackBrain:
     """Think with a model, and without it where it fails."""
 
     def __init__(
-        self, model: Brain, offline: Brain, clock: Callable[[], float] = time.monotonic
+        self,
+        model: Brain,
+        offline: Brain,
+        clock: Callable[[], float] = time.monotonic,
+        rest_s: float = FIRST_REST_S,
     ) -> None:
         self._model, self._offline, self._clock = model, offline, clock
-        self.breaker = Breaker()
+        self.breaker = Breaker(first_rest_s=rest_s)
         self.last_failure: str | None = None
         """Why the model was last not believed; None once it answered."""
 

@@ -40,5 +40,7 @@ class ModelSettings(BaseModel):
     """None: found out at the first call and remembered."""
     parallel: int = Field(default=2, ge=1, le=16)
     """Goals that may be thought about at the same time."""
+    rest_s: float = Field(default=20.0, ge=0.5, le=300.0)
+    """How long a model that failed three times in a row is not asked; doubles up to 300 s."""
     allow_offhost: bool = False
     """Let people's sentences leave this machine: needed for every host but loopback."""

@@ -44,7 +44,9 @@ def _one_of(code: Code, codes: tuple[Code, ...]) -> str:
 
 def hallucinated(reply: dict[str, Any]) -> dict[str, Any]:
     """Return a plan to places that do not exist, however the order was understood."""
-    steps = reply.get("steps") or [{"kind": "go_to", "place": ""}]
+    steps = reply.get("steps") or []
+    if not any("place" in step for step in steps):
+        steps = [*steps, {"kind": "go_to", "place": ""}]
     moved = [
         {**step, "place": NOWHERE[i % len(NOWHERE)]} if "place" in step else step
         for i, step in enumerate(steps)
