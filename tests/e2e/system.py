@@ -96,7 +96,14 @@ class System:
         self.log.unlink(missing_ok=True)
         with self.log.open("ab") as log:
             self.up = subprocess.Popen(
-                [sys.executable, "-m", "pons", "up"],
+                [
+                    sys.executable,
+                    "-m",
+                    "pons.child",
+                    str(os.getpid()),
+                    "pons",
+                    "up",
+                ],  # dies with us
                 cwd=ROOT,
                 stdin=subprocess.DEVNULL,
                 stdout=log,

@@ -1,0 +1,64 @@
+"""Drive through the whole default home, by sentences in both languages, and touch nothing."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from math import hypot
+from pathlib import Path
+
+import pytest
+
+from tests.e2e.robot import THERE_M, Robot
+from tests.e2e.system import ENDED, HOME_SITE, new_home
+
+pytestmark = [pytest.mark.home, pytest.mark.timeout(600)]
+
+ROOMS = ("hallway", "living_room", "kitchen", "study", "bathroom", "bedroom", "entrance")
+DRIVE_LIMIT_S = 120.0
+
+
+@pytest.fixture(scope="module")
+def house() -> Iterator[Robot]:
+    """Return a robot at rest in the default home."""
+    with new_home() as folder:
+        robot = Robot(Path(folder), HOME_SITE)
+        try:
+            robot.start()
+            robot.rest()
+            yield robot
+        finally:
+            robot.close()
+
+
+def test_seven_rooms_in_both_languages(house: Robot) -> None:
+    assert {room.id for room in house.site.rooms} == set(ROOMS)
+    for number, room_id in enumerate(ROOMS):
+        place, began_s = house.place(room_id), time.monotonic()
+        text = f"go to the {place.name.en}" if number % 2 else f"去{place.name.zh}"
+        ended = house.arrive(place, house.system.give(text), DRIVE_LIMIT_S)
+        house.assert_figures(ended, place, began_s)
+        outcome = ended["outcome"]
+        assert outcome["reached"]["room"] == room_id
+        print(f"{text}: {outcome['metres']} m, {outcome['seconds']} s, {outcome['limited_by']}")
+
+
+def test_kitchen_then_bedroom_then_back(house: Robot) -> None:
+    began, began_s = house.judge.truth.base_in_map, time.monotonic()
+    done = house.system.pons(
+        "say", "go to the kitchen, then the bedroom, then come back", timeout_s=3 * DRIVE_LIMIT_S
+    )
+    assert done.returncode == 0, (done.stdout, done.stderr)
+    goal = house.system.goals()[0]
+    assert goal["state"] in ENDED
+    kitchen, bedroom, back = goal["plan"]["steps"]
+    assert kitchen["reached"]["room"] == "kitchen"
+    assert bedroom["reached"]["room"] == "bedroom"
+    assert back["kind"] == "come_back"
+    pose = house.judge.truth.base_in_map
+    assert hypot(pose.x_m - began.x_m, pose.y_m - began.y_m) < THERE_M
+    house.judge.assert_no_contact()
+    driven_m = house.judge.path_m(began_s)
+    outcome = goal["outcome"]
+    assert abs(outcome["metres"] - driven_m) < 0.1 + 0.1 * driven_m
+    print(f"{goal['text']}: {outcome['metres']} m, {outcome['seconds']} s")
