@@ -51,6 +51,7 @@ def hear_stops(tick: Tick) -> None:
             tick.stopped = True
             hold(tick, HeldReason.STOP, stop.id)
     if tick.stopped:
+        _void_nonces(tick)
         go(tick, Request.STOP, "stop")
 
 
@@ -69,6 +70,7 @@ def hear_op(tick: Tick, op: OpArrived) -> None:
 def estop(tick: Tick, why: str) -> None:
     """Latch the protective stop, in a new epoch; said again, it changes nothing."""
     if go(tick, Request.ESTOP, why):
+        _void_nonces(tick)
         turn(tick, "estop")
 
 
@@ -115,6 +117,15 @@ def _use_nonce(tick: Tick, kind: str, request_id: str) -> None:
     )
     tick.s.operator = replace(operator, accepted=(*operator.accepted, *used)[-_ACCEPTED:])
     _next_nonce(tick)
+
+
+def _void_nonces(tick: Tick) -> None:
+    """Let no proof from before a stop end what the stop began, however late it arrives.
+
+    A request is repeated until it is echoed, so one that was signed before may come after.
+    """
+    _next_nonce(tick)
+    tick.s.operator = replace(tick.s.operator, old_nonce_no=None)
 
 
 def _next_nonce(tick: Tick) -> None:

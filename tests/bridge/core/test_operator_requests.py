@@ -128,6 +128,23 @@ def test_a_nonce_changes_when_used_and_stays_valid_for_what_was_signed() -> None
     assert world.verdict(too_late) == "old_nonce"
 
 
+@pytest.mark.parametrize("kind", ["arm", "reset", "resume"])
+@pytest.mark.parametrize("halt", ["stop", "estop"])
+def test_a_proof_from_before_a_stop_does_not_end_it(kind: OpKind, halt: str) -> None:
+    world = World().armed()
+    assert world.status is not None
+    signed_before = world.status.nonce
+    if halt == "stop":
+        world.stop()
+    else:
+        world.op("estop")
+    world.tick()
+    late = world.op(kind, nonce=signed_before)
+    world.tick()
+    assert world.verdict(late) == "old_nonce"
+    assert world.state.held is not None
+
+
 def test_a_nonce_changes_every_minute() -> None:
     world = World(planner=None).ready()
     number = world.state.operator.nonce_no
@@ -149,8 +166,8 @@ def test_one_id_gets_one_verdict_and_no_proof_works_twice() -> None:
     world.extra = again
     world.tick()
     assert world.is_in(Mode.DISARMED), "a repeat is ignored"
-    for number in range(70):
-        world.stop(f"flood{number}")
+    for _ in range(70):
+        world.op("disarm")
     world.tick()
     assert all(item.answer.id != request_id for item in world.state.operator.answers)
     world.extra = again
