@@ -45,6 +45,8 @@ class Lab:
     store: Store
     long: bool
     name: str = ""
+    end_s: float = float("inf")
+    """When no further slice is begun, on the monotonic clock: a quick run stays quick."""
     lost: list[str] = field(default_factory=list)
     """Slices that could not be taken, and why."""
 
@@ -69,6 +71,9 @@ class Lab:
         known = self.store.slices(name)
         for index in range(count):
             if index not in known:
+                if time.monotonic() >= self.end_s:
+                    self.lost.append(f"{what} {index + 1} to {count}: the time was up")
+                    return
                 self.say(f"{what} {index + 1}/{count}")
                 try:
                     known[index] = take(index)

@@ -52,6 +52,13 @@ def test_a_lost_slice_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
     assert bench.lost == ["drive 2: the robot did not come | and did not say why"]
 
 
+def test_when_the_time_is_up_no_slice_is_begun(tmp_path: Path) -> None:
+    bench = lab(tmp_path)
+    bench.end_s = 0.0
+    assert squares(bench, 3, []) == []
+    assert bench.lost == ["square 1 to 3: the time was up"]
+
+
 def test_waiting_ends_with_what_was_waited_for() -> None:
     with pytest.raises(Missed, match="a miracle: not within"):
         until(lambda: False, 0.01, "a miracle", 0.001)
