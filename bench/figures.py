@@ -43,4 +43,6 @@ class Figures:
 
 def none_in(n: int) -> str:
     """Say what zero of n means."""
-    return f"0 of {n} (< {min(1.0, NONE_SEEN_95 / n):.2%} with 95 % confidence)" if n else "no trials"
+    return (
+        f"0 of {n} (< {min(1.0, NONE_SEEN_95 / n):.2%} with 95 % confidence)" if n else "no trials"
+    )
