@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from bench import endpoint
 from bench.measure import (
     brain_silent,
     clone_to_url,
@@ -27,6 +28,7 @@ ALL: tuple[Measure, ...] = cast(
         tick_lateness,
         footprint,
         goal_to_waypoint,
+        endpoint,
         brain_silent,
         planner_silent,
         clone_to_url,
