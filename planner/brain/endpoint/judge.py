@@ -62,6 +62,8 @@ def judge(text: str, vocabulary: Vocabulary) -> Planned | Unusable:
         shaped = _shaped(one_object(text), vocabulary)
     except NoObject as why:
         return Unusable((str(why),))
+    except RecursionError:  # two deep objects were compared
+        return Unusable(("the reply's JSON is too deep",))
     if isinstance(shaped, Unusable):
         return shaped
     try:

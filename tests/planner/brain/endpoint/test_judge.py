@@ -46,6 +46,10 @@ KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
         f"{GO}<think>was that right? {{\"kind\":\"answer\"}}",
         GO[:-3] + ',"text":null,"seconds":null}],"en":"","zh":null,"options":[],"code":null}',
         f"\ufeff{GO}",
+        f"<think>a</think>{GO}<thinking>b {{}}</thinking>",
+        f"<think>a<think>b</think>{GO}",
+        f"<think>{'hm ' * 50_000}</think>{GO}",
+        f"`{{x}}` ``` {GO} ``` {{y}}",
     ],
 )  # fmt: skip
 def test_one_plan_is_found_in_what_surrounds_it(text: str) -> None:
@@ -77,6 +81,12 @@ def test_one_plan_is_found_in_what_surrounds_it(text: str) -> None:
         "x" * (MAX_CHARACTERS + 1),
         "{" * 60_000,
         '{"a":' * 12_000,
+        ('{"a":' * 900 + "1" + "}" * 900) * 2,
+        f"{GO}</think>",
+        f"<think>{GO}</think>",
+        f"</think><think>{GO}</think></think>",
+        "<think>" * 9000,
+        "```" + "a" * 60_000,
     ],
 )
 def test_what_is_no_plan_says_why(text: str) -> None:
