@@ -15,6 +15,7 @@ from tests.e2e.robot import Robot
 from tests.e2e.system import new_home
 
 FAILED = pytest.StashKey[bool]()
+STORY_LIMIT_S = 120
 
 
 class Garage:
@@ -48,6 +49,13 @@ class Garage:
             self._robot.close()
         for home in self._homes:
             home.cleanup()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Give stories longer than unit tests: a busy machine drives no slower but starts slower."""
+    for item in items:
+        if Path(__file__).parent in item.path.parents and not item.get_closest_marker("timeout"):
+            item.add_marker(pytest.mark.timeout(STORY_LIMIT_S))
 
 
 @pytest.fixture(scope="session")

@@ -24,8 +24,15 @@ KEEP = 60_000
 PERIOD_S = 0.008
 STANDING_MPS = 0.02
 STANDING_RADPS = 0.05
+STANDING_FOR_S = 0.1
+"""Bodies rock as they come to rest."""
 
 M = TypeVar("M", Status, SimTruth, DriveState, Event)
+
+
+def still(truth: SimTruth) -> bool:
+    """Tell whether the robot stood at one instant."""
+    return abs(truth.twist.v_mps) < STANDING_MPS and abs(truth.twist.w_radps) < STANDING_RADPS
 
 
 class Log(Generic[M]):
@@ -107,9 +114,10 @@ class Judge:
         return self.truths.last
 
     def standing(self) -> bool:
-        """Tell whether the robot really stands now."""
-        twist = self.truth.twist
-        return abs(twist.v_mps) < STANDING_MPS and abs(twist.w_radps) < STANDING_RADPS
+        """Tell whether the robot really stands, and has for a moment."""
+        self.truths.last  # noqa: B018  # waits for a first one
+        newest = self.truths.since(self.truths.last_s - STANDING_FOR_S)
+        return all(still(truth) for _, truth in newest)
 
     def until_mode(self, *modes: Mode, limit_s: float = 15.0) -> Status:
         """Wait until the bridge is in one of the modes."""
@@ -159,10 +167,7 @@ class Judge:
         truths = self.truths.since(from_s, end_s)
         assert truths, f"no truth was heard in {end_s - from_s:.2f} s"
         fast = [
-            (f"{at_s - from_s:+.2f} s", truth.twist)
-            for at_s, truth in truths
-            if not abs(truth.twist.v_mps) < STANDING_MPS
-            or not abs(truth.twist.w_radps) < STANDING_RADPS
+            (f"{at_s - from_s:+.2f} s", truth.twist) for at_s, truth in truths if not still(truth)
         ]
         assert not fast, f"moved: {fast[:5]}; {self.describe()}"
         first, last = truths[0][1].base_in_map, truths[-1][1].base_in_map

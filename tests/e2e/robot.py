@@ -25,8 +25,11 @@ THERE_M = 0.25
 FACING_RAD = 0.25
 SETTLE_S = 0.5
 """Reached is judged on the encoders; the truth is heard a period later, and bodies rock."""
-STOP_LIMIT_S = 2.0
-"""0.3 s to notice, a status more, 0.5 m/s at 1 m/s2 and the drive's lag make 1 s; twice that."""
+STOP_LIMIT_S = 3.0
+"""0.3 s to notice, a status more, 0.5 m/s at 1 m/s2 and the drive's lag make 1 s; the rest is for
+a busy machine that stalls us all."""
+STOP_PATH_M = 0.5
+"""0.5 m/s for 0.36 s and the ramp of 0.13 m make 0.31 m, whatever the machine's clock does."""
 
 
 class Robot:
@@ -135,8 +138,10 @@ class Robot:
         assert 0.0 < outcome["seconds"] <= time.monotonic() - began_s + 0.1
         assert outcome["limited_by"]
 
-    def assert_stops(self, from_s: float, limit_s: float = STOP_LIMIT_S) -> float:
-        """Hold that the robot stands within the bound from a moment; return when it stood."""
-        stood_s = self.judge.until_standing(max(0.05, from_s + limit_s - time.monotonic()))
+    def assert_stops(self, from_s: float, path_m: float = STOP_PATH_M) -> float:
+        """Hold that from a moment the robot stands soon and near; return when it stood."""
+        stood_s = self.judge.until_standing(max(0.05, from_s + STOP_LIMIT_S - time.monotonic()))
+        driven_m = self.judge.path_m(from_s, stood_s)
+        assert driven_m < path_m, (driven_m, self.judge.describe())
         self.judge.assert_no_contact()
         return stood_s

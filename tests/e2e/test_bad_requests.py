@@ -12,6 +12,7 @@ import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 
+from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import Reply
 
@@ -27,7 +28,7 @@ def still(robot: Robot) -> Iterator[Robot]:
     yield robot
     robot.judge.assert_never_moves(0.2)
     robot.judge.assert_stood(began_s)
-    assert robot.system.http("GET", "/readyz").status == 200
+    until(lambda: robot.system.http("GET", "/readyz").status == 200, 10.0, "readiness")
     kept = [goal["id"] for goal in robot.system.goals()]
     assert set(before) <= set(kept)
 

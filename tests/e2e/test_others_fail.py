@@ -12,9 +12,8 @@ from wire import Mode
 
 pytestmark = pytest.mark.e2e
 
-DEAD_MAN_S = 0.2
-NOTICE_S = 0.15
-"""A period of command and state each, the judge's own poll, and a busy machine."""
+DEAD_MAN_PATH_M = 0.35
+"""0.5 m/s for the 0.2 s of the drive's time-out, a period, the motors' lag and its ramp."""
 
 
 def test_a_killed_bridge_is_stopped_by_the_drives_own_time_out(robot: Robot) -> None:
@@ -22,9 +21,7 @@ def test_a_killed_bridge_is_stopped_by_the_drives_own_time_out(robot: Robot) -> 
     boot = robot.judge.status.boot
     killed_s = robot.system.kill("bridge")
     until(lambda: robot.judge.drives.last.timed_out, 2.0, "the drive's time-out")
-    fired_s = next(at_s for at_s, s in robot.judge.drives.since(killed_s) if s.timed_out)
-    assert fired_s - killed_s < DEAD_MAN_S + NOTICE_S
-    stood_s = robot.assert_stops(killed_s, 1.5)
+    stood_s = robot.assert_stops(killed_s, DEAD_MAN_PATH_M)
     until(lambda: robot.judge.status.boot != boot, 15.0, "a new bridge", robot.system.said)
     robot.judge.until_mode(Mode.DISARMED)
     paused = robot.system.until_goal(goal["id"], "paused")
