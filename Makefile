@@ -8,27 +8,33 @@ MAKEFLAGS += --no-print-directory
 BIN := .venv/bin
 RUNTIME := .venv/.installed
 DEV := .venv/.installed-dev
+PAGE := web/dist/index.html
+PAGE_DEV := web/node_modules/.pons-dev
+PAGE_SOURCES := $(shell find web/src web/index.html web/vite.config.ts web/package-lock.json -type f)
 ARGS ?=
 
-.PHONY: help setup dev run test e2e check fmt docs bench bench-long lock clean
+.PHONY: help setup dev page run test e2e check fmt docs bench bench-long lock clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
-setup: $(RUNTIME) ## make .venv and install what running needs, from the hash-pinned lock
+setup: $(RUNTIME) $(PAGE) ## make .venv, install what running needs from the locks, build the page
 
-dev: $(DEV) ## add what testing and checking need
+dev: $(DEV) $(PAGE_DEV) ## add what testing and checking need
 
-run: $(RUNTIME) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
+page: $(RUNTIME) ## build the page anew
+	@scripts/page.sh build
+
+run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
 	@exec $(BIN)/pons up $(ARGS)
 
-test: $(DEV) ## run the unit tests and the two-room tests with real processes (about 5 min on 2 cores)
+test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room tests with real processes (about 5 min on 2 cores)
 	@exec $(BIN)/python -m pytest -m "not home" $(ARGS)
 
 e2e: $(DEV) ## drive through the whole default home with real processes
 	@exec $(BIN)/python -m pytest -m home --timeout 600 $(ARGS)
 
-check: $(DEV) ## run all that CI runs but e2e: format, lint, types, imports, docs, test; with seconds
+check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py
 
 fmt: $(DEV) ## format the code and mend what the linter can mend
@@ -47,7 +53,7 @@ lock: $(DEV) ## resolve the dependencies anew into requirements.lock and require
 	@scripts/lock.sh
 
 clean: ## remove .venv and caches; keeps .pons (recordings, missions, keys)
-	@rm -rf .venv build dist *.egg-info .coverage .coverage.* htmlcov
+	@rm -rf .venv web/node_modules web/dist build dist *.egg-info .coverage .coverage.* htmlcov
 	@rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 	@find . -name __pycache__ -type d -not -path '*/node_modules/*' -prune -exec rm -rf {} +
 
@@ -59,3 +65,9 @@ $(RUNTIME): requirements.lock pyproject.toml scripts/venv.sh scripts/install.sh
 $(DEV): requirements-dev.lock $(RUNTIME)
 	@scripts/install.sh requirements-dev.lock
 	@touch $@
+
+$(PAGE): $(PAGE_SOURCES) scripts/page.sh | $(RUNTIME)
+	@scripts/page.sh build
+
+$(PAGE_DEV): web/package-lock.json scripts/page.sh | $(RUNTIME)
+	@scripts/page.sh dev

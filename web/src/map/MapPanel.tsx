@@ -1,7 +1,7 @@
 /** Show the map, and make a click on it a goal: at once when idle, after a choice when busy. */
 import { effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { language, say, t } from "../i18n";
+import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
@@ -41,8 +41,7 @@ function follow(view: MapView): (() => void)[] {
       if (grid.value) view.showGrid(grid.value);
     }),
     effect(() => {
-      language.value;
-      view.showNames(places.value, (shown) => say(shown.name));
+      view.showNames(places.value, (shown) => say(shown.name)); // and again in another language
     }),
     effect(() => view.showZoom(t("map.zoom_in"), t("map.zoom_out"))),
     effect(() => {

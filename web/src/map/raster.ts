@@ -39,7 +39,7 @@ export function picture(grid: Grid, floor: Rgb, wall: Rgb): string | null {
 /** Return a CSS variable's colour, `#rrggbb` or `#rgb`, as numbers. */
 export function rgb(text: string): Rgb {
   const digits = text.trim().slice(1);
-  const wide = digits.length === 3 ? [...digits].map((digit) => digit + digit).join("") : digits;
+  const wide = digits.length === 3 ? digits.replace(/./g, "$&$&") : digits;
   const number = Number.parseInt(wide, 16);
   return [(number >> 16) & 255, (number >> 8) & 255, number & 255];
 }

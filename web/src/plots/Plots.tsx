@@ -5,14 +5,19 @@ import type { Sample } from "../state/history";
 import { type Line, Plot } from "./Plot";
 
 export function Plots() {
-  const spoken = language.value;
-  const [left, right, late] = useMemo(() => [wheel("left"), wheel("right"), lateness()], [spoken]);
+  return <Lines key={language.value} />; // in another language they are other lines
+}
+
+function Lines() {
+  const left = useMemo(() => wheel("left"), []);
+  const right = useMemo(() => wheel("right"), []);
+  const late = useMemo(() => lateness(), []);
   return (
     <section class="card" aria-label={t("plot.window")}>
       <h2>{t("plot.window")}</h2>
-      <Plot title={t("plot.left")} lines={left ?? []} least={1} />
-      <Plot title={t("plot.right")} lines={right ?? []} least={1} />
-      <Plot title={t("plot.late")} lines={late ?? []} least={0.2} />
+      <Plot title={t("plot.left")} lines={left} least={1} />
+      <Plot title={t("plot.right")} lines={right} least={1} />
+      <Plot title={t("plot.late")} lines={late} least={0.2} />
     </section>
   );
 }
