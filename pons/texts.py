@@ -35,16 +35,22 @@ def figures(outcome: Json | None) -> str:
     """Give the outcome's numbers: asked, reached, metres, seconds, what limited it."""
     if not outcome:
         return ""
-    parts = []
-    for name, unit in (("asked", ""), ("reached", ""), ("metres", " m"), ("seconds", " s")):
-        value = outcome.get(name)
-        if value is not None:
-            shown = f"{value:.2f}" if isinstance(value, float) else str(value)
-            parts.append(f"{name} {shown}{unit}")
+    spots = ((name, outcome.get(name)) for name in ("asked", "reached"))
+    parts = [f"{name} {place(spot)}" for name, spot in spots if spot]
+    for name, unit in (("metres", "m"), ("seconds", "s")):
+        if (value := outcome.get(name)) is not None:
+            parts.append(f"{name} {value:.2f} {unit}")
     limited = outcome.get("limited_by")
     if limited:
         parts.append(f"limited by {limited if isinstance(limited, str) else ', '.join(limited)}")
     return "; ".join(parts)
+
+
+def place(spot: Json) -> str:
+    """Name a spot: its place or else its room, and where that is in ``map`` [m]."""
+    named = str(spot.get("place") or spot.get("room") or "?")
+    x_m, y_m = spot.get("x_m"), spot.get("y_m")
+    return named if x_m is None or y_m is None else f"{named} ({x_m:.2f}, {y_m:.2f})"
 
 
 def robot_lines(robot: Json) -> list[str]:
