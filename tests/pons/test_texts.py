@@ -24,7 +24,13 @@ def test_figures_are_for_people() -> None:
 
 
 def test_what_is_not_known_is_left_out() -> None:
-    bare: dict[str, object] = {"code": "stopped", "asked": None, "reached": None, "metres": None, "limited_by": []}
+    bare: dict[str, object] = {
+        "code": "stopped",
+        "asked": None,
+        "reached": None,
+        "metres": None,
+        "limited_by": [],
+    }
     assert figures(bare) == ""
     assert figures(None) == ""
     assert figures({"reached": {"place": None, "room": "kitchen"}}) == "reached kitchen"
