@@ -8,7 +8,15 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from pons.http import PlannerDown, Refused, call
-from pons.texts import FINAL_STATES, WAITING_STATES, figures, goal_line, message, step_line
+from pons.texts import (
+    FINAL_STATES,
+    WAITING_STATES,
+    figures,
+    goal_line,
+    message,
+    stand_in,
+    step_line,
+)
 
 if TYPE_CHECKING:
     from pons.settings import Settings
@@ -107,7 +115,7 @@ def _print_new(goal: dict[str, Any], shown: list[str]) -> None:
 
 def _conclude(goal: dict[str, Any], language: str) -> int:
     outcome = goal.get("outcome") or {}
-    for line in (message(outcome, language), figures(outcome)):
+    for line in (stand_in(goal, language), message(outcome, language), figures(outcome)):
         if line:
             print(f"  {line}")
     plan = goal.get("plan") or {}

@@ -53,6 +53,17 @@ def place(spot: Json) -> str:
     return named if x_m is None or y_m is None else f"{named} ({x_m:.2f}, {y_m:.2f})"
 
 
+def stand_in(goal: Json, language: str) -> str:
+    """Say that another brain than the model planned, and why; nothing where none did."""
+    brain = goal.get("brain") or {}
+    if not brain.get("fallback_from"):
+        return ""
+    why = (brain.get("fallback_message") or {}).get(language) or brain.get("fallback_reason", "")
+    if language == "zh":
+        return f"{brain['name']} 代替 {brain['fallback_from']} 规划：{why}"
+    return f"{brain['name']} planned in place of {brain['fallback_from']}: {why}"
+
+
 def robot_lines(robot: Json) -> list[str]:
     """Describe the robot's state, what is up and what limits it."""
     status = robot.get("status")

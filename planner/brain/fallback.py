@@ -84,9 +84,10 @@ class FallbackBrain:
                 "fallback_message": reason(why),
             }
         )
+        if _lost(thought) and isinstance(failure, BrainDown):
+            raise BrainDown(str(failure), tag, why=why) from failure
         if _lost(thought):
-            failure.brain = tag
-            raise failure
+            raise PlanRejected(str(failure), tag) from failure
         return thought.model_copy(update={"brain": tag})
 
 

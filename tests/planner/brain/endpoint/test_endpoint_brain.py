@@ -59,6 +59,18 @@ def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:
     assert str(request.url) == "http://127.0.0.1:9/v1/chat/completions"
 
 
+def test_without_a_key_none_is_sent(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(wrote(GO))
+    think(brain(server, tmp_path, key=None, temperature=None), home)
+    assert "authorization" not in server.requests[0].headers
+    assert "temperature" not in server.bodies[0]
+
+
+def test_a_disk_that_refuses_costs_no_plan(home: Vocabulary, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    assert think(brain(Server(wrote(GO)), tmp_path / "file"), home).plan.kind == "plan"
+
+
 def test_a_bad_plan_is_repaired_once_with_the_reasons(home: Vocabulary, tmp_path: Path) -> None:
     server = Server(wrote(BAD), wrote(GO))
     thought = think(brain(server, tmp_path), home)
