@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import hypot
 from pathlib import Path
 
 import pytest
 
+from pons.texts import figures
 from tests.e2e.robot import THERE_M, Robot
 from tests.e2e.system import ENDED, HOME_SITE, new_home
 
@@ -31,7 +32,9 @@ def house() -> Iterator[Robot]:
             robot.close()
 
 
-def test_seven_rooms_in_both_languages(house: Robot) -> None:
+def test_seven_rooms_in_both_languages(
+    house: Robot, record_property: Callable[[str, object], None]
+) -> None:
     assert {room.id for room in house.site.rooms} == set(ROOMS)
     for number, room_id in enumerate(ROOMS):
         place, began_s = house.place(room_id), time.monotonic()
@@ -40,10 +43,13 @@ def test_seven_rooms_in_both_languages(house: Robot) -> None:
         house.assert_figures(ended, place, began_s)
         outcome = ended["outcome"]
         assert outcome["reached"]["room"] == room_id
-        print(f"{text}: {outcome['metres']} m, {outcome['seconds']} s, {outcome['limited_by']}")
+        record_property(room_id, figures(outcome))
+        print(f"{text}: {figures(outcome)}")
 
 
-def test_kitchen_then_bedroom_then_back(house: Robot) -> None:
+def test_kitchen_then_bedroom_then_back(
+    house: Robot, record_property: Callable[[str, object], None]
+) -> None:
     began, began_s = house.judge.truth.base_in_map, time.monotonic()
     done = house.system.pons(
         "say", "go to the kitchen, then the bedroom, then come back", timeout_s=3 * DRIVE_LIMIT_S
@@ -61,4 +67,5 @@ def test_kitchen_then_bedroom_then_back(house: Robot) -> None:
     driven_m = house.judge.path_m(began_s)
     outcome = goal["outcome"]
     assert abs(outcome["metres"] - driven_m) < 0.1 + 0.1 * driven_m
-    print(f"{goal['text']}: {outcome['metres']} m, {outcome['seconds']} s")
+    record_property("there and back", figures(outcome))
+    print(f"{goal['text']}: {figures(outcome)}")
