@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from tests.bridge.core.fake_planner import FakeDrive, FakePlanner
 
 from bridge.core import Inbox
-from tests.bridge.core.scripted import FakeDrive, FakePlanner, World
+from tests.bridge.core.scripted import World
 from wire import HeldReason, Mode, Pose2, Waypoints
 
 

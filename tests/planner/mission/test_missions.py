@@ -1,11 +1,8 @@
-"""Try the door on a real event loop: fake bridge, scripted brain, simulated clock, real journal."""
+"""The door of the missions on a real event loop: goals, stops, keys, errors, listeners."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Coroutine
-from contextlib import asynccontextmanager
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +10,10 @@ import pytest
 import sqlalchemy as sa
 
 from planner.brain.errors import BrainDown
-from planner.brain.scripted import Reply, ScriptedBrain
-from planner.link import Link
 from planner.mission import (
     BadState,
-    Clocks,
     IdempotencyConflict,
     JournalDown,
-    MissionJournal,
-    Missions,
     NothingToResume,
     QueueFull,
     UnknownGoal,
@@ -29,98 +21,16 @@ from planner.mission import (
 from planner.mission.events import Journalled
 from planner.mission.hub import MAX_WAITING, Hub
 from planner.mission.loop import Loop
-from planner.plan import Bilingual, Clarify, Code, Goal, GoalState, GoTo, Say, StepPlan
-from planner.route import RouteFailure, RouteRequest, RouteResult
+from planner.plan import Bilingual, Clarify, Code, GoalState, GoTo, Say, StepPlan
 from planner.world import Site
-from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
-from wire import Mode, OpRequest, Pose2, RobotDescription, Status
-
-KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
-SOFA = StepPlan(steps=(GoTo(place="sofa"),))
-
-
-class LiveBridge(FakeBridge):
-    """Go on by one status at each poll; the clock of the test goes with it."""
-
-    frozen = False
-
-    def status(self) -> Status | None:
-        return None if self.frozen else self.step()
-
-    def now_s(self) -> float:
-        return 1000.0 + self.seq * PERIOD_S
-
-
-class StraightRouter:
-    """Answer with straight lines, or with a failure."""
-
-    def __init__(self, failure: str | None = None) -> None:
-        self.failure = failure
-
-    async def route(self, request: RouteRequest) -> RouteResult:
-        await asyncio.sleep(0)
-        if self.failure is not None:
-            raise RouteFailure(self.failure)
-        return RouteResult(straight(request.start, request.goal), 1.0, 0.0, False, 0.0)
-
-
-class Together:
-    """Hold one planner's door and the bridge behind it."""
-
-    def __init__(self, missions: Missions, bridge: LiveBridge, brain: ScriptedBrain) -> None:
-        self.missions, self.bridge, self.brain = missions, bridge, brain
-
-    async def until(self, fits: Callable[[], bool], limit_s: float = 20.0) -> None:
-        async with asyncio.timeout(limit_s):
-            while not fits():  # noqa: ASYNC110  # what is waited for is many things
-                await asyncio.sleep(0.002)
-
-    async def reach(self, goal_id: str, *states: GoalState) -> Goal:
-        await self.until(lambda: self.missions.goal(goal_id).state in states)
-        return self.missions.goal(goal_id)
-
-
-@asynccontextmanager
-async def planner(
-    home: Path,
-    site: Site,
-    *replies: Reply,
-    bridge: LiveBridge | None = None,
-    hangs: bool = False,
-    router: StraightRouter | None = None,
-    prefix: str = "g",
-) -> AsyncIterator[Together]:
-    bridge = bridge or LiveBridge(pose=Pose2(1.0, 4.2, 0.0))
-    brain = ScriptedBrain(replies or (KITCHEN,), hangs=hangs)
-    numbers = count(1)
-    robot = RobotDescription()
-    missions = Missions(
-        site=site,
-        robot=robot,
-        link=Link(bridge, robot, clock=bridge.now_s),
-        router=router or StraightRouter(),
-        brain=brain,
-        journal=MissionJournal.in_home(home),
-        planner_id=f"planner-{prefix}",
-        clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}"),
-    )
-    await missions.start()
-    together = Together(missions, bridge, brain)
-    await together.until(lambda: bridge.owner == missions.planner_id)
-    try:
-        yield together
-        assert missions.failed is None
-    finally:
-        await missions.close()
-
-
-@pytest.fixture(scope="module")
-def site(repository: Path) -> Site:
-    return Site.load(repository / "sites" / "two_room")
-
-
-def run(work: Coroutine[Any, Any, None]) -> None:
-    asyncio.run(work)
+from tests.planner.mission.live import (
+    KITCHEN,
+    SOFA,
+    StraightRouter,
+    planner,
+    run,
+)
+from wire import Mode, OpRequest
 
 
 def test_a_sentence_ends_where_it_says(tmp_path: Path, site: Site) -> None:

@@ -22,7 +22,7 @@ def test_area_does_not_depend_on_the_winding() -> None:
 @given(ordinates, ordinates)
 def test_contains_agrees_with_the_square_it_draws(x_m: float, y_m: float) -> None:
     inside = 0 < x_m < 2 and 0 < y_m < 2
-    if border_distance_m(SQUARE, x_m, y_m) > 0:
+    if border_distance_m(SQUARE, x_m, y_m) > 1e-9:  # on the line itself either answer is right
         assert contains(SQUARE, x_m, y_m) is inside
         assert contains(tuple(reversed(SQUARE)), x_m, y_m) is inside
 

@@ -1,0 +1,23 @@
+"""Share the world of a mission and the site it drives in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from planner.world import Site
+from tests.planner.mission.lockstep import Together
+
+
+@pytest.fixture
+def world() -> Together:
+    world = Together()
+    world.run(0.2)
+    assert world.bridge.owner == "p1"
+    return world
+
+
+@pytest.fixture(scope="module")
+def site(repository: Path) -> Site:
+    return Site.load(repository / "sites" / "two_room")
