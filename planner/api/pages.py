@@ -108,10 +108,10 @@ def load(folder: Path) -> dict[str, Asset]:
         if path.suffix not in TYPES or path.is_symlink() or not path.is_file():
             continue
         data = path.read_bytes()
+        if not total + len(data) <= MAX_PAGE_BYTES:
+            log.error("%s is not served: the page passes %d bytes with it", path, MAX_PAGE_BYTES)
+            continue
         total += len(data)
-        if not total <= MAX_PAGE_BYTES:
-            log.error("%s holds over %d bytes; the rest is not served", folder, MAX_PAGE_BYTES)
-            return found
         name = path.relative_to(folder).as_posix()
         found[name] = _asset(path.suffix, data, FOREVER if name.startswith("assets/") else ANEW)
     return found
