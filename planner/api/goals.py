@@ -30,6 +30,12 @@ Limit = Annotated[int, Query(ge=1, le=200)]
 def routes(services: Services) -> APIRouter:
     """Return the routes below /v1/goals."""
     router = APIRouter(prefix="/v1/goals", tags=["goals"])
+    _giving(router, services)
+    _acting(router, services)
+    return router
+
+
+def _giving(router: APIRouter, services: Services) -> None:
     goals = services.goals
 
     @router.post("", status_code=202, operation_id="give_goal")
@@ -54,6 +60,10 @@ def routes(services: Services) -> APIRouter:
     async def one(goal_id: str) -> Goal:
         """Show one goal whole."""
         return goals.goal(goal_id)
+
+
+def _acting(router: APIRouter, services: Services) -> None:
+    goals = services.goals
 
     @router.post("/{goal_id}/cancel", operation_id="cancel_goal")
     async def cancel(goal_id: str) -> Goal:
@@ -87,8 +97,6 @@ def routes(services: Services) -> APIRouter:
     async def move(goal_id: str, where: Move) -> Goal:
         """Put a queued goal before another, or last."""
         return await goals.move(goal_id, where.before)
-
-    return router
 
 
 def problem(error: MissionError) -> Problem:
