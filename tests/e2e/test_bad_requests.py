@@ -26,7 +26,7 @@ def still(robot: Robot) -> Iterator[Robot]:
     """Hold that the robot never moved and can still be asked, however the request ended."""
     began_s, before = time.monotonic(), [goal["id"] for goal in robot.system.goals()]
     yield robot
-    robot.judge.assert_never_moves(0.2)
+    robot.judge.assert_never_moves(0.05)
     robot.judge.assert_stood(began_s)
     until(lambda: robot.system.http("GET", "/readyz").status == 200, 10.0, "readiness")
     kept = [goal["id"] for goal in robot.system.goals()]

@@ -137,7 +137,7 @@ def test_pause_resume_and_cancel(robot: Robot) -> None:
 
 
 def test_disarm_takes_the_torque_and_arm_gives_it_back(robot: Robot) -> None:
-    place, goal = robot.drive_off()
+    _, goal = robot.drive_off()
     done = robot.system.pons("disarm")
     assert done.returncode == 0, done.stderr
     stood_s = robot.assert_stops(time.monotonic())
@@ -153,11 +153,12 @@ def test_disarm_takes_the_torque_and_arm_gives_it_back(robot: Robot) -> None:
     robot.judge.assert_never_moves(0.3)
     robot.system.until_goal(goal["id"], "paused")
     assert robot.system.pons("resume").returncode == 0
-    robot.arrive(place, goal)
+    robot.judge.until_moving()
+    assert robot.system.goal(goal["id"])["state"] == "running"
 
 
 def test_a_protective_stop_is_latched_until_reset(robot: Robot) -> None:
-    place, goal = robot.drive_off()
+    _, goal = robot.drive_off()
     done = robot.system.pons("estop")
     assert done.returncode == 0, done.stderr
     stood_s = robot.assert_stops(time.monotonic())
@@ -174,4 +175,5 @@ def test_a_protective_stop_is_latched_until_reset(robot: Robot) -> None:
     assert robot.system.pons("arm").returncode == 0
     robot.judge.assert_never_moves(0.3)
     assert robot.system.pons("resume").returncode == 0
-    robot.arrive(place, goal)
+    robot.judge.until_moving()
+    assert robot.system.goal(goal["id"])["state"] == "running"
