@@ -52,6 +52,8 @@ STILL = Twist2(0.0, 0.0)
 
 def wrap(angle_rad: float) -> float:
     """Bring an angle into [-pi, pi]; what is not finite becomes NaN, never an exception."""
+    if -pi <= angle_rad <= pi:
+        return angle_rad  # nearly always
     return atan2(sin(angle_rad), cos(angle_rad)) if isfinite(angle_rad) else float("nan")
 
 
@@ -77,7 +79,9 @@ def inverse(b_in_a: Pose2) -> Pose2:
 
 def between(from_in_a: Pose2, to_in_a: Pose2) -> Pose2:
     """Return the pose of ``to`` seen from ``from``, both given in one frame."""
-    return compose(inverse(from_in_a), to_in_a)
+    c, s = cos(from_in_a.yaw_rad), sin(from_in_a.yaw_rad)
+    dx, dy = to_in_a.x_m - from_in_a.x_m, to_in_a.y_m - from_in_a.y_m
+    return Pose2(c * dx + s * dy, c * dy - s * dx, wrap(to_in_a.yaw_rad - from_in_a.yaw_rad))
 
 
 def transform(b_in_a: Pose2, x_in_b_m: float, y_in_b_m: float) -> tuple[float, float]:

@@ -82,22 +82,28 @@ def _kept(angle_rad: float) -> float | None:
 
 
 def rolled(pose: Pose2, left_m: float, right_m: float, separation_m: float) -> Pose2:
-    """Roll a pose along the exact arc of two wheel paths [m]; an impossible result moves nothing.
-
-    The chord of an arc of length s and turn a is s sin(a/2) / (a/2), in the direction yaw + a/2.
-    """
+    """Roll a pose along the exact arc of two wheel paths [m]; an impossible result moves nothing."""
     turn = (right_m - left_m) / separation_m
     return along_arc(pose, (left_m + right_m) / 2, turn)
 
 
 def along_arc(pose: Pose2, length_m: float, turn_rad: float) -> Pose2:
     """Move a pose along an arc of signed length and turn; what leaves the world moves nothing."""
-    half = turn_rad / 2
-    if not isfinite(half):
+    if not isfinite(turn_rad):
         return pose
-    chord = length_m * (sin(half) / half if abs(half) > 1e-6 else 1.0)
-    x = pose.x_m + chord * cos(pose.yaw_rad + half)
-    y = pose.y_m + chord * sin(pose.yaw_rad + half)
+    x, y = arc_end(pose, length_m, turn_rad)
     if abs(x) <= MAX_COORDINATE_M and abs(y) <= MAX_COORDINATE_M:
         return Pose2(x, y, wrap(pose.yaw_rad + turn_rad))
     return pose
+
+
+def arc_end(pose: Pose2, length_m: float, turn_rad: float) -> tuple[float, float]:
+    """Return where an arc of signed length and turn ends; a turn that is no number moves nothing.
+
+    The chord of an arc of length s and turn a is s sin(a/2) / (a/2), in the direction yaw + a/2.
+    """
+    half = turn_rad / 2
+    if not isfinite(half):
+        return pose.x_m, pose.y_m
+    chord = length_m * (sin(half) / half if abs(half) > 1e-6 else 1.0)
+    return pose.x_m + chord * cos(pose.yaw_rad + half), pose.y_m + chord * sin(pose.yaw_rad + half)

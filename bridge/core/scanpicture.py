@@ -102,15 +102,12 @@ class ScanPicture:
 
     def sector(self, middle_rad: float, half_rad: float) -> Sector:
         """Count the beams within ``half_rad`` of a direction of ``base`` at the scan."""
-        counted = [
-            (end - start, self.before[end] - self.before[start])
-            for start, end in self._runs(middle_rad, half_rad)
-        ]
-        return Sector(
-            sum(beams for beams, _ in counted),
-            sum(returned for _, returned in counted),
-            self._covers(middle_rad, half_rad),
-        )
+        before = self.before
+        beams = returned = 0
+        for start, end in self._runs(middle_rad, half_rad):
+            beams += end - start
+            returned += before[end] - before[start]
+        return Sector(beams, returned, self._covers(middle_rad, half_rad))
 
     def points_within(self, middle_rad: float, half_rad: float) -> Points:
         """Return x and y of the points whose beams lie within ``half_rad`` of a direction."""
@@ -139,8 +136,11 @@ class ScanPicture:
         start = _turned(middle_rad - width - self.first_rad)
         runs = []
         for turn in (-tau, 0.0, tau):  # a field may begin anywhere and be longer than one turn
-            low = max(0, ceil((start + turn) / step))
-            high = min(count, floor((start + turn + 2 * width) / step) + 1)
+            begin = start + turn
+            if begin + 2 * width < 0.0 or begin > count * step:
+                continue  # the field has nothing there: most often so
+            low = max(0, ceil(begin / step))
+            high = min(count, floor((begin + 2 * width) / step) + 1)
             if high > low:
                 runs.append((low, high))
         return runs
