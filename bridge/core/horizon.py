@@ -98,8 +98,7 @@ def _inside(points: Sequence[Waypoint], robot_in_map: Pose2, fence: Fence) -> bo
         gap_m = hypot(b.x_m - a.x_m, b.y_m - a.y_m)
         if not gap_m < clear_m:
             clear_m = fence.margin_m(a.x_m, a.y_m)
-        if gap_m < clear_m:
-            clear_m -= gap_m
-        elif fence.crosses(a.x_m, a.y_m, b.x_m, b.y_m):
+        if not gap_m < clear_m and fence.crosses(a.x_m, a.y_m, b.x_m, b.y_m):
             return False
+        clear_m -= gap_m  # of the next segment's start; below zero it is measured anew
     return True

@@ -119,6 +119,14 @@ def test_clearance_saves_tests_but_misses_nothing(steps: list[tuple[float, float
     assert ("fence_crossed" in judged(points, Pose2(4.6, 0.9, 0.0))) is crossed
 
 
+def test_a_segment_after_one_beside_the_fence_is_tested_too() -> None:
+    """The clearance of a tested segment's start once let the next one into the keep-out."""
+    points = [(4.6, 0.9), (4.7875, 1.05625), (4.975, 1.2125), (5.1, 1.025), (5.1, 0.9)]
+    last_in = [Waypoint(x_m=x, y_m=y, speed_mps=0.3) for x, y in points]
+    assert judged(last_in, Pose2(4.6, 0.9, 0.0)) == ("fence_crossed",)
+    assert judged(last_in[:-1], Pose2(4.6, 0.9, 0.0)) == ()
+
+
 def test_a_robot_outside_may_come_back_in() -> None:
     inward = [
         Waypoint(x_m=4.95, y_m=0.0, speed_mps=0.3),
