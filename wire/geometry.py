@@ -8,11 +8,12 @@ coordinates, which is also the transform that takes base coordinates to map coor
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2, cos, hypot, isfinite, pi, sin
 from typing import Annotated, ClassVar
 
 from pydantic import ConfigDict, Field
+
+from wire.value import value
 
 MAX_COORDINATE_M = 10_000.0
 """No site is larger; a coordinate beyond it is a fault, not a place."""
@@ -27,7 +28,7 @@ Radps = Annotated[float, Field(ge=-MAX_TURN_RADPS, le=MAX_TURN_RADPS)]
 _STRICT = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Pose2:
     """Place an origin and a heading in a plane frame; equally the transform from it."""
 
@@ -37,7 +38,7 @@ class Pose2:
     __pydantic_config__: ClassVar[ConfigDict] = _STRICT
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Twist2:
     """Give a body velocity in ``base``: forward [m/s] and counter-clockwise [rad/s]."""
 

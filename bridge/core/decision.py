@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from bridge.core.state import BridgeState
 from wire import DriveCommand, Event, Odometry, Status
+from wire.value import value
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Decision:
     """Answer one step. The shell sends what is not None and feeds ``state`` to the next step."""
 

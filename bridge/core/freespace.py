@@ -6,7 +6,6 @@ curve, so one pass over the points serves every speed. Knows no time, no limits 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import acos, asin, atan2, cos, hypot, inf, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING, ClassVar
 
@@ -15,6 +14,7 @@ from pydantic import ConfigDict
 from bridge.core.braking import TURNING_MPS, reaction_s, speed_scale
 from bridge.core.odometry import along_arc, arc_end
 from wire.geometry import Pose2, between, wrap
+from wire.value import value
 
 if TYPE_CHECKING:
     from bridge.core.scanpicture import Points, ScanPicture
@@ -34,7 +34,7 @@ _BEAD_M = 1e-3
 _CLEARANCE_LOST_M = 2e-4  # a wall is seen as beads 6 mm apart: driving along it changes this much
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class FreeLength:
     """Tell how far a motion is free."""
 

@@ -25,6 +25,7 @@ from wire import (
     Velocity,
     Waypoints,
 )
+from wire.value import value
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,7 @@ class RejectedAt:
     why: Rejected
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ArrivedAt:
     """Count all payloads that came on one command key, parsed or not, for the flood detector."""
 
@@ -52,7 +53,7 @@ class ArrivedAt:
     count: int
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class LoopFacts:
     """Tell what the shell measured of its own loop; the core cannot look at a clock."""
 
@@ -69,7 +70,7 @@ class LoopFacts:
 ON_TIME = LoopFacts()
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Inbox:
     """Give one tick's arrivals. Tuples are in order of arrival, oldest first."""
 

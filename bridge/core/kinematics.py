@@ -6,13 +6,13 @@ Every function is total: what is not finite becomes standstill, never an excepti
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import ConfigDict, Field
 
 from wire.geometry import MAX_SPEED_MPS, MAX_TURN_RADPS, STILL, Twist2
+from wire.value import value
 
 if TYPE_CHECKING:
     from wire.robot import Base, Limits
@@ -21,7 +21,7 @@ _WHEEL = Field(ge=-1_000.0, le=1_000.0)
 _CREEP_RADPS = 0.01  # below it a dead-zone step would only make the wheel chatter
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Wheels:
     """Give both wheel speeds [rad/s], positive forwards."""
 

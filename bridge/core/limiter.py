@@ -12,7 +12,6 @@ more than the room there is. Knows no modes and no time but the tick's length.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 from math import sqrt
 from typing import TYPE_CHECKING, Annotated, ClassVar
@@ -21,6 +20,7 @@ from pydantic import ConfigDict, Field
 
 from bridge.core.kinematics import fastest_rim, rim_speeds, saturate
 from wire.geometry import STILL, Twist2
+from wire.value import value
 
 if TYPE_CHECKING:
     from wire.robot import Base, Limits
@@ -41,7 +41,7 @@ class Profile(StrEnum):
     """Ramp to zero with the hardest deceleration and no jerk limit, whatever the target."""
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class LimiterState:
     """Remember what was sent last, and how each wheel's speed was changing [m/s2]."""
 

@@ -8,7 +8,6 @@ Knows no modes and no rows.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
@@ -24,6 +23,7 @@ from bridge.core.braking import (
 from bridge.core.freespace import FreeLength, free_length
 from bridge.core.kinematics import scaled
 from wire.geometry import STILL, Pose2, Twist2
+from wire.value import value
 
 if TYPE_CHECKING:
     from bridge.core.scanpicture import ScanPicture
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 _SAME_CURVE_PER_M = 0.05
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ObstaclePass:
     """Tell what passes of a motion, and why."""
 

@@ -7,7 +7,6 @@ of the last one (same drive boot) is the caller's knowledge and comes in as a fl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, isfinite, sin
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
@@ -16,6 +15,7 @@ from pydantic import ConfigDict, Field
 from bridge.core.kinematics import twist_of
 from wire.geometry import IDENTITY, MAX_COORDINATE_M, STILL, Pose2, Twist2, wrap
 from wire.scalars import Count, WheelAngle
+from wire.value import value
 
 if TYPE_CHECKING:
     from wire.robot import Base
@@ -28,7 +28,7 @@ _MAX_ANGLE_RAD = 1e9  # of WheelAngle
 _Path = Annotated[float, Field(ge=0.0, le=1e12)]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class OdometryState:
     """Hold where the robot is in ``odom``, how fast, and the angles it was computed from."""
 
@@ -82,7 +82,7 @@ def _kept(angle_rad: float) -> float | None:
 
 
 def rolled(pose: Pose2, left_m: float, right_m: float, separation_m: float) -> Pose2:
-    """Roll a pose along the exact arc of two wheel paths [m]; an impossible result moves nothing."""
+    """Roll a pose along the exact arc of two wheel paths [m]; an impossible end moves nothing."""
     turn = (right_m - left_m) / separation_m
     return along_arc(pose, (left_m + right_m) / 2, turn)
 

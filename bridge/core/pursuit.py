@@ -8,7 +8,6 @@ three times at most. Limits, gates and rates come after; knows no map, no modes 
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
 from math import atan2, cos, hypot, inf, pi, sin, sqrt
 from typing import TYPE_CHECKING, ClassVar
 
@@ -18,6 +17,7 @@ from bridge.core.braking import speed_within
 from bridge.core.kinematics import saturate
 from bridge.core.path import PLANNED_DECEL, SLOWEST_MPS, TURN_RADIUS_M, Path, regulated
 from wire.geometry import MAX_COORDINATE_M, STILL, Pose2, Twist2, wrap
+from wire.value import value
 
 if TYPE_CHECKING:
     from wire.robot import Base, Limits
@@ -37,7 +37,7 @@ _GIVEN_UP_M = 0.3  # an end further off than this is another end: the horizon ha
 _STOP_FIRST_MPS = 0.1
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class FollowState:
     """Remember how far along one path the robot is.
 
@@ -53,7 +53,7 @@ class FollowState:
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Follow:
     """Answer one tick of following."""
 
@@ -145,7 +145,7 @@ def follow(
     )
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class _View:
     """Hold where the path leads, seen in the direction of travel."""
 

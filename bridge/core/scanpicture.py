@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, ClassVar
 from pydantic import ConfigDict
 
 from wire.geometry import Pose2
+from wire.value import value
 
 if TYPE_CHECKING:
     from wire.robot import LidarConfig
@@ -27,7 +28,7 @@ Points = tuple[tuple[float, ...], tuple[float, ...]]
 """x and y [m], one each per point: two flat tuples cost less than one of pairs."""
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Sector:
     """Count the beams of a range of directions."""
 

@@ -22,6 +22,7 @@ from bridge.core.state_senses import (
 )
 from bridge.core.stopcurve import StopPlan
 from wire import STILL, Action, Held, Mode, Pose2, Twist2
+from wire.value import value
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +92,7 @@ class Motion:
     margin_m: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Voice:
     """Remember what was said last, and when."""
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from bridge.core.path import Path
 from wire import Answer, Owner, Waypoint, Waypoints
+from wire.value import value
 
 MAX_MISSIONS = 64
 """Remainders kept; a mission older than so many others would start anew, under the operator cap."""
@@ -33,7 +34,7 @@ class MissionLeft:
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Grants:
     """Meter the mission granted in this epoch, and the distance since the last operator act."""
 

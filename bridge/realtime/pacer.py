@@ -6,15 +6,16 @@ decisions as if they were new. A tick less than a period late just runs late.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import floor
 from typing import TYPE_CHECKING
+
+from wire.value import value
 
 if TYPE_CHECKING:
     from bridge.realtime.clock import Clock
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Tick:
     """Say when a tick woke, how late that was, and how many periods were skipped before it."""
 
