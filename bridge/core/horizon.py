@@ -64,12 +64,14 @@ def _starts_here(first: Waypoint, robot_in_map: Pose2) -> bool:
 
 def _spaced(points: Sequence[Waypoint]) -> bool:
     last = len(points) - 2
-    return all(
-        (MIN_END_GAP_M if index in (0, last) else MIN_GAP_M) - GAP_TOLERANCE_M
-        <= hypot(b.x_m - a.x_m, b.y_m - a.y_m)
-        <= MAX_GAP_M + GAP_TOLERANCE_M
-        for index, (a, b) in enumerate(pairwise(points))
-    )
+    least, most = MIN_GAP_M - GAP_TOLERANCE_M, MAX_GAP_M + GAP_TOLERANCE_M
+    for index, (a, b) in enumerate(pairwise(points)):
+        gap_m = hypot(b.x_m - a.x_m, b.y_m - a.y_m)
+        if not least <= gap_m <= most and not (
+            index in (0, last) and MIN_END_GAP_M - GAP_TOLERANCE_M <= gap_m <= most
+        ):
+            return False
+    return True
 
 
 def _one_direction(points: Sequence[Waypoint]) -> bool:

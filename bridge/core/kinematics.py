@@ -80,6 +80,13 @@ def saturate(twist: Twist2, base: Base, limits: Limits, cap: float = 1.0) -> Twi
     if not (isfinite(v) and isfinite(w) and 0.0 <= cap <= 1.0):
         return STILL
     rim_mps = v + w * base.wheel_separation_m / 2
+    if (
+        v <= limits.max_speed_mps * cap
+        and w <= limits.max_turn_radps * cap
+        and rim_mps <= limits.max_wheel_radps * base.wheel_radius_m
+        and v * w <= limits.max_lateral_mps2
+    ):
+        return twist  # nearly always, four times a tick: every factor below would be 1
     factor = min(
         _ratio(limits.max_speed_mps * cap, v),
         _ratio(limits.max_turn_radps * cap, w),

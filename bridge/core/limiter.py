@@ -134,10 +134,12 @@ def _share(speed: float, by: float, accel: float, decel: float, dt_s: float) -> 
     """Return how much of its change one wheel can make: first down to zero, then up from it."""
     if by == 0.0:
         return 1.0
-    down = min(abs(by), abs(speed)) if speed * by < 0.0 else 0.0
+    change, down = abs(by), 0.0
+    if speed * by < 0.0:
+        down = min(change, abs(speed))
     braking_s = down / decel
     reach = decel * dt_s if braking_s >= dt_s else down + accel * (dt_s - braking_s)
-    return min(1.0, reach / abs(by))
+    return reach / change if reach < change else 1.0
 
 
 def _jerk_share(
@@ -154,7 +156,9 @@ def _jerk_share(
 
 def _along(accel: float, by: float) -> float:
     """Return the part of an acceleration that already goes the way of a change."""
-    return max(0.0, accel if by > 0.0 else -accel if by < 0.0 else 0.0)
+    if by > 0.0:
+        return max(0.0, accel)
+    return -accel if by < 0.0 and accel < 0.0 else 0.0
 
 
 def stopping_m(twist: Twist2, had_mps2: float, base: Base, limits: Limits, dt_s: float) -> float:

@@ -238,18 +238,25 @@ def _point(path: Path, along: float) -> tuple[float, float]:
 def _progress(path: Path, along: float, robot: Pose2) -> float:
     """Return the length of the point nearest to the robot, from where it was to a window ahead."""
     lengths, xs, ys = path.along_m, path.xs_m, path.ys_m
+    x, y, until = robot.x_m, robot.y_m, along + _WINDOW_M
     first = max(0, bisect_right(lengths, along) - 1)
     best, best_square = along, inf
     for i in range(first, len(lengths) - 1):
-        if lengths[i] > along + _WINDOW_M:
+        start = lengths[i]
+        if start > until:
             break
-        gap = lengths[i + 1] - lengths[i]
+        gap = lengths[i + 1] - start
         if gap > 0.0:
-            dx, dy = (xs[i + 1] - xs[i]) / gap, (ys[i + 1] - ys[i]) / gap
-            px, py = robot.x_m - xs[i], robot.y_m - ys[i]
-            on = min(gap, max(0.0, px * dx + py * dy))
+            xa, ya = xs[i], ys[i]
+            dx, dy = (xs[i + 1] - xa) / gap, (ys[i + 1] - ya) / gap
+            px, py = x - xa, y - ya
+            on = px * dx + py * dy
+            if not on > 0.0:
+                on = 0.0
+            elif on > gap:
+                on = gap
             px, py = px - on * dx, py - on * dy
             square = px * px + py * py
             if square < best_square:
-                best, best_square = lengths[i] + on, square
+                best, best_square = start + on, square
     return best

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from bridge.core.scanpicture import ScanPicture
 from wire import DriveState, Imu, Localization, Scan
+from wire.value import value
 
 
 @dataclass(slots=True)
@@ -40,7 +41,7 @@ class LidarMemory:
     """Mean number of returns in the first 20 scans."""
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class PoseMemory:
     """Remember what says where ``odom`` lies in ``map``, and the gyro."""
 
