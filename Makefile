@@ -28,11 +28,17 @@ page: $(RUNTIME) ## build the page anew
 run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
 	@exec $(BIN)/pons up $(ARGS)
 
-test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room tests with real processes (about 5 min on 2 cores)
-	@exec $(BIN)/python -m pytest -m "not home" $(ARGS)
+# One robot at a time and in real time; what needs minutes or a browser is e2e's.
+STORIES := -m "e2e and not home" --ignore tests/web --ignore tests/e2e/test_model.py
+WHOLE := $(wildcard tests/web tests/e2e/test_model.py)
 
-e2e: $(DEV) ## drive through the whole default home with real processes
-	@exec $(BIN)/python -m pytest -m home --timeout 600 $(ARGS)
+test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 5 min on 2 cores)
+	@$(BIN)/python -m pytest -n logical --maxprocesses 4 -m "not e2e and not home" $(ARGS)
+	@exec $(BIN)/python -m pytest $(STORIES) $(ARGS)
+
+e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try the page and models on the running system
+	@$(BIN)/python -m pytest -m home --timeout 600 $(ARGS)
+	@exec $(BIN)/python -m pytest -m e2e $(WHOLE) $(ARGS)
 
 check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py
