@@ -17,6 +17,7 @@ from planner.mission import MissionJournal, Missions
 from planner.robot import LinkedRobot
 from planner.route import RouteLimits, RouteWorker
 from planner.settings import load_settings
+from planner.voice import VoiceWorker
 from planner.world import Site
 from wire import RobotDescription, load_robot
 from wire.keys import Party
@@ -63,6 +64,9 @@ class Planner:
         self._journal = MissionJournal.in_home(where.home)
         limits = RouteLimits.of(self.description)
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
+        self.ears = VoiceWorker(
+            [name for place in self.site.places for name in place.said_in_english]
+        )
         link = Link(WireBus(self._session), self.description)
         self.robot = LinkedRobot(link, self.description)
         self.goals = Missions(
@@ -77,12 +81,14 @@ class Planner:
     async def start(self) -> None:
         """Start the route process, then the missions."""
         await self._router.start()
+        self.ears.warm()
         await self.goals.start(freeze=True)
 
     async def close(self) -> None:
         """End all parts; what ran comes back paused in the next process."""
         await self.goals.close()
         await self._router.close()
+        await self.ears.close()
         if self._model is not None:
             await self._model.close()
         self._journal.close()

@@ -22,6 +22,7 @@ class _Unserved:
 
     goals = None
     robot = None
+    ears = None
 
     def __init__(self) -> None:
         self.site = Site.load(ROOT / "sites" / "two_room")

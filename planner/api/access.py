@@ -37,6 +37,14 @@ STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
 
 
+JSON_TYPES = frozenset({"application/json"})
+BODY_TYPES = {
+    "/v1/voice": frozenset({"audio/wav", "audio/x-wav", "audio/wave", "audio/vnd.wave"}),
+}
+"""What a route's body is where it is not JSON. A form of another site can send none of these
+types, so they guard as JSON does."""
+
+
 SUBPROTOCOL = "pons.v1"
 TOKEN_PREFIX = "bearer."
 """A browser can't set a header on a WebSocket: it offers ``pons.v1, bearer.TOKEN`` as subprotocols,
@@ -65,7 +73,7 @@ class Access:
 
         Raises:
             NotAllowed: foreign host or origin, no valid token, a role that may not, or a body of
-                another type than JSON.
+                another type than the path takes: JSON, or sound for /v1/voice.
         """
         host = headers.get("host", "")
         self._check_host(host)
@@ -77,7 +85,7 @@ class Access:
             token = _offered(headers.get("sec-websocket-protocol", ""))
         role = self._role(token)
         if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
-            _check_type(headers.get("content-type", ""))
+            _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
             if role is not Role.OPERATOR:
                 raise NotAllowed(403, "operator_needed", f"a viewer may not {method} {path}")
         return role
@@ -142,11 +150,9 @@ def _same(given: str, expected: str) -> bool:
     return bool(expected) and hmac.compare_digest(given.encode(), expected.encode())
 
 
-def _check_type(content_type: str) -> None:
+def _check_type(content_type: str, expected: frozenset[str]) -> None:
     kind = content_type.partition(";")[0].strip().lower()
-    if kind != "application/json":
-        raise NotAllowed(
-            415,
-            "unsupported_media_type",
-            f"content type {content_type[:80]!r}; expected application/json",
-        )
+    if kind not in expected:
+        known = " or ".join(sorted(expected))
+        text = f"content type {content_type[:80]!r}; expected {known}"
+        raise NotAllowed(415, "unsupported_media_type", text)

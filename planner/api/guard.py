@@ -11,11 +11,13 @@ from starlette.exceptions import HTTPException
 
 from planner.api.access import Access, NotAllowed
 from planner.api.problems import response
+from planner.voice import MAX_BYTES
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MAX_BODY_BYTES = 256 * 1024
+LARGE_BODIES = {"/v1/voice": MAX_BYTES}
 WS_POLICY_VIOLATION = 1008
 
 _HEADERS = (
@@ -63,15 +65,14 @@ class Guard:
 
     async def _capped(self, scope: Scope, receive: Receive, send: Send) -> None:
         counted = 0
+        most = LARGE_BODIES.get(scope["path"], MAX_BODY_BYTES)
 
         async def counting_receive() -> Message:
             nonlocal counted
             message = await receive()
             counted += len(message.get("body", b""))
-            if not counted <= MAX_BODY_BYTES:
-                raise HTTPException(
-                    413, f"the body passed {MAX_BODY_BYTES} bytes, which is the cap"
-                )
+            if not counted <= most:
+                raise HTTPException(413, f"the body passed {most} bytes, which is the cap")
             return message
 
         async def sending(message: Message) -> None:

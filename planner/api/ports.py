@@ -1,4 +1,4 @@
-"""Say what the routes need of missions, robot and site: three small protocols, so that tests can
+"""Say what the routes need of missions, robot, site and ears: small protocols, so that tests can
 stand behind them and the routes know no zenoh and no journal.
 """
 
@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     from planner.mission import Leg
     from planner.plan import Goal, Language
+    from planner.voice import Recogniser
     from planner.world import Site
     from wire import Answer, OpKind, OpRequest, RobotDescription, Status
 
@@ -91,3 +92,6 @@ class Services(Protocol):
 
     @property
     def site(self) -> Site: ...
+
+    @property
+    def ears(self) -> Recogniser: ...

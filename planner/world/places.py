@@ -57,6 +57,11 @@ class Place(Record):
         names = (self.name.en, self.name.zh, *self.aliases.en, *self.aliases.zh)
         return (self.id, plain, *names)
 
+    @property
+    def said_in_english(self) -> tuple[str, ...]:
+        """Return the English names, as a recogniser of speech may expect them."""
+        return (self.name.en, *self.aliases.en)
+
     def contains(self, x_m: float, y_m: float) -> bool:
         """Tell whether a point of ``map`` lies in the outline; never where there is none."""
         return self.polygon is not None and contains(self.polygon, x_m, y_m)

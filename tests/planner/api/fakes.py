@@ -12,6 +12,7 @@ from typing import Any
 from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
+from planner.voice import Heard, Sound, VoiceFailure
 from planner.world import Site
 from tests.wire.examples import STATUS
 from wire import Answer, OpKind, OpRequest, RobotDescription, Status
@@ -136,10 +137,25 @@ class FakeRobot:
         self.steers.append((source, v_mps, w_radps, dead_man))
 
 
+class FakeEars:
+    """Hear what the test says."""
+
+    def __init__(self) -> None:
+        self.heard: Heard | VoiceFailure = Heard("go to the kitchen", 0.9, understood=True)
+        self.sounds: list[Sound] = []
+
+    async def hear(self, sound: Sound) -> Heard:
+        self.sounds.append(sound)
+        if isinstance(self.heard, VoiceFailure):
+            raise self.heard
+        return self.heard
+
+
 class FakeServices:
     """Hold one of each."""
 
     def __init__(self, status: Status | None = STATUS) -> None:
         self.goals = FakeGoals()
         self.robot = FakeRobot(status)
+        self.ears = FakeEars()
         self.site = Site.load(ROOT / "sites" / "two_room")

@@ -1,0 +1,108 @@
+"""Serve spoken goals: check the recording, hear it, and hand the text on as typed text is."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Query, Request, Response
+from pydantic import BaseModel, ConfigDict
+
+from planner.api.goals import IdempotencyKey
+from planner.api.operator import persons_act
+from planner.api.ports import Services
+from planner.api.problems import Problem
+from planner.brain.stoplane import is_stop
+from planner.plan import Bilingual, Goal, Language
+from planner.voice import BadRecording, Heard, VoiceFailure, read_wav
+
+STATUS = {
+    "not_wav": 415,
+    "wav_unsupported": 415,
+    "audio_too_long": 413,
+    "body_too_large": 413,
+}
+NOT_HEARD = Bilingual(
+    en="I did not hear an order that I know, so nothing moves. Say for example: go to the kitchen.",
+    zh="没有听到能确认的英文指令，机器人不会移动。中文目前请用文字输入。",
+)
+_BODY: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {"audio/wav": {"schema": {"type": "string", "format": "binary"}}},
+    }
+}
+
+Confirm = Annotated[bool, Query(description="Show the plan and wait for a yes")]
+Replace = Annotated[bool, Query(description="Forget the running goal and the queue")]
+
+
+class SpokenOutcome(BaseModel):
+    """Say whether the recording became a goal, and if not, why."""
+
+    model_config = ConfigDict(frozen=True)
+
+    code: Literal["heard", "not_heard"]
+    message: Bilingual | None = None
+
+
+class Spoken(BaseModel):
+    """Say what was heard and what became of it."""
+
+    model_config = ConfigDict(frozen=True)
+
+    transcript: str
+    confidence: float
+    understood: str | None = None
+    """The text that became the goal; none where nothing was heard surely enough."""
+    goal: Goal | None = None
+    outcome: SpokenOutcome
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the voice route."""
+    router = APIRouter(prefix="/v1", tags=["goals"])
+
+    @router.post("/voice", status_code=202, operation_id="give_spoken_goal", openapi_extra=_BODY)
+    async def speak(
+        request: Request,
+        response: Response,
+        confirm: Confirm = False,
+        replace: Replace = False,
+        idempotency_key: IdempotencyKey = None,
+    ) -> Spoken:
+        """Give a goal by an English recording (WAV, 16-bit PCM, at most 15 s).
+
+        202 with the goal; 200 without one where no order was heard surely enough: nothing moves.
+        """
+        heard = await _heard(services, await request.body())
+        if not heard.understood:
+            response.status_code = 200
+            outcome = SpokenOutcome(code="not_heard", message=NOT_HEARD)
+            return Spoken(transcript=heard.transcript, confidence=heard.confidence, outcome=outcome)
+        text = heard.transcript
+        goal = await services.goals.submit(
+            text,
+            language=Language.EN,
+            confirm=confirm,
+            replace=replace,
+            idempotency_key=idempotency_key,
+            act=None if is_stop(text) else persons_act(services.robot, None),
+        )
+        return Spoken(
+            transcript=text,
+            confidence=heard.confidence,
+            understood=text,
+            goal=goal,
+            outcome=SpokenOutcome(code="heard"),
+        )
+
+    return router
+
+
+async def _heard(services: Services, data: bytes) -> Heard:
+    try:
+        return await services.ears.hear(read_wav(data))
+    except BadRecording as bad:
+        raise Problem(STATUS.get(bad.code, 400), bad.code, bad.detail) from None
+    except VoiceFailure as failure:
+        raise Problem(503, failure.code, failure.detail) from None

@@ -1,0 +1,45 @@
+"""Own what a recogniser is: one recording in, a text with a confidence out. Knows no engine.
+
+Another recogniser (for Chinese, say) takes the place of the built-in one by this Protocol alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from planner.voice.wav import Sound
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """Hold what was heard. Only an ``understood`` text may become a goal."""
+
+    transcript: str
+    """What was said, as far as it was heard; empty for silence."""
+    confidence: float
+    """0 to 1; from one half on, the recogniser believes itself."""
+    understood: bool
+    """Whether the transcript is a whole order, heard with enough confidence."""
+
+
+class VoiceFailure(Exception):
+    """No recogniser can answer now; ``code`` is stable. Nothing was understood, nothing moves."""
+
+    def __init__(self, code: str, detail: str) -> None:
+        super().__init__(f"{code}: {detail}")
+        self.code = code
+        self.detail = detail
+
+
+class Recogniser(Protocol):
+    """Hear recordings, one at a time, without holding the event loop."""
+
+    async def hear(self, sound: Sound) -> Heard:
+        """Return what was heard.
+
+        Raises:
+            VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.
+        """
+        ...

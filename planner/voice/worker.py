@@ -1,0 +1,165 @@
+"""Run the recogniser in another process and keep one at hand. Knows pipes; not what is said.
+
+Started ahead of the first recording and again after a death, by whoever asks next. Whatever becomes
+of it, a caller gets an answer or a typed failure in bounded time.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import os
+import signal
+import sys
+from asyncio.subprocess import PIPE, Process
+from collections.abc import Sequence
+from typing import Any
+
+from planner.voice.frames import HEADER, lengths, pack, unpack
+from planner.voice.protocol import Heard, VoiceFailure
+from planner.voice.wav import Sound
+
+log = logging.getLogger(__name__)
+
+HEAR_S = 15.0
+"""For 15 s of speech on a board ten times slower than a desktop."""
+READY_S = 30.0
+MAX_WAITING = 3
+"""Recordings at a time; what a fourth says is old when its turn comes."""
+
+
+class VoiceWorker:
+    """Hear recordings in another process, in the names of one site."""
+
+    def __init__(self, names: Sequence[str], command: Sequence[str] | None = None) -> None:
+        self._names = tuple(names)
+        self._command = command or (sys.executable, "-m", "planner.voice.child")
+        self._process: Process | None = None
+        self._turn = asyncio.Lock()
+        self._waiting = 0
+        self._number = 0
+        self._warming: asyncio.Task[None] | None = None
+        self.left_out: tuple[str, ...] = ()
+
+    @property
+    def pid(self) -> int | None:
+        """Return the process's id while one runs."""
+        return None if self._process is None else self._process.pid
+
+    def warm(self) -> None:
+        """Start the process beside everything else, so that the first order need not wait."""
+        self._warming = asyncio.create_task(self._warm(), name="voice worker")
+
+    async def hear(self, sound: Sound) -> Heard:
+        """Return what was heard.
+
+        Raises:
+            VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.
+        """
+        if self._waiting >= MAX_WAITING:
+            text = f"{self._waiting} recordings are being heard; try again in a moment"
+            raise VoiceFailure("voice_busy", text)
+        self._waiting += 1
+        try:
+            async with self._turn:
+                return await self._hear(sound)
+        finally:
+            self._waiting -= 1
+
+    async def close(self) -> None:
+        """End the process and wait until it is gone. Safe to call twice."""
+        if self._warming is not None:
+            self._warming.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._warming
+        await self._bury()
+
+    async def _warm(self) -> None:
+        try:
+            async with self._turn:
+                await self._ready()
+        except VoiceFailure as failure:
+            log.warning("no spoken orders: %s", failure)
+
+    async def _hear(self, sound: Sound) -> Heard:
+        process = await self._ready()
+        self._number += 1
+        head = {"number": self._number, "rate_hz": sound.rate_hz, "channels": sound.channels}
+        try:
+            async with asyncio.timeout(HEAR_S):
+                answer = await self._exchange(process, pack(head, sound.pcm))
+            if answer.get("number") != self._number or "failed" in answer:
+                raise ValueError(str(answer.get("failed", "an answer out of turn")))
+            return _heard(answer)
+        except TimeoutError:
+            await self._bury()
+            raise VoiceFailure("voice_timed_out", f"after {HEAR_S:g} s") from None
+        except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
+            await self._bury()
+            raise VoiceFailure("recogniser_unavailable", f"it failed: {error}") from None
+        except BaseException:  # cancelled half-way: the next answer would be this one's
+            await self._bury()
+            raise
+
+    async def _ready(self) -> Process:
+        """Return a process that has said ready.
+
+        Raises:
+            VoiceFailure: there is none, and it says why.
+        """
+        if self._process is not None and self._process.returncode is None:
+            return self._process
+        await self._bury()
+        try:
+            self._process = process = await self._spawn()
+            async with asyncio.timeout(READY_S):
+                greeting = await self._exchange(process, pack({"names": self._names}))
+        except (TimeoutError, OSError, EOFError, ValueError) as error:
+            await self._bury()
+            text = f"it did not start: {str(error) or type(error).__name__}"
+            raise VoiceFailure("recogniser_unavailable", text) from None
+        except BaseException:
+            await self._bury()
+            raise
+        if "ready" not in greeting:
+            await self._bury()
+            raise VoiceFailure("recogniser_unavailable", str(greeting.get("refused")))
+        self.left_out = tuple(str(name) for name in greeting["ready"])
+        return process
+
+    async def _spawn(self) -> Process:
+        single = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # the bridge needs the cores
+        return await asyncio.create_subprocess_exec(
+            *self._command, stdin=PIPE, stdout=PIPE, env=os.environ | single
+        )
+
+    async def _exchange(self, process: Process, frame: bytes) -> dict[str, Any]:
+        if process.stdin is None or process.stdout is None:
+            raise ValueError("the process has no pipes")
+        process.stdin.write(frame)
+        await process.stdin.drain()
+        head, _ = lengths(await process.stdout.readexactly(HEADER.size))
+        return unpack(await process.stdout.readexactly(head))
+
+    async def _bury(self) -> None:
+        process, self._process = self._process, None
+        if process is not None:
+            await asyncio.shield(_reap(process))
+
+
+def _heard(answer: dict[str, Any]) -> Heard:
+    sure = answer["understood"] is True
+    return Heard(str(answer["transcript"]), float(answer["confidence"]), sure)
+
+
+async def _reap(process: Process) -> None:
+    if process.returncode is None:
+        # Not process.kill(): it reaps what has died, and asyncio's own watcher then finds no child.
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(process.pid, signal.SIGKILL)
+    if process.stdin is not None:
+        process.stdin.close()
+    if process.stdout is not None:
+        await process.stdout.read()
+    await process.wait()

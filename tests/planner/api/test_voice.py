@@ -1,0 +1,153 @@
+"""The voice route: what a recording must be, and what becomes of what is heard."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from planner.api import Access, build
+from planner.api.access import NotAllowed
+from planner.api.guard import MAX_BODY_BYTES
+from planner.plan import Language
+from planner.voice import MAX_BYTES, Heard, VoiceFailure
+from tests.planner.api.fakes import FakeServices
+from tests.planner.voice.speech import wav
+from tests.wire.examples import STATUS
+
+WAV = {"content-type": "audio/wav"}
+SECOND = wav(bytes(32_000))
+FREE = STATUS.model_copy(update={"held": None})
+
+
+@pytest.fixture
+def services() -> FakeServices:
+    return FakeServices(FREE)
+
+
+@pytest.fixture
+def client(services: FakeServices) -> Iterator[TestClient]:
+    app = build(services, Access("127.0.0.1"))
+    with TestClient(app, base_url="http://127.0.0.1:8420") as made:
+        yield made
+
+
+def code(answer: Any) -> str:
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert answer.json()["detail"]
+    return str(answer.json()["code"])
+
+
+@pytest.mark.parametrize("kind", ["audio/wav", "audio/x-wav", "audio/wav; codecs=1", "Audio/WAVE"])
+def test_what_is_heard_becomes_a_goal(
+    client: TestClient, services: FakeServices, kind: str
+) -> None:
+    headers = {"content-type": kind, "Idempotency-Key": "k"}
+    answer = client.post("/v1/voice?confirm=true&replace=true", content=SECOND, headers=headers)
+    assert answer.status_code == 202
+    body = answer.json()
+    assert body["transcript"] == body["understood"] == body["goal"]["text"] == "go to the kitchen"
+    assert body["confidence"] == 0.9
+    assert body["outcome"]["code"] == "heard"
+    assert services.goals.calls == [
+        ("submit", "go to the kitchen", Language.EN, True, True, "k"),
+    ]
+    assert services.ears.sounds[0].seconds == 1.0
+
+
+def test_what_is_not_heard_is_an_outcome_and_no_goal(
+    client: TestClient, services: FakeServices
+) -> None:
+    services.ears.heard = Heard("go to the kitchen", 0.3, understood=False)
+    answer = client.post("/v1/voice", content=SECOND, headers=WAV)
+    assert answer.status_code == 200
+    body = answer.json()
+    assert body["outcome"]["code"] == "not_heard"
+    assert body["outcome"]["message"]["en"]
+    assert body["outcome"]["message"]["zh"]
+    assert (body["goal"], body["understood"], body["transcript"]) == (
+        None,
+        None,
+        "go to the kitchen",
+    )
+    assert services.goals.calls == []
+
+
+def test_a_spoken_stop_carries_no_act_that_clears_a_hold() -> None:
+    services = FakeServices(STATUS)  # held
+    services.ears.heard = Heard("stop now", 0.6, understood=True)
+    app = build(services, Access("127.0.0.1"))
+    with TestClient(app, base_url="http://127.0.0.1:8420") as client:
+        assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
+        services.ears.heard = Heard("go home", 0.6, understood=True)
+        assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
+    assert [act is None for act in services.goals.acts] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("data", "status", "stable"),
+    [
+        (b"", 400, "audio_empty"),
+        (SECOND[:44], 400, "wav_truncated"),
+        (b"OggS" + bytes(99), 415, "not_wav"),
+        (wav(bytes(32_000), width=1), 415, "wav_unsupported"),
+        (wav(bytes(300_000), 8_000), 413, "audio_too_long"),
+        (wav(b""), 400, "audio_too_short"),
+        (bytes(MAX_BYTES + 1), 413, "body_too_large"),
+    ],
+)
+def test_a_bad_recording_is_a_problem(
+    client: TestClient, services: FakeServices, data: bytes, status: int, stable: str
+) -> None:
+    answer = client.post("/v1/voice", content=data, headers=WAV)
+    assert (answer.status_code, code(answer)) == (status, stable)
+    assert services.ears.sounds == []
+    assert services.goals.calls == []
+
+
+def test_a_body_of_100_mb_is_cut_off_while_it_comes(client: TestClient) -> None:
+    sent = 0
+
+    def endless() -> Iterator[bytes]:
+        nonlocal sent
+        for _ in range(100):
+            sent += 1
+            yield bytes(1_000_000)
+
+    answer = client.post("/v1/voice", content=endless(), headers=WAV)
+    assert (answer.status_code, code(answer)) == (413, "body_too_large")
+
+
+def test_only_voice_may_be_so_large(client: TestClient) -> None:
+    json = {"content-type": "application/json"}
+    answer = client.post("/v1/goals", content=b" " * (MAX_BODY_BYTES + 1), headers=json)
+    assert code(answer) == "body_too_large"
+    long_enough = wav(bytes(32_000 * 14))
+    assert len(long_enough) > MAX_BODY_BYTES
+    assert client.post("/v1/voice", content=long_enough, headers=WAV).status_code == 202
+
+
+@pytest.mark.parametrize(
+    "kind", ["", "application/json", "audio/ogg", "audio/webm;codecs=opus", "text/plain"]
+)
+def test_another_type_is_refused(client: TestClient, kind: str) -> None:
+    answer = client.post("/v1/voice", content=SECOND, headers={"content-type": kind})
+    assert (answer.status_code, code(answer)) == (415, "unsupported_media_type")
+
+
+def test_sound_is_taken_nowhere_else() -> None:
+    headers = {"host": "127.0.0.1", **WAV}
+    with pytest.raises(NotAllowed, match="unsupported_media_type"):
+        Access("127.0.0.1").judge("POST", "/v1/goals", headers)
+
+
+@pytest.mark.parametrize("stable", ["recogniser_unavailable", "voice_busy", "voice_timed_out"])
+def test_a_recogniser_that_fails_says_so(
+    client: TestClient, services: FakeServices, stable: str
+) -> None:
+    services.ears.heard = VoiceFailure(stable, "because")
+    answer = client.post("/v1/voice", content=SECOND, headers=WAV)
+    assert (answer.status_code, code(answer)) == (503, stable)
+    assert services.goals.calls == []

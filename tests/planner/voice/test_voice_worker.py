@@ -1,0 +1,159 @@
+"""The voice process and its keeper: answers, deaths, delays, crowds, and nothing left behind."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from collections.abc import AsyncIterator, Callable, Coroutine
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+
+from planner.voice import Heard, Sound, VoiceFailure, VoiceWorker, worker
+from planner.voice.frames import lengths, unpack
+
+SECOND = Sound(16_000, 1, bytes(32_000))
+ECHO = """
+import sys
+from planner.voice.frames import HEADER, lengths, pack, unpack
+def read():
+    header = sys.stdin.buffer.read(HEADER.size)
+    if not header: sys.exit(0)
+    head, body = lengths(header)
+    return unpack(sys.stdin.buffer.read(head)), sys.stdin.buffer.read(body)
+def write(**head):
+    sys.stdout.buffer.write(pack(head)); sys.stdout.buffer.flush()
+names, _ = read()
+write(ready=names["names"][1:])
+while True:
+    head, pcm = read()
+    {act}
+"""
+TELL = 'write(number=head["number"], transcript=str(len(pcm)), confidence=0.75, understood=True)'
+
+
+def stub(act: str) -> tuple[str, ...]:
+    return (sys.executable, "-c", ECHO.replace("{act}", act))
+
+
+@asynccontextmanager
+async def running(*command: str) -> AsyncIterator[VoiceWorker]:
+    ears = VoiceWorker(("kitchen", "xyzzy"), command or None)
+    try:
+        yield ears
+    finally:
+        await ears.close()
+        assert ears.pid is None
+
+
+def run(story: Callable[[], Coroutine[Any, Any, None]]) -> None:
+    asyncio.run(story())
+
+
+async def code_of(ears: VoiceWorker) -> str:
+    with pytest.raises(VoiceFailure) as failure:
+        await ears.hear(SECOND)
+    return failure.value.code
+
+
+def test_the_real_process_hears_silence_and_ends() -> None:
+    pytest.importorskip("pocketsphinx")
+
+    async def story() -> None:
+        async with running() as ears:
+            ears.warm()
+            assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
+            assert ears.left_out == ("xyzzy",)
+            pid = ears.pid
+            assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
+            assert ears.pid == pid
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid or 0, 0)
+
+    run(story)
+
+
+def test_recordings_come_whole_and_one_after_the_other() -> None:
+    async def story() -> None:
+        async with running(*stub(TELL)) as ears:
+            sounds = [Sound(16_000, 1, bytes(2 * n)) for n in (1_600, 240_000, 3)]
+            heard = await asyncio.gather(*map(ears.hear, sounds))
+            assert [one.transcript for one in heard] == ["3200", "480000", "6"]
+
+    run(story)
+
+
+def test_a_fourth_at_once_is_told_to_come_again() -> None:
+    async def story() -> None:
+        async with running(*stub(TELL)) as ears:
+            asked = [asyncio.create_task(ears.hear(SECOND)) for _ in range(worker.MAX_WAITING)]
+            await asyncio.sleep(0)
+            assert await code_of(ears) == "voice_busy"
+            assert all(heard.understood for heard in await asyncio.gather(*asked))
+
+    run(story)
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        "sys.exit(3)",
+        'sys.stdout.buffer.write(b"x" * 64); sys.stdout.buffer.flush()',
+        "write(number=0, transcript='', confidence=0.0, understood=True)",
+        "write(number=head['number'])",
+        "write(number=head['number'], failed='RuntimeError: broken')",
+    ],
+)
+def test_a_failure_is_typed_and_the_next_order_gets_a_new_process(act: str) -> None:
+    async def story() -> None:
+        async with running(*stub(act)) as ears:
+            assert await code_of(ears) == "recogniser_unavailable"
+            assert await code_of(ears) == "recogniser_unavailable"
+
+    run(story)
+
+
+def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(worker, "HEAR_S", 0.05)
+
+    async def story() -> None:
+        async with running(*stub("import time; time.sleep(60)")) as ears:
+            assert await code_of(ears) == "voice_timed_out"
+            assert ears.pid is None
+
+    run(story)
+
+
+def test_who_goes_away_leaves_no_answer_for_the_next() -> None:
+    async def story() -> None:
+        async with running(*stub("import time; time.sleep(0.2); " + TELL)) as ears:
+            task = asyncio.create_task(ears.hear(SECOND))
+            while ears.pid is None:  # noqa: ASYNC110
+                await asyncio.sleep(0.001)
+            await asyncio.sleep(0.05)
+            task.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await task
+            assert (await ears.hear(Sound(16_000, 1, bytes(4)))).transcript == "4"
+
+    run(story)
+
+
+@pytest.mark.parametrize("command", [("/no/such/program",), (sys.executable, "-c", "pass")])
+def test_where_there_is_no_recogniser_it_says_so(command: tuple[str, ...]) -> None:
+    async def story() -> None:
+        async with running(*command) as ears:
+            ears.warm()
+            await asyncio.sleep(0)
+            assert await code_of(ears) == "recogniser_unavailable"
+
+    run(story)
+
+
+def test_a_frame_too_long_is_no_frame() -> None:
+    with pytest.raises(ValueError, match="a frame of"):
+        lengths(b"\xff" * 8)
+    with pytest.raises(ValueError, match="no object"):
+        unpack(b"[1]")
