@@ -51,7 +51,7 @@ def check_horizon(
         ("first_point_far", _starts_here(points[0], robot_in_map)),
         ("bad_spacing", _spaced(points)),
         ("mixed_direction", _one_direction(points)),
-        ("bad_speed", all(_speed_fits(p.speed_mps, max_speed_mps) for p in points)),
+        ("bad_speed", _speeds_fit(points, max_speed_mps)),
         ("heading_not_last", all(p.heading_rad is None for p in points[:-1])),
         ("fence_crossed", fence is not None and _inside(points, robot_in_map, fence)),
     )
@@ -75,12 +75,13 @@ def _spaced(points: Sequence[Waypoint]) -> bool:
 
 
 def _one_direction(points: Sequence[Waypoint]) -> bool:
-    return all(p.speed_mps > 0.0 for p in points) or all(p.speed_mps < 0.0 for p in points)
+    speeds = [p.speed_mps for p in points]
+    return all(speed > 0.0 for speed in speeds) or all(speed < 0.0 for speed in speeds)
 
 
-def _speed_fits(speed_mps: float, max_speed_mps: float) -> bool:
+def _speeds_fit(points: Sequence[Waypoint], max_speed_mps: float) -> bool:
     low, high = MIN_SPEED_MPS - SPEED_TOLERANCE_MPS, max_speed_mps + SPEED_TOLERANCE_MPS
-    return low <= abs(speed_mps) <= high
+    return all(low <= abs(p.speed_mps) <= high for p in points)
 
 
 def _inside(points: Sequence[Waypoint], robot_in_map: Pose2, fence: Fence) -> bool:

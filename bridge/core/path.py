@@ -7,6 +7,7 @@ follower, so the speeds are those of a robot that brakes towards it. Knows no ro
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import accumulate
 from math import atan2, hypot, sqrt
 from typing import TYPE_CHECKING, ClassVar
 
@@ -63,16 +64,16 @@ def regulated(speed_mps: float, curve_per_m: float, radius_m: float, slowest_mps
 
 def prepare(points: Sequence[Waypoint], limits: Limits) -> Path:
     """Make the path of an accepted horizon (see :mod:`bridge.core.horizon`)."""
-    xs = tuple(p.x_m for p in points)
-    ys = tuple(p.y_m for p in points)
+    xs = tuple([p.x_m for p in points])
+    ys = tuple([p.y_m for p in points])
     gaps = [hypot(xs[i + 1] - xs[i], ys[i + 1] - ys[i]) for i in range(len(xs) - 1)]
-    along = [0.0]
-    for gap in gaps:
-        along.append(along[-1] + gap)
-    speeds = tuple(abs(p.speed_mps) for p in points)
+    along = list(accumulate(gaps, initial=0.0))
+    speeds = tuple([abs(p.speed_mps) for p in points])
     curves = _curves(xs, ys, along)
     exits = [
-        regulated(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
+        speed  # nearly always: spares the call
+        if curve * TURN_RADIUS_M <= 1.0
+        else regulated(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
         for speed, curve in zip(speeds, curves, strict=True)
     ]
     if exits:
@@ -95,10 +96,9 @@ def _curves(xs: tuple[float, ...], ys: tuple[float, ...], along: list[float]) ->
     """Return the curve at each point [rad/m]: all turning within a corner's length, over it."""
     count = len(xs)
     turns = [0.0] * count
+    headings = [atan2(ys[i + 1] - ys[i], xs[i + 1] - xs[i]) for i in range(count - 1)]
     for i in range(1, count - 1):
-        before = atan2(ys[i] - ys[i - 1], xs[i] - xs[i - 1])
-        after = atan2(ys[i + 1] - ys[i], xs[i + 1] - xs[i])
-        turns[i] = abs(wrap(after - before))
+        turns[i] = abs(wrap(headings[i] - headings[i - 1]))
     curves = []
     low = high = 0
     turned = 0.0

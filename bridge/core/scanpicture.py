@@ -75,7 +75,11 @@ class ScanPicture:
         first = lidar.yaw_rad + scan.angle_min_rad
         cosines, sines = _rays(first, scan.angle_increment_rad, len(scan.ranges_m))
         came = [r is not None and r <= high for r in scan.ranges_m]
-        ranges = [max(r, low) for r in compress(scan.ranges_m, came) if r is not None]
+        ranges: list[float] = list(compress(scan.ranges_m, came))  # type: ignore[arg-type]  # no None
+        nearest_m = min(ranges, default=high)
+        if not nearest_m >= low:  # rare: most scans have nothing so near
+            ranges = [max(r, low) for r in ranges]
+            nearest_m = low
         lx, ly = lidar.x_m, lidar.y_m
         xs = tuple(map(mul, ranges, compress(cosines, came)))
         ys = tuple(map(mul, ranges, compress(sines, came)))
@@ -88,7 +92,7 @@ class ScanPicture:
             xs_m=tuple([lx + x for x in xs]) if lx else xs,
             ys_m=tuple([ly + y for y in ys]) if ly else ys,
             before=tuple(accumulate(came, initial=0)),
-            nearest_m=min(ranges) - hypot(lx, ly) if ranges else None,
+            nearest_m=nearest_m - hypot(lx, ly) if ranges else None,
         )
 
     @property
