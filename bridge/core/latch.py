@@ -49,11 +49,23 @@ def update(tick: Tick, dirty: Dirty) -> None:
         kept[name] = RowUp(now_s if before is None else before.since_s, now_s, evidence)
     for name, up in rows.items():
         if name not in kept:
-            if STAGES[name].clears is Clears.AUTO and now_s - up.dirty_s >= STAGES[name].clean_s:
+            if _clean(tick, STAGES[name], now_s - up.dirty_s):
                 tick.say("row_down", name)
             else:
                 kept[name] = up
     tick.s.rows = kept
+
+
+def _clean(tick: Tick, stage: Stage, for_s: float) -> bool:
+    """Tell whether a stage whose trouble is over ends by itself.
+
+    BRAIN_LOST ends with an owner's return where nothing moves: without a grant nothing will. It is
+    judged anew in every tick, because an owner may come back while the robot is still stopping.
+    """
+    if stage.row == "BRAIN_LOST":
+        stands = tick.s.mode not in {Mode.ACTIVE, Mode.STOPPING}
+        return stands and tick.s.ownership.owner is not None
+    return stage.clears is Clears.AUTO and for_s >= stage.clean_s
 
 
 def worst(tick: Tick) -> tuple[Action, str, bool]:
@@ -94,12 +106,6 @@ def cap(tick: Tick) -> tuple[float, str]:
 def clear_on_grant(tick: Tick) -> None:
     """Let go what a new grant ends; a detector that is still dirty raises it again at once."""
     _let_go(tick, lambda stage: stage.clears is Clears.ON_GRANT)
-
-
-def clear_on_hello(tick: Tick) -> None:
-    """Let go BRAIN_LOST where nothing moves: without a grant nothing will."""
-    if tick.s.mode not in {Mode.ACTIVE, Mode.STOPPING}:
-        _let_go(tick, lambda stage: stage.row == "BRAIN_LOST")
 
 
 def clear_on_arm(tick: Tick) -> None:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from bridge.core.ages import sent_at
 from bridge.core.epoch import hold, turn
-from bridge.core.latch import clear_on_hello
 from bridge.core.verdicts import refuse_openly, settle_openly
 from wire import PROTOCOL, HeldReason, Owner
 
@@ -134,5 +133,4 @@ def _own(tick: Tick, hello: Hello, sent_s: float) -> None:
         waypoints_seq=None,
         external_seq=None,
     )
-    clear_on_hello(tick)
     tick.say("owner", f"{hello.kind} {hello.planner_id}")

@@ -66,6 +66,24 @@ def test_silence_is_held_within_31_ticks_of_the_newest_echo(phase: int) -> None:
     assert world.is_in(Mode.STOPPING)
 
 
+def test_a_lost_brain_that_returns_while_the_robot_stops_is_not_called_lost() -> None:
+    world = World().driving()
+    assert world.planner is not None
+    world.planner.silent = True
+    while world.is_in(Mode.ACTIVE):
+        world.tick()
+    world.planner.silent, world.planner.mission = False, None  # it is back and wants nothing
+    for _ in range(200):
+        if world.state.ownership.owner is None:
+            world.tick()
+    assert world.state.ownership.owner is not None
+    assert world.is_in(Mode.STOPPING), "it stands, and the stop's 200 ms are not over"
+    assert raised(world, "BRAIN_LOST.0"), "a stop is finished before it is forgotten"
+    world.until(Mode.HOLD, 2.0)
+    world.run(0.1)
+    assert not raised(world, "BRAIN_LOST.0")
+
+
 def test_brain_gone_disarms_after_5_s() -> None:
     world = World().driving()
     assert world.planner is not None
