@@ -22,7 +22,8 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
     said = words.add_parser("say", help="give a goal, in English or Chinese, and follow it")
-    said.add_argument("text", nargs="+")
+    said.add_argument("text", nargs="*", help="the sentence")
+    said.add_argument("--wav", type=Path, metavar="FILE", help="a recording in its place (English)")
     said.add_argument("--no-wait", action="store_true", help="return when the goal is accepted")
     said.add_argument("--replace", action="store_true", help="forget the running goal")
     words.add_parser("stop", help="stop now and hold, with or without a planner")
@@ -88,7 +89,14 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         return operator.ask(settings, said.word)
     from pons import goals
 
+    if said.word == "say" and said.wav is not None:
+        if said.text:
+            raise BadSetting("two_orders: give a sentence or --wav FILE, not both")
+        wait = not said.no_wait
+        return goals.say_wav(settings, said.wav, wait=wait, replace=said.replace)
     if said.word == "say":
+        if not said.text:
+            raise BadSetting("no_order: give a sentence, or a recording with --wav FILE")
         text = " ".join(said.text)
         return goals.say(settings, text, wait=not said.no_wait, replace=said.replace)
     return goals.act(settings, said.word, said.goal)

@@ -19,6 +19,8 @@ from pons.texts import (
 )
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from pons.settings import Settings
 
 POLL_S = 0.2
@@ -26,6 +28,10 @@ LOST_LIMIT_S = 15.0
 """How long a planner may be away, restarting, before we stop waiting for it."""
 
 EXIT = {"succeeded": 0, "failed": 1, "refused": 3, "cancelled": 4}
+EXIT_NO_FILE = 2
+MAX_WAV_BYTES = 3_000_000
+"""As many as the planner takes; one more is sent, so that it is the planner who refuses."""
+WAV_TIMEOUT_S = 60.0
 EXIT_WAITING = 5
 EXIT_UNREACHED = 6
 
@@ -41,6 +47,29 @@ def say(settings: Settings, text: str, *, wait: bool, replace: bool = False) -> 
         return _trouble(trouble)
     print(goal_line(goal), flush=True)
     return _follow(settings, goal["id"], language_of(text)) if wait else 0
+
+
+def say_wav(settings: Settings, path: Path, *, wait: bool, replace: bool = False) -> int:
+    """Give a goal by a recording; tell what was heard and follow it."""
+    try:
+        with path.open("rb") as file:
+            sound = file.read(MAX_WAV_BYTES + 1)
+    except OSError as error:
+        print(f"unreadable_file: {path}: {error.strerror}", file=sys.stderr)
+        return EXIT_NO_FILE
+    address = "/v1/voice?replace=true" if replace else "/v1/voice"
+    sent = {"Content-Type": "audio/wav"}
+    try:
+        spoken = call(settings, "POST", address, None, WAV_TIMEOUT_S, sent, sound)
+    except (PlannerDown, Refused) as trouble:
+        return _trouble(trouble)
+    print(f"heard {spoken['transcript']!r} (confidence {spoken['confidence']:.2f})")
+    goal = spoken["goal"]
+    if goal is None:
+        print(f"  {message(spoken['outcome'], 'en')}\n  {message(spoken['outcome'], 'zh')}")
+        return EXIT["refused"]
+    print(goal_line(goal), flush=True)
+    return _follow(settings, goal["id"], "en") if wait else 0
 
 
 def language_of(text: str) -> str:

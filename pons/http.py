@@ -34,8 +34,9 @@ def call(
     body: dict[str, Any] | None = None,
     timeout_s: float = DEFAULT_TIMEOUT_S,
     headers: dict[str, str] | None = None,
+    content: bytes | None = None,
 ) -> Any:
-    """Return the JSON of the answer.
+    """Return the JSON of the answer. ``content`` goes as it is, its type among the headers.
 
     Raises:
         PlannerDown: no connection, no answer in time, or no JSON.
@@ -44,7 +45,8 @@ def call(
     connection = http.client.HTTPConnection(settings.host, settings.port, timeout=timeout_s)
     try:
         sent = {"Content-Type": "application/json", **(headers or {})} if method != "GET" else {}
-        payload = json.dumps(body or {}).encode() if method != "GET" else None
+        text = json.dumps(body or {}).encode() if content is None else content
+        payload = text if method != "GET" else None
         connection.request(method, path, body=payload, headers=sent)
         answer = connection.getresponse()
         status, raw = answer.status, answer.read(MAX_REPLY_BYTES)
