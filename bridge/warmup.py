@@ -6,6 +6,7 @@ the first stop pays for what Python and pydantic put off, milliseconds late.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core import (
@@ -114,59 +115,20 @@ def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox
 
 
 def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
-    key = VIRTUAL_KEY
-    epoch = f"{config.boot}-1"
-    proof = sign(key, "arm", config.robot.id, _NAME, _NAME)
+    """Return a tick in which everybody speaks."""
+    proof = sign(VIRTUAL_KEY, "arm", config.robot.id, _NAME, _NAME)
     arm = _over(ARM, OpRequest(id=_NAME, source=_NAME, proof=proof))
+    fits = authentic(VIRTUAL_KEY, "arm", config.robot.id, proof, _NAME)
     bad = decode(WAYPOINTS, b'{"points":[')
-    points = tuple(Waypoint(x_m=0.1 * n, y_m=0.0, speed_mps=0.3) for n in range(50))
-    return Inbox(
+    return replace(
+        _ordered(config, count),
         stops=(_over(STOP, Stop(id=_NAME, source=_NAME)),) if count % 50 == 0 else (),
-        ops=(OpArrived("arm", arm, authentic(key, "arm", config.robot.id, proof, _NAME)),),
-        hellos=(
-            _over(
-                HELLO,
-                Hello(
-                    planner_id=_NAME, kind="planner", seen=1, protocol=PROTOCOL,
-                    robot_hash=config.robot_hash, fence_hash=config.fence_hash,
-                    map_id=config.map_id,
-                ),
-            ),
-        ),
-        grants=(
-            _over(
-                GRANT,
-                Grant(
-                    planner_id=_NAME, epoch=epoch, seen=1, mission=_NAME, metres=1.0, seconds=1.0
-                ),
-            ),
-        ),
-        heartbeats=(
-            _over(HEARTBEAT, Heartbeat(planner_id=_NAME, epoch=epoch, seen=1, used=1)),
-        ),
+        ops=(OpArrived("arm", arm, fits),),
         localization=_over(
             LOCALIZATION,
             Localization(
                 odom_id=config.boot, seq=count, stamp_s=now_s, odom_in_map=IDENTITY, quality=1.0,
                 map_id=config.map_id,
-            ),
-        ),
-        teleop=(
-            _over(
-                TELEOP,
-                Velocity(
-                    source_id=_NAME, epoch=epoch, seq=count, seen=1, v_mps=0.0, w_radps=0.0,
-                    dead_man=False,
-                ),
-            ),
-        ),
-        waypoints=(
-            _over(
-                WAYPOINTS,
-                Waypoints(
-                    planner_id=_NAME, epoch=epoch, seq=count, seen=1, mission=_NAME, leg=1,
-                    map_id=config.map_id, ttl_s=0.5, points=points, final=False,
-                ),
             ),
         ),
         drive=base.drive,
@@ -184,6 +146,34 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
         arrived=(ArrivedAt(WAYPOINTS.path, 1),),
         recorder_ok=True,
     )  # fmt: skip
+
+
+def _ordered(config: CoreConfig, count: int) -> Inbox:
+    """Return what an owner and a stick say, each message through its bytes."""
+    epoch = f"{config.boot}-1"
+    points = tuple(Waypoint(x_m=0.1 * n, y_m=0.0, speed_mps=0.3) for n in range(50))
+    hello = Hello(
+        planner_id=_NAME, kind="planner", seen=1, protocol=PROTOCOL, robot_hash=config.robot_hash,
+        fence_hash=config.fence_hash, map_id=config.map_id,
+    )  # fmt: skip
+    grant = Grant(
+        planner_id=_NAME, epoch=epoch, seen=1, mission=_NAME, metres=1.0, seconds=1.0
+    )  # fmt: skip
+    velocity = Velocity(
+        source_id=_NAME, epoch=epoch, seq=count, seen=1, v_mps=0.0, w_radps=0.0, dead_man=False
+    )  # fmt: skip
+    waypoints = Waypoints(
+        planner_id=_NAME, epoch=epoch, seq=count, seen=1, mission=_NAME, leg=1,
+        map_id=config.map_id, ttl_s=0.5, points=points, final=False,
+    )  # fmt: skip
+    beat = Heartbeat(planner_id=_NAME, epoch=epoch, seen=1, used=1)
+    return Inbox(
+        hellos=(_over(HELLO, hello),),
+        grants=(_over(GRANT, grant),),
+        heartbeats=(_over(HEARTBEAT, beat),),
+        teleop=(_over(TELEOP, velocity),),
+        waypoints=(_over(WAYPOINTS, waypoints),),
+    )
 
 
 def _over(key: Key[M], message: M) -> M:
