@@ -99,7 +99,7 @@ def _config(robot: RobotDescription, site: Path) -> CoreConfig:
 
 
 def _drive(session: Session, robot: RobotDescription, boot: str) -> Drive:
-    return {"sim": SimDrive}[robot.drive.kind](session, robot, boot)
+    return {"sim": SimDrive}[robot.drive.kind](session, boot)
 
 
 def _loop(config: CoreConfig, parts: Parts, asked: _Asked) -> int:

@@ -41,7 +41,7 @@ class BridgeSide:
         self._step = step
         session = cast("Session", port)  # a port has a session's publishers and subscribers
         self._link = Link(session, config.robot.id, VIRTUAL_KEY)
-        self._drive = SimDrive(session, config.robot, config.boot)
+        self._drive = SimDrive(session, config.boot)
 
     def turn(self, now_s: float) -> Decision:
         """Drain, step, drive, tell: the shell's tick."""

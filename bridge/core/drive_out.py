@@ -81,7 +81,10 @@ def shaped(tick: Tick, asked: Twist2) -> LimiterState:
 
 
 def command(tick: Tick) -> DriveCommand:
-    """Write down the wheel speeds of what is sent."""
+    """Write down the wheel speeds of what is sent, the motors' dead zone fed forward.
+
+    Behind the limiter's memory, which keeps what was meant: rates and stopping stay true.
+    """
     s = tick.s
     robot = tick.config.robot
     wheels = feed_forward(

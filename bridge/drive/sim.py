@@ -1,7 +1,6 @@
 """Drive the simulated robot over its two keys. Knows the wire; not physics, not the core's state.
 
-The motors' dead zone is fed forward here, behind the limiter's memory: the core remembers what it
-meant, so its rates and its stopping distances stay true (FAULTS: limiter).
+A command goes out as the core made it, the motors' dead zone fed forward there already.
 """
 
 from __future__ import annotations
@@ -10,13 +9,11 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from bridge.core.kinematics import Wheels, feed_forward
 from wire import DriveCommand, DriveState, Rejected, decode
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE
 
 if TYPE_CHECKING:
     from bridge.drive.base import Braking
-    from wire import RobotDescription
     from wire.session import Session
 
 _PARSED = 4
@@ -34,11 +31,9 @@ class SimDrive:
     virtual = True
     braking: Braking = "brake"
 
-    def __init__(self, session: Session, robot: RobotDescription, boot: str) -> None:
+    def __init__(self, session: Session, boot: str) -> None:
         self._commands = session.publisher(DRIVE_COMMAND)
         self._states = session.subscriber(DRIVE_STATE)
-        self._dead_zone_radps = robot.drive.dead_zone_radps
-        self._most_radps = robot.limits.max_wheel_radps
         self._boot = boot
         self._seq = 0
 
@@ -50,26 +45,13 @@ class SimDrive:
         if command is None:
             return
         self._seq = command.seq
-        self._commands.put(self._lifted(command))
+        self._commands.put(command)
 
     def halt(self) -> None:
         for _ in range(_HALT_SENDS):
             self._seq += 1
             self._send_zero()
             time.sleep(_HALT_GAP_S)
-
-    def _lifted(self, command: DriveCommand) -> DriveCommand:
-        meant = Wheels(command.left_radps, command.right_radps)
-        fed = feed_forward(meant, self._dead_zone_radps, self._most_radps)
-        if fed is meant:
-            return command
-        return DriveCommand(
-            boot=command.boot,
-            seq=command.seq,
-            left_radps=fed.left_radps,
-            right_radps=fed.right_radps,
-            enable=command.enable,
-        )
 
     def _send_zero(self) -> None:
         try:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from tests.bridge.core.fake_planner import FakeDrive, FakePlanner
 
 from bridge.core import Inbox
+from tests.bridge.core.fake_planner import FakeDrive, FakePlanner
 from tests.bridge.core.scripted import World
 from wire import HeldReason, Mode, Pose2, Waypoints
 

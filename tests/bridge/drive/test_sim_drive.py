@@ -11,9 +11,8 @@ import pytest
 from bridge.drive import Drive, SimDrive
 from tests.bridge.ground import until
 from tests.wire.examples import EXAMPLES
-from wire import DriveCommand, DriveState, Misconfigured, RobotDescription
+from wire import DriveCommand, DriveState, Misconfigured
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, Party
-from wire.robot import DriveConfig
 from wire.session import Session, Subscriber, open_session
 
 STATE = EXAMPLES[DriveState]
@@ -36,9 +35,8 @@ def robot(bridge: Session, tmp_path: Path) -> Iterator[Session]:
         yield session
 
 
-def drive_of(session: Session, dead_zone_radps: float = 0.0) -> SimDrive:
-    description = RobotDescription(drive=DriveConfig(dead_zone_radps=dead_zone_radps))
-    return SimDrive(session, description, "b1")
+def drive_of(session: Session) -> SimDrive:
+    return SimDrive(session, "b1")
 
 
 def next_command(drive: Drive, ears: Subscriber[DriveCommand], sent: DriveCommand) -> DriveCommand:
@@ -62,15 +60,6 @@ def test_it_is_virtual_and_brakes(bridge: Session) -> None:
 def test_a_command_arrives_as_it_was_given(bridge: Session, robot: Session) -> None:
     drive, ears = drive_of(bridge), robot.subscriber(DRIVE_COMMAND)
     assert next_command(drive, ears, command(1.25, -0.5)) == command(1.25, -0.5)
-
-
-def test_the_dead_zone_is_fed_forward_and_the_rest_left_alone(
-    bridge: Session, robot: Session
-) -> None:
-    drive, ears = drive_of(bridge, dead_zone_radps=0.3), robot.subscriber(DRIVE_COMMAND)
-    assert next_command(drive, ears, command(1.0, -1.0)) == command(1.3, -1.3)
-    at_most = next_command(drive, ears, command(9.9, 0.0, seq=8))
-    assert (at_most.left_radps, at_most.right_radps, at_most.seq) == (10.0, 0.0, 8)
 
 
 def test_readings_come_in_order(bridge: Session, robot: Session) -> None:

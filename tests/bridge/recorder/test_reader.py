@@ -15,6 +15,11 @@ from tests.bridge.ground import core_config, run_core
 CONFIG = core_config()
 
 
+def packed(lines: bytes) -> bytes:
+    """Return the same bytes whenever it is asked: test ids are made of them."""
+    return gzip.compress(lines, mtime=0)
+
+
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     lines: list[bytes] = []
@@ -30,7 +35,7 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     run_core(CONFIG, [EMPTY] * 40, take)
     path = tmp_path_factory.mktemp("r") / "r.jsonl.gz"
-    path.write_bytes(gzip.compress(b"".join(lines)))
+    path.write_bytes(packed(b"".join(lines)))
     return path
 
 
@@ -56,10 +61,10 @@ def test_a_file_cut_anywhere_gives_its_whole_lines(recording: Path, tmp_path: Pa
     ("content", "code"),
     [
         (b"plain text", "recording_not_gzip"),
-        (gzip.compress(b"not json\n"), "recording_invalid"),
-        (gzip.compress(b'{"kind":"tick"}\n'), "recording_invalid"),
-        (gzip.compress(b'{"kind":"gap","ticks":3}\n'), "recording_headless"),
-        (gzip.compress(b'{"kind":"header","version":2,"config":{}}\n'), "recording_invalid"),
+        (packed(b"not json\n"), "recording_invalid"),
+        (packed(b'{"kind":"tick"}\n'), "recording_invalid"),
+        (packed(b'{"kind":"gap","ticks":3}\n'), "recording_headless"),
+        (packed(b'{"kind":"header","version":2,"config":{}}\n'), "recording_invalid"),
     ],
 )
 def test_what_is_no_recording_is_refused(content: bytes, code: str, tmp_path: Path) -> None:
@@ -78,6 +83,6 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
 
 def test_a_line_without_end_does_not_fill_the_memory(tmp_path: Path) -> None:
     path = tmp_path / "long"
-    path.write_bytes(gzip.compress(b"x" * (5 << 20)))
+    path.write_bytes(packed(b"x" * (5 << 20)))
     with pytest.raises(BadRecording, match="exceeds"):
         prefix(path)
