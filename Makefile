@@ -34,11 +34,11 @@ WHOLE := $(wildcard tests/web tests/e2e/test_model.py)
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 5 min on 2 cores)
 	@$(BIN)/python -m pytest -n logical --maxprocesses 4 -m "not e2e and not home" $(ARGS)
-	@exec $(BIN)/python -m pytest $(STORIES) $(ARGS)
+	@exec scripts/stories.sh $(STORIES) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try the page and models on the running system
-	@$(BIN)/python -m pytest -m home --timeout 600 $(ARGS)
-	@exec $(BIN)/python -m pytest -m e2e $(WHOLE) $(ARGS)
+	@scripts/stories.sh -m home --timeout 600 $(ARGS)
+	@exec scripts/stories.sh -m e2e $(WHOLE) $(ARGS)
 
 check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py
