@@ -12,9 +12,8 @@ from dataclasses import replace
 from random import Random
 from typing import TypeVar
 
-from tests.bridge.core.fake_planner import MAP_ID
-
 from bridge.core import ArrivedAt, BridgeState, CoreConfig, Inbox, LoopFacts, OpArrived, RejectedAt
+from tests.bridge.core.fake_planner import MAP_ID
 from wire import (
     PROTOCOL,
     DriveState,

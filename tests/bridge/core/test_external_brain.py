@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from tests.bridge.core.fake_planner import FakePlanner
 
+from tests.bridge.core.fake_planner import FakePlanner
 from tests.bridge.core.scripted import World
 from wire import Action, Mode, Velocity
 
