@@ -15,6 +15,7 @@ from bench.measure import (
     planner_silent,
     suite_time,
     tick_lateness,
+    voice,
 )
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ ALL: tuple[Measure, ...] = cast(
         footprint,
         goal_to_waypoint,
         endpoint,
+        voice,
         brain_silent,
         planner_silent,
         clone_to_url,

@@ -39,6 +39,11 @@ def maybe(form: Form) -> Form:
     return Form(f"[{form.jsgf}]", f"(?:{form.pattern})?")
 
 
+def any_number(form: Form) -> Form:
+    """Say it as often as wanted, or not at all."""
+    return Form(f"({form.jsgf})*", f"(?:{form.pattern})*")
+
+
 def after(*forms: Form) -> Form:
     """Say these one after the other."""
     jsgf = " ".join(form.jsgf for form in forms)
@@ -48,6 +53,15 @@ def after(*forms: Form) -> Form:
 def any_of(*texts: str) -> Form:
     """Say one of these texts."""
     return one_of(*map(words, texts))
+
+
+def _file(said: Form) -> str:
+    return f"#JSGF V1.0;\ngrammar spoken;\npublic <said> = {said.jsgf};\n"
+
+
+_STOPS = ("stop", "stop now", "please stop")
+STOPS = _file(any_of(*_STOPS))
+"""The grammar of the stops alone, for a second look at what was no whole order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +78,11 @@ class Language:
         return self.orders.fullmatch(f"{transcript} ") is not None
 
 
+def is_stop(transcript: str) -> bool:
+    """Tell whether a transcript is one of the stops that are in every grammar."""
+    return transcript in _STOPS
+
+
 def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> Language:
     """Return what may be said about places with these names.
 
@@ -75,8 +94,7 @@ def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> Lang
     left_out = tuple(name for name in unique if name not in set(kept))
     orders = _orders(any_of(*kept) if kept else None)
     decoys = _decoys(any_of(*kept) if kept else None)
-    jsgf = f"#JSGF V1.0;\ngrammar orders;\npublic <said> = {one_of(orders, decoys).jsgf};\n"
-    return Language(jsgf, re.compile(orders.pattern), left_out)
+    return Language(_file(one_of(orders, decoys)), re.compile(orders.pattern), left_out)
 
 
 def _all(name: str, pronounced: Callable[[str], bool]) -> bool:
@@ -84,18 +102,15 @@ def _all(name: str, pronounced: Callable[[str], bool]) -> bool:
 
 
 def _orders(place: Form | None) -> Form:
-    please = maybe(words("please"))
-    stop = any_of("stop", "stop now", "please stop")
     back = any_of("come back", "return home", "go home")
-    asked = any_of("where are you")
+    asked = words("where are you")
+    alone = one_of(any_of(*_STOPS), asked, after(maybe(words("please")), back))
     if place is None:
-        return one_of(stop, asked, after(please, back, please))
+        return alone
     the = after(words("the"), place)
-    go = after(any_of("go to", "drive to", "move to"), the)
-    then = any_of("then", "and", "and then")
-    more = maybe(after(then, one_of(go, the, back)))
-    courtesy = maybe(any_of("please", "can you", "could you"))
-    return one_of(stop, asked, after(courtesy, go, more, more, please), after(please, back, please))
+    go = after(_GO, the)
+    more = after(_THEN, one_of(go, the, back))
+    return one_of(alone, after(maybe(_COURTESY), go, any_number(more), maybe(words("please"))))
 
 
 def _decoys(place: Form | None) -> Form:
@@ -103,7 +118,10 @@ def _decoys(place: Form | None) -> Form:
     alone = one_of(after(never, words("stop")), words("go away"))
     if place is None:
         return alone
-    the = after(words("the"), place)
-    away = after(never, any_of("go to", "drive to", "move to"), the)
-    other = after(any_of("open", "close", "clean", "find", "in", "at", "on"), the)
-    return one_of(alone, away, other)
+    other = one_of(after(never, _GO), any_of("open", "close", "clean", "find", "in", "at", "on"))
+    return one_of(alone, after(other, words("the"), place))
+
+
+_GO = any_of("go to", "drive to", "move to")
+_THEN = any_of("then", "and", "and then")
+_COURTESY = any_of("please", "can you", "could you")
