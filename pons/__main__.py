@@ -36,6 +36,13 @@ def parser() -> argparse.ArgumentParser:
     word.add_argument("goal", nargs="?")
     for kind, what in _OPERATOR.items():
         words.add_parser(kind, help=what)
+    seen = words.add_parser(
+        "doctor",
+        help="say what this machine lacks and how to mend it",
+        description="Exit status: 0 all is well, 1 something works less well, 2 must be mended.",
+    )
+    seen.add_argument("--json", action="store_true")
+    seen.add_argument("--jitter", action="store_true", help="measure a 100 Hz loop for 5 s")
     again = words.add_parser("replay", help="run a recording again and compare every command")
     again.add_argument("file")
     words.add_parser(MOCK_LLM, help="serve a model that is none, with faults: mock-llm --help")
@@ -77,6 +84,10 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         given = {"site": said.site, "robot": said.robot, "port": port}
         chosen = {name: value for name, value in given.items() if value is not None}
         return up.run(replace(settings, **chosen))
+    if said.word == "doctor":
+        from pons import doctor
+
+        return doctor.run(settings, as_json=said.json, jitter=said.jitter)
     if said.word == "replay":
         from pons import replay
 

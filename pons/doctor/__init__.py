@@ -1,0 +1,8 @@
+"""Say what this machine lacks for the robot, and how to mend it: ``pons doctor``.
+
+Changes nothing, starts nothing that lasts, and works with or without a running robot.
+"""
+
+from pons.doctor.command import run
+
+__all__ = ["run"]

@@ -1,0 +1,142 @@
+"""Check where the robot's state and description lie: home folder, sockets, port, robot, site."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import socket
+from contextlib import closing
+from pathlib import Path
+
+from planner.world import Site, SiteError
+from pons.doctor.finding import Finding, Words, fail, ok, warn
+from pons.up import MIN_FREE_BYTES
+from wire import Misconfigured, RobotDescription, load_robot
+from wire.sockets import LISTENERS, MAX_SOCKET_PATH, Endpoints
+
+ROOMY_BYTES = 10 * MIN_FREE_BYTES
+"""Recordings of a day."""
+
+
+def robot(path: Path) -> tuple[Finding, RobotDescription]:
+    """Read robot.toml; what can't be read counts as the default robot for the other checks."""
+    try:
+        described = load_robot(path)
+    except Misconfigured as wrong:
+        fix = Words("mend the file; `pons up` refuses it as it is", "请修正该文件，否则无法启动")
+        return fail("robot", Words(str(wrong), str(wrong)), fix), RobotDescription()
+    kind = described.drive.kind
+    return ok("robot", f"{described.id}, {kind} drive", f"{described.id}，驱动 {kind}"), described
+
+
+def site(path: Path) -> tuple[Finding, Site | None]:
+    """Load the site with all that the planner checks."""
+    try:
+        loaded = Site.load(path)
+    except SiteError as wrong:
+        fix = Words(
+            "mend the site, or choose another with PONS_SITE", "请修正场地或用 PONS_SITE 另选"
+        )
+        return fail("site", Words(str(wrong), str(wrong)), fix), None
+    count = len(loaded.places)
+    return ok(
+        "site", f"{path.name}, {count} rooms and places", f"{path.name}，{count} 处地点"
+    ), loaded
+
+
+def home(path: Path) -> Finding:
+    """Look whether the home folder is ours alone to write; keys and the journal lie in it."""
+    nearest = next(folder for folder in (path, *path.parents) if folder.exists())
+    if not nearest.is_dir() or not os.access(nearest, os.W_OK | os.X_OK):
+        return fail(
+            "home",
+            Words(f"{nearest} can't be written by this user", f"当前用户无法写入 {nearest}"),
+            Words("change its owner, or set PONS_HOME", "请更改所有者或设置 PONS_HOME"),
+        )
+    if path.exists() and path.stat().st_mode & 0o022:
+        return warn(
+            "home",
+            Words(f"{path} can be written by others", f"其他用户可以写入 {path}"),
+            Words(f"chmod go-w {path}", f"chmod go-w {path}"),
+        )
+    state = "is there" if path.exists() else "will be made"
+    return ok("home", f"{path} {state}", f"{path} {'已存在' if path.exists() else '将被创建'}")
+
+
+def disk(path: Path) -> Finding:
+    """Look for room for recordings and the journal."""
+    nearest = next(folder for folder in (path, *path.parents) if folder.exists())
+    free = shutil.disk_usage(nearest).free
+    shown = f"{free / 1e9:.1f} GB"
+    if free >= ROOMY_BYTES:
+        return ok("disk", f"{shown} free", f"剩余 {shown}")
+    grade = warn if free >= MIN_FREE_BYTES else fail
+    return grade(
+        "disk",
+        Words(f"{shown} free in {nearest}", f"{nearest} 剩余 {shown}"),
+        Words("delete old recordings, or set PONS_HOME to a larger disk",
+              "请删除旧录制文件或将 PONS_HOME 设到更大的磁盘"),
+    )  # fmt: skip
+
+
+def sockets(path: Path) -> Finding:
+    """Look at the socket paths, and for what dead processes left."""
+    where = Endpoints(path)
+    longest = max(len(os.fsencode(where.socket(party))) for party in LISTENERS)
+    if not longest <= MAX_SOCKET_PATH:
+        return fail(
+            "sockets",
+            Words(f"socket paths of {longest} bytes; the kernel takes {MAX_SOCKET_PATH}",
+                  f"套接字路径 {longest} 字节，内核最多 {MAX_SOCKET_PATH}"),
+            Words("set PONS_HOME to a shorter folder", "请将 PONS_HOME 设为更短的目录"),
+        )  # fmt: skip
+    live = listening(path)
+    stale = [
+        party.value
+        for party in LISTENERS
+        if where.socket(party).exists() and party.value not in live
+    ]
+    if stale:
+        names = ", ".join(stale)
+        return ok("sockets", f"left by dead processes and replaced at the next start: {names}",
+                  f"已退出的进程留下，下次启动时会替换：{names}")  # fmt: skip
+    said = f"in use by a running robot: {', '.join(live)}" if live else "free"
+    return ok("sockets", said, f"机器人正在运行：{', '.join(live)}" if live else "空闲")
+
+
+def listening(path: Path) -> list[str]:
+    """Return which listeners of a home folder live."""
+    run = path / "run"
+    return [party.value for party in LISTENERS if _held(run / f"{party.value}.lock")]
+
+
+def _held(lock: Path) -> bool:
+    """Tell whether a living process holds a lock, without making or keeping it."""
+    try:
+        with lock.open("r") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False
+    return False
+
+
+def port(host: str, number: int, *, running: bool) -> Finding:
+    """Look whether page and API can listen."""
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(host, number, type=socket.SOCK_STREAM)[0]
+        with closing(socket.socket(family, kind)) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(address)
+    except OSError as error:
+        if running:
+            return ok("port", f"{host}:{number} serves the running robot",
+                      f"{host}:{number} 正由运行中的机器人使用")  # fmt: skip
+        return fail(
+            "port",
+            Words(f"{host}:{number}: {error.strerror or error}", f"{host}:{number}：无法监听"),
+            Words("stop what listens there, or set PONS_PORT", "请停止占用者或设置 PONS_PORT"),
+        )
+    return ok("port", f"{host}:{number} is free", f"{host}:{number} 空闲")

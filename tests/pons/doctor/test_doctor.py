@@ -1,0 +1,216 @@
+"""What the doctor finds: each fault by its name, with what to do; and nothing is changed."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import shutil
+import socket
+import sys
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from bridge.realtime import Right
+from pons.__main__ import main
+from pons.doctor import command, jitter, machine, mind, place
+from pons.doctor.finding import Finding, Verdict, Words
+from pons.settings import CHECKOUT, Settings
+
+TWO_ROOM = CHECKOUT / "sites" / "two_room"
+
+
+def free_port() -> int:
+    with closing(socket.socket()) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    home = tmp_path / "h"
+    return Settings(home, CHECKOUT / "robot.toml", TWO_ROOM, "127.0.0.1", free_port())
+
+
+def assert_says(found: Finding, verdict: Verdict, *parts: str) -> None:
+    assert found.verdict is verdict, found
+    assert (found.fix is None) == (verdict is Verdict.OK)
+    for part in parts:
+        assert part in found.found.en, found
+    for words in (found.found, found.fix):
+        assert words is None or (words.en and words.zh)
+
+
+def test_every_check_reports_once_and_nothing_is_made(settings: Settings) -> None:
+    found = command.findings(settings)
+    names = [one.name for one in found]
+    assert len(set(names)) == len(names) == 13
+    for one in found:
+        assert_says(one, one.verdict)
+    assert not settings.home.exists(), "the doctor makes nothing"
+
+
+def test_the_worst_finding_is_the_exit_status(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = Words("a", "甲")
+    for worst, status in ((Verdict.OK, 0), (Verdict.WARN, 1), (Verdict.FAIL, 2)):
+        fix = None if worst is Verdict.OK else words
+        shown = [Finding("fine", Verdict.OK, words), Finding("it", worst, words, fix)]
+        monkeypatch.setattr(command, "findings", lambda _settings, shown=shown: shown)
+        assert command.run(settings) == status
+    assert "FAIL  it" in capsys.readouterr().out
+
+
+def test_json_is_for_machines(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path / "h"))
+    monkeypatch.setenv("PONS_SITE", str(TWO_ROOM))
+    assert main(["doctor", "--json"]) in (0, 1, 2)
+    content = json.loads(capsys.readouterr().out)
+    assert {"name", "verdict", "found", "fix"} == set(content["findings"][0])
+
+
+def test_an_old_python_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "version_info", (3, 9, 1))
+    assert_says(machine.python(), Verdict.FAIL, "3.11")
+
+
+def test_large_pages_are_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "sysconf", lambda _: 16_384)
+    assert_says(machine.page_size(), Verdict.WARN, "16 KiB")
+
+
+@pytest.mark.parametrize(("virtual", "verdict"), [(True, Verdict.WARN), (False, Verdict.FAIL)])
+def test_no_real_time_is_worse_on_metal(
+    monkeypatch: pytest.MonkeyPatch, virtual: bool, verdict: Verdict
+) -> None:
+    refused = Right("fifo", granted=False, detail="priority 60: not permitted")
+    monkeypatch.setattr(machine, "take_fifo", lambda _: refused)
+    assert_says(machine.real_time(60, virtual=virtual), verdict, "not permitted")
+
+
+def test_real_time_is_tried_in_a_thread_of_its_own() -> None:
+    before = os.sched_getscheduler(0)
+    machine.real_time(60, virtual=True)
+    assert os.sched_getscheduler(0) == before
+
+
+def test_memory_that_cant_be_locked_is_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(machine, "_LOCK", "print(0, 'RLIMIT_MEMLOCK is 8 bytes')")
+    assert_says(machine.locked_memory(), Verdict.WARN, "8 bytes")
+    monkeypatch.setattr(machine, "_LOCK", "raise SystemExit('broken')")
+    assert_says(machine.locked_memory(), Verdict.WARN, "broken")
+
+
+def test_node_is_never_needed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    assert_says(machine.node(), Verdict.OK, "Python package")
+    monkeypatch.setattr(shutil, "which", lambda _: "/no/such/node")
+    assert_says(machine.node(), Verdict.OK, "Python package")
+
+
+def test_a_home_that_others_may_write_is_a_warning(tmp_path: Path) -> None:
+    assert_says(place.home(tmp_path), Verdict.OK)
+    tmp_path.chmod(0o777)
+    assert_says(place.home(tmp_path), Verdict.WARN, "others")
+    file = tmp_path / "file"
+    file.touch()
+    assert_says(place.home(file / "below"), Verdict.FAIL, "can't be written")
+
+
+@pytest.mark.parametrize(
+    ("free", "verdict"), [(10**6, Verdict.FAIL), (10**9, Verdict.WARN), (10**11, Verdict.OK)]
+)
+def test_a_full_disk_is_told_before_it_is_full(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, free: int, verdict: Verdict
+) -> None:
+    usage = shutil.disk_usage(tmp_path)._replace(free=free)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage)
+    assert_says(place.disk(tmp_path / "not" / "yet"), verdict)
+
+
+def test_sockets_too_long_dead_and_alive(tmp_path: Path) -> None:
+    assert_says(place.sockets(tmp_path / ("x" * 120)), Verdict.FAIL, "107")
+    run = tmp_path / "run"
+    run.mkdir()
+    (run / "bridge.sock").touch()
+    (run / "bridge.lock").touch()
+    assert_says(place.sockets(tmp_path), Verdict.OK, "dead processes", "bridge")
+    with (run / "bridge.lock").open() as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        assert_says(place.sockets(tmp_path), Verdict.OK, "running robot: bridge")
+
+
+def test_a_taken_port_is_a_fault_unless_the_robot_has_it() -> None:
+    with closing(socket.socket()) as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        number = int(taken.getsockname()[1])
+        assert_says(place.port("127.0.0.1", number, running=False), Verdict.FAIL, str(number))
+        assert_says(place.port("127.0.0.1", number, running=True), Verdict.OK, "running robot")
+    assert_says(place.port("no.such.host.invalid", 1, running=False), Verdict.FAIL)
+
+
+def test_wrong_files_are_quoted(tmp_path: Path) -> None:
+    robot = tmp_path / "robot.toml"
+    robot.write_text("max_sped = 1\n")
+    found, _ = place.robot(robot)
+    assert_says(found, Verdict.FAIL, "max_sped")
+    found, site = place.site(tmp_path)
+    assert_says(found, Verdict.FAIL, "map.yaml")
+    assert site is None
+    assert mind.recogniser(None).name == "recogniser"
+
+
+def test_the_model_is_asked_for_nothing_but_a_connection(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("PONS_MODEL_URL", raising=False)
+    assert_says(mind.model(tmp_path), Verdict.OK, "offline brain")
+    with closing(socket.socket()) as server:
+        server.bind(("127.0.0.1", 0))
+        server.listen()
+        number = server.getsockname()[1]
+        text = f'[model]\nurl = "http://127.0.0.1:{number}/v1"\nname = "m"\n'
+        (tmp_path / "settings.toml").write_text(text)
+        assert_says(mind.model(tmp_path), Verdict.OK, "m at 127.0.0.1")
+        connection, _ = server.accept()
+        with closing(connection):
+            assert connection.recv(100) == b""
+    assert_says(mind.model(tmp_path), Verdict.WARN, "refused")
+    (tmp_path / "settings.toml").write_text('[model]\nurl = "http://169.254.1.1"\nname = "m"\n')
+    assert_says(mind.model(tmp_path), Verdict.FAIL, "link-local")
+    (tmp_path / "settings.toml").write_text("[modle]\n")
+    assert_says(mind.model(tmp_path), Verdict.FAIL, "modle")
+
+
+def test_names_that_cant_be_spoken_are_listed(tmp_path: Path) -> None:
+    pytest.importorskip("pocketsphinx")
+    _, site = place.site(TWO_ROOM)
+    assert site is not None
+    assert_says(mind.recogniser(site), Verdict.OK, "names")
+    first = site.places[0]
+    odd = first.model_copy(update={"name": first.name.model_copy(update={"en": "qzxv room"})})
+    object.__setattr__(site, "places", (odd, *site.places[1:]))
+    assert_says(mind.recogniser(site), Verdict.WARN, "qzxv room")
+
+
+def test_jitter_measures_and_prints_a_table() -> None:
+    rows = jitter.measure(60, ticks=10)
+    assert rows[0].ticks == 10
+    assert 0.0 <= (rows[0].p50_us or 0.0) <= rows[0].max_us
+    head, *shown = jitter.table(rows).splitlines()
+    assert "p99 us" in head
+    assert len(shown) == len(rows)
+
+
+def test_what_cyclictest_says_is_read_or_left_out() -> None:
+    said = "T: 0 (  42) P:60 I:10000 C:    500 Min:     11 Act:   18 Avg:   23 Max:     133\n"
+    (row,) = jitter.cyclictest_row(said, 500, 60)
+    assert row.max_us == 133.0
+    assert "mean 23" in row.cells()[0]
+    assert jitter.cyclictest_row("unable to set scheduler", 500, 60) == []
