@@ -1,0 +1,130 @@
+"""A person drives the robot from the page: by typing, by clicking, with two pages open."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.e2e.robot import Robot
+from tests.web.conftest import OpenPage
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = pytest.mark.e2e
+
+ARRIVAL_MS = 40_000
+
+
+def give(page: Page, text: str) -> None:
+    page.fill("#goal-text", text)
+    page.keyboard.press("Enter")
+
+
+def newest(page: Page, state: str) -> str:
+    """Wait for an ended goal's line and return what it says."""
+    line = page.locator(f"#past li[data-state={state}]").first
+    line.wait_for(timeout=ARRIVAL_MS)
+    return line.inner_text()
+
+
+@pytest.mark.parametrize(
+    ("locale", "order", "words"),
+    [("en-US", "go to the {en}", ("Driving", "done")), ("zh-CN", "去{zh}", ("行驶中", "已完成"))],
+)
+def test_a_typed_goal_ends_with_the_robot_there(
+    robot: Robot, open_page: OpenPage, locale: str, order: str, words: tuple[str, str]
+) -> None:
+    place = robot.elsewhere()
+    text = order.format(en=place.name.en, zh=place.name.zh)
+    page = open_page(locale=locale)
+    give(page, text)
+    page.wait_for_selector("#mode[data-mode=ACTIVE]")
+    assert page.inner_text("#mode") == words[0]
+    step = page.locator("#now .step-running .what")
+    step.wait_for()
+    assert (place.name.en if locale == "en-US" else place.name.zh) in step.inner_text()
+    assert page.locator("path.way").get_attribute("d")
+    line = newest(page, "succeeded")
+    assert text in line
+    assert words[1] in line
+    robot.assert_there(place)
+    outcome = robot.system.goals()[0]["outcome"]["message"]
+    said = outcome["en" if locale == "en-US" else "zh"]
+    assert page.locator("#announcer", has_text=said).count() == 1
+    assert page.locator("#past .outcome").first.text_content().startswith(said)  # type: ignore[union-attr]
+
+
+def click_at(page: Page, x_m: float, y_m: float) -> None:
+    """Click a point of the map given in metres."""
+    box = page.locator(".drawing").bounding_box()
+    view = page.locator(".drawing").get_attribute("viewBox")
+    assert box is not None
+    assert view is not None
+    left, top, wide, high = map(float, view.split())
+    page.mouse.click(
+        box["x"] + (x_m - left) / wide * box["width"],
+        box["y"] + (-y_m - top) / high * box["height"],
+    )
+
+
+def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None:
+    place = robot.elsewhere()
+    page = open_page()
+    click_at(page, place.pose.x_m, place.pose.y_m)
+    page.locator("#now .goal").wait_for()
+    assert robot.system.goals()[0]["text"] == f"go to the {place.name.en}"
+    robot.judge.until_moving()
+    # While it drives, a click asks first: instead, or after.
+    click_at(page, place.pose.x_m, place.pose.y_m)
+    choice = page.locator(".map-choice")
+    choice.wait_for()
+    choice.get_by_role("button", name="Add to queue").click()
+    page.locator("#queue li").wait_for()
+    page.locator("#queue li").get_by_role("button", name="Cancel").click()
+    page.locator("#queue").wait_for(state="detached")
+    assert place.name.en in newest(page, "succeeded")
+    robot.assert_there(place)
+
+
+def test_a_click_on_nothing_says_so(robot: Robot, open_page: OpenPage) -> None:
+    page = open_page()
+    before = len(robot.system.goals())
+    page.evaluate("document.querySelector('.map').scrollIntoView()")
+    box = page.locator("#map").bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + 5, box["y"] + box["height"] - 5)
+    page.locator("#announcer", has_text="No room or place").wait_for()
+    assert len(robot.system.goals()) == before
+
+
+def test_two_pages_tell_the_same_story(robot: Robot, open_page: OpenPage) -> None:
+    first, second = open_page(), open_page(locale="zh-CN")
+    place = robot.elsewhere()
+    give(first, f"go to the {place.name.en}")
+    second.locator("#now .goal[data-state=running]").wait_for()
+    robot.judge.until_moving()
+    second.click("#stop")
+    first.locator("#now .goal[data-state=paused]").wait_for()
+    second.locator("#stop-state.good").wait_for()
+    assert first.inner_text("#stop-state") == ""  # the other one asked for it
+    assert "stop" in first.inner_text("#notice").lower()
+    robot.judge.until_standing(3.0)
+    first.locator("#now").get_by_role("button", name="Cancel").click()
+    second.locator("#past li[data-state=cancelled]").first.wait_for()
+
+
+def test_a_question_is_answered_by_a_button(robot: Robot, open_page: OpenPage) -> None:
+    page = open_page()
+    give(page, "go to the moon")
+    asked = page.locator("#now .clarify")
+    asked.wait_for()
+    assert "moon" in asked.inner_text()
+    goal = robot.system.goals()[0]
+    assert goal["state"] == "needs_clarification"
+    options = goal["plan"]["options"]
+    buttons = asked.locator(".buttons button")
+    assert buttons.all_inner_texts() == [option["label"]["en"] for option in options]
+    page.locator("#now").get_by_role("button", name="Cancel").click()
+    page.locator("#past li[data-state=cancelled]").first.wait_for()
