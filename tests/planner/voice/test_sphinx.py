@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 NAMES = ("kitchen", "living room", "sofa", "charging dock", "study", "zzyzxq", "hall 9")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def ears() -> Sphinx:
     from planner.voice.sphinx import Sphinx
 
