@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import json
+import os
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ def call(
     connection = http.client.HTTPConnection(settings.host, settings.port, timeout=timeout_s)
     try:
         sent = {"Content-Type": "application/json", **(headers or {})} if method != "GET" else {}
+        if token := os.environ.get("PONS_OPERATOR_TOKEN"):
+            sent["Authorization"] = f"Bearer {token}"
         text = json.dumps(body or {}).encode() if content is None else content
         payload = text if method != "GET" else None
         connection.request(method, path, body=payload, headers=sent)

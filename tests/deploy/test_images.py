@@ -1,0 +1,127 @@
+"""Rules for Dockerfile and compose file that need no container engine."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.deploy.installed import PROCESSES, ROOT, compose
+
+KNOWN = {
+    *("build", "image", "init", "restart", "read_only", "tmpfs", "cap_drop", "cap_add", "ports"),
+    *("security_opt", "stop_grace_period", "network_mode", "volumes", "profiles", "command"),
+    *("entrypoint", "environment", "healthcheck", "ulimits"),
+}
+
+
+def instructions() -> list[tuple[str, str]]:
+    """Return the Dockerfile's instructions with their words, lines joined."""
+    text = re.sub(r"\\\n\s*", "", (ROOT / "Dockerfile").read_text())
+    lines = [line for line in text.splitlines() if line and not line.startswith("#")]
+    return [(line.split()[0], line.split(maxsplit=1)[1]) for line in lines]
+
+
+def test_the_base_is_named_by_release_and_can_be_pinned_by_digest() -> None:
+    made = instructions()
+    assert made[0] == ("ARG", "BASE=debian:trixie-slim")
+    bases = [words for word, words in made if word == "FROM"]
+    assert bases == ["${BASE} AS build", "${BASE} AS run"]
+
+
+def test_packages_come_from_the_locks_by_hash() -> None:
+    runs = " ".join(words for word, words in instructions() if word == "RUN")
+    assert "make setup" in runs
+    assert not re.search(r"\bpip3?\b|npm install|curl|wget|\| *(ba)?sh\b", runs)
+    assert "--require-hashes" in (ROOT / "scripts" / "install.sh").read_text()
+    assert "npm ci" in (ROOT / "scripts" / "page.sh").read_text()
+    assert "ADD" not in {word for word, _ in instructions()}
+
+
+def test_apt_leaves_nothing_needless() -> None:
+    for words in (words for word, words in instructions() if "apt-get install" in words):
+        assert "--no-install-recommends" in words
+        assert "rm -rf /var/lib/apt/lists/*" in words
+
+
+def test_the_last_stage_is_nobody_in_particular() -> None:
+    made = instructions()
+    last = made[[index for index, (word, _) in enumerate(made) if word == "FROM"][-1] :]
+    users = [words for word, words in last if word == "USER"]
+    assert users == ["10001:10001"]
+    after = [word for word, _ in last[last.index(("USER", users[0])) :]]
+    assert not {"RUN", "COPY"} & set(after)
+
+
+def test_the_context_leaves_state_and_secrets_out() -> None:
+    ignored = (ROOT / ".dockerignore").read_text().splitlines()
+    assert {".git", ".venv", ".pons", ".env", "**/node_modules"} <= set(ignored)
+
+
+def test_no_service_says_what_compose_does_not_know() -> None:
+    described: dict[str, dict[str, Any]] = compose()["services"]
+    for name, service in described.items():
+        assert set(service) <= KNOWN, name
+        assert service["profiles"], name
+        assert "privileged" not in service
+        for mount in service["volumes"]:
+            assert re.fullmatch(r"(state|\$\{\w+:-\./[\w./]+\}):/[\w/.]+(:ro)?", mount), mount
+
+
+def test_profiles_hold_whole_robots() -> None:
+    described = compose()["services"]
+    members = {
+        profile: {name for name, one in described.items() if profile in one["profiles"]}
+        for profile in ("sim", "robot", "llm")
+    }
+    assert members == {
+        "sim": set(PROCESSES),
+        "robot": {"robot-bridge", "robot-planner"},
+        "llm": {"llm"},
+    }
+
+
+def test_processes_share_their_sockets_and_only_the_planner_has_a_network() -> None:
+    for name, service in compose()["services"].items():
+        assert "state:/var/lib/pons" in service["volumes"], name
+        expected = {"llm": "service:planner", "planner": "bridge", "robot-planner": "bridge"}
+        assert service["network_mode"] == expected.get(name, "none"), name
+        if "ports" in service:
+            assert all(port.startswith("127.0.0.1:") for port in service["ports"])
+
+
+def test_only_the_robots_bridge_may_be_real_time() -> None:
+    for name, service in compose()["services"].items():
+        assert service["cap_drop"] == ["ALL"], name
+        assert service["security_opt"] == ["no-new-privileges:true"]
+        if name == "robot-bridge":
+            assert service["cap_add"] == ["SYS_NICE", "IPC_LOCK"]
+            assert service["ulimits"] == {"rtprio": 70, "memlock": -1}
+        else:
+            assert not {"cap_add", "ulimits"} & set(service), name
+
+
+def test_the_planner_starts_behind_its_token() -> None:
+    for name in ("planner", "robot-planner"):
+        assert compose()["services"][name]["entrypoint"] == ["/opt/pons/deploy/with-token.sh"]
+
+
+def test_compose_itself_takes_the_file(tmp_path: Path) -> None:
+    docker = shutil.which("docker")
+    if docker is None:
+        pytest.skip("no docker client is installed")
+    can = subprocess.run([docker, "compose", "version"], capture_output=True, check=False)
+    if can.returncode:
+        pytest.skip("the docker client has no compose plugin")
+    done = subprocess.run(
+        [docker, "compose", "-f", str(ROOT / "docker-compose.yml"), "--profile", "*", "config"],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=tmp_path,
+    )
+    assert done.returncode == 0, done.stderr

@@ -1,0 +1,92 @@
+"""The units: separate users, rights for the loop alone, and nothing that systemd does not know."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.deploy.installed import PROCESSES, UNITS, services, unit
+from wire import load_robot
+
+
+def test_planner_bridge_and_simulator_are_users_of_their_own() -> None:
+    users = {name: one["Service"]["User"] for name, one in services().items()}
+    assert users["planner"] != users["bridge"] != users["sim"] != users["planner"]
+    assert {tuple(one["Service"]["Group"]) for one in services().values()} == {("pons",)}
+    known = (UNITS / "pons.sysusers.conf").read_text()
+    for (user,) in users.values():
+        assert f"u {user} " in known
+        assert f"m {user} pons" in known
+
+
+def test_the_bridge_is_watched_and_may_be_real_time(repository: Path) -> None:
+    bridge = services()["bridge"]["Service"]
+    assert bridge["Type"] == ["notify"]
+    assert bridge["WatchdogSec"] == ["1"]
+    assert bridge["LimitMEMLOCK"] == ["infinity"]
+    assert int(bridge["LimitRTPRIO"][0]) >= load_robot(repository / "robot.toml").realtime.priority
+    assert "CPUSchedulingPolicy" not in bridge, "one thread asks for it, by itself"
+    assert "RestrictRealtime" not in bridge
+
+
+@pytest.mark.parametrize("name", [name for name in PROCESSES if name != "bridge"])
+def test_nobody_else_may_be_real_time(name: str) -> None:
+    service = services()[name]["Service"]
+    assert service["RestrictRealtime"] == ["yes"]
+    assert "LimitRTPRIO" not in service
+    assert "MemoryMax" in service
+
+
+@pytest.mark.parametrize("name", PROCESSES)
+def test_every_service_is_hardened_and_does_not_repeat_a_refusal(name: str) -> None:
+    service = services()[name]["Service"]
+    for setting, value in {
+        "NoNewPrivileges": "yes",
+        "CapabilityBoundingSet": "",
+        "ProtectSystem": "strict",
+        "ProtectHome": "yes",
+        "PrivateTmp": "yes",
+        "ReadWritePaths": "/var/lib/pons",
+        "UMask": "0007",
+        "SystemCallArchitectures": "native",
+        "RestartPreventExitStatus": "2",
+        "Restart": "always",
+    }.items():
+        assert service[setting] == [value], setting
+
+
+def test_neither_user_can_replace_what_the_other_made() -> None:
+    lines = (UNITS / "pons.tmpfiles.conf").read_text().splitlines()
+    assert "d /var/lib/pons 3770 root pons -" in lines
+    assert "d /var/lib/pons/recordings 2750 pons-bridge pons -" in lines
+
+
+def test_targets_start_what_is_there() -> None:
+    for target in UNITS.glob("*.target"):
+        for wanted in unit(target)["Unit"]["Wants"][0].split():
+            assert (UNITS / wanted).is_file(), wanted
+    for name in ("sim", "localization"):
+        assert services()[name]["Install"]["WantedBy"] == ["pons-sim.target"]
+
+
+def test_systemd_understands_the_units(tmp_path: Path) -> None:
+    if shutil.which("systemd-analyze") is None:
+        pytest.skip("systemd-analyze is not installed (apt: systemd)")
+    for path in (*UNITS.glob("*.service"), *UNITS.glob("*.target")):
+        text = path.read_text().replace("/opt/pons/.venv/bin/python", sys.executable)
+        (tmp_path / path.name).write_text(text.replace("/opt/pons", "/"))
+    files = sorted(map(str, tmp_path.iterdir()))
+    done = subprocess.run(
+        ["systemd-analyze", "verify", "--man=no", *files],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=50,
+        env={"SYSTEMD_UNIT_PATH": f"{tmp_path}:"},
+    )
+    ours = [line for line in done.stderr.splitlines() if "pons" in line or str(tmp_path) in line]
+    assert not ours, done.stderr
