@@ -60,6 +60,7 @@ class Planner:
         self._model = _model(self.settings, where.home)
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
+        self.brain = _brain(self._model, self.settings)
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
         self._journal = MissionJournal.in_home(where.home)
         limits = RouteLimits.of(self.description)
@@ -74,7 +75,7 @@ class Planner:
             robot=self.description,
             link=link,
             router=self._router,
-            brain=_brain(self._model, self.settings),
+            brain=self.brain,
             journal=self._journal,
         )
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Sequence
 
+    from planner.brain import Brain
     from planner.mission import Leg
     from planner.plan import Goal, Language
     from planner.voice import Recogniser
@@ -92,6 +93,9 @@ class Services(Protocol):
 
     @property
     def site(self) -> Site: ...
+
+    @property
+    def brain(self) -> Brain: ...
 
     @property
     def ears(self) -> Recogniser: ...

@@ -9,6 +9,7 @@ from fastapi import APIRouter
 
 from planner.api.ports import Services
 from planner.api.problems import Problem
+from planner.brain import mind_of
 
 
 def routes(services: Services) -> APIRouter:
@@ -19,7 +20,7 @@ def routes(services: Services) -> APIRouter:
 
     @router.get("/robot", operation_id="get_robot")
     async def robot() -> dict[str, Any]:
-        """Show the bridge's newest status, where the robot is, and how old everything is."""
+        """Show the bridge's newest status, where the robot is, how old everything is, who plans."""
         return robot_view(services)
 
     @router.get("/map", operation_id="get_map")
@@ -54,6 +55,7 @@ def robot_view(services: Services) -> dict[str, Any]:
         "localization": "stand-in: the simulator's truth plus noise"
         if status and status.drive.virtual
         else "external",
+        "brain": mind_of(services.brain).model_dump(mode="json"),
     }
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from planner.brain.errors import BrainDown, Misconfigured, PlanRejected
     from planner.brain.fallback import FallbackBrain
+    from planner.brain.mind import Mind, mind_of
     from planner.brain.offline import OfflineBrain, language_of
     from planner.brain.protocol import Brain, ThinkRequest, Thought
     from planner.brain.scripted import ScriptedBrain
@@ -21,6 +22,7 @@ _DOORS = {
     "Brain": "protocol",
     "BrainDown": "errors",
     "FallbackBrain": "fallback",
+    "Mind": "mind",
     "Misconfigured": "errors",
     "OfflineBrain": "offline",
     "PlanRejected": "errors",
@@ -29,12 +31,14 @@ _DOORS = {
     "Thought": "protocol",
     "is_stop": "stoplane",
     "language_of": "offline",
+    "mind_of": "mind",
 }
 
 __all__ = [
     "Brain",
     "BrainDown",
     "FallbackBrain",
+    "Mind",
     "Misconfigured",
     "OfflineBrain",
     "PlanRejected",
@@ -43,6 +47,7 @@ __all__ = [
     "Thought",
     "is_stop",
     "language_of",
+    "mind_of",
 ]
 
 

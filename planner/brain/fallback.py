@@ -43,6 +43,10 @@ class FallbackBrain:
         """Return the model's name."""
         return self._model.tag
 
+    def rests_s(self) -> float:
+        """Return how much longer the model rests [s]; 0 where it may be asked."""
+        return self.breaker.rests_s(self._clock())
+
     async def think(self, request: ThinkRequest) -> Thought:
         """Return the model's thought, else the offline brain's.
 

@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from planner.brain import Brain, OfflineBrain
 from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
@@ -158,4 +159,5 @@ class FakeServices:
         self.goals = FakeGoals()
         self.robot = FakeRobot(status)
         self.ears = FakeEars()
+        self.brain: Brain = OfflineBrain()
         self.site = Site.load(ROOT / "sites" / "two_room")

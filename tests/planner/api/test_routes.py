@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import base64
 import json
 from collections.abc import Iterator
@@ -12,6 +13,8 @@ from starlette.testclient import TestClient
 
 from planner import openapi
 from planner.api import Access, build
+from planner.brain import BrainDown, FallbackBrain, OfflineBrain, ScriptedBrain, ThinkRequest
+from planner.plan import Vocabulary
 from tests.planner.api.fakes import FakeServices
 from tests.wire.examples import STATUS
 from wire import VIRTUAL_KEY, Answer, authentic
@@ -223,6 +226,19 @@ def test_teleop_is_passed_on_within_bounds(client: TestClient, services: FakeSer
     assert services.robot.steers == [("page-1", 0.2, -0.1, True)]
     too_fast = client.post("/v1/teleop", json={**body, "v_mps": 1e6})
     assert code(too_fast) == "invalid_request"
+
+
+def test_the_robot_says_who_plans(client: TestClient, services: FakeServices) -> None:
+    alone = {"name": "offline", "breaker": None, "rests_s": 0.0, "last_error": None}
+    assert client.get("/v1/robot").json()["brain"] == alone
+    model = ScriptedBrain([BrainDown("401", why="bad_key")])
+    services.brain = FallbackBrain(model, OfflineBrain(), clock=lambda: 0.0, rest_s=20.0)
+    request = ThinkRequest(text="wait 1 second", vocabulary=Vocabulary())
+    asyncio.run(services.brain.think(request))
+    brain = client.get("/v1/robot").json()["brain"]
+    assert (brain["name"], brain["breaker"], brain["rests_s"]) == ("scripted", "open", 20.0)
+    assert brain["last_error"]["code"] == "bad_key"
+    assert brain["last_error"]["message"]["zh"].endswith("。")
 
 
 def test_the_map_is_whole(client: TestClient) -> None:

@@ -16,6 +16,7 @@ from planner.brain import (
     ScriptedBrain,
     ThinkRequest,
     Thought,
+    mind_of,
 )
 from planner.brain.breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
 from planner.brain.reasons import REASONS, reason
@@ -87,15 +88,28 @@ def test_a_failing_model_is_rested_visibly_and_heals(home: Vocabulary) -> None:
     clock = Clock()
     model = ScriptedBrain([DOWN] * TRIPS + [BY_MODEL])
     brain = FallbackBrain(model, OfflineBrain(), clock)
+    assert (mind_of(brain).breaker, mind_of(brain).last_error) == ("closed", None)
     for _ in range(TRIPS):
         ask(brain, home)
     assert ask(brain, home).brain.fallback_reason == "resting"
     assert len(model.asked) == TRIPS
+    clock.now_s += 5.0
+    mind = mind_of(brain)
+    assert (mind.name, mind.breaker, mind.rests_s) == ("scripted", "open", FIRST_REST_S - 5.0)
+    assert mind.last_error is not None
+    assert (mind.last_error.code, mind.last_error.message) == ("timeout", REASONS["timeout"])
     clock.now_s += FIRST_REST_S
     for _ in range(HEALS):
         assert not brain.breaker.closed
+        assert mind_of(brain).breaker == "on_trial"
         assert ask(brain, home).plan == BY_MODEL
     assert brain.breaker.closed
+    assert (mind_of(brain).breaker, mind_of(brain).last_error) == ("closed", None)
+
+
+def test_without_a_model_there_is_no_breaker_to_show() -> None:
+    mind = mind_of(OfflineBrain())
+    assert (mind.name, mind.breaker, mind.rests_s, mind.last_error) == ("offline", None, 0.0, None)
 
 
 def test_a_wrong_key_rests_at_once(home: Vocabulary) -> None:
