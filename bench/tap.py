@@ -120,6 +120,7 @@ def _note_silence(state: BridgeState, decision: Decision, now_s: float) -> None:
                 "age_s": None if echo_s is None else now_s - echo_s,
                 "from": state.mode.value,
                 "to": decision.state.mode.value,
+                "beside": [stage for stage in state.rows if not stage.startswith("BRAIN")],
             }
         )
     TAP.was_lost = lost

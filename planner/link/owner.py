@@ -69,6 +69,8 @@ class OwnerState:
     """Horizons of no points still owed."""
     granted_on: tuple[int, str] | None = None
     """Status and mission of the newest grant asked for: once a status is enough."""
+    ahead_on: tuple[int, int] | None = None
+    """Status and leg of the newest horizon sent right behind its grant, not yet confirmed."""
 
 
 def owns(identity: Identity, status: Status) -> bool:
@@ -148,15 +150,27 @@ def _grant(
 def _horizon(
     identity: Identity, state: OwnerState, status: Status, course: Course, now_s: float
 ) -> tuple[OwnerState, tuple[Record, ...]]:
-    """Stream the course's path under its grant; without a path, halt what is still followed."""
-    granted = status.grant.mission if status.grant is not None else None
+    """Stream the course's path under its grant; without a path, halt what is still followed.
+
+    A grant asked for on this very status counts: the bridge hears grants before horizons, and drops
+    the horizon of a grant that it refused. What was sent so is sent again when status confirms it,
+    since the two travel on keys of their own and may fall on two ticks.
+    """
+    confirmed = status.grant.mission if status.grant is not None else None
+    asked = state.granted_on
+    granted = asked[1] if asked is not None and asked[0] == status.seq else confirmed
     if granted is None:
         return state, ()
     if course.points is not None and course.mission == granted:
         leg = (granted, course.leg)
         if leg == state.streamed and not now_s - state.sent_s >= PERIOD_S:
             return state, ()
-        state = replace(state, streamed=leg, halts=HALTS)
+        if granted == confirmed:
+            state = replace(state, streamed=leg, halts=HALTS)
+        elif state.ahead_on == (status.seq, course.leg):
+            return state, ()
+        else:
+            state = replace(state, ahead_on=(status.seq, course.leg), streamed=None, halts=HALTS)
         return _send(identity, state, status, leg, course.points, course.final, now_s)
     fresh = state.halts == HALTS  # the first halt leaves at once, whatever the rate
     if not (state.halts > 0 or status.mode is Mode.ACTIVE):

@@ -75,9 +75,9 @@ def test_grant_on_each_status_until_it_shows_and_never_while_held() -> None:
     assert kinds(messages) == [Heartbeat]
     for seq in (2, 3):
         state, messages = say(state, status(seq=seq, owner=OURS), DRIVE)
-        assert kinds(messages) == [Heartbeat, Grant]
+        assert kinds(messages) == [Heartbeat, Grant, Waypoints]
     state, messages = say(state, status(seq=4, owner=OURS, grant=left("g0")), DRIVE)
-    assert kinds(messages) == [Heartbeat, Grant], "the grant shown is another mission's"
+    assert kinds(messages) == [Heartbeat, Grant, Waypoints], "the grant shown is another mission's"
     state, messages = say(state, status(seq=5, owner=OURS, grant=left()), DRIVE)
     assert kinds(messages) == [Heartbeat, Waypoints]
 
@@ -86,12 +86,32 @@ def test_one_status_is_asked_for_one_grant() -> None:
     state, shown = OwnerState(), status(owner=OURS)
     state, first = on_course(ME, state, shown, DRIVE, 0.0)
     state, second = on_course(ME, state, shown, DRIVE, 0.0)
-    assert (kinds(first), second) == ([Grant], ())
+    assert (kinds(first), second) == ([Grant, Waypoints], ())
 
 
-def test_no_waypoint_before_the_grant() -> None:
-    _, messages = say(OwnerState(), status(owner=OURS), DRIVE)
+def test_no_waypoint_before_its_grant_is_asked_for() -> None:
+    held = Held(reason=HeldReason.STOP, id="h1")
+    _, messages = say(OwnerState(), status(owner=OURS, held=held), DRIVE)
     assert Waypoints not in kinds(messages)
+
+
+def test_a_path_follows_its_grant_at_once_and_again_when_that_is_confirmed() -> None:
+    state, shown = OwnerState(), status(owner=OURS)
+    state, thinking = on_course(ME, state, shown, Course("g1"), 0.0)
+    assert kinds(thinking) == [Grant], "asked for while the route is still searched"
+    state, behind = on_course(ME, state, shown, DRIVE, 0.01)
+    assert kinds(behind) == [Waypoints]
+    state, confirmed = say(state, status(seq=2, owner=OURS, grant=left()), DRIVE, 0.03)
+    assert kinds(confirmed) == [Heartbeat, Waypoints], "the first may have come before its grant"
+
+
+def test_a_path_sent_behind_its_grant_is_halted_like_any_other() -> None:
+    state, shown = OwnerState(), status(owner=OURS)
+    state, _ = on_course(ME, state, shown, DRIVE, 0.0)
+    state, messages = on_course(ME, state, shown, STANDING, 0.0)
+    (halt,) = messages
+    assert isinstance(halt, Waypoints)
+    assert (halt.mission, halt.points) == ("g1", ())
 
 
 def test_waypoints_at_ten_hertz_but_a_new_leg_at_once() -> None:
@@ -170,6 +190,7 @@ def test_no_history_makes_it_say_what_the_wire_forbids(
         if shown.epoch != epoch:
             epoch, newest = shown.epoch, 0
         state, messages = say(state, shown, course, now_s)
+        asked = None
         for message in messages:
             if isinstance(message, Hello):
                 assert owner != "p1"
@@ -180,8 +201,9 @@ def test_no_history_makes_it_say_what_the_wire_forbids(
             if isinstance(message, Grant):
                 assert not held
                 assert message.mission != granted
+                asked = message.mission
             if isinstance(message, Waypoints):
-                assert message.mission == granted
+                assert message.mission in (granted, asked)
                 assert message.seq == newest + 1
                 newest = message.seq
                 if message.points:

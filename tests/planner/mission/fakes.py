@@ -176,6 +176,7 @@ class FakeBridge:
             case Grant() if self._current(message) and self.held is None:
                 if self.mode in (Mode.HOLD, Mode.ACTIVE):
                     self.granted = message.mission
+                    self.rows = tuple(shown for shown in self.rows if shown.row != "BUDGET")
             case Waypoints() if self._current(message) and self.granted == message.mission:
                 self._follow(message)
             case Heartbeat() | Hello():

@@ -107,10 +107,7 @@ def test_budget_row_fails_the_mission_and_only_its_own(world: Together) -> None:
     assert (mission.state, mission.reason) == (FAILED, "budget")
     assert mission.outcome is not None
     assert mission.outcome.code is Code.OUT_OF_BUDGET
-    after = world.give(go("kitchen"))
-    world.run()
-    world.bridge.rows = ()
-    world.run_until(after, SUCCEEDED)
+    world.run_until(world.give(go("kitchen")), SUCCEEDED)
 
 
 def test_stuck_row_fails_the_mission(world: Together) -> None:
