@@ -3,6 +3,7 @@ import { MapPanel } from "./map/MapPanel";
 import { tokenNeeded } from "./net/token";
 import { Announcer } from "./panels/Announcer";
 import { Boundary } from "./panels/Boundary";
+import { Lost } from "./panels/Lost";
 import { Notice } from "./panels/Notice";
 import { Tabs } from "./panels/Tabs";
 import { TokenForm } from "./panels/TokenForm";
@@ -14,6 +15,7 @@ export function App({ again }: { again: () => void }) {
     <>
       <Boundary>
         <TopBar />
+        <Lost />
       </Boundary>
       <main>
         <Boundary>

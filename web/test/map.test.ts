@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { dots } from "../src/map/drawing";
-import { pixels, rgb } from "../src/map/raster";
+import { Cells, nameSpot } from "../src/map/cells";
+import { pixels, rgb, tinted } from "../src/map/raster";
 import { contains, middle, resolve, unwound } from "../src/map/resolve";
 import type { Grid, Place } from "../src/wire/types";
 
@@ -80,12 +81,18 @@ describe("the picture", () => {
   } as Grid;
 
   it("has its first row at the top, unknown see-through", () => {
-    const data = pixels(grid, [1, 2, 3], [4, 5, 6]);
+    const data = pixels(new Cells(grid), () => [1, 2, 3], [4, 5, 6]);
     expect([...(data ?? [])]).toEqual([0, 0, 0, 0, 1, 2, 3, 255, 1, 2, 3, 255, 4, 5, 6, 255]);
   });
 
   it("is none where cells are missing", () => {
-    expect(pixels({ ...grid, height: 3 }, [0, 0, 0], [0, 0, 0])).toBeNull();
+    expect(pixels(new Cells({ ...grid, height: 3 }), () => [0, 0, 0], [0, 0, 0])).toBeNull();
+  });
+
+  it("lays each room's tint over its floor alone", () => {
+    const floor = tinted([sofa, room], [9, 9, 9], [[1, 1, 1]]);
+    expect(floor({ x: 1, y: 1 })).toEqual([1, 1, 1]);
+    expect(floor({ x: 4, y: 1 })).toEqual([9, 9, 9]);
   });
 
   it("reads short and long colours", () => {
@@ -95,5 +102,36 @@ describe("the picture", () => {
 
   it("draws a dot for each lidar point and none for half a point", () => {
     expect(dots([100, -250, 7])).toBe("M1 -2.5h0");
+  });
+});
+
+describe("cells", () => {
+  const around = (rows: readonly string[]): Cells => {
+    const cells = [...rows].reverse().join("").replaceAll(".", "\x00").replaceAll("#", "\x01");
+    return new Cells({
+      width: rows[0]?.length ?? 0,
+      height: rows.length,
+      resolution_m: 0.5,
+      origin: { x_m: -1, y_m: -1 },
+      cells: btoa(cells.replaceAll("?", "\x02")),
+    } as Grid);
+  };
+
+  it("have a box around what is known, and the whole grid where nothing is", () => {
+    const box = { left: -0.5, bottom: -0.5, right: 0.5, top: 0 };
+    expect(around(["????", "?.#?", "????"]).known()).toEqual(box);
+    expect(around(["??", "??"]).known()).toEqual({ left: -1, bottom: -1, right: 0, top: 0 });
+  });
+
+  it("let a name shun furniture and the names of places", () => {
+    const free = Array<string>(12).fill("............");
+    expect(nameSpot(room, [room], null)).toEqual({ x: 1.5, y: 1.5 });
+    const alone = nameSpot(room, [room], around(free));
+    expect(Math.hypot(alone.x - 1.5, alone.y - 1.5)).toBeLessThan(0.25);
+    const sat = nameSpot(room, [room, { ...sofa, pose: pose(1.5, 1.5) }], around(free));
+    expect(Math.abs(sat.y - 1.35)).toBeGreaterThanOrEqual(0.5);
+    const full = free.map((line, row) => (row > 5 ? line : "............".replaceAll(".", "#")));
+    expect(nameSpot(room, [room], around(full)).y).toBeLessThan(1.8);
+    expect(nameSpot(sofa, [room, sofa], around(free))).toEqual({ x: 1, y: 1 });
   });
 });

@@ -16,8 +16,8 @@ describe("since", () => {
 describe("fresh", () => {
   it.each([
     [0, true],
-    [1, true],
-    [1.001, false],
+    [0.75, true],
+    [0.751, false],
     [null, false],
     [Number.NaN, false],
     [Number.POSITIVE_INFINITY, false],

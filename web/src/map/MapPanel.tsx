@@ -5,7 +5,7 @@ import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
-import { about, age, grid, isBusy, path, places, robot, scan } from "../state/store";
+import { about, age, grid, isBusy, pageFresh, path, places, robot, scan } from "../state/store";
 import type { Place } from "../wire/types";
 import { type Point, resolve } from "./resolve";
 import { MapView } from "./view";
@@ -47,7 +47,7 @@ function follow(view: MapView): (() => void)[] {
     effect(() => {
       if (about.value) drawing.showBody(about.value.base.radius_m);
     }),
-    effect(() => drawing.showPath(path.value)),
+    effect(() => drawing.showPath(path.value, !pageFresh.value)),
     effect(() => drawing.showScan(scan.value, !fresh(age("scan")))),
     effect(() => drawing.showRobot(robot.value?.status?.base_in_map ?? null, !fresh(poseAge()))),
   ];

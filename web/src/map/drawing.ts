@@ -1,8 +1,8 @@
 /**
- * Draw what lies and moves on the map as one SVG in metres, y up: rooms, fence, zones, scan, path,
- * robot. Leaflet scales it; nothing here knows pixels.
+ * Draw what lies and moves on the map as one SVG in metres, y up: fence, zones, scan, path, robot.
+ * Leaflet scales it; nothing here knows pixels.
  */
-import type { Grid, Path, Place, Pose, Scan } from "../wire/types";
+import type { Grid, Path, Pose, Scan } from "../wire/types";
 import { unwound } from "./resolve";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -32,7 +32,6 @@ function make<K extends keyof SVGElementTagNameMap>(
 
 export class Drawing {
   readonly svg = make("svg", { class: "drawing", "aria-hidden": "true" });
-  private readonly rooms = make("g", {});
   private readonly fence = make("path", { class: "fence" });
   private readonly zones = make("path", { class: "zone" });
   private readonly scan = make("path", { class: "scan" });
@@ -43,7 +42,7 @@ export class Drawing {
 
   constructor() {
     const up = make("g", { transform: "scale(1,-1)" });
-    up.append(this.rooms, this.zones, this.fence, this.scan, this.path, this.goal, this.robot);
+    up.append(this.zones, this.fence, this.scan, this.path, this.goal, this.robot);
     this.svg.append(up);
     this.showBody(0.3);
     this.showRobot(null, true);
@@ -63,22 +62,13 @@ export class Drawing {
     this.zones.setAttribute("d", closed(speed_zones.map((zone) => zone.polygon)));
   }
 
-  showRooms(places: readonly Place[]): void {
-    this.rooms.replaceChildren(
-      ...places.flatMap((place, index) =>
-        place.polygon
-          ? [make("path", { class: `room tint-${index % 4}`, d: `${outlineOf(place.polygon)}Z` })]
-          : [],
-      ),
-    );
-  }
-
   /** Draw the robot's disc, with a wedge to the front. */
   showBody(radius: number): void {
     const nose = `M${radius * 0.95} 0L${-radius * 0.35} ${radius * 0.55}L${-radius * 0.1} 0L${
       -radius * 0.35
     } ${-radius * 0.55}Z`;
     this.robot.replaceChildren(
+      make("circle", { class: "halo", r: String(radius * 1.9) }),
       make("circle", { class: "disc", r: String(radius) }),
       make("path", { class: "nose", d: nose }),
     );
@@ -92,7 +82,9 @@ export class Drawing {
     this.robot.style.transform = `translate(${pose.x_m}px, ${pose.y_m}px) rotate(${this.degrees}deg)`;
   }
 
-  showPath(path: Path | null): void {
+  showPath(path: Path | null, stale = false): void {
+    this.path.classList.toggle("stale", stale);
+    this.goal.classList.toggle("stale", stale);
     const last = path?.points.at(-1);
     this.path.setAttribute("d", path && last ? outlineOf(path.points) : "");
     this.goal.style.display = last ? "" : "none";

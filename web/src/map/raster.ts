@@ -1,36 +1,47 @@
-/** Draw the map's cells as a picture: walls and floor in the theme's colours, unknown see-through. */
-import type { Grid } from "../wire/types";
-
-const FREE = 0;
-const OCCUPIED = 1;
+/** Draw the map's cells as a picture: walls, and floor in each room's tint; unknown see-through. */
+import type { Place } from "../wire/types";
+import { Cells, FREE, OCCUPIED } from "./cells";
+import { contains, type Point } from "./resolve";
 
 export type Rgb = readonly [number, number, number];
+export type Floor = (point: Point) => Rgb;
 
 /** Return the picture's pixels, its first row the highest y; null where the cells are not as many. */
-export function pixels(grid: Grid, floor: Rgb, wall: Rgb): Uint8ClampedArray | null {
-  const cells = atob(grid.cells);
-  if (cells.length !== grid.width * grid.height) return null;
-  const out = new Uint8ClampedArray(cells.length * 4);
-  for (let row = 0; row < grid.height; row += 1) {
-    for (let column = 0; column < grid.width; column += 1) {
-      const cell = cells.charCodeAt(row * grid.width + column);
+export function pixels(cells: Cells, floor: Floor, wall: Rgb): Uint8ClampedArray | null {
+  if (!cells.whole) return null;
+  const { width, height } = cells.grid;
+  const out = new Uint8ClampedArray(width * height * 4);
+  for (let row = 0; row < height; row += 1) {
+    for (let column = 0; column < width; column += 1) {
+      const cell = cells.at(column, row);
       if (cell !== FREE && cell !== OCCUPIED) continue;
-      const at = ((grid.height - 1 - row) * grid.width + column) * 4;
-      out.set([...(cell === FREE ? floor : wall), 255], at);
+      const at = ((height - 1 - row) * width + column) * 4;
+      out.set([...(cell === FREE ? floor(cells.point(column, row)) : wall), 255], at);
     }
   }
   return out;
 }
 
+/** Return what colours the floor: each room's tint laid over it, the bare floor between rooms. */
+export function tinted(places: readonly Place[], bare: Rgb, tints: readonly Rgb[]): Floor {
+  const rooms = places
+    .filter((place) => place.polygon !== null)
+    .map((place, index) => ({
+      outline: place.polygon ?? [],
+      tint: tints[index % tints.length] ?? bare,
+    }));
+  return (point) => rooms.find(({ outline }) => contains(outline, point))?.tint ?? bare;
+}
+
 /** Return the picture as a data URL, which the page's policy allows for images alone. */
-export function picture(grid: Grid, floor: Rgb, wall: Rgb): string | null {
-  const data = pixels(grid, floor, wall);
+export function picture(cells: Cells, floor: Floor, wall: Rgb): string | null {
+  const data = pixels(cells, floor, wall);
   const canvas = document.createElement("canvas");
-  canvas.width = grid.width;
-  canvas.height = grid.height;
+  canvas.width = cells.grid.width;
+  canvas.height = cells.grid.height;
   const pen = canvas.getContext("2d");
   if (data === null || pen === null) return null;
-  const image = pen.createImageData(grid.width, grid.height);
+  const image = pen.createImageData(canvas.width, canvas.height);
   image.data.set(data);
   pen.putImageData(image, 0, 0);
   return canvas.toDataURL("image/png");

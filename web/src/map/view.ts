@@ -1,11 +1,13 @@
 /** Put the drawing, the map's picture and the names into Leaflet. Knows no signal and no goal. */
 import * as L from "leaflet";
 import type { Grid, Place } from "../wire/types";
+import { Cells, nameSpot } from "./cells";
 import { Drawing } from "./drawing";
-import { colour, picture } from "./raster";
-import { middle, type Point } from "./resolve";
+import { colour, picture, tinted } from "./raster";
+import type { Point } from "./resolve";
 
 const SMALL_PX_PER_M = 38; // below it only rooms have names
+const TINTS = ["--tint-0", "--tint-1", "--tint-2", "--tint-3"];
 
 export class MapView {
   readonly drawing = new Drawing();
@@ -13,7 +15,10 @@ export class MapView {
   private readonly names = L.layerGroup();
   private image: L.ImageOverlay | null = null;
   private zoom: L.Control.Zoom | null = null;
-  private grid: Grid | null = null;
+  private cells: Cells | null = null;
+  private shown: L.LatLngBounds | null = null;
+  private places: readonly Place[] = [];
+  private nameOf: (place: Place) => string = (place) => place.id;
 
   constructor(
     private readonly place: HTMLElement,
@@ -44,28 +49,35 @@ export class MapView {
   }
 
   showGrid(grid: Grid): void {
-    const first = this.grid === null;
-    this.grid = grid;
-    const bounds = boundsOf(grid);
+    const first = this.cells === null;
+    this.cells = new Cells(grid);
+    const { left, bottom, right, top } = this.cells.known();
+    this.shown = L.latLngBounds([bottom, left], [top, right]);
     this.drawing.cover(grid);
     if (first) {
-      L.svgOverlay(this.drawing.svg, bounds, { pane: "overlayPane" }).addTo(this.map);
-      this.map.fitBounds(bounds, { animate: false });
+      L.svgOverlay(this.drawing.svg, boundsOf(grid), { pane: "overlayPane" }).addTo(this.map);
+      this.map.fitBounds(this.shown, { animate: false });
     }
-    this.map.setMaxBounds(bounds.pad(0.5));
+    this.map.setMaxBounds(this.shown.pad(0.5));
     this.paint();
+    this.writeNames();
     this.fit();
   }
 
   showNames(places: readonly Place[], nameOf: (place: Place) => string): void {
+    const others = this.places !== places;
+    this.places = places;
+    this.nameOf = nameOf;
+    if (others) this.paint();
+    this.writeNames();
+  }
+
+  private writeNames(): void {
     this.names.clearLayers();
-    this.drawing.showRooms(places);
-    for (const place of places) {
-      const { x, y } = place.polygon
-        ? middle(place.polygon)
-        : { x: place.pose.x_m, y: place.pose.y_m };
+    for (const place of this.places) {
+      const { x, y } = nameSpot(place, this.places, this.cells);
       const label = document.createElement("span");
-      label.textContent = nameOf(place); // as text: a name may hold anything
+      label.textContent = this.nameOf(place); // as text: a name may hold anything
       const icon = L.divIcon({
         html: label,
         className: `name name-${place.kind}`,
@@ -92,7 +104,7 @@ export class MapView {
 
   private fit(): void {
     this.map.invalidateSize({ animate: false });
-    if (this.grid) this.map.fitBounds(boundsOf(this.grid), { animate: false, padding: [6, 6] });
+    if (this.shown) this.map.fitBounds(this.shown, { animate: false, padding: [10, 10] });
     this.markSmall();
   }
 
@@ -101,10 +113,12 @@ export class MapView {
   }
 
   private paint(): void {
-    if (!this.grid) return;
-    const url = picture(this.grid, colour("--floor"), colour("--wall"));
+    if (this.cells === null) return;
+    const floor = tinted(this.places, colour("--floor"), TINTS.map(colour));
+    const url = picture(this.cells, floor, colour("--wall"));
     if (url === null) return;
-    this.image ??= L.imageOverlay(url, boundsOf(this.grid), { className: "cells" }).addTo(this.map);
+    const bounds = boundsOf(this.cells.grid);
+    this.image ??= L.imageOverlay(url, bounds, { className: "cells" }).addTo(this.map);
     this.image.setUrl(url);
     this.image.bringToBack();
   }

@@ -75,17 +75,19 @@ function Question({ kind, close }: { kind: Act; close: () => void }) {
 /** Take the operator's key for this page's memory. */
 export function KeyBox() {
   return (
-    <label class="field">
-      <span>{t("op.key")}</span>
-      <input
-        type="password"
-        autocomplete="off"
-        spellcheck={false}
-        onChange={(event) => setKey(event.currentTarget.value)}
-      />
-      <small>
-        {t("op.key.why")} {t("op.key.short")}
-      </small>
-    </label>
+    <form onSubmit={(event) => event.preventDefault()}>
+      <label class="field">
+        <span>{t("op.key")}</span>
+        <input
+          type="password"
+          autocomplete="off"
+          spellcheck={false}
+          onChange={(event) => setKey(event.currentTarget.value)}
+        />
+        <small>
+          {t("op.key.why")} {t("op.key.short")}
+        </small>
+      </label>
+    </form>
   );
 }

@@ -1,21 +1,28 @@
 /** Gather what a person needs to drive: the goal box, what runs, what waits, what was before. */
 import { t, word } from "../i18n";
 import { act, give, moveFirst } from "../state/acts";
-import { sortedGoals } from "../state/store";
+import { age, pageFresh, sortedGoals } from "../state/store";
 import type { Goal } from "../wire/types";
 import { GoalBox } from "./GoalBox";
-import { Ended, GoalCard, Steps } from "./GoalCard";
+import { seconds } from "./format";
+import { Ended, GoalCard, PlannedBy, Steps } from "./GoalCard";
+import { MindLine } from "./MindLine";
 import { reasonWords } from "./steps";
 
 const SHOWN_PAST = 20;
 
 export function DriveTab() {
   const { current, queued, past } = sortedGoals.value;
+  const stale = pageFresh.value || age("page") === null ? "" : "stale";
   return (
     <>
       <GoalBox />
-      <section class="card" aria-labelledby="now-title" id="now">
-        <h2 id="now-title">{t("goal.now")}</h2>
+      <MindLine />
+      <section class={`card ${stale}`} aria-labelledby="now-title" id="now">
+        <h2 id="now-title">
+          {t("goal.now")}
+          {stale && <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>}
+        </h2>
         {current.length === 0 && <p class="fine">{t("goal.none")}</p>}
         {current.map((goal) => (
           <GoalCard key={goal.id} goal={goal} />
@@ -29,7 +36,11 @@ export function DriveTab() {
 
 function Queue({ goals }: { goals: readonly Goal[] }) {
   return (
-    <section class="card" aria-labelledby="queue-title" id="queue">
+    <section
+      class={`card ${pageFresh.value ? "" : "stale"}`}
+      aria-labelledby="queue-title"
+      id="queue"
+    >
       <h2 id="queue-title">
         {t("goal.queue.title")} <span class="fine">{goals.length}</span>
       </h2>
@@ -83,6 +94,7 @@ function Past({ goals }: { goals: readonly Goal[] }) {
               </summary>
               {goal.outcome && <Ended outcome={goal.outcome} />}
               {goal.plan && <Steps steps={goal.plan.steps} />}
+              {goal.brain && <PlannedBy tag={goal.brain} />}
               <button type="button" onClick={() => void give(goal.text)}>
                 {t("goal.again")}
               </button>

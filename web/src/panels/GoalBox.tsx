@@ -7,6 +7,8 @@ import { isBusy, places } from "../state/store";
 
 const MAX_CHARACTERS = 2000;
 
+const wide = matchMedia("(min-width: 821px)").matches; // a phone's view has no room for all names
+
 const text = signal("");
 const sending = signal(false);
 
@@ -71,7 +73,7 @@ export function GoalBox() {
 /** Offer every room and place as a button: what a click on the map does, by keyboard. */
 function Names() {
   return (
-    <details class="names">
+    <details class="names" open={wide}>
       <summary>{t("goal.places")}</summary>
       <ul class="chips">
         {places.value.map((place) => (

@@ -2,9 +2,9 @@
 import { useSignal } from "@preact/signals";
 import { say, t, word } from "../i18n";
 import { act, answer } from "../state/acts";
-import type { Goal, Outcome, Step } from "../wire/types";
+import type { Goal, Outcome, Step, Tag } from "../wire/types";
 import { fixed } from "./format";
-import { needed, reasonWords, stepWords } from "./steps";
+import { brainName, needed, reasonWords, stepWords } from "./steps";
 
 const MARKS: { readonly [state: string]: string } = {
   pending: "○",
@@ -27,7 +27,7 @@ export function GoalCard({ goal }: { goal: Goal }) {
       {goal.plan && goal.plan.steps.length > 0 && <Steps steps={goal.plan.steps} />}
       {goal.state === "needs_clarification" && <Question goal={goal} />}
       {goal.outcome && <Ended outcome={goal.outcome} />}
-      {goal.brain && <p class="fine">{t("goal.brain", { name: goal.brain.name })}</p>}
+      {goal.brain && <PlannedBy tag={goal.brain} />}
       <Buttons goal={goal} />
     </article>
   );
@@ -112,6 +112,19 @@ export function Ended({ outcome }: { outcome: Outcome }) {
       <p dir="auto">{say(outcome.message)}</p>
       {more.length > 0 && <p class="fine">{more.join(" · ")}</p>}
     </div>
+  );
+}
+
+/** Name the brain that planned; where it stood in for a model, say so and why. */
+export function PlannedBy({ tag }: { tag: Tag }) {
+  if (tag.fallback_from === null) {
+    return <p class="fine by">{t("goal.brain", { name: brainName(tag.name) })}</p>;
+  }
+  return (
+    <p class="fine by fell" data-reason={tag.fallback_reason}>
+      {t("goal.brain.instead", { name: brainName(tag.name), model: tag.fallback_from })}{" "}
+      {tag.fallback_message && say(tag.fallback_message)}
+    </p>
   );
 }
 

@@ -1,6 +1,7 @@
 /** Show what the bridge and the planner said since the page was opened, newest first. */
 import { t } from "../i18n";
 import { log } from "../state/store";
+import { told } from "./events";
 import { clock } from "./format";
 
 export function LogTab() {
@@ -9,14 +10,18 @@ export function LogTab() {
       <h2 id="log-title">{t("log.title")}</h2>
       {log.value.length === 0 && <p class="fine">{t("log.none")}</p>}
       <ol class="log">
-        {log.value.map((entry) => (
-          <li key={entry.id}>
-            <time>{clock(entry.at)}</time>
-            <span>
-              <strong>{entry.kind === "say" ? t("log.say") : entry.code}</strong> {entry.text}
-            </span>
-          </li>
-        ))}
+        {log.value.map((entry) => {
+          const { text, fine } = told(entry);
+          return (
+            <li key={entry.id} data-code={entry.code}>
+              <time>{clock(entry.at)}</time>
+              <span dir="auto">
+                {text}
+                {fine && <small class="fine">{fine}</small>}
+              </span>
+            </li>
+          );
+        })}
       </ol>
     </section>
   );

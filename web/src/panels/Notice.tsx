@@ -1,5 +1,6 @@
 /** Say what keeps the robot from driving, in sentences, with the button that a person may press. */
 import { rowWords, t, word } from "../i18n";
+import type { Act } from "../net/api";
 import { age, bridgeFresh, status } from "../state/store";
 import type { Status } from "../wire/types";
 import { Deliberate } from "./Deliberate";
@@ -11,10 +12,15 @@ export function Notice() {
   const items = reasons(said);
   if (items.length === 0) return null;
   const stale = bridgeFresh.value ? "" : "stale";
+  const remedy = remedyOf(said);
   return (
-    <section class={`card notice ${stale}`} aria-labelledby="notice-title" id="notice">
+    <section
+      class={`card notice ${remedy ? "asks" : "tells"} ${stale}`}
+      aria-labelledby="notice-title"
+      id="notice"
+    >
       <h2 id="notice-title">
-        {t("notice.title")}
+        {t(remedy ? "notice.title" : "notice.watch")}
         {stale && <span class="old"> {t("link.age", { age: seconds(age("status")) })}</span>}
       </h2>
       <ul>
@@ -22,7 +28,7 @@ export function Notice() {
           <li key={item}>{item}</li>
         ))}
       </ul>
-      <Remedy said={said} />
+      {remedy && <Deliberate kind={remedy} where="notice" />}
     </section>
   );
 }
@@ -47,8 +53,9 @@ function wanted(code: string): string {
   return words === code.toUpperCase() ? code.replaceAll("_", " ") : words;
 }
 
-function Remedy({ said }: { said: Status }) {
-  if (["ESTOPPED", "FAULT"].includes(said.mode)) return <Deliberate kind="reset" where="notice" />;
-  if (said.mode === "DISARMED") return <Deliberate kind="arm" where="notice" />;
-  return said.held ? <Deliberate kind="resume" where="notice" /> : null;
+/** Return the order by which a person may let the robot go on; null where none is needed. */
+function remedyOf(said: Status): Act | null {
+  if (["ESTOPPED", "FAULT"].includes(said.mode)) return "reset";
+  if (said.mode === "DISARMED") return "arm";
+  return said.held ? "resume" : null;
 }

@@ -1,12 +1,13 @@
 /** Gather what the bridge says of itself, and the orders that are none of a goal's. */
-import { rowWords, t, word } from "../i18n";
+import { rowWords, say, t, word } from "../i18n";
 import { forgetKey, hasKey, needsKey } from "../net/proof";
 import { Plots } from "../plots/Plots";
 import { fresh } from "../state/moment";
-import { age, bridgeFresh, gaps, ignored, robot, status } from "../state/store";
+import { age, bridgeFresh, gaps, ignored, mind, pageFresh, robot, status } from "../state/store";
 import type { Status } from "../wire/types";
 import { Deliberate, KeyBox } from "./Deliberate";
 import { fixed, seconds } from "./format";
+import { mindWords } from "./MindLine";
 import { limitWords, nameOf } from "./steps";
 
 type Pair = readonly [label: string, value: string];
@@ -52,6 +53,7 @@ export function RobotTab() {
           <Rows said={said} />
         </div>
       )}
+      <WhoPlans />
       <Links />
       <Plots />
     </>
@@ -140,6 +142,19 @@ function Rows({ said }: { said: Status }) {
           </li>
         ))}
       </ul>
+    </section>
+  );
+}
+
+function WhoPlans() {
+  const who = mind.value;
+  if (who === null) return null;
+  return (
+    <section class={`card ${pageFresh.value ? "" : "stale"}`} aria-labelledby="mind-title">
+      <h2 id="mind-title">{t("mind.title")}</h2>
+      <p>
+        {mindWords(who)} {who.last_error && say(who.last_error.message)}
+      </p>
     </section>
   );
 }

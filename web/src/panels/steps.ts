@@ -41,5 +41,8 @@ export function limitWords(by: string): string {
   return known === by ? rowWords(by.toUpperCase()) : known;
 }
 
+/** Name a brain: the built-in one in words, a model by its own name. */
+export const brainName = (name: string): string => (name === "offline" ? t("mind.offline") : name);
+
 export const needed = (key: "goal.limited", names: readonly string[]): string =>
   names.length > 0 ? t(key, { what: names.map(limitWords).join(", ") }) : "";

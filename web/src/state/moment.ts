@@ -14,7 +14,8 @@ export function since(then: Moment, now: Moment): number {
   return ms / 1000;
 }
 
-export const STALE_S = 1.0;
+/** Older than this is not now. With the clock's step of 0.2 s all old is grey within a second. */
+export const STALE_S = 0.75;
 
 /** Say whether an age may be shown as now. Written so that a missing or broken age may not. */
 export function fresh(ageS: number | null): boolean {

@@ -17,6 +17,7 @@ export const grid = signal<Grid | null>(null);
 export const history = new History();
 
 export const robot = computed(() => model.value.robot);
+export const mind = computed(() => model.value.robot?.brain ?? null);
 export const status = computed(() => model.value.robot?.status ?? null);
 export const goals = computed(() => model.value.goals);
 export const about = computed(() => model.value.about);
@@ -33,6 +34,7 @@ export const isBusy = computed(() => busy(goals.value));
 /** Return the age of a source as of the newest tick [s]. */
 export const age = (source: string): number | null => ageOf(model.value, source, now.value);
 
+export const pageFresh = computed(() => fresh(ageOf(model.value, "page", now.value)));
 export const bridgeFresh = computed(() => fresh(ageOf(model.value, "status", now.value)));
 
 /** Take what came over the socket. */

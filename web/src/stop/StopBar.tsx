@@ -1,6 +1,7 @@
 /** Show the Stop button, on every view, and what the bridge has said to it. */
 import { t } from "../i18n";
 import { seconds } from "../panels/format";
+import { limitWords } from "../panels/steps";
 import { age, bridgeFresh, status } from "../state/store";
 import type { StopState } from "./machine";
 import { stop, stopState } from "./stopper";
@@ -60,8 +61,14 @@ function Motion() {
   const speed = Math.abs(said.measured.v_mps);
   const moving = speed > 0.02 || Math.abs(said.measured.w_radps) > 0.05;
   const words = moving ? t("motion.moving", { speed: speed.toFixed(2) }) : t("motion.standing");
+  const { limits } = said;
   return bridgeFresh.value ? (
-    <p class="motion">{words}</p>
+    <p class="motion">
+      {words}
+      <span class="fine limit">
+        {t("motion.limit", { speed: limits.v_mps.toFixed(2), what: limitWords(limits.by) })}
+      </span>
+    </p>
   ) : (
     <p class="motion stale">{t("motion.stale", { words, age: seconds(age("status")) })}</p>
   );

@@ -54,6 +54,22 @@ function isStatus(value: unknown): value is Status {
   );
 }
 
+const BREAKERS = new Set<unknown>(["closed", "open", "on_trial", null]);
+
+const isMind = (value: unknown): boolean =>
+  bag(value) &&
+  text(value.name) &&
+  BREAKERS.has(value.breaker) &&
+  finite(value.rests_s) &&
+  (value.last_error === null ||
+    (bag(value.last_error) && text(value.last_error.code) && words(value.last_error.message)));
+
+const isTag = (value: unknown): boolean =>
+  bag(value) &&
+  text(value.name) &&
+  textOrNull(value.fallback_from) &&
+  (value.fallback_message === null || words(value.fallback_message));
+
 function isRobot(value: unknown): value is Robot {
   return (
     bag(value) &&
@@ -61,6 +77,7 @@ function isRobot(value: unknown): value is Robot {
     textOrNull(value.room) &&
     text(value.site) &&
     text(value.map_id) &&
+    isMind(value.brain) &&
     bag(value.ages_s) &&
     Object.values(value.ages_s).every(finiteOrNull)
   );
@@ -71,11 +88,12 @@ const option = (value: unknown): boolean => bag(value) && text(value.text) && wo
 
 export function isGoal(value: unknown): value is Goal {
   if (!bag(value)) return false;
-  const { plan, outcome } = value;
+  const { plan, outcome, brain } = value;
   return (
     [value.id, value.text, value.state, value.created].every(text) &&
     textOrNull(value.reason) &&
     finiteOrNull(value.position) &&
+    (brain === null || isTag(brain)) &&
     (plan === null ||
       (bag(plan) &&
         text(plan.kind) &&

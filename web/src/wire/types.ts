@@ -62,12 +62,21 @@ export type Status = {
 
 export type Ages = { readonly [source: string]: number | null };
 
+/** Who plans: a model behind its breaker, or the offline brain alone (no breaker). */
+export type Mind = {
+  readonly name: string;
+  readonly breaker: "closed" | "open" | "on_trial" | null;
+  readonly rests_s: number;
+  readonly last_error: { readonly code: string; readonly message: Bilingual } | null;
+};
+
 export type Robot = {
   readonly status: Status | null;
   readonly room: string | null;
   readonly ages_s: Ages;
   readonly site: string;
   readonly map_id: string;
+  readonly brain: Mind;
 };
 
 export type Step = {
@@ -111,6 +120,15 @@ export type Outcome = {
   readonly limited_by: readonly string[];
 };
 
+/** Which brain planned a goal, and which one it stood in for, if it did. */
+export type Tag = {
+  readonly name: string;
+  readonly version: string;
+  readonly fallback_from: string | null;
+  readonly fallback_reason: string | null;
+  readonly fallback_message: Bilingual | null;
+};
+
 export type Goal = {
   readonly id: string;
   readonly text: string;
@@ -119,7 +137,7 @@ export type Goal = {
   readonly reason: string | null;
   readonly plan: Plan | null;
   readonly outcome: Outcome | null;
-  readonly brain: { readonly name: string; readonly version: string } | null;
+  readonly brain: Tag | null;
   readonly position: number | null;
   readonly created: string;
   readonly updated: string;

@@ -1,0 +1,33 @@
+/** Say an entry of the log in a sentence; what has none keeps its code. */
+import { rowWords, t, word } from "../i18n";
+import type { LogEntry } from "../state/model";
+
+export type Told = { readonly text: string; readonly fine: string };
+
+export function told(entry: LogEntry): Told {
+  if (entry.kind === "say") return { text: `${t("log.say")}: ${entry.text}`, fine: "" };
+  if (entry.kind === "act") return { text: t("log.act", { code: entry.code }), fine: "" };
+  if (entry.kind === "planner") return { text: entry.text, fine: entry.code };
+  return fromBridge(entry.code, entry.text);
+}
+
+function fromBridge(code: string, detail: string): Told {
+  const [first = "", second = ""] = detail.split(" ");
+  const [row = ""] = first.split("."); // a row's stage stands behind its name
+  switch (code) {
+    case "row_up":
+      return { text: rowWords(row), fine: detail };
+    case "row_down":
+      return { text: t("event.row_down", { what: rowWords(row) }), fine: detail };
+    case "mode": {
+      const names = { from: word("mode", first), to: word("mode", second) };
+      return { text: t("event.mode", names), fine: detail.split(" ").slice(2).join(" ") };
+    }
+    case "held":
+      return { text: word("held", first), fine: "" };
+    default: {
+      const known = word("event", code);
+      return known === code ? { text: code, fine: detail } : { text: known, fine: detail };
+    }
+  }
+}
