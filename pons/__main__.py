@@ -11,6 +11,7 @@ from pons.settings import BadSetting, Settings, load, port_of
 
 EXIT_USAGE = 2
 MOCK_LLM = "mock-llm"
+LONGEST_FAULT_S = 3600.0
 
 
 def parser() -> argparse.ArgumentParser:
@@ -43,10 +44,24 @@ def parser() -> argparse.ArgumentParser:
     )
     seen.add_argument("--json", action="store_true")
     seen.add_argument("--jitter", action="store_true", help="measure a 100 Hz loop for 5 s")
+    broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
+    broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
+    broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
     again = words.add_parser("replay", help="run a recording again and compare every command")
     again.add_argument("file")
     words.add_parser(MOCK_LLM, help="serve a model that is none, with faults: mock-llm --help")
     return top
+
+
+def _seconds(text: str) -> float:
+    """Read how long. Raises ArgumentTypeError."""
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if not 0.0 < seconds <= LONGEST_FAULT_S:
+        raise argparse.ArgumentTypeError(f"{text!r}; expected 0 to {LONGEST_FAULT_S:.0f} seconds")
+    return seconds
 
 
 _OPERATOR = {
@@ -88,6 +103,10 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         from pons import doctor
 
         return doctor.run(settings, as_json=said.json, jitter=said.jitter)
+    if said.word == "fault":
+        from pons import fault
+
+        return fault.run(settings, said.names, seconds=said.seconds)
     if said.word == "replay":
         from pons import replay
 

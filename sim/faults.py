@@ -1,18 +1,58 @@
-"""Break the robot on demand, in one place. A set of switches that tick() looks at; off by default.
+"""Break the robot on demand: one set of names, looked at in every tick. Empty by default.
 
 A fault changes what hardware does or says, never what the simulator knows: truth stays true.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from sim.channel import Trouble
+from wire import SimFault
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+RUNAWAY_RADPS: Final = 6.0
+"""What a runaway motor turns at: 0.6 m/s, faster than anybody asks."""
+LOW_CHARGE, SAGGING_CHARGE = 0.15, 0.05
 
 
-@dataclass(slots=True)
 class Faults:
-    """Hold the switches; a story turns them while it runs."""
+    """Hold what is broken now."""
 
-    drive_silent: bool = False  # no drive/state: a broken cable back
-    deaf: bool = False  # no command arrives: a broken cable forth
-    lidar_silent: bool = False
-    imu_silent: bool = False
+    def __init__(self, standing: Iterable[SimFault] = ()) -> None:
+        self._standing = frozenset(standing)
+        self._sensors = {sensor: self._troubles(sensor) for sensor in ("encoder", "lidar", "gyro")}
+
+    @property
+    def standing(self) -> tuple[SimFault, ...]:
+        """Return what is broken, in the order in which the names are defined."""
+        return tuple(fault for fault in SimFault if fault in self._standing)
+
+    def __contains__(self, fault: SimFault) -> bool:
+        """Tell whether this is broken."""
+        return fault in self._standing
+
+    def of_sensor(self, sensor: str) -> frozenset[Trouble]:
+        """Return what is wrong with a sensor: ``encoder``, ``lidar`` or ``gyro``."""
+        return self._sensors[sensor]
+
+    def _troubles(self, sensor: str) -> frozenset[Trouble]:
+        named = {trouble for trouble in Trouble if f"{sensor}_{trouble}" in self._standing}
+        if sensor == "encoder" and SimFault.DRIVE_OFF in self._standing:
+            named.add(Trouble.OFF)  # one message holds all that the drive says
+        return frozenset(named)
+
+    def wheels_radps(self, left: float, right: float, *, torque: bool) -> tuple[float, float]:
+        """Return what the motors do of what they were told; without torque nothing turns them."""
+        if SimFault.RUNAWAY in self and torque:
+            return RUNAWAY_RADPS, RUNAWAY_RADPS
+        return (-left, -right) if SimFault.REVERSED in self else (left, right)
+
+    def charge(self, charge: float, *, turning: bool) -> float:
+        """Return what the battery's gauge shows of its charge, in steps of a thousandth."""
+        charge = round(charge, 3)
+        if SimFault.BATTERY_SAG in self and turning:
+            return min(charge, SAGGING_CHARGE)
+        return min(charge, LOW_CHARGE) if SimFault.BATTERY_LOW in self else charge

@@ -19,6 +19,8 @@ class Hardware:
     dead_zone_radps: float = 0.05  # swallowed from every command: 5 mm/s; below it nothing turns
     timeout_ramp_radps2: float = 25.0  # how the drive itself stops: 2.5 m/s2
     encoder_counts: int = 16_384  # per turn of the wheel: 0.04 mm, and 4 mm/s at 100 Hz
+    battery_idle_s: float = 8 * 3600.0  # from full to empty, standing
+    battery_driving_s: float = 3 * 3600.0
     gyro_noise_radps: float = 0.003
     gyro_bias_radps: float = 0.002  # drawn once at start
     accel_noise_mps2: float = 0.05

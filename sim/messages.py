@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from sim.contacts import Episodes
     from sim.deadman import DeadMan, Wheels
     from sim.sensors import Encoder, ImuSample, LidarModel, Ranges
+    from wire import SimFault
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +22,17 @@ class Report:
     imu: Imu | None
     scan: Scan | None
     truth: SimTruth | None
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs:
+    """Give what is wired to the drive besides its wheels."""
+
+    battery: float
+    estop_pressed: bool
+    bumper_front: bool
+    bumper_rear: bool
+    cliff: bool
 
 
 class Speaker:
@@ -35,7 +47,12 @@ class Speaker:
         return self._seqs[key]
 
     def drive(
-        self, now_s: float, dead_man: DeadMan, wheels: Wheels, encoders: tuple[Encoder, Encoder]
+        self,
+        now_s: float,
+        dead_man: DeadMan,
+        wheels: Wheels,
+        encoders: tuple[Encoder, Encoder],
+        inputs: Inputs,
     ) -> DriveState:
         """Say what the drive does."""
         echo_boot, echo_seq = dead_man.echo
@@ -52,6 +69,11 @@ class Speaker:
             right_rad=right.angle_rad,
             left_radps=left.speed_radps,
             right_radps=right.speed_radps,
+            battery=inputs.battery,
+            estop_pressed=inputs.estop_pressed,
+            bumper_front=inputs.bumper_front,
+            bumper_rear=inputs.bumper_rear,
+            cliff=inputs.cliff,
         )
 
     def imu(self, now_s: float, sample: ImuSample) -> Imu:
@@ -85,6 +107,7 @@ class Speaker:
         twist: Twist2,
         contacts: Episodes,
         real_time_factor: float,
+        faults: tuple[SimFault, ...],
     ) -> SimTruth:
         """Say where the robot really is, to judges and the localization stand-in."""
         return SimTruth(
@@ -96,4 +119,5 @@ class Speaker:
             contacts=contacts.now,
             contacts_total=contacts.total,
             real_time_factor=real_time_factor,
+            faults=faults,
         )

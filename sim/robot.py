@@ -12,21 +12,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sim.battery import Battery
+from sim.channel import Channel
 from sim.contacts import Episodes
 from sim.deadman import DeadMan
 from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
-from sim.messages import Report, Speaker
+from sim.messages import Inputs, Report, Speaker
 from sim.mjcf import OBSTACLES
-from sim.sensors import Encoder, ImuModel, LidarModel
+from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
 from sim.world import World
-from wire import Pose2, RobotDescription, Twist2, compose
+from wire import Pose2, RobotDescription, SimFault, Twist2, compose
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from wire import DriveCommand, Imu, Scan, SimControl, SimTruth
+    from sim.deadman import Wheels
+    from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimTruth
 
 _STEPS = round(PERIODS.tick_s / PERIODS.step_s)
 _BEYOND_RANGE_M = 0.1
@@ -66,10 +69,15 @@ class SimRobot:
             Encoder(counts, PERIODS.tick_s, right_rad),
         )
         # One stream per sensor: adding a beam must not change the gyro.
-        streams = [np.random.default_rng(part) for part in np.random.SeedSequence(seed).spawn(2)]
+        streams = [np.random.default_rng(part) for part in np.random.SeedSequence(seed).spawn(3)]
         self._imu = ImuModel(self._hardware, PERIODS.tick_s, streams[0])
         self._lidar = LidarModel(self.robot.lidar, self._hardware, streams[1])
         self._scan_ticks = max(1, round(self.robot.lidar.scan_s / PERIODS.tick_s))
+        garbage = Garbage(streams[2])
+        self._drive_out = Channel["DriveState"](garbage.WHEELS, garbage.wheels)
+        self._imu_out = Channel["Imu"](garbage.TURN, garbage.turn)
+        self._scan_out = Channel["Scan"](garbage.RANGES, garbage.ranges)
+        self._battery = Battery(self._hardware, PERIODS.tick_s)
         self._contacts = Episodes(PERIODS.tick_s)
         self._speaker = Speaker(boot_id)
         self._ticks = 0
@@ -97,24 +105,27 @@ class SimRobot:
 
     def command(self, command: DriveCommand, now_s: float) -> bool:
         """Receive a drive command; False for a repeated seq, which counts for nothing."""
-        return not self.faults.deaf and self._dead_man.receive(command, now_s)
+        return SimFault.DRIVE_DEAF not in self.faults and self._dead_man.receive(command, now_s)
 
     def tick(self, now_s: float, *, real_time_factor: float = 1.0) -> Report:
         """Advance one period and report, stamped ``now_s`` on the caller's clock."""
         wheels = self._dead_man.wheels(now_s)
+        left, right = self.faults.wheels_radps(
+            wheels.left_radps, wheels.right_radps, torque=wheels.torque
+        )
         self._world.step(
-            self._past_dead_zone(wheels.left_radps),
-            self._past_dead_zone(wheels.right_radps),
+            self._past_dead_zone(left),
+            self._past_dead_zone(right),
             braked=not wheels.torque,
             steps=_STEPS,
         )
         self._ticks += 1
+        self._battery.tick(turning=left != 0.0 or right != 0.0)
         self._contacts.sample(self._world.contacts())
         for encoder, angle in zip(self._encoders, self._world.wheel_angles(), strict=True):
             encoder.sample(angle)
-        state = self._speaker.drive(now_s, self._dead_man, wheels, self._encoders)
         return Report(
-            drive=None if self.faults.drive_silent else state,
+            drive=self._drive_due(now_s, wheels),
             imu=self._imu_due(now_s),
             scan=self._scan_due(now_s),
             truth=self._truth_due(now_s, real_time_factor),
@@ -156,21 +167,44 @@ class SimRobot:
             self.place_obstacle(*control.place_obstacle)
         if control.remove_obstacle:
             self.remove_obstacle()
+        if control.faults is not None:
+            self.break_down(*control.faults)
+
+    def break_down(self, *faults: SimFault) -> None:
+        """Let exactly these faults stand from now on; none mends everything."""
+        self.faults = Faults(faults)
+        self._world.block_left_wheel(blocked=SimFault.WHEEL_STUCK in self.faults)
+        self._world.make_slippery(slippery=SimFault.SLIP in self.faults)
 
     def _past_dead_zone(self, wheel_radps: float) -> float:
         """Return what the motor follows: friction swallows the first part of every wish."""
         left_over = max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
         return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 
+    def _drive_due(self, now_s: float, wheels: Wheels) -> DriveState | None:
+        faults, turning = self.faults, wheels.left_radps != 0.0 or wheels.right_radps != 0.0
+        inputs = Inputs(
+            battery=faults.charge(self._battery.charge, turning=turning),
+            estop_pressed=SimFault.ESTOP_PRESSED in faults,
+            bumper_front=SimFault.BUMPER_FRONT in faults,
+            bumper_rear=SimFault.BUMPER_REAR in faults,
+            cliff=SimFault.CLIFF in faults,
+        )
+        state = self._speaker.drive(now_s, self._dead_man, wheels, self._encoders, inputs)
+        return self._drive_out.through(state, faults.of_sensor("encoder"))
+
     def _imu_due(self, now_s: float) -> Imu | None:
         if not self.robot.inputs.imu:
             return None
         message = self._speaker.imu(now_s, self._imu.sample(self._world.twist()))
-        return None if self.faults.imu_silent else message
+        return self._imu_out.through(message, self.faults.of_sensor("gyro"))
 
     def _scan_due(self, now_s: float) -> Scan | None:
-        if self._ticks % self._scan_ticks != 0:
-            return None
+        due = self._ticks % self._scan_ticks == 0
+        message = self._scan(now_s) if due else None
+        return self._scan_out.through(message, self.faults.of_sensor("lidar"))
+
+    def _scan(self, now_s: float) -> Scan:
         config = self.robot.lidar
         lidar_in_map = compose(self._world.pose(), Pose2(config.x_m, config.y_m, config.yaw_rad))
         true_m = self._world.rays(
@@ -178,12 +212,19 @@ class SimRobot:
             self._lidar.directions(lidar_in_map),
             config.range_max_m + _BEYOND_RANGE_M,
         )
-        message = self._speaker.scan(now_s, self._lidar, self._lidar.measured(true_m))
-        return None if self.faults.lidar_silent else message
+        ranges_m = self._lidar.measured(true_m)
+        if SimFault.LIDAR_BLIND in self.faults:
+            ranges_m = (None,) * len(ranges_m)
+        return self._speaker.scan(now_s, self._lidar, ranges_m)
 
     def _truth_due(self, now_s: float, real_time_factor: float) -> SimTruth | None:
         if self._ticks % PERIODS.truth_ticks != 0:
             return None
         return self._speaker.truth(
-            now_s, self._world.pose(), self._world.twist(), self._contacts, real_time_factor
+            now_s,
+            self._world.pose(),
+            self._world.twist(),
+            self._contacts,
+            real_time_factor,
+            self.faults.standing,
         )

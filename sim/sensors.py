@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from sim.hardware import Hardware
-    from wire import Pose2, Twist2
+    from wire import DriveState, Imu, Pose2, Scan, Twist2
     from wire.robot import LidarConfig
 
 Ranges = tuple[float | None, ...]
@@ -109,3 +109,29 @@ class LidarModel:
         return tuple(
             None if gone else value for value, gone in zip(millimetres, lost.tolist(), strict=True)
         )
+
+
+class Garbage:
+    """Make values that a broken sensor might send: anything that the wire can carry."""
+
+    WHEELS = ("left_rad", "right_rad", "left_radps", "right_radps")
+    TURN = ("yaw_rate_radps", "accel_x_mps2", "accel_y_mps2")
+    RANGES = ("ranges_m",)
+
+    def __init__(self, random: Generator) -> None:
+        self._random = random
+
+    def wheels(self, state: DriveState) -> dict[str, float]:
+        """Turn the wheels to anywhere within ten turns, at any speed."""
+        jumps, speeds = self._random.uniform(-60.0, 60.0, 2), self._random.uniform(-50.0, 50.0, 2)
+        values = (state.left_rad + jumps[0], state.right_rad + jumps[1], *speeds)
+        return dict(zip(self.WHEELS, map(float, values), strict=True))
+
+    def turn(self, _reading: Imu) -> dict[str, float]:
+        """Turn at any rate."""
+        return dict(zip(self.TURN, self._random.uniform(-20.0, 20.0, 3).tolist(), strict=True))
+
+    def ranges(self, scan: Scan) -> dict[str, Ranges]:
+        """See anything anywhere."""
+        values = self._random.uniform(0.0, scan.range_max_m, len(scan.ranges_m))
+        return {"ranges_m": tuple(values.tolist())}

@@ -28,6 +28,8 @@ log = logging.getLogger("sim")
 # MuJoCo would write its warnings to a file in the working directory.
 mujoco.set_mju_user_warning(lambda text: log.error("physics: %s", text))
 
+_JAMMED_NM = 200.0
+_ICE = 0.02  # Coulomb friction: 0.2 m/s2 at most
 _SEEN_BY_LIDAR = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)  # geom groups, see sim.mjcf
 
 
@@ -46,6 +48,9 @@ class World:
         self._angle_at = [int(self._model.jnt_qposadr[joint]) for joint in self._wheels]
         self._height_m = hardware.lidar_height_m
         mujoco.mj_forward(self._model, self._data)  # places the solids: rays work from the start
+        grips = ("floor", "wheel_left", "wheel_right")
+        self._grips = [self._model.geom(name).id for name in grips]
+        self._left_dof = int(self._model.jnt_dofadr[self._wheels[0]])
         # Views into MuJoCo's memory: reading them costs no call.
         self._qpos: NDArray[np.float64] = self._data.qpos
         self._qvel: NDArray[np.float64] = self._data.qvel
@@ -91,6 +96,14 @@ class World:
         self._qvel[:] = 0.0
         self._act[:] = 0.0
         self.step(0.0, 0.0, braked=True, steps=SETTLE_STEPS)
+
+    def block_left_wheel(self, *, blocked: bool) -> None:
+        """Jam the left wheel, or let it go: friction in its bearing that no motor overcomes."""
+        self._model.dof_frictionloss[self._left_dof] = _JAMMED_NM if blocked else 0.0
+
+    def make_slippery(self, *, slippery: bool) -> None:
+        """Put the wheels on ice, or back on the floor. Of two materials the rougher one counts."""
+        self._model.geom_friction[self._grips, 0] = _ICE if slippery else 1.0
 
     def place_obstacle(self, name: str, x_m: float, y_m: float, yaw_rad: float) -> None:
         """Stand a movable obstacle on the floor."""

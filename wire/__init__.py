@@ -45,9 +45,8 @@ from wire.sensors import (
     Localization,
     Odometry,
     Scan,
-    SimControl,
-    SimTruth,
 )
+from wire.simulation import SimControl, SimFault, SimTruth
 from wire.status import (
     SEVERITY,
     Action,
@@ -107,6 +106,7 @@ __all__ = [
     "RowReport",
     "Scan",
     "SimControl",
+    "SimFault",
     "SimTruth",
     "Status",
     "Stop",

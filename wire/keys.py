@@ -25,9 +25,8 @@ from wire.sensors import (
     Localization,
     Odometry,
     Scan,
-    SimControl,
-    SimTruth,
 )
+from wire.simulation import SimControl, SimTruth
 from wire.status import Event, Status
 
 LATEST = 1

@@ -1,4 +1,4 @@
-"""Define what robot, localization and simulator say; ``stamp_s`` is the sender's own clock."""
+"""Define what robot and localization say; ``stamp_s`` is the sender's own clock."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from wire.base import Record
-from wire.geometry import Metres, Pose2, Radps, Twist2, Yaw
+from wire.geometry import Pose2, Radps, Twist2, Yaw
 from wire.scalars import MAX_BEAMS, Count, Fingerprint, Name, Ratio, Seconds, WheelAngle, WheelSpeed
 
 Range = Annotated[float, Field(ge=0.0, le=1_000.0)]
@@ -106,27 +106,3 @@ class ImageHeader(Record):
     width: Annotated[int, Field(ge=1, le=8192)]
     height: Annotated[int, Field(ge=1, le=8192)]
     focal_px: Annotated[float, Field(gt=0.0, le=100_000.0)]
-
-
-class SimTruth(Record):
-    """Tell judges, tests and the localization stand-in where the simulated robot really is."""
-
-    boot_id: Name
-    seq: Count
-    stamp_s: Seconds
-    base_in_map: Pose2
-    twist: Twist2
-    contacts: Annotated[int, Field(ge=0, le=10_000)]
-    """Contacts of the robot with anything but the floor, at this instant."""
-    contacts_total: Count
-    """Contact episodes since start."""
-    real_time_factor: Annotated[float, Field(ge=0.0, le=1_000.0)]
-
-
-class SimControl(Record):
-    """Let a test move the simulated robot or its spare obstacle. Heard by the simulator only."""
-
-    id: Name
-    place_robot: Pose2 | None = None
-    place_obstacle: tuple[Metres, Metres] | None = None
-    remove_obstacle: bool = False

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sim import Faults, Hardware, Report, SimRobot
+from sim import Hardware, Report, SimRobot
 from wire import (
     DriveCommand,
     DriveState,
@@ -19,6 +19,7 @@ from wire import (
     RobotDescription,
     Scan,
     SimControl,
+    SimFault,
     SimTruth,
     distance,
 )
@@ -265,17 +266,17 @@ def test_faults_silence_what_they_name_and_nothing_else(driver: Driver) -> None:
         return {key for key in keys for report in reports if getattr(report, key) is not None}
 
     assert heard() == {"drive", "imu", "scan", "truth"}
-    driver.robot.faults.lidar_silent = True
+    driver.robot.break_down(SimFault.LIDAR_OFF)
     assert heard() == {"drive", "imu", "truth"}
-    driver.robot.faults.imu_silent = driver.robot.faults.drive_silent = True
+    driver.robot.break_down(SimFault.LIDAR_OFF, SimFault.GYRO_OFF, SimFault.DRIVE_OFF)
     assert heard() == {"truth"}
-    driver.robot.faults = Faults()
+    driver.robot.break_down()
     assert heard() == {"drive", "imu", "scan", "truth"}
 
 
 def test_a_deaf_drive_stops_by_itself(driver: Driver) -> None:
     driver.drive(4.0, 4.0, 1.0)
-    driver.robot.faults.deaf = True
+    driver.robot.break_down(SimFault.DRIVE_DEAF)
     last = driver.drive(4.0, 4.0, 1.0)[-1].drive
     assert (last.timed_out, last.enabled, last.echo_seq) == (True, False, 100)
 
