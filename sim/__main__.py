@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import gc
 import logging
 import os
@@ -18,6 +19,9 @@ from sim.site import check_fresh
 from wire import Misconfigured, Pose2, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
+
+PRIORITY = 40
+"""Below the bridge's loop: what stands for wheels and sensors must not be late before it is."""
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
@@ -43,6 +47,7 @@ def _serve(options: argparse.Namespace) -> None:
     start = Pose2(*options.start) if options.start else None
     robot = SimRobot(options.site, description, seed=options.seed, start=start, boot_id=boot_id)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+    _go_before_others()  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:
         shell = Shell(robot, session)
         gc.collect()
@@ -51,6 +56,16 @@ def _serve(options: argparse.Namespace) -> None:
             "%s drives in %s, seed %d", boot_id, options.site, options.seed
         )
         shell.run(stopped.is_set)
+
+
+def _go_before_others() -> None:
+    """Ask for SCHED_FIFO: a real motor controller or lidar waits for no busy machine.
+
+    Beside six busy loops on two cores, encoders came 312 ms late and the bridge disarmed; with this
+    they came in time (real-time factor at worst 0.56 and 0.97). Where refused, goes on without.
+    """
+    with contextlib.suppress(AttributeError, OSError):  # no Linux; no right to it
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
 
 
 def main(arguments: list[str] | None = None) -> int:

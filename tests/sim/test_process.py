@@ -111,6 +111,14 @@ def test_it_obeys_stops_in_silence_and_ends_on_sigterm(
     assert sim.wait(LIMIT_S) == 0
 
 
+@pytest.mark.usefixtures("bench")
+def test_it_goes_before_others_where_it_may(sim: subprocess.Popen[str]) -> None:
+    ask = "import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))"
+    asked = subprocess.run([sys.executable, "-c", ask], stderr=subprocess.DEVNULL, check=False)
+    expected = os.SCHED_FIFO if asked.returncode == 0 else os.SCHED_OTHER
+    assert os.sched_getscheduler(sim.pid) == expected
+
+
 def test_after_a_freeze_it_skips_and_obeys_nothing_from_before(
     sim: subprocess.Popen[str], bench: Bench
 ) -> None:
