@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Run stories with real processes in real time; tell each failed one once more, alone and aloud.
-# A shared machine may stall a real-time story for seconds; a story that fails twice is red.
+# Run stories with real processes in real time, two files at once: a robot takes half a core. Tell
+# each failed one once more, alone and aloud. A shared machine may stall a real-time story for
+# seconds; a story that fails twice is red.
 set -uo pipefail
 
-.venv/bin/python -m pytest "$@"
+.venv/bin/python -m pytest -n logical --maxprocesses 2 --dist loadfile "$@"
 code=$?
 [ "$code" = 1 ] || exit "$code" # 1: tests failed; all else (Ctrl-C, bad usage) is not tried again
-echo "stories: some failed; each of those is told once more. Failing again is red."
+echo "stories: some failed; each of those is told once more, alone. Failing again is red."
 exec .venv/bin/python -m pytest "$@" --last-failed --last-failed-no-failures none
