@@ -1,6 +1,6 @@
-"""Open the page in a real browser on a really running two-room robot.
+"""Open the page in a real browser, on a really running robot that thinks with a mock model.
 
-Owns one Chromium and one robot for all stories of the page, and what a failed story shows.
+Owns one Chromium, robot and mock for all stories of the page, and what a failed story shows.
 """
 
 from __future__ import annotations
@@ -9,18 +9,33 @@ import os
 import re
 import shutil
 from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Error, Page, sync_playwright
 
+from planner.settings import FILE
+from tests.e2e.polling import until
 from tests.e2e.robot import Robot
-from tests.e2e.system import new_home
+from tests.e2e.system import ENDED, new_home
+from tests.pons.mock.mocks import RunningMock, running_mock
 
 ROOT = Path(__file__).resolve().parents[2]
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 LAPTOP = (1280, 800)
+STORY_LIMIT_S = 120
+
+MODEL = """
+[model]
+url = "{url}"
+name = "mock"
+timeout_s = 8
+rest_s = 1
+"""
 
 OpenPage = Callable[..., Page]
 
@@ -39,16 +54,35 @@ def browser() -> Iterator[Browser]:
     if not (ROOT / "web" / "dist" / "index.html").is_file():
         pytest.skip("the page is not built; `make page` builds it")
     arguments = ["--no-sandbox"] if os.geteuid() == 0 else []  # root may not have its sandbox
-    with sync_playwright() as playwright:
-        made = playwright.chromium.launch(executable_path=found, args=arguments)
+    with sync_playwright() as playwright, polite(found) as polite_one:
+        made = playwright.chromium.launch(executable_path=polite_one, args=arguments)
         yield made
         made.close()
 
 
+@contextmanager
+def polite(chromium: str) -> Iterator[Path]:
+    """Lend a command that starts Chromium behind the robot: a person's is on another machine."""
+    with TemporaryDirectory(prefix="pons-chromium-") as folder:
+        command = Path(folder) / "chromium"
+        command.write_text(f'#!/bin/sh\nexec nice -n 10 {quote(chromium)} "$@"\n', "utf-8")
+        command.chmod(0o700)
+        yield command
+
+
 @pytest.fixture(scope="session")
-def running() -> Iterator[Robot]:
-    """Keep one robot for all stories of the page."""
+def served() -> Iterator[RunningMock]:
+    """Serve one mock model for all stories of the page."""
+    with running_mock() as made:
+        yield made
+
+
+@pytest.fixture(scope="session")
+def running(browser: Browser, served: RunningMock) -> Iterator[Robot]:
+    """Keep one robot for all stories of the page; after the browser: none is started in vain."""
+    assert browser.is_connected()
     with new_home() as home:
+        (Path(home) / FILE).write_text(MODEL.format(url=served.url), "utf-8")
         robot = Robot(Path(home))
         try:
             robot.start()
@@ -58,10 +92,28 @@ def running() -> Iterator[Robot]:
 
 
 @pytest.fixture
-def robot(browser: Browser, running: Robot) -> Robot:
-    """Return the robot at rest; after the browser, so that none is started in vain."""
+def robot(running: Robot, served: RunningMock) -> Robot:
+    """Return the robot at rest, its model well and believed."""
+    served.set()
     running.rest()
+    until(lambda: _believed(running), 15.0, "the model being believed again")
     return running
+
+
+@pytest.fixture
+def model(robot: Robot, served: RunningMock) -> RunningMock:
+    """Return the mock model that the robot thinks with."""
+    return served
+
+
+def _believed(robot: Robot) -> bool:
+    """Tell whether the model is asked; where it is on trial, give it a goal to prove itself."""
+    brain = robot.system.http("GET", "/v1/robot").body["brain"]
+    if (brain["breaker"], brain["last_error"]) == ("closed", None):
+        return True
+    goal = robot.system.give("wait 0.1 seconds")
+    robot.system.until_goal(goal["id"], *ENDED)
+    return False
 
 
 @pytest.fixture
@@ -108,9 +160,37 @@ def open_page(browser: Browser, robot: Robot) -> Iterator[OpenPage]:
         return page
 
     yield opened
+    SEEN[:] = [seen(page) for context in contexts for page in context.pages]
     for context in contexts:
         context.close()
     assert complaints == []
+
+
+SEEN: list[str] = []
+"""What the newest story's pages showed last, for a failed one."""
+
+
+def seen(page: Page) -> str:
+    try:
+        return page.inner_text("body", timeout=2000)
+    except Error as trouble:
+        return f"cannot be read: {trouble.message}"
+
+
+TRIES = 3
+
+
+def set_off(robot: Robot) -> None:
+    """Let the robot really drive. A machine that stalls for 0.25 s disarms it: rest, and again."""
+    for left in reversed(range(TRIES)):
+        try:
+            robot.drive_off()
+        except AssertionError:
+            if left == 0:
+                raise
+            robot.rest()
+        else:
+            return
 
 
 # What a browser itself says where a planner is gone or refuses: no fault of the page.
@@ -121,6 +201,16 @@ def expected(line: str) -> bool:
     return bool(_EXPECTED.search(line))
 
 
+FAILED = pytest.StashKey[bool]()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Give stories longer than unit tests: a browser beside a robot is slow to start."""
+    for item in items:
+        if Path(__file__).parent in item.path.parents and not item.get_closest_marker("timeout"):
+            item.add_marker(pytest.mark.timeout(STORY_LIMIT_S))
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
@@ -128,6 +218,10 @@ def pytest_runtest_makereport(
     """Show the ends of all logs beside a failed story."""
     report = yield
     robot = getattr(item, "funcargs", {}).get("robot")
-    if getattr(report, "failed", False) and isinstance(robot, Robot):
-        report.sections.append(("logs", robot.system.logs()))
+    if report.when == "teardown" and item.stash.get(FAILED, False):
+        report.sections.extend(("page", text) for text in SEEN)
+    if report.failed:
+        item.stash[FAILED] = True
+        if isinstance(robot, Robot):
+            report.sections.append(("logs", robot.system.logs()))
     return report

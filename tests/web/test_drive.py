@@ -2,31 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import pytest
 
 from tests.e2e.robot import Robot
 from tests.web.conftest import OpenPage
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Page
+from tests.web.person import click_at, ended, give
 
 pytestmark = pytest.mark.e2e
-
-ARRIVAL_MS = 40_000
-
-
-def give(page: Page, text: str) -> None:
-    page.fill("#goal-text", text)
-    page.keyboard.press("Enter")
-
-
-def newest(page: Page, state: str) -> str:
-    """Wait for an ended goal's line and return what it says."""
-    line = page.locator(f"#past li[data-state={state}]").first
-    line.wait_for(timeout=ARRIVAL_MS)
-    return line.inner_text()
 
 
 @pytest.mark.parametrize(
@@ -39,34 +21,23 @@ def test_a_typed_goal_ends_with_the_robot_there(
     place = robot.elsewhere()
     text = order.format(en=place.name.en, zh=place.name.zh)
     page = open_page(locale=locale)
-    give(page, text)
+    goal_id = give(page, text)
     page.wait_for_selector("#mode[data-mode=ACTIVE]")
     assert page.inner_text("#mode") == words[0]
     step = page.locator("#now .step-running .what")
     step.wait_for()
     assert (place.name.en if locale == "en-US" else place.name.zh) in step.inner_text()
     assert page.locator("path.way").get_attribute("d")
-    line = newest(page, "succeeded")
+    line = ended(page, goal_id)
     assert text in line
     assert words[1] in line
     robot.assert_there(place)
-    outcome = robot.system.goals()[0]["outcome"]["message"]
+    outcome = robot.system.goal(goal_id)["outcome"]["message"]
     said = outcome["en" if locale == "en-US" else "zh"]
     assert page.locator("#announcer", has_text=said).count() == 1
-    assert page.locator("#past .outcome").first.text_content().startswith(said)  # type: ignore[union-attr]
-
-
-def click_at(page: Page, x_m: float, y_m: float) -> None:
-    """Click a point of the map given in metres."""
-    box = page.locator(".drawing").bounding_box()
-    view = page.locator(".drawing").get_attribute("viewBox")
-    assert box is not None
-    assert view is not None
-    left, top, wide, high = map(float, view.split())
-    page.mouse.click(
-        box["x"] + (x_m - left) / wide * box["width"],
-        box["y"] + (-y_m - top) / high * box["height"],
-    )
+    told = page.locator(f"#past li[data-goal='{goal_id}'] .outcome").text_content()
+    assert told is not None
+    assert told.startswith(said)
 
 
 def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None:
@@ -74,7 +45,8 @@ def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None
     page = open_page()
     click_at(page, place.pose.x_m, place.pose.y_m)
     page.locator("#now .goal").wait_for()
-    assert robot.system.goals()[0]["text"] == f"go to the {place.name.en}"
+    goal = robot.system.goals()[0]
+    assert goal["text"] == f"go to the {place.name.en}"
     robot.judge.until_moving()
     # While it drives, a click asks first: instead, or after.
     click_at(page, place.pose.x_m, place.pose.y_m)
@@ -84,7 +56,7 @@ def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None
     page.locator("#queue li").wait_for()
     page.locator("#queue li").get_by_role("button", name="Cancel").click()
     page.locator("#queue").wait_for(state="detached")
-    assert place.name.en in newest(page, "succeeded")
+    assert place.name.en in ended(page, goal["id"])
     robot.assert_there(place)
 
 

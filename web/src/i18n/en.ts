@@ -206,8 +206,8 @@ export const en = {
   "robot.powered": "powered",
   "robot.unpowered": "no power",
   "robot.battery": "Battery",
-  "robot.speed": "Speed asked / sent / measured",
-  "robot.turn": "Turn asked / sent / measured",
+  "robot.speed": "Speed, m/s",
+  "robot.turn": "Turn, rad/s",
   "robot.orders": "Orders",
 
   "limits.title": "Limits in force",
@@ -218,7 +218,7 @@ export const en = {
   "limits.margin": "Beyond stopping",
   "limits.left": "Left until a person acts",
 
-  "by.robot": "robot.toml",
+  "by.robot": "its own settings",
   "by.obstacle": "obstacle",
   "by.unseen": "not seen by the lidar",
   "by.fence": "fence",

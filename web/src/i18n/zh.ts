@@ -207,8 +207,8 @@ export const zh: Record<Key, string> = {
   "robot.powered": "已上电",
   "robot.unpowered": "未上电",
   "robot.battery": "电池",
-  "robot.speed": "速度 要求 / 发送 / 实测",
-  "robot.turn": "转动 要求 / 发送 / 实测",
+  "robot.speed": "速度，米/秒",
+  "robot.turn": "转动，弧度/秒",
   "robot.orders": "指令",
 
   "limits.title": "当前限制",
@@ -219,7 +219,7 @@ export const zh: Record<Key, string> = {
   "limits.margin": "超出停车距离",
   "limits.left": "需人操作前剩余",
 
-  "by.robot": "robot.toml",
+  "by.robot": "机器人设置",
   "by.obstacle": "障碍物",
   "by.unseen": "激光雷达看不到",
   "by.fence": "围栏",

@@ -68,7 +68,7 @@ export class Drawing {
       -radius * 0.35
     } ${-radius * 0.55}Z`;
     this.robot.replaceChildren(
-      make("circle", { class: "halo", r: String(radius * 1.9) }),
+      make("circle", { class: "halo", r: String(radius * 1.7) }),
       make("circle", { class: "disc", r: String(radius) }),
       make("path", { class: "nose", d: nose }),
     );

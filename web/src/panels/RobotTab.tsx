@@ -62,13 +62,10 @@ export function RobotTab() {
 
 function State({ said }: { said: Status }) {
   const pose = said.base_in_map;
-  const three = (a: number, b: number, c: number, unit: string): string =>
-    `${fixed(a, 2)} / ${fixed(b, 2)} / ${fixed(c, 2)} ${unit}`;
   const drive = [
     said.drive.virtual ? t("robot.virtual") : said.drive.kind,
     said.drive.enabled ? t("robot.powered") : t("robot.unpowered"),
   ].join(", ");
-  const { asked, sent, measured } = said;
   return (
     <section class="card" aria-labelledby="state-title">
       <h2 id="state-title">
@@ -88,8 +85,6 @@ function State({ said }: { said: Status }) {
               ? `${fixed(pose.x_m, 2)}, ${fixed(pose.y_m, 2)} m, ${fixed((pose.yaw_rad * 180) / Math.PI, 0)}°`
               : "–",
           ],
-          [t("robot.speed"), three(asked.v_mps, sent.v_mps, measured.v_mps, "m/s")],
-          [t("robot.turn"), three(asked.w_radps, sent.w_radps, measured.w_radps, "rad/s")],
           [t("robot.drive"), drive],
           [
             t("robot.battery"),
@@ -99,7 +94,41 @@ function State({ said }: { said: Status }) {
           [t("robot.epoch"), said.epoch],
         ]}
       />
+      <Speeds said={said} />
     </section>
+  );
+}
+
+const TWISTS = ["asked", "sent", "measured"] as const;
+
+function Speeds({ said }: { said: Status }) {
+  return (
+    <table class="speeds">
+      <thead>
+        <tr>
+          <td />
+          {TWISTS.map((name) => (
+            <th key={name} scope="col">
+              {t(`plot.${name}`)}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        <tr>
+          <th scope="row">{t("robot.speed")}</th>
+          {TWISTS.map((name) => (
+            <td key={name}>{fixed(said[name].v_mps, 2)}</td>
+          ))}
+        </tr>
+        <tr>
+          <th scope="row">{t("robot.turn")}</th>
+          {TWISTS.map((name) => (
+            <td key={name}>{fixed(said[name].w_radps, 2)}</td>
+          ))}
+        </tr>
+      </tbody>
+    </table>
   );
 }
 

@@ -17,6 +17,12 @@ const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
 
 const shown = signal<TabId>("drive");
 
+/** Go to where orders are typed, from whatever view is shown. */
+export function toGoalBox(): void {
+  shown.value = "drive";
+  requestAnimationFrame(() => document.getElementById("goal-text")?.focus());
+}
+
 export function Tabs() {
   const list = useRef<HTMLDivElement>(null);
   const View = TABS.find((tab) => tab.id === shown.value)?.View ?? DriveTab;

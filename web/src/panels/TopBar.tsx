@@ -3,12 +3,20 @@ import { choose, language, t, word } from "../i18n";
 import { fresh } from "../state/moment";
 import { age, bridgeFresh, open, robot, status } from "../state/store";
 import { seconds } from "./format";
+import { toGoalBox } from "./Tabs";
 
 export function TopBar() {
   const site = robot.value?.site;
   return (
     <header class="topbar">
-      <a class="skip" href="#goal-text">
+      <a
+        class="skip"
+        href="#view"
+        onClick={(event) => {
+          event.preventDefault();
+          toGoalBox();
+        }}
+      >
         {t("page.skip")}
       </a>
       <h1>Pons</h1>

@@ -65,9 +65,11 @@ function Motion() {
   return bridgeFresh.value ? (
     <p class="motion">
       {words}
-      <span class="fine limit">
-        {t("motion.limit", { speed: limits.v_mps.toFixed(2), what: limitWords(limits.by) })}
-      </span>
+      {said.drive.enabled && (
+        <span class="fine limit">
+          {t("motion.limit", { speed: limits.v_mps.toFixed(2), what: limitWords(limits.by) })}
+        </span>
+      )}
     </p>
   ) : (
     <p class="motion stale">{t("motion.stale", { words, age: seconds(age("status")) })}</p>

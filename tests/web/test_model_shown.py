@@ -1,0 +1,85 @@
+"""The page says who planned, and stops the robot while the model hangs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.e2e.robot import Robot
+from tests.pons.mock.mocks import RunningMock
+from tests.web.conftest import OpenPage, set_off
+from tests.web.person import ended, give
+from tests.web.test_stop import by_button, by_escape, by_space
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = pytest.mark.e2e
+
+SHORT = "wait 0.1 seconds"
+
+
+@pytest.mark.parametrize("press", [by_button, by_space, by_escape])
+def test_stop_stops_while_the_model_hangs(
+    robot: Robot, model: RunningMock, open_page: OpenPage, press: Callable[[Page], None]
+) -> None:
+    page = open_page()
+    set_off(robot)
+    page.wait_for_selector("#mode[data-mode=ACTIVE]")
+    model.set(fault="hang")
+    page.fill("#goal-text", "go to the kitchen")
+    page.get_by_role("button", name="Do this instead").click()
+    page.locator("#now .goal[data-state=planning]").wait_for()
+    pressed_s = time.monotonic()
+    press(page)
+    page.locator("#stop-state.good", has_text="confirmed by the bridge").wait_for()
+    robot.assert_stops(pressed_s)
+    held = robot.judge.status.held
+    assert held is not None
+    assert held.reason == "stop"
+    model.set()  # lets go of the call, which has no say any more
+    robot.judge.assert_never_moves(0.5)
+
+
+@pytest.mark.parametrize(
+    ("locale", "stands_in", "rests"),
+    [
+        ("en-US", "Planned by the offline brain, not by mock.", "The model mock rests"),
+        ("zh-CN", "由离线大脑代替 mock 规划。", "模型 mock 暂停"),
+    ],
+)
+def test_the_offline_brain_is_seen_standing_in(
+    robot: Robot,
+    model: RunningMock,
+    open_page: OpenPage,
+    locale: str,
+    stands_in: str,
+    rests: str,
+) -> None:
+    page = open_page(locale=locale)
+    planned = give(page, SHORT)
+    ended(page, planned)
+    assert page.locator("#mind").count() == 0
+    model.set(fault="status", status=500)
+    goals = [give(page, SHORT) for _ in range(3)]
+    for goal_id in goals:
+        ended(page, goal_id)
+    language = "en" if locale == "en-US" else "zh"
+    why = robot.system.goal(goals[0])["brain"]["fallback_message"][language]
+    past = page.locator(f"#past li[data-goal='{goals[0]}']")
+    past.locator("summary").click()
+    assert past.locator(".fell").inner_text() == f"{stands_in} {why}"
+    assert past.locator(".fell").get_attribute("data-reason") == "server_error"
+    mind = page.locator("#mind[data-breaker=open]")
+    mind.wait_for()
+    assert rests in mind.inner_text()
+    assert why in mind.inner_text()
+    # Well again, it is tried, believed, and nothing is said any more.
+    model.set()
+    page.locator("#mind[data-breaker=on_trial]").wait_for()
+    for _ in range(2):
+        ended(page, give(page, SHORT))
+    page.locator("#mind").wait_for(state="detached")
