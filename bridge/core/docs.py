@@ -66,6 +66,10 @@ The obstacle gate and the fence gate work on the command, by direction: they sca
 towards the trouble, and let pass slowly what loses no clearance. Shut for 0.5 s while waypoints
 move the robot, a gate shows `blocked` and holds; 0.3 m free in five scans end it. A hand on the
 stick may cross the fence at 0.2 m/s. The gate for bumper and cliff comes with a later version.
+
+A status gives free length and margin as far as the bridge looks: as a rule the path in which the
+robot stands still from its fastest, 0.37 m by default, since nothing further off can change what
+passes; 2 m where a scan is old or a tight curve was just left. At that length it means "or more".
 """
 
 

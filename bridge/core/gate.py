@@ -15,7 +15,7 @@ from bridge.core.braking import reaction_s
 from bridge.core.fencegate import fence_scale
 from bridge.core.freespace import free_length
 from bridge.core.kinematics import scaled
-from bridge.core.obstaclegate import obstacle_gate
+from bridge.core.obstaclegate import FREE_M, look_m, obstacle_gate
 from bridge.core.state import Gate
 from bridge.core.tick import STANDING_MPS, STANDING_RADPS
 from wire import STILL, Mode, Twist2, wrap
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 SHUT_S = 0.5
 TURNED_RAD = 0.05
 """Progress by turning, as the row STUCK counts it; a creep of 0.3 rad/s takes a quarter second."""
-FREE_M = 0.3
 FREE_SCANS = 5
 TELEOP_FENCE_MPS = 0.2
 POSE_S = 0.1
@@ -106,13 +105,12 @@ def scan_age_s(tick: Tick) -> float:
 
 
 def look(tick: Tick, twist: Twist2) -> FreeLength | None:
-    """Return how far the arc of a motion is free; None where no scan says so."""
-    picture = tick.s.lidar.picture
+    """Return how far the arc of a motion is free, as far as one looks; None where no scan says."""
+    picture, robot = tick.s.lidar.picture, tick.config.robot
     if picture is None:
         return None
-    return free_length(
-        picture, tick.s.odometry.base_in_odom, twist, tick.config.robot.base.radius_m
-    )
+    here = tick.s.odometry.base_in_odom
+    return free_length(picture, here, twist, robot.base.radius_m, look_m(robot))
 
 
 def reconsider(tick: Tick, asked: Twist2) -> None:

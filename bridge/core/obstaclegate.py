@@ -20,8 +20,9 @@ from bridge.core.braking import (
     speed_scale,
     speed_within,
 )
-from bridge.core.freespace import FreeLength, free_length
+from bridge.core.freespace import MARGIN_M, REACH_M, FreeLength, free_length
 from bridge.core.kinematics import scaled
+from bridge.core.limiter import PERIOD_S
 from wire.geometry import STILL, Pose2, Twist2
 from wire.value import value
 
@@ -29,7 +30,12 @@ if TYPE_CHECKING:
     from bridge.core.scanpicture import ScanPicture
     from wire.robot import RobotDescription
 
+FREE_M = 0.3
+"""So much free way ends a block."""
 _SAME_CURVE_PER_M = 0.05
+_FRESH_S = 0.15
+"""No scan is older where each comes in time and is on its way for half a period."""
+_ROUNDING_M = 1e-3
 
 
 @value
@@ -41,7 +47,7 @@ class ObstaclePass:
     scale: float
     """Factor on the motion that was asked."""
     free_m: float
-    """Free length of the arc asked for."""
+    """Free length of the arc asked for, as far as anybody looked: that is not always 2 m."""
     room_m: float
     """Path in which the robot must be able to stand, drive lag taken off; for the limiter."""
     known: bool
@@ -74,11 +80,14 @@ def obstacle_gate(
     """
     base, limits = robot.base, robot.limits
     reaction = reaction_s(scan_age_s, robot.lidar.scan_s, robot.drive.lag_s, limits)
-    free = free_length(picture, base_in_odom_now, asked, base.radius_m)
+    usual, speed = look_m(robot), abs(asked.v_mps)
+    reach = _reach_m(usual, speed, asked, robot, reaction)
+    free = free_length(picture, base_in_odom_now, asked, base.radius_m, reach)
     scale = speed_scale(free, asked, base, limits, reaction)
     room, known = free.s_m, free.known
     if abs(measured.v_mps) > STANDING_MPS and not _same_curve(asked, measured):
-        really = free_length(picture, base_in_odom_now, measured, base.radius_m)
+        reach = _reach_m(usual, speed, measured, robot, reaction)
+        really = free_length(picture, base_in_odom_now, measured, base.radius_m, reach)
         room, known = min(room, really.s_m), known and really.known
         if asked.v_mps * measured.v_mps > 0.0:
             scale = min(scale, _carried_on(really, asked, measured, robot, reaction))
@@ -89,6 +98,43 @@ def obstacle_gate(
         room_m=max(0.0, room - abs(measured.v_mps) * robot.drive.lag_s),
         known=known,
     )
+
+
+def look_m(robot: RobotDescription) -> float:
+    """Return how far along an arc one looks as a rule: all that a robot in its limits can need [m].
+
+    That is the path in which it stands still from its fastest, by the gate's law and by the
+    limiter's, which wants it besides what the drive's lag takes (see :func:`stopping_m`).
+    """
+    base, limits = robot.base, robot.limits
+    v, d, j = limits.max_speed_mps, limits.max_decel_mps2, limits.stop_jerk_mps3
+    turning = limits.max_turn_radps * base.wheel_separation_m / 2
+    rim = min(v + turning, limits.max_wheel_radps * base.wheel_radius_m)
+    gate_s = _FRESH_S + robot.lidar.scan_s + robot.drive.lag_s
+    limiter_m = 2 * v * (PERIOD_S + robot.drive.lag_s) + d * d * d / (24 * j * j)
+    stop = v * d / (2 * j) + v * rim / (2 * d) + max(v * gate_s, limiter_m)
+    return min(REACH_M, max(stop, FREE_M) + _ROUNDING_M)
+
+
+def sight_m(robot: RobotDescription) -> float:
+    """Return how far from the robot at the scan a point may be that a tick will need [m]."""
+    moved_m = robot.limits.max_speed_mps * _FRESH_S
+    return look_m(robot) + robot.base.radius_m + MARGIN_M + moved_m + 2 * _ROUNDING_M
+
+
+def _reach_m(
+    usual: float, speed: float, along: Twist2, robot: RobotDescription, reaction: float
+) -> float:
+    """Return how far to look along a motion so that more could not change what passes.
+
+    Free for longer than it takes to stop, a speed passes whole. Old scans, tight curves just left
+    and robots faster than they may be look as far as anybody does.
+    """
+    decel = path_decel_mps2(along, robot.base, robot.limits)
+    if not (decel > 0.0 and abs(along.v_mps) <= 2 * robot.limits.max_speed_mps):
+        return REACH_M
+    stop = speed * reaction + speed * speed / (2 * decel)
+    return usual if stop + _ROUNDING_M <= usual else REACH_M
 
 
 def _same_curve(a: Twist2, b: Twist2) -> bool:

@@ -1,17 +1,16 @@
 """Turn one lidar scan into points around the robot, once, so that every tick can be cheap.
 
 Owns what a beam means: a return within range is a point, a return too near is a point at the
-shortest range, no return is unknown. Points lie in ``base`` as it was at the scan; a tick moves the
-robot among them instead of moving them. Knows no motion.
+shortest range, no return is unknown. Points lie in ``base`` as it was at the scan; a tick moves
+the robot among them instead of moving them. A scan lives for ten ticks, so what none of them needs
+is left out once: points further off than ``sight_m``. Knows no motion.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import accumulate, compress
 from math import ceil, cos, floor, hypot, pi, sin, tau
-from operator import mul
 from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
@@ -45,7 +44,7 @@ class Sector:
 
 @dataclass(frozen=True, slots=True)
 class ScanPicture:
-    """Hold a scan's points, in the order of the beams, and where the robot was."""
+    """Hold a scan, the points near the robot in the order of the beams, and where the robot was."""
 
     base_in_odom: Pose2
     lidar_x_m: float
@@ -53,81 +52,89 @@ class ScanPicture:
     first_rad: float
     """Direction of beam 0 in ``base``."""
     step_rad: float
+    ranges_m: tuple[float | None, ...]
+    """As they came; beyond ``range_max_m`` counts as nothing."""
+    range_min_m: float
+    range_max_m: float
+    returns: int
+    """How many beams came back."""
+    sight_m: float | None
+    """Every return nearer to ``base`` than this is among the points; None: every return is."""
     xs_m: tuple[float, ...]
     ys_m: tuple[float, ...]
     """Where beams returned, in ``base`` at the scan."""
-    before: tuple[int, ...]
-    """How many beams returned before each beam, and in all: one more than there are beams."""
     nearest_m: float | None
-    """No point is nearer to ``base`` than this; None if nothing returned."""
+    """No return is nearer to ``base`` than this; None if nothing returned."""
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     @classmethod
-    def from_scan(cls, scan: Scan, base_in_odom_at_scan: Pose2, lidar: LidarConfig) -> ScanPicture:
+    def from_scan(
+        cls,
+        scan: Scan,
+        base_in_odom_at_scan: Pose2,
+        lidar: LidarConfig,
+        sight_m: float | None = None,
+    ) -> ScanPicture:
         """Make the picture of a scan.
 
         Args:
             scan: ranges in the lidar's frame.
             base_in_odom_at_scan: odometry's pose at the scan's time, not at its arrival.
             lidar: where it sits and what it can measure.
+            sight_m: how far from ``base`` points will be asked for; None keeps them all.
         """
-        low, high = lidar.range_min_m, lidar.range_max_m
-        first = lidar.yaw_rad + scan.angle_min_rad
-        cosines, sines = _rays(first, scan.angle_increment_rad, len(scan.ranges_m))
-        came = [r is not None and r <= high for r in scan.ranges_m]
-        ranges: list[float] = list(compress(scan.ranges_m, came))  # type: ignore[arg-type]  # no None
-        nearest_m = min(ranges, default=high)
-        if not nearest_m >= low:  # rare: most scans have nothing so near
-            ranges = [max(r, low) for r in ranges]
-            nearest_m = low
+        ranges, low, high = scan.ranges_m, lidar.range_min_m, lidar.range_max_m
         lx, ly = lidar.x_m, lidar.y_m
-        xs = tuple(map(mul, ranges, compress(cosines, came)))
-        ys = tuple(map(mul, ranges, compress(sines, came)))
+        offset = hypot(lx, ly)
+        first = lidar.yaw_rad + scan.angle_min_rad
+        returned = [r for r in ranges if r is not None and r <= high]
+        far = high if sight_m is None else min(high, sight_m + offset)
+        near, xs, ys = _points(ranges, first, scan.angle_increment_rad, low, far)
+        nearest_m = near
+        if near is None and returned:
+            nearest_m = far
         return cls(
             base_in_odom=base_in_odom_at_scan,
             lidar_x_m=lx,
             lidar_y_m=ly,
             first_rad=first,
             step_rad=scan.angle_increment_rad,
-            xs_m=tuple([lx + x for x in xs]) if lx else xs,
-            ys_m=tuple([ly + y for y in ys]) if ly else ys,
-            before=tuple(accumulate(came, initial=0)),
-            nearest_m=nearest_m - hypot(lx, ly) if ranges else None,
+            ranges_m=ranges,
+            range_min_m=low,
+            range_max_m=high,
+            returns=len(returned),
+            sight_m=sight_m,
+            xs_m=tuple([lx + x for x in xs]) if lx else tuple(xs),
+            ys_m=tuple([ly + y for y in ys]) if ly else tuple(ys),
+            nearest_m=None if nearest_m is None else nearest_m - offset,
         )
 
     @property
     def beams(self) -> int:
         """Return how many beams the scan had."""
-        return len(self.before) - 1
-
-    @property
-    def returns(self) -> int:
-        """Return how many beams came back."""
-        return self.before[-1]
+        return len(self.ranges_m)
 
     def sector(self, middle_rad: float, half_rad: float) -> Sector:
         """Count the beams within ``half_rad`` of a direction of ``base`` at the scan."""
-        before = self.before
+        high = self.range_max_m
         beams = returned = 0
         for start, end in self._runs(middle_rad, half_rad):
             beams += end - start
-            returned += before[end] - before[start]
+            returned += len([r for r in self.ranges_m[start:end] if r is not None and r <= high])
         return Sector(beams, returned, self._covers(middle_rad, half_rad))
 
-    def points_within(self, middle_rad: float, half_rad: float) -> Points:
-        """Return x and y of the points whose beams lie within ``half_rad`` of a direction."""
-        xs: tuple[float, ...] = ()
-        ys: tuple[float, ...] = ()
-        for start, end in self._runs(middle_rad, half_rad):
-            low, high = self.before[start], self.before[end]
-            xs += self.xs_m[low:high]
-            ys += self.ys_m[low:high]
-        return xs, ys
+    def points(self, within_m: float) -> Points:
+        """Return x and y [m] of all returns within a distance of ``base`` at the scan, or of more.
 
-    @property
-    def points(self) -> Points:
-        """Return x and y of all points, in ``base`` at the scan [m]."""
-        return self.xs_m, self.ys_m
+        Beyond the sight they are made anew, which costs as much as the picture itself: a robot that
+        looks so far has a scan grown old, or is faster than anybody asked it to be.
+        """
+        if self.sight_m is None or within_m <= self.sight_m:
+            return self.xs_m, self.ys_m
+        low, far = self.range_min_m, self.range_max_m
+        _, xs, ys = _points(self.ranges_m, self.first_rad, self.step_rad, low, far)
+        lx, ly = self.lidar_x_m, self.lidar_y_m
+        return tuple([lx + x for x in xs]), tuple([ly + y for y in ys])
 
     @property
     def whole(self) -> bool:
@@ -157,6 +164,25 @@ class ScanPicture:
         field = self.beams * self.step_rad
         start = _turned(middle_rad - half_rad - self.first_rad + self.step_rad)
         return start + 2 * half_rad <= field + self.step_rad
+
+
+def _points(
+    ranges: tuple[float | None, ...], first_rad: float, step_rad: float, low: float, far: float
+) -> tuple[float | None, list[float], list[float]]:
+    """Return the least range up to ``far`` [m], and x and y from the lidar of all such returns."""
+    cosines, sines = _rays(first_rad, step_rad, len(ranges))
+    kept = [
+        (r, c, s)
+        for r, c, s in zip(ranges, cosines, sines, strict=True)
+        if r is not None and r <= far
+    ]
+    if not kept:
+        return None, [], []
+    least = min([r for r, _, _ in kept])
+    if not least >= low:  # rare: most scans have nothing so near
+        kept = [(max(r, low), c, s) for r, c, s in kept]
+        least = low
+    return least, [r * c for r, c, _ in kept], [r * s for r, _, s in kept]
 
 
 @lru_cache(maxsize=8)

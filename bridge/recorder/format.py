@@ -40,7 +40,7 @@ class Header:
     """Begin a segment. ``kind`` comes first in every frame: the writer looks for it there."""
 
     kind: Literal["header"] = "header"
-    version: Literal[1] = 1
+    version: Literal[1, 2] = 2
     robot: RobotDescription
     robot_hash: str
     fence: Outlines | None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from pydantic import ValidationError
 
 from bridge.recorder.format import FRAMES, Frame, Header
+from bridge.recorder.upgrade import STATE, state_of_version_1
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,20 +35,28 @@ def read_recording(path: Path) -> Iterator[Frame]:
     Raises:
         BadRecording: no such file, not gzip, not our frames, or another version of them.
     """
+    header: Header | None = None
     for number, line in enumerate(_lines(path), start=1):
-        frame = _frame(path, number, line)
+        frame = _frame(path, number, line, header)
+        if isinstance(frame, Header):
+            header = frame
         if number == 1 and not isinstance(frame, Header):
             raise BadRecording("recording_headless", f"{path} begins with {frame.kind}")
         yield frame
 
 
-def _frame(path: Path, number: int, line: bytes) -> Frame:
+def _frame(path: Path, number: int, line: bytes, header: Header | None) -> Frame:
     try:
+        if header is not None and header.version == 1 and line.startswith(STATE):
+            return state_of_version_1(line, header.robot)
         return FRAMES.validate_json(line)
     except ValidationError as error:
         item = error.errors(include_url=False, include_context=False, include_input=False)[0]
         where = ".".join(map(str, item["loc"])) or "line"
         text = f"{path}, line {number}: {where}: {item['msg']}"
+        raise BadRecording("recording_invalid", text) from None
+    except (KeyError, TypeError, ValueError) as error:
+        text = f"{path}, line {number}: no state of version 1: {error}"
         raise BadRecording("recording_invalid", text) from None
 
 

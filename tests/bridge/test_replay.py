@@ -155,6 +155,45 @@ def test_a_state_that_is_not_the_one_reached_is_found(
     assert "state reached" in str(report.first_difference)
 
 
+def of_version_1(line: bytes) -> bytes:
+    """Write a frame as version 1 did: a scan's picture held all points, and beams by count."""
+    frame = json.loads(line)
+    if frame["kind"] == "header":
+        frame["version"] = 1
+    picture = frame["state"]["lidar"]["picture"] if frame["kind"] == "state" else None
+    if picture is not None:
+        came = [r is not None for r in picture.pop("ranges_m")]
+        for gone in ("range_min_m", "range_max_m", "returns", "sight_m"):
+            del picture[gone]
+        picture["before"] = [sum(came[:i]) for i in range(len(came) + 1)]
+    return json.dumps(frame, separators=(",", ":")).encode() + b"\n"
+
+
+def test_a_recording_of_version_1_replays_too(drive: World, write: Callable[[Lines], Path]) -> None:
+    old = [of_version_1(line) for line in recorded(drive, segment_at=300)]
+    assert b'"before"' in b"".join(old)
+    report = replay(write(old))
+    assert (report.ticks, report.differing) == (len(drive.inboxes), 0)
+    later = [of_version_1(line) for line in recorded(drive, missing=range(5, 290))]
+    report = replay(write(later))
+    assert (report.gaps, report.differing) == (285, 0)
+
+
+@pytest.mark.parametrize("what", ["newest", "picture"])
+def test_a_broken_state_of_version_1_is_refused(
+    drive: World, write: Callable[[Lines], Path], what: str
+) -> None:
+    old = [of_version_1(line) for line in recorded(drive, segment_at=300)]
+
+    def second(frame: dict[str, Any]) -> bool:
+        return bool(frame["kind"] == "state" and frame["state"]["tick"] > 0)
+
+    changed(old, second, f"state/lidar/{what}", {} if what == "picture" else None)
+    old = [line.replace(b'"kind": "state"', b'"kind":"state"') for line in old]
+    with pytest.raises(BadRecording, match="recording_invalid"):
+        replay(write(old))
+
+
 def test_nothing_whole_is_no_recording(write: Callable[[Lines], Path]) -> None:
     with pytest.raises(BadRecording, match="recording_empty"):
         replay(write([b'{"kind":"header"']))

@@ -117,9 +117,13 @@ def test_at_contact_there_is_no_way_round_the_circle(
         lidar_y_m=0.0,
         first_rad=toward,
         step_rad=tau,
+        ranges_m=(DISC,),
+        range_min_m=0.12,
+        range_max_m=8.0,
+        returns=1,
+        sight_m=None,
         xs_m=(DISC * cos(toward),),
         ys_m=(DISC * sin(toward),),
-        before=(0, 1),
         nearest_m=DISC,
     )
     free = free_length(made, Pose2(0.0, 0.0, yaw), Twist2(v, w), RADIUS)
@@ -150,6 +154,28 @@ def test_silence_is_free_only_where_half_came_back() -> None:
     half: list[float | None] = [None if i % 2 else 7.0 for i in range(360)]
     assert free_length(picture(half), IDENTITY, Twist2(0.2, 0.0), RADIUS).known is True
     assert free_length(picture([None] * 360), IDENTITY, Twist2(0.2, 0.0), RADIUS).known is False
+
+
+@settings(max_examples=200)
+@given(
+    st.sets(st.integers(0, 359), max_size=40),
+    st.integers(0, 359),
+    st.integers(0, 60),
+    st.floats(-0.2, 0.2),
+    directions,
+    st.floats(-6, 6),
+    st.sampled_from([0.4, -0.4]),
+)
+def test_what_is_known_without_counting_is_known_by_counting(
+    single: set[int], first: int, run: int, x: float, yaw: float, w: float, v: float
+) -> None:
+    missing = single | {(first + i) % 360 for i in range(run)}
+    made = picture([None if i in missing else 7.0 for i in range(360)])
+    start = Pose2(x, 0.1, yaw)
+    quick = free_length(made, start, Twist2(v, w), RADIUS)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("bridge.core.freespace._few_missing", lambda *_: False)
+        assert free_length(made, start, Twist2(v, w), RADIUS) == quick
 
 
 def test_a_way_that_the_lidar_does_not_cover_is_not_entered() -> None:

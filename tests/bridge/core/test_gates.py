@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from math import cos, pi, sin, tau
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import given, settings
@@ -12,16 +13,27 @@ from hypothesis import strategies as st
 from bridge.core.braking import reaction_s
 from bridge.core.fence import build_fence
 from bridge.core.fencegate import FENCE_MARGIN_M, INWARD_MPS, fence_scale
+from bridge.core.freespace import REACH_M
 from bridge.core.kinematics import saturate, scaled
-from bridge.core.limiter import LimiterState, shape
-from bridge.core.obstaclegate import ObstaclePass, obstacle_gate
+from bridge.core.limiter import LimiterState, shape, stopping_m
+from bridge.core.obstaclegate import ObstaclePass, obstacle_gate, sight_m
 from bridge.core.odometry import along_arc
 from bridge.core.scanpicture import ScanPicture
 from wire.geometry import IDENTITY, STILL, Pose2, Twist2
 from wire.robot import RobotDescription
 from wire.sensors import Scan
 
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
 ROBOT = RobotDescription()
+QUICK = RobotDescription.model_validate(
+    {
+        "base": {"radius_m": 0.25, "wheel_separation_m": 0.4},
+        "limits": {"max_speed_mps": 0.9, "max_decel_mps2": 0.6, "stop_jerk_mps3": 4.0},
+        "lidar": {"x_m": 0.15},
+    }
+)
 BASE, LIMITS, LAG = ROBOT.base, ROBOT.limits, ROBOT.drive.lag_s
 RADIUS = BASE.radius_m
 Wall = tuple[float, float]
@@ -30,6 +42,19 @@ Wall = tuple[float, float]
 
 def gap(walls: list[Wall], pose: Pose2) -> float:
     return min(d - pose.x_m * cos(a) - pose.y_m * sin(a) for d, a in walls)
+
+
+def scan_of(ranges: Sequence[float | None]) -> Scan:
+    return Scan(
+        boot_id="a",
+        seq=1,
+        stamp_s=0.0,
+        angle_min_rad=0.0,
+        angle_increment_rad=tau / 360,
+        range_min_m=0.12,
+        range_max_m=8.0,
+        ranges_m=tuple(ranges),
+    )
 
 
 def look(walls: list[Wall], pose: Pose2) -> ScanPicture:
@@ -41,17 +66,7 @@ def look(walls: list[Wall], pose: Pose2) -> ScanPicture:
             if toward > 1e-6:
                 best = min(best, (d - pose.x_m * cos(a) - pose.y_m * sin(a)) / toward)
         ranges.append(max(0.0, best))
-    scan = Scan(
-        boot_id="a",
-        seq=1,
-        stamp_s=0.0,
-        angle_min_rad=0.0,
-        angle_increment_rad=tau / 360,
-        range_min_m=0.12,
-        range_max_m=8.0,
-        ranges_m=tuple(ranges),
-    )
-    return ScanPicture.from_scan(scan, pose, ROBOT.lidar)
+    return ScanPicture.from_scan(scan_of(ranges), pose, ROBOT.lidar)
 
 
 def run(
@@ -150,23 +165,55 @@ def test_what_cannot_be_judged_stands() -> None:
 def test_the_arc_the_robot_is_still_on_counts_too() -> None:
     ranges: list[float | None] = [7.0] * 360
     ranges[331] = 0.515  # (0.45, -0.25): in the way of going straight on, not of the curve left
-    scan = Scan(
-        boot_id="a",
-        seq=1,
-        stamp_s=0.0,
-        angle_min_rad=0.0,
-        angle_increment_rad=tau / 360,
-        range_min_m=0.12,
-        range_max_m=8.0,
-        ranges_m=tuple(ranges),
-    )
-    picture = ScanPicture.from_scan(scan, IDENTITY, ROBOT.lidar)
+    picture = ScanPicture.from_scan(scan_of(ranges), IDENTITY, ROBOT.lidar)
     curve = Twist2(0.45, 1.0)
     standing = obstacle_gate(picture, IDENTITY, curve, STILL, 0.05, ROBOT)
     rolling = obstacle_gate(picture, IDENTITY, curve, Twist2(0.5, 0.0), 0.05, ROBOT)
     assert standing.scale == 1.0
     assert rolling.scale < 1.0
     assert rolling.room_m < standing.room_m
+
+
+twists = st.builds(Twist2, st.floats(-0.6, 0.6), st.floats(-1.2, 1.2))
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(0.2, 2.5), st.floats(-pi, pi)), max_size=3),
+    st.lists(st.tuples(st.integers(0, 359), st.none() | st.floats(0.05, 2.0)), max_size=12),
+    st.builds(Pose2, st.floats(-0.4, 0.4), st.floats(-0.4, 0.4), st.floats(-pi, pi)),
+    twists,
+    twists,
+    st.floats(0.0, 0.6),
+    st.sampled_from([ROBOT, QUICK]),
+)
+def test_looking_no_further_than_it_takes_changes_nothing_that_passes(
+    walls: list[Wall],
+    posts: list[tuple[int, float | None]],
+    here: Pose2,
+    asked: Twist2,
+    measured: Twist2,
+    age_s: float,
+    robot: RobotDescription,
+) -> None:
+    ranges: list[float | None] = list(look(walls, IDENTITY).ranges_m)
+    for index, range_m in posts:
+        ranges[index] = range_m
+    wide = ScanPicture.from_scan(scan_of(ranges), IDENTITY, robot.lidar)
+    near = ScanPicture.from_scan(scan_of(ranges), IDENTITY, robot.lidar, sight_m(robot))
+    asked = saturate(asked, robot.base, robot.limits)
+    passed = obstacle_gate(near, here, asked, measured, age_s, robot)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("bridge.core.obstaclegate.look_m", lambda _: REACH_M)
+        expected = obstacle_gate(wide, here, asked, measured, age_s, robot)
+    assert (passed.twist, passed.scale, passed.known) == (
+        expected.twist, expected.scale, expected.known
+    )  # fmt: skip
+    assert passed.free_m == min(expected.free_m, passed.free_m)
+    limits = robot.limits
+    hardest = Twist2(limits.max_speed_mps, limits.max_turn_radps)
+    longest = stopping_m(hardest, 0.0, robot.base, limits, 0.02)
+    assert passed.room_m == expected.room_m or passed.room_m >= longest
 
 
 FENCE = build_fence("0" * 16, (((-2, -2), (2, -2), (2, 2), (-2, 2)),))

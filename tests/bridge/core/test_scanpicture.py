@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, radians, sin, tau
+from math import cos, hypot, pi, radians, sin, tau
 
 import pytest
 from hypothesis import given
@@ -81,13 +81,33 @@ def test_a_sector_counts_its_beams(
     assert len(sure) <= sector.beams <= len(maybe)
     came = [i for i in maybe if (r := ranges[i]) is not None and r <= 8.0]
     assert sector.returned <= len(came)
-    assert len(made.points_within(middle, half)[0]) == sector.returned
 
 
 def test_all_round_counts_no_beam_twice() -> None:
     made = picture([1.0] * 360)
     assert made.sector(0.3, pi).beams == 360
-    assert len(made.points_within(0.3, 4.0)[0]) == 360
+    assert made.sector(0.3, 4.0).returned == 360
+
+
+@given(
+    st.lists(st.none() | st.floats(0, 12), max_size=60),
+    st.floats(0.01, 9),
+    st.sampled_from([LIDAR, LidarConfig(x_m=0.2, y_m=-0.1), LidarConfig(range_min_m=1.0)]),
+)
+def test_within_sight_no_return_is_left_out(
+    ranges: list[float | None], sight: float, lidar: LidarConfig
+) -> None:
+    full = ScanPicture.from_scan(scan(ranges), IDENTITY, lidar)
+    near = ScanPicture.from_scan(scan(ranges), IDENTITY, lidar, sight)
+    everything = set(zip(full.xs_m, full.ys_m, strict=True))
+    kept = set(zip(*near.points(sight), strict=True))
+    assert kept <= everything
+    assert all(hypot(x, y) >= sight - 1e-9 for x, y in everything - kept)
+    assert set(zip(*near.points(sight + 0.1), strict=True)) == everything
+    assert near.returns == full.returns == len(full.xs_m)
+    assert (near.nearest_m is None) is (full.nearest_m is None)
+    if near.nearest_m is not None:
+        assert all(hypot(x, y) >= near.nearest_m - 1e-9 for x, y in everything)
 
 
 @pytest.mark.parametrize(
