@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from shlex import quote
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Error, Page, sync_playwright
@@ -34,7 +34,7 @@ MODEL = """
 url = "{url}"
 name = "mock"
 timeout_s = 8
-rest_s = 1
+rest_s = 4
 """
 
 OpenPage = Callable[..., Page]
@@ -123,6 +123,7 @@ def open_page(browser: Browser, robot: Robot) -> Iterator[OpenPage]:
     Every page is held to the house's law: nothing said in the console, no request elsewhere.
     """
     contexts: list[BrowserContext] = []
+    PAGES.clear()
     complaints: list[str] = []
     address = f"http://127.0.0.1:{robot.system.port}"
 
@@ -153,6 +154,7 @@ def open_page(browser: Browser, robot: Robot) -> Iterator[OpenPage]:
         page = context.new_page()
         page.set_default_timeout(15_000)
         watch(page)
+        PAGES.append(page)
         if before is not None:
             before(page)
         page.goto(address)
@@ -160,14 +162,13 @@ def open_page(browser: Browser, robot: Robot) -> Iterator[OpenPage]:
         return page
 
     yield opened
-    SEEN[:] = [seen(page) for context in contexts for page in context.pages]
     for context in contexts:
         context.close()
     assert complaints == []
 
 
-SEEN: list[str] = []
-"""What the newest story's pages showed last, for a failed one."""
+PAGES: list[Page] = []
+"""The pages of the newest story, for what a failed one shows."""
 
 
 def seen(page: Page) -> str:
@@ -180,17 +181,30 @@ def seen(page: Page) -> str:
 TRIES = 3
 
 
-def set_off(robot: Robot) -> None:
-    """Let the robot really drive. A machine that stalls for 0.25 s disarms it: rest, and again."""
+T = TypeVar("T")
+
+
+def set_off(robot: Robot, order: Callable[[], T]) -> T:
+    """Give an order until the robot really drives; return what the order returned.
+
+    A machine that stalls for 0.25 s disarms the robot: then it rests, and the order is given again.
+    """
     for left in reversed(range(TRIES)):
+        given = order()
         try:
-            robot.drive_off()
+            robot.judge.until_moving()
         except AssertionError:
             if left == 0:
                 raise
             robot.rest()
         else:
-            return
+            break
+    return given
+
+
+def anywhere(robot: Robot) -> Callable[[], object]:
+    """Return the order, over HTTP, to drive to the nearest place that is worth a drive."""
+    return lambda: robot.system.give(f"go to the {robot.elsewhere().name.en}")
 
 
 # What a browser itself says where a planner is gone or refuses: no fault of the page.
@@ -199,9 +213,6 @@ _EXPECTED = re.compile(r"WebSocket connection to|Failed to load resource")
 
 def expected(line: str) -> bool:
     return bool(_EXPECTED.search(line))
-
-
-FAILED = pytest.StashKey[bool]()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -218,10 +229,8 @@ def pytest_runtest_makereport(
     """Show the ends of all logs beside a failed story."""
     report = yield
     robot = getattr(item, "funcargs", {}).get("robot")
-    if report.when == "teardown" and item.stash.get(FAILED, False):
-        report.sections.extend(("page", text) for text in SEEN)
-    if report.failed:
-        item.stash[FAILED] = True
-        if isinstance(robot, Robot):
-            report.sections.append(("logs", robot.system.logs()))
+    if report.failed and isinstance(robot, Robot):
+        if report.when == "call":
+            report.sections.extend(("page", seen(page)) for page in PAGES)
+        report.sections.append(("logs", robot.system.logs()))
     return report

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.e2e.robot import Robot
-from tests.web.conftest import OpenPage
+from tests.web.conftest import OpenPage, set_off
 from tests.web.person import click_at, ended, give
 
 pytestmark = pytest.mark.e2e
@@ -21,7 +21,7 @@ def test_a_typed_goal_ends_with_the_robot_there(
     place = robot.elsewhere()
     text = order.format(en=place.name.en, zh=place.name.zh)
     page = open_page(locale=locale)
-    goal_id = give(page, text)
+    goal_id = set_off(robot, lambda: give(page, text))
     page.wait_for_selector("#mode[data-mode=ACTIVE]")
     assert page.inner_text("#mode") == words[0]
     step = page.locator("#now .step-running .what")
@@ -43,11 +43,10 @@ def test_a_typed_goal_ends_with_the_robot_there(
 def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None:
     place = robot.elsewhere()
     page = open_page()
-    click_at(page, place.pose.x_m, place.pose.y_m)
-    page.locator("#now .goal").wait_for()
+    set_off(robot, lambda: click_at(page, place.pose.x_m, place.pose.y_m))
+    page.locator("#now .goal[data-state=running]").wait_for()
     goal = robot.system.goals()[0]
     assert goal["text"] == f"go to the {place.name.en}"
-    robot.judge.until_moving()
     # While it drives, a click asks first: instead, or after.
     click_at(page, place.pose.x_m, place.pose.y_m)
     choice = page.locator(".map-choice")
@@ -74,9 +73,8 @@ def test_a_click_on_nothing_says_so(robot: Robot, open_page: OpenPage) -> None:
 def test_two_pages_tell_the_same_story(robot: Robot, open_page: OpenPage) -> None:
     first, second = open_page(), open_page(locale="zh-CN")
     place = robot.elsewhere()
-    give(first, f"go to the {place.name.en}")
+    set_off(robot, lambda: give(first, f"go to the {place.name.en}"))
     second.locator("#now .goal[data-state=running]").wait_for()
-    robot.judge.until_moving()
     second.click("#stop")
     first.locator("#now .goal[data-state=paused]").wait_for()
     second.locator("#stop-state.good").wait_for()

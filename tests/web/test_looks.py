@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from tests.e2e.robot import Robot
-from tests.web.conftest import ROOT, OpenPage
+from tests.web.conftest import ROOT, OpenPage, set_off
 from tests.web.person import click_at, give
 
 if TYPE_CHECKING:
@@ -64,8 +64,7 @@ def test_a_phone_gives_a_goal_by_touch_and_stops_it(robot: Robot, open_page: Ope
     page = open_page(PHONE, has_touch=True, is_mobile=True)
     place = robot.elsewhere()
     page.locator(".names summary").tap()
-    page.get_by_role("button", name=place.name.en, exact=True).tap()
-    robot.judge.until_moving()
+    set_off(robot, page.get_by_role("button", name=place.name.en, exact=True).tap)
     assert_fits(page)
     page.tap("#stop")
     page.locator("#stop-state.good").wait_for()
@@ -119,7 +118,7 @@ def test_all_can_be_reached_by_keyboard(robot: Robot, open_page: OpenPage) -> No
     page.evaluate("document.activeElement.blur()")
     page.focus("a.skip")
     page.keyboard.press("Enter")
-    page.wait_for_function("document.activeElement.id === 'goal-text'")
+    page.locator("#goal-text:focus").wait_for()
     page.keyboard.type("wait 0.1 seconds")
     page.keyboard.press("Enter")
     page.locator("#past li").first.wait_for()

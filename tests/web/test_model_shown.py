@@ -10,7 +10,7 @@ import pytest
 
 from tests.e2e.robot import Robot
 from tests.pons.mock.mocks import RunningMock
-from tests.web.conftest import OpenPage, set_off
+from tests.web.conftest import OpenPage, anywhere, set_off
 from tests.web.person import ended, give
 from tests.web.test_stop import by_button, by_escape, by_space
 
@@ -27,7 +27,7 @@ def test_stop_stops_while_the_model_hangs(
     robot: Robot, model: RunningMock, open_page: OpenPage, press: Callable[[Page], None]
 ) -> None:
     page = open_page()
-    set_off(robot)
+    set_off(robot, anywhere(robot))
     page.wait_for_selector("#mode[data-mode=ACTIVE]")
     model.set(fault="hang")
     page.fill("#goal-text", "go to the kitchen")

@@ -13,7 +13,7 @@ import pytest
 
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
-from tests.web.conftest import OpenPage, set_off
+from tests.web.conftest import OpenPage, anywhere, set_off
 from tests.web.person import Claim, ended, give, look
 
 if TYPE_CHECKING:
@@ -64,14 +64,13 @@ def test_a_killed_planner_is_told_and_nothing_goes_on_by_itself(
 ) -> None:
     page = open_page()
     place = robot.elsewhere()
-    goal_id = give(page, f"go to the {place.name.en}")
-    robot.judge.until_moving()
+    goal_id = set_off(robot, lambda: give(page, f"go to the {place.name.en}"))
     before = watch(robot, page, 0.5)
     assert before[-1].moving is True
     assert before[-1].link == "good"
     with away(robot):
         page.locator("#lost[data-why=planner]").wait_for()
-        lost = watch(robot, page, 3.0)
+        lost = watch(robot, page, 1.5)
         assert all(one.link == "bad" for one in lost)
         assert (lost[-1].mode, lost[-1].moving, lost[-1].at_m) == (None, None, None)
         assert lost[-1].goals is None
@@ -122,7 +121,7 @@ def away(robot: Robot) -> Iterator[None]:
 def test_what_is_old_is_grey_within_a_second(robot: Robot, open_page: OpenPage) -> None:
     page = open_page()
     page.evaluate(_STAMP)
-    page.wait_for_function("window.heardMs")
+    until(lambda: page.evaluate("window.heardMs"), 5.0, "a frame")
     robot.system.freeze("planner")
     try:
         page.locator("#lost[data-why=planner]").wait_for()
@@ -236,7 +235,7 @@ def test_a_socket_that_is_lost_again_and_again_comes_back(
     page.wait_for_selector("#link[data-state=good]")
     claims = watch(robot, page, 1.0)
     assert claims[-1].link == "good"
-    set_off(robot)
+    set_off(robot, anywhere(robot))
     page.wait_for_selector("#mode[data-mode=ACTIVE]")
     pressed_s = time.monotonic()
     page.click("#stop")

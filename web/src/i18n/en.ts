@@ -131,6 +131,17 @@ export const en = {
   "goal.limited": "limited by {what}",
   "goal.sent": "Sent: {text}",
 
+  "talk.idle": "Hold to talk",
+  "talk.listening": "Listening … let go to send",
+  "talk.hearing": "One moment …",
+  "talk.english": "in English",
+  "talk.short": "Hold the button while you talk.",
+  "talk.insecure": "Talking works only over https or on the robot's own computer.",
+  "talk.unsupported": "This browser can't record, so orders can't be spoken here.",
+  "talk.refused": "The browser does not allow this page to use the microphone.",
+  "talk.no_microphone": "No microphone was found.",
+  "talk.unreadable": "The recording could not be read. Please try again.",
+
   "mind.title": "Who plans",
   "mind.offline": "the offline brain",
   "mind.alone": "The offline brain plans. No model is set.",

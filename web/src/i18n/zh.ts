@@ -132,6 +132,17 @@ export const zh: Record<Key, string> = {
   "goal.limited": "受限于{what}",
   "goal.sent": "已发送：{text}",
 
+  "talk.idle": "按住说话",
+  "talk.listening": "正在听…松开即发送",
+  "talk.hearing": "请稍候…",
+  "talk.english": "目前仅支持英文",
+  "talk.short": "说话时请按住按钮。",
+  "talk.insecure": "只有通过 https 或在机器人本机上才能使用语音。",
+  "talk.unsupported": "此浏览器无法录音，不能语音下达指令。",
+  "talk.refused": "浏览器不允许本页面使用麦克风。",
+  "talk.no_microphone": "没有找到麦克风。",
+  "talk.unreadable": "无法读取录音，请再试一次。",
+
   "mind.title": "由谁规划",
   "mind.offline": "离线大脑",
   "mind.alone": "由离线大脑规划，未设置模型。",

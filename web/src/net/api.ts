@@ -20,7 +20,7 @@ type Json = { readonly [key: string]: unknown };
 export async function call(
   method: "GET" | "POST",
   path: string,
-  body?: object,
+  body?: object | ArrayBuffer,
   headers: Record<string, string> = {},
 ): Promise<unknown> {
   const request: RequestInit = {
@@ -29,7 +29,8 @@ export async function call(
     signal: AbortSignal.timeout(TIMEOUT_MS),
     cache: "no-store",
   };
-  if (body !== undefined) request.body = JSON.stringify(body);
+  if (body instanceof ArrayBuffer) request.body = body;
+  else if (body !== undefined) request.body = JSON.stringify(body);
   let answer: Response;
   try {
     answer = await fetch(path, request);
@@ -62,6 +63,18 @@ export async function giveGoal(
   const body = { text, ...(replace ? { replace } : {}), ...withProof(operator) };
   const key = { "idempotency-key": newId("page") };
   return (await call("POST", "/v1/goals", body, key)) as Goal;
+}
+
+export type Spoken = { readonly goal: Goal | null; readonly message: Bilingual | null };
+
+/** Give a goal by a recording; none where no order was heard surely enough. */
+export async function giveSpoken(wav: ArrayBuffer): Promise<Spoken> {
+  const headers = { "content-type": "audio/wav", "idempotency-key": newId("page") };
+  const heard = (await call("POST", "/v1/voice", wav, headers)) as {
+    goal: Goal | null;
+    outcome: { message: Bilingual | null };
+  };
+  return { goal: heard.goal, message: heard.outcome.message };
 }
 
 export type GoalVerb = "cancel" | "pause" | "resume" | "confirm";

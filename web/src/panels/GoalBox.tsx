@@ -4,6 +4,7 @@ import { useRef } from "preact/hooks";
 import { say, t } from "../i18n";
 import { give, said } from "../state/acts";
 import { isBusy, places } from "../state/store";
+import { Talk } from "../talk/Talk";
 
 const MAX_CHARACTERS = 2000;
 
@@ -65,6 +66,7 @@ export function GoalBox() {
           </button>
         )}
       </form>
+      <Talk />
       <Names />
     </section>
   );

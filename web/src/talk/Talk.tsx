@@ -1,0 +1,91 @@
+/** Hold to talk: a recorded order becomes a goal as a typed one does. Says why where it can't. */
+import { signal } from "@preact/signals";
+import { useRef } from "preact/hooks";
+import { say, t } from "../i18n";
+import { giveSpoken } from "../net/api";
+import { explain, tell } from "../state/acts";
+import { learn } from "../state/store";
+import { CannotListen, deaf, record, type Recording } from "./recorder";
+
+type Phase = "idle" | "listening" | "hearing";
+
+const phase = signal<Phase>("idle");
+const LEAST_MS = 300; // a tap is no order
+
+export function Talk() {
+  const recording = useRef<Promise<Recording> | null>(null);
+  const beganMs = useRef(0);
+  const why = deaf();
+  const begin = (): void => {
+    if (phase.value !== "idle") return;
+    phase.value = "listening";
+    beganMs.current = performance.now();
+    recording.current = record();
+    recording.current.catch((error: unknown) => {
+      phase.value = "idle";
+      tell(words(error), true);
+    });
+  };
+  const end = async (): Promise<void> => {
+    const running = recording.current;
+    if (phase.value !== "listening" || running === null) return;
+    recording.current = null;
+    phase.value = "hearing";
+    try {
+      const sound = await (await running).end();
+      if (performance.now() - beganMs.current < LEAST_MS) tell(t("talk.short"));
+      else await send(sound);
+    } catch (error) {
+      tell(words(error), true);
+    } finally {
+      phase.value = "idle";
+    }
+  };
+  if (why !== null)
+    return (
+      <p class="fine" id="talk-why">
+        {t(`talk.${why}`)}
+      </p>
+    );
+  return (
+    <div class="talk">
+      <button
+        type="button"
+        id="talk"
+        class={phase.value}
+        disabled={phase.value === "hearing"}
+        aria-pressed={phase.value === "listening"}
+        onPointerDown={(event) => {
+          if (event.button !== 0) return;
+          event.currentTarget.setPointerCapture(event.pointerId); // a finger may slip off it
+          begin();
+        }}
+        onPointerUp={() => void end()}
+        onPointerCancel={() => void end()}
+        onClick={(event) => {
+          if (event.detail !== 0) return; // by Enter: once to begin, once to end
+          if (phase.value === "idle") begin();
+          else void end();
+        }}
+        onContextMenu={(event) => event.preventDefault()} // a long touch is talking, no menu
+      >
+        <span aria-hidden="true">🎙 </span>
+        {t(`talk.${phase.value}`)}
+      </button>
+      <span class="fine">{t("talk.english")}</span>
+    </div>
+  );
+}
+
+async function send(sound: ArrayBuffer): Promise<void> {
+  const spoken = await giveSpoken(sound);
+  if (spoken.goal) {
+    learn(spoken.goal);
+    tell(t("goal.sent", { text: spoken.goal.text }));
+  } else if (spoken.message) {
+    tell(say(spoken.message));
+  }
+}
+
+const words = (error: unknown): string =>
+  error instanceof CannotListen ? t(`talk.${error.why}`) : explain(error);
