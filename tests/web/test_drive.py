@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
+
 import pytest
 
 from tests.e2e.robot import Robot
-from tests.web.conftest import OpenPage, set_off
+from tests.web.conftest import ORDER, OpenPage, set_off
 from tests.web.person import click_at, ended, give
 
 pytestmark = pytest.mark.e2e
@@ -98,3 +100,29 @@ def test_a_question_is_answered_by_a_button(robot: Robot, open_page: OpenPage) -
     assert buttons.all_inner_texts() == [option["label"]["en"] for option in options]
     page.locator("#now").get_by_role("button", name="Cancel").click()
     page.locator("#past li[data-state=cancelled]").first.wait_for()
+
+
+@pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="no espeak-ng to speak the order")
+def test_an_order_is_spoken_into_the_page(robot: Robot, open_page: OpenPage) -> None:
+    page = open_page(permissions=["microphone"])
+    page.hover("#talk")
+    page.mouse.down()
+    page.locator("#talk.listening").wait_for()
+    page.wait_for_timeout(2500)  # the sentence takes 1.5 s
+    with page.expect_response("**/v1/voice") as answered:
+        page.mouse.up()
+    assert answered.value.status == 202, answered.value.text()
+    assert answered.value.json()["goal"]["text"] == ORDER
+    page.locator("#announcer", has_text=f"Sent: {ORDER}").wait_for()
+    assert ORDER in ended(page, answered.value.json()["goal"]["id"])
+    robot.assert_there(robot.place("kitchen"))
+    assert page.locator("#talk.idle").count() == 1
+
+
+def test_a_page_that_may_not_listen_says_so(robot: Robot, open_page: OpenPage) -> None:
+    page = open_page(permissions=[])
+    page.hover("#talk")
+    page.mouse.down()
+    page.locator("#announcer", has_text="does not allow").wait_for()
+    page.mouse.up()
+    page.locator("#talk.idle").wait_for()
