@@ -102,7 +102,8 @@ class Access:
         parts = urlsplit(origin)
         if parts.scheme in ("http", "https") and parts.netloc == host:
             return
-        raise NotAllowed(403, "foreign_origin", f"origin {origin[:80]!r} is not this page's")
+        known = ", ".join(sorted({f"http://{host}", *self.origins}))
+        raise NotAllowed(403, "foreign_origin", f"origin {origin[:80]!r}; allowed: {known}")
 
     def _role(self, token: str) -> Role:
         if self.loopback and not self.operator_token:
@@ -154,5 +155,6 @@ def _check_type(content_type: str, expected: frozenset[str]) -> None:
     kind = content_type.partition(";")[0].strip().lower()
     if kind not in expected:
         known = " or ".join(sorted(expected))
-        text = f"content type {content_type[:80]!r}; expected {known}"
+        found = f"content type {content_type[:80]!r}" if content_type else "no content type"
+        text = f"{found}; expected {known}"
         raise NotAllowed(415, "unsupported_media_type", text)

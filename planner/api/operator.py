@@ -14,6 +14,7 @@ from fastapi import APIRouter
 from planner.api.ports import Robot, Services
 from planner.api.problems import Problem
 from planner.api.requests import OperatorOrder, OperatorProof, Steer, StopOrder
+from planner.api.unrefused import Unrefused
 from wire import VIRTUAL_KEY, Answer, OpKind, OpRequest, sign
 
 NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
@@ -22,6 +23,13 @@ NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
 def routes(services: Services) -> APIRouter:
     """Return the operator's routes."""
     router = APIRouter(prefix="/v1", tags=["operator"])
+    router.include_router(_stopping(services))
+    _powering(router, services.robot)
+    return router
+
+
+def _stopping(services: Services) -> APIRouter:
+    router = APIRouter(route_class=Unrefused)
     robot = services.robot
 
     @router.post("/stop", operation_id="stop")
@@ -41,6 +49,10 @@ def routes(services: Services) -> APIRouter:
         """Ramp to zero, then take the torque away."""
         return await act(robot, "disarm", order)
 
+    return router
+
+
+def _powering(router: APIRouter, robot: Robot) -> None:
     @router.post("/arm", operation_id="arm")
     async def arm(order: OperatorOrder | None = None) -> Answer:
         """Power the drive, standing."""
@@ -61,8 +73,6 @@ def routes(services: Services) -> APIRouter:
         """Steer by hand while the dead-man is held; send at 20 Hz."""
         robot.steer(steer.source, steer.v_mps, steer.w_radps, dead_man=steer.dead_man)
         return {"mode": robot.status.mode if robot.status else None}
-
-    return router
 
 
 async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None) -> Answer:

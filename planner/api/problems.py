@@ -7,17 +7,23 @@ is no error: it is a goal that ends refused.
 from __future__ import annotations
 
 from http import HTTPStatus
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
+from starlette.routing import Match
+
+from planner.api.sayings import saying_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MEDIA_TYPE = "application/problem+json"
+MAX_FOUND = 80
+METHODS = ("DELETE", "GET", "HEAD", "PATCH", "POST", "PUT")
 
 
 class Problem(Exception):
@@ -32,10 +38,11 @@ class Problem(Exception):
 
 
 def body(status: int, code: str, detail: str, **more: Any) -> dict[str, Any]:
-    """Return the JSON of a problem."""
+    """Return the JSON of a problem; ``message`` where a person may be the one who reads it."""
+    said = saying_of(code)
     title = HTTPStatus(status).phrase
     return {"type": f"urn:pons:problem:{code}", "title": title, "status": status,
-            "code": code, "detail": detail, **more}  # fmt: skip
+            "code": code, "detail": detail, **said, **more}  # fmt: skip
 
 
 def response(
@@ -59,15 +66,37 @@ async def _problem(_: Request, error: Exception) -> JSONResponse:
     return response(error.status, error.code, error.detail, **error.more)
 
 
-async def _invalid(_: Request, error: Exception) -> JSONResponse:
+async def _invalid(request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, RequestValidationError):
         raise error
     first = error.errors()[0]
-    where = ".".join(str(part) for part in first["loc"])
     if first["type"] == "json_invalid":
-        return response(400, "malformed_json", f"{where}: {first['msg']}")
-    found = repr(first.get("input"))[:80]
-    return response(422, "invalid_request", f"{where}: {first['msg']}; got {found}")
+        why = f"{first['ctx']['error']} at character {first['loc'][-1]}"
+        return response(400, "malformed_json", f"the body is no JSON: {why}; expected an object")
+    return response(422, "invalid_request", _what_is_wrong(first) + _what_exists(request))
+
+
+def _what_is_wrong(error: Mapping[str, Any]) -> str:
+    where = ".".join(str(part) for part in error["loc"])
+    found = repr(error.get("input"))[:MAX_FOUND]
+    if error["type"] == "extra_forbidden":
+        return f"{where}: unknown key, with the value {found}"
+    if error["type"] == "missing":
+        return f"{where}: missing"
+    if error["type"] == "model_attributes_type":
+        return f"{where}: expected a JSON object; got {found}"
+    return f"{where}: {error['msg']}; got {found}"
+
+
+def _what_exists(request: Request) -> str:
+    """Return the keys that the route's body takes; empty where it takes none."""
+    taken = getattr(request.scope.get("route"), "body_field", None)
+    model = taken.field_info.annotation if taken is not None else None
+    for kind in (model, *get_args(model)):
+        if isinstance(kind, type) and issubclass(kind, BaseModel):
+            keys = (n if f.is_required() else f"{n}?" for n, f in kind.model_fields.items())
+            return f"; the body takes: {', '.join(keys)}"
+    return ""
 
 
 _CODES = {
@@ -81,8 +110,26 @@ _CODES = {
 async def _http(request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, HTTPException):
         raise error
-    code = _CODES.get(error.status_code, f"http_{error.status_code}")
-    detail = f"{request.method} {request.url.path}: {error.detail}"
-    if error.status_code == 404:
-        detail += "; /openapi.json lists what exists"
-    return response(error.status_code, code, detail, headers=error.headers)
+    status, asked = error.status_code, f"{request.method} {request.url.path}"
+    code = _CODES.get(status, f"http_{status}")
+    headers = dict(error.headers or {})
+    detail = f"{asked}: {error.detail}"
+    if status == 400:  # the framework's only one: bytes that are no text
+        detail = f"{asked}: the body is no text in UTF-8; expected a JSON object"
+    elif status == 404:
+        detail = f"no route {asked}; /openapi.json lists what exists"
+    elif status == 405:
+        headers["Allow"] = _methods(request)
+        detail = f"no {asked}; allowed there: {headers['Allow']}"
+    return response(status, code, detail, headers=headers)
+
+
+def _methods(request: Request) -> str:
+    """Return all methods of a path: the framework's own answer names only its first route's."""
+    routes = request.app.router.routes
+    found = (
+        method
+        for method in METHODS
+        if any(r.matches({**request.scope, "method": method})[0] is Match.FULL for r in routes)
+    )
+    return ", ".join(found)

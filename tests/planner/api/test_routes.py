@@ -88,22 +88,27 @@ def test_on_metal_a_free_robot_takes_a_goal_without_an_act() -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "status", "expected"),
+    ("content", "status", "expected", "said"),
     [
-        (b"{", 400, "malformed_json"),
-        (b"\x00\xff\x80", 400, "malformed_json"),
-        (b"[]", 422, "invalid_request"),
-        (b"{}", 422, "invalid_request"),
-        (b'{"text": 7}', 422, "invalid_request"),
-        (b'{"text": "go", "speed": 3}', 422, "invalid_request"),
-        (b'{"text": "' + b"a" * 300_000 + b'"}', 413, "body_too_large"),
+        (b"{", 400, "malformed_json", ("no JSON", "at character 1", "expected an object")),
+        (b"\x00\xff\x80", 400, "malformed_json", ("UTF-8", "expected a JSON object")),
+        (b"", 422, "invalid_request", ("body: missing", "text, language?")),
+        (b"[]", 422, "invalid_request", ("expected a JSON object", "got []", "text, language?")),
+        (b"{}", 422, "invalid_request", ("body.text: missing", "takes: text, language?")),
+        (b'{"text": 7}', 422, "invalid_request", ("body.text", "valid string", "got 7")),
+        (b'{"text": "go", "speed": 3}', 422, "invalid_request",
+         ("body.speed: unknown key", "3", "text, language?, confirm?, replace?, operator?")),
+        (b'{"text": "' + b"a" * 300_000 + b'"}', 413, "body_too_large", ("262144",)),
     ],
-)
-def test_malformed_goals_are_refused(
-    client: TestClient, services: FakeServices, content: bytes, status: int, expected: str
-) -> None:
+    ids=["half", "bytes", "nothing", "list", "empty", "number", "unknown key", "300 kB"],
+)  # fmt: skip
+def test_malformed_goals_are_refused_and_told_what_was_expected(
+    client: TestClient, services: FakeServices, content: bytes, status: int, expected: str,
+    said: tuple[str, ...],
+) -> None:  # fmt: skip
     answer = client.post("/v1/goals", content=content, headers=JSON)
     assert (answer.status_code, code(answer)) == (status, expected)
+    assert [part for part in said if part not in answer.json()["detail"]] == [], answer.json()
     assert services.goals.calls == []
 
 
@@ -138,6 +143,13 @@ def test_wrong_requests_say_why(
     assert (answer.status_code, code(answer)) == (status, expected)
 
 
+def test_a_wrong_method_is_told_all_that_a_path_allows(client: TestClient) -> None:
+    answer = client.delete("/v1/goals", headers=JSON)
+    assert answer.headers["allow"] == "GET, POST"
+    assert "GET, POST" in answer.json()["detail"]
+    assert "/openapi.json" in client.get("/v1/nothing").json()["detail"]
+
+
 def test_a_missions_refusal_speaks_both_languages(client: TestClient) -> None:
     body = client.post("/v1/goals/g1/confirm", json={}).json()
     assert body["message"]["en"]
@@ -149,6 +161,8 @@ def test_a_goal_needs_json(client: TestClient, content_type: str | None) -> None
     headers = {"content-type": content_type} if content_type else {}
     answer = client.post("/v1/goals", content=b'{"text":"go"}', headers=headers)
     assert (answer.status_code, code(answer)) == (415, "unsupported_media_type")
+    assert (content_type or "no content type") in answer.json()["detail"]
+    assert "expected application/json" in answer.json()["detail"]
 
 
 @pytest.mark.parametrize(
@@ -161,12 +175,38 @@ def test_strangers_are_refused_on_every_route(
 ) -> None:
     answer = client.get(path, headers={header: value})
     assert (answer.status_code, code(answer)) == (403, expected)
+    assert value in answer.json()["detail"]
+    assert "127.0.0.1" in answer.json()["detail"].partition("allowed: ")[2]
 
 
 def test_stop_needs_neither_body_nor_type(client: TestClient, services: FakeServices) -> None:
     assert client.post("/v1/stop").json() == {"confirmed": True, "mode": "ACTIVE"}
     assert client.post("/v1/stop", json={"source": "page"}).status_code == 200
     assert services.goals.stops == ["api", "page"]
+
+
+@pytest.mark.parametrize(
+    ("content", "headers"),
+    [
+        (b"{}", {"content-type": "application/x-www-form-urlencoded"}),
+        (b"now!", {}),
+        (b"{", JSON),
+        (b"\xff\x00", JSON),
+        (b"[]", JSON),
+        (b'{"source": 7}', JSON),
+        (b'{"reason": "fire"}', JSON),
+        (b"a" * 400_000, JSON),
+    ],
+    ids=["curl -d", "words", "half", "bytes", "list", "number", "unknown key", "400 kB"],
+)
+def test_no_body_of_any_kind_refuses_what_stops(
+    client: TestClient, services: FakeServices, content: bytes, headers: dict[str, str]
+) -> None:
+    assert client.post("/v1/stop", content=content, headers=headers).status_code == 200
+    for kind in ("estop", "disarm"):
+        assert client.post(f"/v1/{kind}", content=content, headers=headers).status_code == 200
+    assert services.goals.stops == ["api"]
+    assert [kind for kind, _ in services.robot.asked] == ["estop", "disarm"]
 
 
 @pytest.mark.parametrize("kind", ["arm", "reset", "resume"])

@@ -1,0 +1,56 @@
+"""Own what a person is told about a recording that can't be used, by the problem's code.
+
+``detail`` beside it names what came and what was expected, for whoever wrote the client.
+"""
+
+from __future__ import annotations
+
+from planner.plan import Bilingual
+
+_LENGTH = Bilingual(
+    en="The recording is too long: at most 15 seconds and 3 MB. Say one order at a time.",
+    zh="录音太长：最多 15 秒、3 MB。请一次只说一条指令。",
+)
+_BROKEN = Bilingual(
+    en="The recording is damaged: its header and its content do not fit. Please record it anew.",
+    zh="录音文件已损坏：文件头与内容不符。请重新录制。",
+)
+_KIND = Bilingual(
+    en="This is no recording that can be heard: send a WAV file with 16-bit PCM, 1 or 2 channels, "
+    "8 to 48 kHz.",
+    zh="无法识别该录音格式：请发送 WAV 文件（16 位 PCM，1 或 2 个声道，8 至 48 kHz）。",
+)
+_EARS = Bilingual(
+    en="Spoken orders can't be heard on this computer; typing works. `pons doctor` says why.",
+    zh="本机目前无法识别语音；文字输入不受影响。运行 `pons doctor` 可查看原因。",
+)
+_AGAIN = Bilingual(
+    en="Too much is being heard at once, so nothing moves. Please say it again in a moment.",
+    zh="语音识别繁忙，机器人不会移动。请稍后再说一次。",
+)
+SAYINGS = {
+    "audio_empty": Bilingual(en="The recording is empty.", zh="录音是空的。"),
+    "audio_too_short": Bilingual(
+        en="The recording is too short to hold an order.", zh="录音太短，听不出指令。"
+    ),
+    "audio_too_long": _LENGTH,
+    "not_wav": _KIND,
+    "wav_unsupported": _KIND,
+    "wav_truncated": _BROKEN,
+    "wav_malformed": _BROKEN,
+    "recogniser_unavailable": _EARS,
+    "voice_busy": _AGAIN,
+    "voice_timed_out": _AGAIN,
+    "body_too_large": Bilingual(
+        en="What was sent is too large.", zh="发送的内容过大。"
+    ),
+    "unsupported_media_type": Bilingual(
+        en="What was sent has another type than this address takes.",
+        zh="发送内容的类型与该接口不符。",
+    ),
+}  # fmt: skip
+
+
+def saying_of(code: str) -> dict[str, dict[str, str]]:
+    """Return the sentence for a person as ``message``, where the code has one."""
+    return {"message": SAYINGS[code].model_dump()} if code in SAYINGS else {}

@@ -1,0 +1,47 @@
+"""Serve a route whatever its body is: for what stops the robot, an odd body is no reason to refuse.
+
+A hurried ``curl -d '{}'`` without a content type, half a JSON, a megabyte of noise or a connection
+that breaks off: each still stops, as if the body had been empty.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+
+    from starlette.responses import Response
+    from starlette.types import Message
+
+_OF_THE_BODY = frozenset({b"content-type", b"content-length", b"transfer-encoding"})
+
+
+class Unrefused(APIRoute):
+    """Answer a request whose body can't be used as if it had none."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """Return the handler that tries a second time, bare; the route ran in neither case yet."""
+        handle = super().get_route_handler()
+
+        async def answered(request: Request) -> Response:
+            try:
+                return await handle(request)
+            except (RequestValidationError, HTTPException):
+                return await handle(_bare(request))
+
+        return answered
+
+
+def _bare(request: Request) -> Request:
+    headers = [pair for pair in request.scope["headers"] if pair[0] not in _OF_THE_BODY]
+    return Request({**request.scope, "headers": headers}, _nothing)
+
+
+async def _nothing() -> Message:
+    return {"type": "http.request", "body": b"", "more_body": False}
