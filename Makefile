@@ -42,8 +42,7 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models on the running system
-	@scripts/stories.sh -m home --timeout 600 tests/e2e/test_home_tour.py $(ARGS)
-	@exec scripts/stories.sh -m e2e $(WHOLE) $(ARGS)
+	@exec scripts/stories.sh -m "e2e or home" tests/e2e/test_home_tour.py $(WHOLE) $(ARGS)
 
 page-stories: $(DEV) $(PAGE_DEV) $(PAGE) ## try the page in Chromium on the running system (not in CI yet: some fail)
 	@exec $(BIN)/python -m pytest -m e2e tests/web $(ARGS)

@@ -18,6 +18,9 @@ from tests.e2e.system import ENDED, TWO_ROOM, Json, System
 from wire import Mode
 
 REST_LIMIT_S = 20.0
+ARM_LIMIT_S = 8.0
+REFUSED = 3
+"""How ``pons arm`` ends when the bridge refuses, and says why."""
 FAR_M = 1.0
 """A drive shorter than this is over before a story can interrupt it."""
 THERE_M = 0.25
@@ -79,6 +82,16 @@ class Robot:
         elif status.mode is Mode.HOLD and status.owner is not None and not status.rows:
             return self.system.http("GET", "/readyz").status == 200
         return False
+
+    def arm(self) -> None:
+        """Arm in the shell, again as a person would while a busy machine's passing row refuses."""
+
+        def armed() -> bool:
+            done = self.system.pons("arm")
+            assert done.returncode in (0, REFUSED), (done.stdout, done.stderr)
+            return done.returncode == 0
+
+        until(armed, ARM_LIMIT_S, "arm", self.judge.describe)
 
     # Drives -------------------------------------------------------------------------------------
 

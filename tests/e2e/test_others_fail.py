@@ -29,8 +29,7 @@ def test_a_killed_bridge_is_stopped_by_the_drives_own_time_out(robot: Robot) -> 
     robot.judge.assert_never_moves(1.0)
     robot.judge.assert_stood(stood_s)
     assert robot.judge.status.mode is Mode.DISARMED
-    done = robot.system.pons("arm")
-    assert done.returncode == 0, done.stderr
+    robot.arm()
     done = robot.system.pons("resume")
     assert done.returncode == 0, done.stderr
     robot.arrive(place, goal)

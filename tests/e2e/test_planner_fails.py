@@ -38,7 +38,7 @@ def test_a_killed_planner_moves_nothing_until_a_person_resumes(robot: Robot) -> 
     assert status.held is not None
     assert status.held.reason == "planner_restarted"
     if status.mode is Mode.DISARMED:  # a slow machine: away for over 5 s
-        assert robot.system.pons("arm").returncode == 0
+        robot.arm()
     done = robot.system.pons("resume")
     assert done.returncode == 0, done.stderr
     robot.arrive(place, goal)
@@ -77,8 +77,7 @@ def test_a_planner_frozen_for_seven_seconds_needs_a_person(robot: Robot) -> None
     assert paused["reason"] in ("disarmed", "fault(BRAIN_GONE)")
     robot.judge.assert_never_moves(1.0)
     robot.judge.assert_stood(stood_s)
-    done = robot.system.pons("arm")
-    assert done.returncode == 0, done.stderr
+    robot.arm()
     robot.judge.assert_never_moves(0.5)
     done = robot.system.pons("resume")
     assert done.returncode == 0, done.stderr

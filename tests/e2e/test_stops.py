@@ -149,7 +149,7 @@ def test_disarm_takes_the_torque_and_arm_gives_it_back(robot: Robot) -> None:
     assert refused.status in (200, 409), refused
     robot.judge.assert_never_moves(0.5)
     robot.judge.assert_stood(stood_s)
-    assert robot.system.pons("arm").returncode == 0
+    robot.arm()
     robot.judge.assert_never_moves(0.3)
     robot.system.until_goal(goal["id"], "paused")
     assert robot.system.pons("resume").returncode == 0
@@ -172,7 +172,7 @@ def test_a_protective_stop_is_latched_until_reset(robot: Robot) -> None:
     robot.judge.until_mode(Mode.DISARMED)
     until(lambda: not robot.judge.drives.last.enabled, 2.0, "torque off")
     robot.judge.assert_stood(stood_s)
-    assert robot.system.pons("arm").returncode == 0
+    robot.arm()
     robot.judge.assert_never_moves(0.3)
     assert robot.system.pons("resume").returncode == 0
     robot.judge.until_moving()
