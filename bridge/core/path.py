@@ -7,7 +7,7 @@ follower, so the speeds are those of a robot that brakes towards it. Knows no ro
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from math import atan2, hypot, sqrt
 from typing import TYPE_CHECKING, ClassVar
 
@@ -27,6 +27,7 @@ TURN_RADIUS_M = 0.6
 """Arcs tighter than this are taken slower, in proportion (regulated pure pursuit)."""
 SLOWEST_SHARE = 0.25
 SLOWEST_MPS = 0.05
+_ROUNDING = 1e-9
 _CORNER_M = 0.15  # a corner's turn is spread over this length on either side of it
 
 
@@ -66,21 +67,19 @@ def prepare(points: Sequence[Waypoint], limits: Limits) -> Path:
     """Make the path of an accepted horizon (see :mod:`bridge.core.horizon`)."""
     xs = tuple([p.x_m for p in points])
     ys = tuple([p.y_m for p in points])
-    gaps = [hypot(xs[i + 1] - xs[i], ys[i + 1] - ys[i]) for i in range(len(xs) - 1)]
+    dxs = [b - a for a, b in pairwise(xs)]
+    dys = [b - a for a, b in pairwise(ys)]
+    gaps = list(map(hypot, dxs, dys))
     along = list(accumulate(gaps, initial=0.0))
     speeds = tuple([abs(p.speed_mps) for p in points])
-    curves = _curves(xs, ys, along)
-    exits = [
-        speed  # nearly always: spares the call
-        if curve * TURN_RADIUS_M <= 1.0
-        else regulated(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
-        for speed, curve in zip(speeds, curves, strict=True)
-    ]
-    if exits:
-        exits[-1] = 0.0
-    decel = PLANNED_DECEL * limits.max_decel_mps2
-    for i in range(len(gaps) - 1, -1, -1):
-        exits[i] = min(exits[i], sqrt(exits[i + 1] * exits[i + 1] + 2 * decel * gaps[i]))
+    turns = _turns(dxs, dys)
+    exits = list(speeds)
+    if not sum(turns) * TURN_RADIUS_M <= (1.0 - _ROUNDING) * 2 * _CORNER_M:  # or no curve is tight
+        exits = [
+            regulated(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
+            for speed, curve in zip(speeds, _curves(turns, along), strict=True)
+        ]
+    _brake(exits, gaps, PLANNED_DECEL * limits.max_decel_mps2)
     return Path(
         xs_m=xs,
         ys_m=ys,
@@ -92,13 +91,30 @@ def prepare(points: Sequence[Waypoint], limits: Limits) -> Path:
     )
 
 
-def _curves(xs: tuple[float, ...], ys: tuple[float, ...], along: list[float]) -> list[float]:
+def _brake(exits: list[float], gaps: list[float], decel: float) -> None:
+    """Lower the speeds so that the robot stands at the end and brakes in time for each point."""
+    if not exits:
+        return
+    even = exits.count(exits[0]) == len(exits)
+    exits[-1] = 0.0
+    for i in range(len(gaps) - 1, -1, -1):
+        fastest = sqrt(exits[i + 1] * exits[i + 1] + 2 * decel * gaps[i])
+        if fastest < exits[i]:
+            exits[i] = fastest
+        elif even:
+            return  # from here back all are as fast: nobody brakes for anybody
+
+
+def _turns(dxs: list[float], dys: list[float]) -> list[float]:
+    """Return how far the path turns at each point [rad], unsigned; nothing at both ends."""
+    headings = list(map(atan2, dys, dxs))
+    turns = [abs(wrap(b - a)) for a, b in pairwise(headings)]
+    return [0.0, *turns, 0.0] if dxs else [0.0]
+
+
+def _curves(turns: list[float], along: list[float]) -> list[float]:
     """Return the curve at each point [rad/m]: all turning within a corner's length, over it."""
-    count = len(xs)
-    turns = [0.0] * count
-    headings = [atan2(ys[i + 1] - ys[i], xs[i + 1] - xs[i]) for i in range(count - 1)]
-    for i in range(1, count - 1):
-        turns[i] = abs(wrap(headings[i] - headings[i - 1]))
+    count = len(turns)
     curves = []
     low = high = 0
     turned = 0.0
