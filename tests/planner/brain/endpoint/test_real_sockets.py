@@ -1,0 +1,155 @@
+"""Meet broken and hostile servers on real sockets: each ends typed, in time, and memory stays."""
+
+from __future__ import annotations
+
+import json
+import socket
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from planner.brain import BrainDown, PlanRejected
+from planner.brain.endpoint import EndpointBrain
+from planner.plan import Vocabulary
+from tests.planner.brain.endpoint.servers import GO, settings, think
+from tests.planner.brain.endpoint.sockets import (
+    CHUNK,
+    Script,
+    completion,
+    ok,
+    said,
+    self_signed,
+    serving,
+    without_end,
+)
+
+GROWN_BYTES = 48_000_000
+"""A reply's cap many times over; a server that gets its will sends more in a second."""
+HEAD = b"HTTP/1.1 200 OK\r\nContent-Type: application/json\r\n"
+CHUNKED = HEAD + b"Transfer-Encoding: chunked\r\n\r\n"
+ONE_CHUNK = b"10000\r\n" + CHUNK + b"\r\n"
+DEEP = "[" * 100_000 + "]" * 100_000
+
+
+def ended(port: int, home: Vocabulary, folder: Path, scheme: str = "http") -> str:
+    """Think once and return how it ended; hold time and memory."""
+    from planner.brain.endpoint import EndpointBrain
+
+    us, began_s = psutil.Process(), time.monotonic()
+    before = us.memory_info().rss
+    url = f"{scheme}://127.0.0.1:{port}/v1"
+    made = EndpointBrain(settings(url=url, timeout_s=1.5), folder)
+    how, words = _thought(made, home)
+    assert len(words) < 3_000
+    assert time.monotonic() - began_s < 15.0, "the deadline did not hold"
+    assert us.memory_info().rss - before < GROWN_BYTES
+    return how
+
+
+def _thought(made: EndpointBrain, home: Vocabulary) -> tuple[str, str]:
+    try:
+        return think(made, home).plan.kind, ""
+    except BrainDown as down:
+        return down.why, str(down)
+    except PlanRejected as rejected:
+        return "rejected", str(rejected)
+
+
+@pytest.mark.parametrize(
+    ("script", "end"),
+    [
+        (said(completion(GO)), "plan"),
+        (without_end(HEAD + b"Content-Length: 1000000000\r\n\r\n", CHUNK), "too_large"),
+        (without_end(CHUNKED, ONE_CHUNK), "too_large"),
+        (without_end(HEAD + b"\r\n", CHUNK), "too_large"),
+        (without_end(b"HTTP/1.1 500 No\r\n\r\n", CHUNK), "server_error"),
+        (without_end(HEAD + b"Content-Length: 1000000\r\n\r\n", b" ", 0.02), "timeout"),
+        (without_end(CHUNKED, b"1\r\n \r\n", 0.02), "timeout"),
+        (without_end(b"HTTP/1.1 200 OK\r\n", b"X: 1\r\n", 0.02), "timeout"),
+        (without_end(b"", b"H", 0.02), "timeout"),
+        (without_end(b"HTTP/1.1 200 OK\r\n", b"X: " + CHUNK + b"\r\n"), "server_error"),
+        (without_end(b"", b"HTTP/1.1 100 Continue\r\n\r\n", 0.02), "timeout"),
+        (said(b"", pause_s=0.05), "server_error"),
+        (said(b"SSH-2.0-OpenSSH_9.2\r\n"), "server_error"),
+        (said(bytes(range(256))), "server_error"),
+        (said(completion(GO)[:-40]), "server_error"),
+        (said(HEAD + b"Content-Length: -1\r\n\r\n{}"), "server_error"),
+        (said(CHUNKED + b"FFFFFFFFFFFFFFFFF\r\n"), "server_error"),
+        (said(b"HTTP/1.1 302 Found\r\nLocation: http://127.0.0.1:1/\r\n\r\n"), "redirect"),
+        (said(b"HTTP/1.1 307 T\r\nLocation: file:///etc/passwd\r\n\r\n"), "redirect"),
+        (said(b"HTTP/1.1 308 P\r\nLocation: http://169.254.169.254/\r\n\r\n"), "redirect"),
+        (said(ok(DEEP.encode())), "bad_reply"),
+        (said(ok(b'{"choices":' + DEEP.encode() + b"}")), "bad_reply"),
+        (said(ok(b'{"choices":[{"message":{"content":NaN}}]}')), "bad_reply"),
+        (said(ok(b'{"choices":1e999}')), "bad_reply"),
+        (said(ok(b"7")), "bad_reply"),
+        (said(ok(b"\x00" * 900_000)), "bad_reply"),
+        (said(ok(b"x", b"Content-Encoding: gzip")), "bad_reply"),
+        (said(completion(DEEP)), "rejected"),
+        (said(completion('{"kind":' + DEEP + "}")), "rejected"),
+        (said(completion('{"kind":"plan","steps":[{"kind":"wait","seconds":NaN}]}')), "rejected"),
+        (said(completion('{"kind":"plan","steps":[{"kind":"wait","seconds":1e999}]}')), "rejected"),
+        (said(completion('{"kind":"plan","steps":"go_to"}')), "rejected"),
+        (said(completion('{"kind":["plan"],"steps":[]}')), "rejected"),
+        (said(completion('{"kind":"plan","steps":[{"kind":"go_to","place":["kitchen"]}]}')),
+         "rejected"),
+        (said(completion('{"kind":"plan","steps":[{"kind":"go_to_map","x":1}]}')), "rejected"),
+        (said(completion("{" * 400_000)), "rejected"),
+    ],
+)  # fmt: skip
+def test_every_server_ends_typed(
+    script: Script, end: str, home: Vocabulary, tmp_path: Path
+) -> None:
+    with serving(script) as wire:
+        assert ended(wire.port, home, tmp_path) == end
+        assert wire.asked, "nobody asked"
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"waypoints": [{"x": 1.0, "y": 2.0, "speed": 0.5}]},
+        {"steps": [{"kind": "go_to", "place": "kitchen"}]},
+        {"plan": {"kind": "plan", "steps": [{"kind": "go_to", "place": "kitchen"}]}},
+    ],
+)
+def test_a_refusal_with_a_way_beside_it_drives_nowhere(
+    more: dict[str, object], home: Vocabulary, tmp_path: Path
+) -> None:
+    text = json.dumps({"kind": "refuse", "code": "unsafe", "en": "No.", "zh": "不。", **more})
+    with serving(said(completion(text))) as wire:
+        assert ended(wire.port, home, tmp_path) in ("refuse", "rejected")
+
+
+def test_a_port_where_nobody_is_is_said_at_once(home: Vocabulary, tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = int(taken.getsockname()[1])
+    assert ended(port, home, tmp_path) == "unreachable"
+
+
+def test_a_server_that_never_accepts_is_cut(home: Vocabulary, tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0), backlog=1) as silent:
+        assert ended(int(silent.getsockname()[1]), home, tmp_path) == "timeout"
+
+
+def test_a_certificate_that_nobody_vouches_for_is_refused(home: Vocabulary, tmp_path: Path) -> None:
+    context = self_signed(tmp_path)
+    if context is None:
+        pytest.skip("openssl is not installed: no certificate can be made")
+    with serving(said(completion(GO)), context) as wire:
+        assert ended(wire.port, home, tmp_path, "https") == "unreachable"
+        assert wire.asked == [], "the key must not leave before the server is known"
+
+
+# asyncio itself forgets the transport whose handshake failed so early; the collector closes it.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_tls_where_none_is_spoken_and_the_other_way_round(home: Vocabulary, tmp_path: Path) -> None:
+    with serving(said(completion(GO))) as plain:
+        assert ended(plain.port, home, tmp_path, "https") in ("unreachable", "timeout")
+    context = self_signed(tmp_path)
+    if context is not None:
+        with serving(said(completion(GO)), context) as secret:
+            assert ended(secret.port, home, tmp_path) in ("server_error", "unreachable")
+            assert secret.asked == []
