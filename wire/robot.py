@@ -66,6 +66,19 @@ class DriveConfig(Record):
     """The drive's own dead-man: without a command for this long it stops by itself."""
     dead_zone_radps: float = Field(default=0.05, ge=0.0, le=2.0)
     """The motor turns so much slower than told; the drive adds it to every command but zero."""
+    peak_current_a: float = Field(default=30.0, ge=0.5, le=500.0)
+    """All motors together; OVERCURRENT after 0.1 s of more. Judged where the drive reports it."""
+    continuous_current_a: float = Field(default=15.0, ge=0.2, le=400.0)
+    """What may flow for ever; more heats the motors, to OVERCURRENT after 2 s at the peak."""
+
+    @model_validator(mode="after")
+    def _peak_is_more(self) -> DriveConfig:
+        if not self.continuous_current_a < self.peak_current_a:
+            raise ValueError(
+                f"drive.continuous_current_a {self.continuous_current_a} must be less than "
+                f"peak_current_a {self.peak_current_a}"
+            )
+        return self
 
     @property
     def virtual(self) -> bool:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bridge.core.modes import TRANSITIONS
-from bridge.core.rows import ALL, ROWS, Row, Stage
+from bridge.core.rows import ALL, ROWS, Stage
 from wire import Action
 
 if TYPE_CHECKING:
@@ -95,17 +95,11 @@ def _rows() -> Iterator[str]:
     for row in ROWS:
         for index, stage in enumerate(row.stages):
             name = f"`{row.id}`" if index == 0 else ""
-            seen = _seen(row) if index == 0 else ""
+            seen = row.detector if index == 0 else ""
             yield (
                 f"| {name} | {seen} | {_binds(stage)} | {stage.window} | {_does(stage)} "
                 f"| {_clears(stage)} |\n"
             )
-    later = ", ".join(f"`{row.id}`" for row in ROWS if not row.armed)
-    yield f"\nThe detectors of these rows are not built yet, so they never act: {later}.\n"
-
-
-def _seen(row: Row) -> str:
-    return row.detector if row.armed else f"*(comes with a later version)* {row.detector}"
 
 
 def _binds(stage: Stage) -> str:
@@ -116,8 +110,9 @@ def _does(stage: Stage) -> str:
     if stage.cap_factor is not None:
         return f"`{stage.action.value}` {stage.cap_factor:g} of the limits"
     if stage.cap_mps is not None:
-        bound = f"{stage.cap_mps:g} m/s" if stage.cap_mps > 0.0 else "the zone's speed"
-        return f"`{stage.action.value}` {bound}"
+        return f"`{stage.action.value}` {stage.cap_mps:g} m/s"
+    if stage.cap_zone:
+        return f"`{stage.action.value}` the zone's speed"
     return f"`{stage.action.value}`"
 
 

@@ -1,7 +1,7 @@
 """Copy a record so that a step can write into its own copy and leave its argument as it was.
 
-Most of the state is frozen and replaced when something arrives, which is rare. The three records
-that change every tick are plain slotted dataclasses, copied once per tick: copying costs 1 us, a
+Most of the state is frozen and replaced when something arrives, which is rare. The records that
+change every tick are plain slotted dataclasses, copied once per tick: copying costs 1 us, a
 ``dataclasses.replace`` of the same size 4 us. A test holds the promise that the state given to
 ``step`` is unchanged afterwards.
 """

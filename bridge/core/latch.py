@@ -97,7 +97,8 @@ def cap(tick: Tick) -> tuple[float, str]:
         if stage.action is Action.CAP and binds(stage, letters):
             share = stage.cap_factor
             if share is None:
-                share = min(1.0, (stage.cap_mps or 0.0) / fastest)
+                at_most = tick.s.watch.zone_mps if stage.cap_zone else stage.cap_mps
+                share = min(1.0, (at_most or 0.0) / fastest)
             if share < factor:
                 factor, by = share, stage.row.lower()
     return factor, by

@@ -2,8 +2,7 @@
 
 docs/safety.md, the dashboard's sentences and the exhaustive test are made from it. A row is one
 detector with one or more stages; the worst active stage wins and none masks another. No row and no
-parameter can be switched off: ``armed`` is False only where the detector is yet to be built, and
-the documentation says so.
+parameter can be switched off.
 """
 
 from __future__ import annotations
@@ -51,27 +50,28 @@ class Stage:
     cap_factor: float | None = None
     """On robot.toml's speed and turn limits."""
     cap_mps: float | None = None
+    cap_zone: bool = False
+    """To the speed of the zone that the robot is in."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """Give one row: its stages mildest first, its words, and whether its detector is built."""
+    """Give one row: its stages mildest first, and its words."""
 
     id: str
     detector: str
     en: str
     zh: str
     stages: tuple[Stage, ...]
-    armed: bool
 
 
-def _row(row: str, detector: str, *stages: Mapping[str, object], armed: bool = True) -> Row:
+def _row(row: str, detector: str, *stages: Mapping[str, object]) -> Row:
     en, zh = WORDS[row]
     made = tuple(
         Stage(name=f"{row}.{index}", row=row, **stage)  # type: ignore[arg-type]  # keys are Stage's
         for index, stage in enumerate(stages)
     )
-    return Row(row, detector, en, zh, made, armed)
+    return Row(row, detector, en, zh, made)
 
 
 def _do(
@@ -101,7 +101,7 @@ ROWS: tuple[Row, ...] = (
          "over 0.5 m off, bad spacing, a segment through the fence; each dropped",
          _do("bucket +1 per bad, -1 per good or 0.5 s, trips at 5", _HOLD2, "WTX")),
     _row("CMD_FLOOD", "messages over rate x 0.25 x 1.2 + 1 in a sliding 250 ms; dropped",
-         _do("4 windows", _HOLD2, "WTX"), armed=False),
+         _do("4 windows", _HOLD2, "WTX")),
     _row("BUDGET", "the mission's grant or the operator's 500 m and 3600 s are spent; a new "
          "mission or an operator act clears it",
          _do("at once", _HOLD2, "WX", clean_s=0.0)),
@@ -111,23 +111,23 @@ ROWS: tuple[Row, ...] = (
          _do("for 5 s", _STOP1, "WTX", _REARM)),
     _row("LIDAR_BLIND", "returns under 5 % of the baseline",
          _do("300 ms", _HOLD2, "WTX", clean_s=2.0),
-         _do("5 s", _STOP1, "WTX", _REARM), armed=False),
+         _do("5 s", _STOP1, "WTX", _REARM)),
     _row("NO_RANGE", "no obstacle source is configured or alive",
-         _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2), armed=False),
+         _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2)),
     _row("SPEED_ZONE", "the robot is inside a speed zone of the fence",
-         _do("at once", _CAP, "WX", cap_mps=0.0), armed=False),
+         _do("at once", _CAP, "WX", clean_s=0.0, cap_zone=True)),
     _row("POSE_LOST", "localization older than 300 ms, poor, or of another odom_id",
          _do("at once", _HOLD2, "W"), _do("at once", _CAP, "T", cap_mps=0.2)),
     _row("POSE_JUMP", "the robot displaced over 0.1 m or 5 degrees between two localizations; "
          "route and grant anew",
          _do("once", _HOLD2, "W", _GRANT)),
     _row("STUCK", "asked to move and measured still, or no progress on an open leg",
-         _do("1 s; 5 s without progress", _HOLD2, "WTX"),
-         _do("3 in 5 min", _STOP1, "WTX", _REARM), armed=False),
+         _do("1 s; 5 s without progress; the grant is taken", _HOLD2, "WTX", clean_s=2.0),
+         _do("3 in 5 min", _STOP1, "WTX", _REARM)),
     _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s, or of other sign",
-         _do("100 ms", _FAST1, ALL, _RESET), _do("250 ms", _CUT0, ALL, _RESET), armed=False),
+         _do("100 ms", _FAST1, ALL, _RESET), _do("250 ms", _CUT0, ALL, _RESET)),
     _row("YAW_DISAGREE", "odometry and gyro differ by over 0.3 rad/s, or the gyro is stale",
-         _do("0.5 s", _CAP, "WTX", clean_s=2.0, cap_mps=0.3), armed=False),
+         _do("0.5 s", _CAP, "WTX", clean_s=2.0, cap_mps=0.3)),
     _row("ENC_STALE", "no state from the drive",
          _do("80 ms", _HOLD2), _do("250 ms", _FAST1, ALL, _REARM)),
     _row("DRIVER_NACK", "states arrive whose echo is behind by",
@@ -135,10 +135,10 @@ ROWS: tuple[Row, ...] = (
     _row("DRIVE_REBOOT", "the drive's boot id changed; encoder deltas are zeroed anew",
          _do("at once", _STOP1, ALL, _REARM)),
     _row("OVERCURRENT", "peak or I2t of the motor current",
-         _do("100 ms", _STOP1, ALL, _RESET), armed=False),
+         _do("100 ms", _STOP1, ALL, _RESET)),
     _row("BATTERY", "charge, or sag under load",
          _do("under 20 % for 2 s", _CAP, ALL, clean_s=5.0, cap_mps=0.3),
-         _do("under 10 % for 2 s", _STOP1, ALL, _REARM), armed=False),
+         _do("under 10 % for 2 s", _STOP1, ALL, _REARM)),
     _row("LOOP_LATE", "this loop: ticks over 5 ms late, missed ticks, gaps between ticks",
          _do("late five times in 1 s, or two ticks missed", _CAP, ALL, clean_s=2.0,
              cap_factor=0.5),

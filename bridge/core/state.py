@@ -20,6 +20,7 @@ from bridge.core.state_senses import (
     LoopMemory,
     PoseMemory,
 )
+from bridge.core.state_watch import Flood, Watch
 from bridge.core.stopcurve import StopPlan
 from wire import STILL, Action, Held, Mode, Pose2, Twist2
 from wire.value import value
@@ -146,12 +147,15 @@ class BridgeState:
     selftest: SelfTest = field(default_factory=SelfTest)
     gate: Gate = field(default_factory=Gate)
     motion: Motion = field(default_factory=Motion)
+    watch: Watch = field(default_factory=Watch)
+    flood: Flood = field(default_factory=Flood)
     voice: Voice = field(default_factory=Voice)
 
 
 _copy_state = copier(BridgeState)
 _copy_drive = copier(DriveMemory)
 _copy_motion = copier(Motion)
+_copy_watch = copier(Watch)
 
 
 def draft(state: BridgeState) -> BridgeState:
@@ -159,4 +163,5 @@ def draft(state: BridgeState) -> BridgeState:
     copy = _copy_state(state)
     copy.drive = _copy_drive(state.drive)
     copy.motion = _copy_motion(state.motion)
+    copy.watch = _copy_watch(state.watch)
     return copy

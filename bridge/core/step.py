@@ -8,7 +8,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core import drive_out, gate, manners, operator, ownership, selftest, senses, stick
+from bridge.core import (
+    drive_out,
+    flood,
+    gate,
+    manners,
+    operator,
+    ownership,
+    selftest,
+    senses,
+    stick,
+)
 from bridge.core.decide import arrive, decide, detect
 from bridge.core.decision import Decision
 from bridge.core.drive_out import command, shaped, wanted
@@ -75,7 +85,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
 
 def _listen(tick: Tick) -> None:
     """Hear everybody in the order of rank; a stop voids what came with it."""
-    inbox = tick.inbox
+    inbox = tick.inbox = flood.thinned(tick)
     manners.drain(tick)
     operator.renew_nonce(tick)
     ownership.free_the_lost(tick)

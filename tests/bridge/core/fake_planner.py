@@ -44,6 +44,8 @@ class FakeDrive:
     angles: tuple[float, float] = (0.0, 0.0)
     speeds: tuple[float, float] = (0.0, 0.0)
     estop_pressed: bool = False
+    battery: float | None = None
+    current_a: float | None = None
     deaf: bool = False
     """Hears no commands but reports."""
     runs_on: bool = False
@@ -79,6 +81,8 @@ class FakeDrive:
             left_radps=self.speeds[0],
             right_radps=self.speeds[1],
             estop_pressed=self.estop_pressed,
+            battery=self.battery,
+            current_a=self.current_a,
         )
 
     def hear(self, decision: Decision, now_s: float) -> None:

@@ -17,7 +17,9 @@ from tests.bridge.core.fake_planner import (
 )
 from wire import (
     IDENTITY,
+    DriveState,
     Event,
+    Imu,
     Localization,
     Mode,
     OpKind,
@@ -67,7 +69,11 @@ class World:
     drive_silent: bool = False
     lidar_silent: bool = False
     lidar_frozen: bool = False
+    lidar_blind: bool = False
     localization_silent: bool = False
+    gyro_silent: bool = False
+    gyro_off_radps: float = 0.0
+    """What the gyro says beside the truth."""
     odom_in_map: Pose2 = IDENTITY
     quality: float = 1.0
     recorder_ok: bool = True
@@ -214,6 +220,8 @@ class World:
         state = self.drive.tick(self.now_s)
         if not self.drive_silent:
             inbox = replace(inbox, drive=(state,))
+        if not self.gyro_silent:
+            inbox = replace(inbox, imu=self._gyro(state))
         if self.ticks % 10 == 3 and not self.lidar_silent:
             inbox = replace(inbox, scan=self._scan())
         if self.ticks % 10 == 6 and not self.localization_silent:
@@ -222,6 +230,18 @@ class World:
             late = self.mail.pop(0) if len(self.mail) >= self.delay_ticks else None
             inbox = self.planner.say(late, self.now_s, inbox)
         return inbox
+
+    def _gyro(self, state: DriveState) -> Imu:
+        base = self.core.robot.base
+        turn = (state.right_radps - state.left_radps) * base.wheel_radius_m
+        return Imu(
+            boot_id="g0",
+            seq=self.ticks,
+            stamp_s=self.now_s,
+            yaw_rate_radps=turn / base.wheel_separation_m + self.gyro_off_radps,
+            accel_x_mps2=0.0,
+            accel_y_mps2=0.0,
+        )
 
     def _localization(self) -> Localization:
         self.poses += 1
@@ -254,7 +274,7 @@ class World:
             angle_increment_rad=6.283184 / beams,
             range_min_m=0.12,
             range_max_m=20.0,
-            ranges_m=tuple(r if r <= 20.0 else None for r in ranges),
+            ranges_m=tuple(r if r <= 20.0 and not self.lidar_blind else None for r in ranges),
         )
 
     def _range(self, here: Pose2, angle: float) -> float:

@@ -1,0 +1,154 @@
+"""Detect motion that does not fit what was sent: stuck, running away, turning unlike the gyro."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot
+from typing import TYPE_CHECKING
+
+from bridge.core.ages import sensor_age_s
+from bridge.core.detect_senses import ENC_S
+from bridge.core.epoch import shelved
+from bridge.core.legs import callable_horizon
+from bridge.core.state_watch import Sent
+from bridge.core.window import filled
+from wire import Mode, wrap
+
+if TYPE_CHECKING:
+    from bridge.core.latch import Dirty
+    from bridge.core.tick import Tick
+
+SLACK_MPS = 0.15
+RUNAWAY_S, RUNAWAY_LONG_S = 0.1, 0.25
+FOLLOWS_S = 0.2
+"""Beyond the drive's lag, as long as something sent may still show."""
+BUCKET_S = 0.05
+
+ASKED_MPS, MOVED_MPS, MOVED_SHARE = 0.10, 0.03, 0.2
+ASKED_RADPS, TURNED_RADPS = 0.2, 0.05
+STUCK_S = 1.0
+PROGRESS_M, PROGRESS_RAD, PROGRESS_S = 0.02, 0.05, 5.0
+TIMES, WITHIN_S = 3, 300.0
+
+YAW_RADPS, YAW_S = 0.3, 0.5
+GYRO_OLD_S = 0.25
+
+
+def runaway(tick: Tick, dirty: Dirty) -> None:
+    """Judge whether a wheel turns faster, or the other way, than anything sent of late."""
+    s = tick.s
+    watch, drive = s.watch, s.drive
+    half_m = tick.config.robot.base.wheel_separation_m / 2
+    sent, real = s.motion.limiter.sent, s.odometry.measured
+    _remember(tick, sent.v_mps - sent.w_radps * half_m, sent.v_mps + sent.w_radps * half_m)
+    if drive.received_s is None or not tick.now_s - drive.received_s <= ENC_S:
+        return  # nothing is measured: row ENC_STALE
+    left, right = real.v_mps - real.w_radps * half_m, real.v_mps + real.w_radps * half_m
+    # What was sent and standstill, and all between, is what a wheel may do.
+    lows = min(0.0, *[b.left_low for b in watch.sent]), min(0.0, *[b.right_low for b in watch.sent])
+    highs = (
+        max(0.0, *[b.left_high for b in watch.sent]),
+        max(0.0, *[b.right_high for b in watch.sent]),
+    )
+    fits = (
+        lows[0] - SLACK_MPS <= left <= highs[0] + SLACK_MPS
+        and lows[1] - SLACK_MPS <= right <= highs[1] + SLACK_MPS
+    )
+    wild = tick.powered and not fits
+    watch.runaway_s = filled(watch.runaway_s, tick.dt_s, RUNAWAY_LONG_S, dirty=wild)
+    if wild and watch.runaway_s >= RUNAWAY_S:
+        evidence = f"wheels at {left:.2f} and {right:.2f} m/s, sent {sent.v_mps:.2f} m/s"
+        dirty.append(("RUNAWAY.0", evidence))
+        if watch.runaway_s >= RUNAWAY_LONG_S:
+            dirty.append(("RUNAWAY.1", evidence))
+
+
+def _remember(tick: Tick, left: float, right: float) -> None:
+    """Widen the newest bounds by what was sent, or begin new ones; forget what can't show."""
+    watch, now_s = tick.s.watch, tick.now_s
+    newest = watch.sent[-1] if watch.sent else None
+    if newest is None or now_s - newest.since_s >= BUCKET_S:
+        old_s = now_s - (tick.config.robot.drive.lag_s + FOLLOWS_S)
+        kept = watch.sent
+        while len(kept) > 1 and kept[1].since_s <= old_s:
+            kept = kept[1:]
+        watch.sent = (*kept, Sent(now_s, left, left, right, right))
+    elif not (
+        newest.left_low <= left <= newest.left_high
+        and newest.right_low <= right <= newest.right_high
+    ):
+        wider = Sent(
+            newest.since_s,
+            min(newest.left_low, left),
+            max(newest.left_high, left),
+            min(newest.right_low, right),
+            max(newest.right_high, right),
+        )
+        watch.sent = (*watch.sent[:-1], wider)
+
+
+def stuck(tick: Tick, dirty: Dirty) -> None:
+    """Judge whether the robot gets on; where it doesn't, end the grant of who asked for it."""
+    s, watch = tick.s, tick.s.watch
+    evidence = _unmoved(tick) or _no_progress(tick)
+    if evidence is None:
+        return
+    watch.stuck_s, watch.progress_at = 0.0, None
+    watch.stuck_at_s = (*watch.stuck_at_s[-(TIMES - 1) :], tick.now_s)
+    dirty.append(("STUCK.0", evidence))
+    if len(watch.stuck_at_s) == TIMES and tick.now_s - watch.stuck_at_s[0] <= WITHIN_S:
+        dirty.append(("STUCK.1", f"{TIMES} times within {WITHIN_S:.0f} s"))
+    s.grants = shelved(s.grants)
+    s.leg = replace(s.leg, horizon=None, path=None)
+
+
+def _unmoved(tick: Tick) -> str | None:
+    s, watch = tick.s, tick.s.watch
+    sent, real = s.motion.limiter.sent, s.odometry.measured
+    v_mps, w_radps = abs(sent.v_mps), abs(sent.w_radps)
+    held_v = v_mps > ASKED_MPS and abs(real.v_mps) < min(MOVED_MPS, MOVED_SHARE * v_mps)
+    held_w = w_radps > ASKED_RADPS and abs(real.w_radps) < TURNED_RADPS
+    held = tick.moving and (held_v or held_w)
+    watch.stuck_s = filled(watch.stuck_s, tick.dt_s, STUCK_S, dirty=held)
+    if not (held and watch.stuck_s >= STUCK_S):
+        return None
+    return f"sent {sent.v_mps:.2f} m/s {sent.w_radps:.2f} rad/s, measured {real.v_mps:.2f} m/s"
+
+
+def _no_progress(tick: Tick) -> str | None:
+    s, watch = tick.s, tick.s.watch
+    shut = s.gate.blocked or s.gate.shut_since_s is not None
+    if s.mode is not Mode.ACTIVE or s.source != "W" or shut or not callable_horizon(tick):
+        watch.progress_at = None
+        return None
+    here, last = s.odometry.base_in_odom, watch.progress_at
+    if (
+        last is None
+        or abs(wrap(here.yaw_rad - last.yaw_rad)) >= PROGRESS_RAD
+        or hypot(here.x_m - last.x_m, here.y_m - last.y_m) >= PROGRESS_M
+    ):
+        watch.progress_at, watch.progress_s = here, tick.now_s
+        return None
+    waited_s = tick.now_s - watch.progress_s
+    return None if waited_s < PROGRESS_S else f"no progress for {waited_s:.1f} s"
+
+
+def yaw(tick: Tick, dirty: Dirty) -> None:
+    """Judge whether wheels and gyro tell the same turn. Where no gyro is wired there is none."""
+    if not tick.config.robot.inputs.imu:
+        return
+    s = tick.s
+    imu, received_s = s.pose.imu, s.pose.imu_received_s
+    if imu is None or received_s is None:
+        evidence = "the gyro has said nothing"
+    else:
+        same_host = tick.inbox.sensors_same_host
+        age_s = sensor_age_s(tick.now_s, received_s, imu.stamp_s, same_host=same_host)
+        off_radps = abs(s.odometry.measured.w_radps - imu.yaw_rate_radps)
+        if not age_s <= GYRO_OLD_S:
+            evidence = f"the gyro's reading is {age_s:.2f} s old"
+        else:
+            evidence = "" if off_radps <= YAW_RADPS else f"{off_radps:.2f} rad/s apart"
+    s.watch.yaw_s = filled(s.watch.yaw_s, tick.dt_s, YAW_S, dirty=bool(evidence))
+    if evidence and s.watch.yaw_s >= YAW_S:
+        dirty.append(("YAW_DISAGREE.0", evidence))

@@ -1,0 +1,303 @@
+"""Rows about motion that does not fit, sight, power, zones and floods: window, action, clearing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from bridge.core import ArrivedAt, BridgeState
+from bridge.core.fence import Zone, build_fence
+from tests.bridge.core.fake_planner import MAP_ID
+from tests.bridge.core.scripted import World, config
+from tests.bridge.core.windows import raised, silent_for
+from wire import Mode, RobotDescription
+
+
+def mode_of(world: World) -> Mode:
+    """Tell the mode now; a question, so that no type checker remembers its answer."""
+    state: BridgeState = world.state
+    return state.mode
+
+
+class TestRunaway:
+    """Hold RUNAWAY to both of its windows."""
+
+    def test_a_drive_faster_than_told_is_braked_and_then_cut(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.runs_on, world.drive.speeds = True, (9.0, 9.0)
+        silent_for(world, 9)
+        assert not raised(world, "RUNAWAY.0")
+        silent_for(world, 3)
+        assert raised(world, "RUNAWAY.0")
+        assert world.is_in(Mode.STOPPING)
+        assert not raised(world, "RUNAWAY.1")
+        silent_for(world, 16)
+        assert raised(world, "RUNAWAY.1")
+        assert world.is_in(Mode.FAULT)
+        assert world.last is not None
+        assert world.last.command is not None
+        assert not world.last.command.enable
+
+    def test_a_wheel_that_turns_the_other_way_is_one_too(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.runs_on, world.drive.speeds = True, (-3.0, -3.0)
+        silent_for(world, 13)
+        assert raised(world, "RUNAWAY.0")
+
+    def test_flicker_one_to_one_does_not_hide_it(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.runs_on = True
+        for _ in range(30):
+            world.drive.speeds = (9.0, 9.0)
+            world.tick()
+            world.drive.speeds = (5.0, 5.0)
+            world.tick()
+        assert world.is_in(Mode.STOPPING) or world.is_in(Mode.FAULT)
+
+    def test_a_robot_that_is_pushed_while_unpowered_runs_not_away(self) -> None:
+        world = World().ready()
+        world.drive.runs_on, world.drive.speeds = True, (9.0, 9.0)
+        world.run(1.0)
+        assert not raised(world, "RUNAWAY.0")
+
+    def test_silence_of_the_drive_is_not_a_runaway(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive_silent = True
+        world.run(2.0)
+        assert not raised(world, "RUNAWAY.0")
+        assert raised(world, "ENC_STALE.1")
+
+    def test_it_needs_a_reset(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.runs_on, world.drive.speeds = True, (9.0, 9.0)
+        world.run(0.5)
+        world.drive.runs_on = False
+        world.run(4.0)
+        assert world.is_in(Mode.FAULT)
+        world.op("reset")
+        world.tick()
+        assert world.is_in(Mode.DISARMED)
+        assert world.rows() == set()
+
+
+class TestStuck:
+    """Hold STUCK to both of its detectors and to its count."""
+
+    def hold_wheels(self, world: World) -> None:
+        world.drive.runs_on, world.drive.speeds = True, (0.0, 0.0)
+
+    def test_wheels_that_do_not_turn_end_the_grant_after_1_s(self) -> None:
+        world = World().driving((5.0, 0.0))
+        self.hold_wheels(world)
+        silent_for(world, 97)
+        assert not raised(world, "STUCK.0")
+        silent_for(world, 8)
+        assert raised(world, "STUCK.0")
+        codes = [event.code for event in world.events]
+        assert "granted" in codes[codes.index("row_up") :], "what was granted before is void"
+        assert world.is_in(Mode.STOPPING) or world.is_in(Mode.HOLD)
+
+    def test_the_third_time_in_five_minutes_disarms(self) -> None:
+        world = World().driving((5.0, 0.0))
+        self.hold_wheels(world)
+        for _ in range(1200):
+            world.tick()
+            if mode_of(world) is Mode.DISARMED:
+                break
+        assert world.is_in(Mode.DISARMED)
+        assert raised(world, "STUCK.1")
+        ups = [event for event in world.events if event.detail.startswith("STUCK.0")]
+        assert len([event for event in ups if event.code == "row_up"]) == 3
+
+    def test_slow_but_sure_is_not_stuck(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.runs_on, world.drive.speeds = True, (0.6, 0.6)
+        world.run(10.0)
+        assert not raised(world, "STUCK.0")
+
+    def test_no_progress_on_an_open_leg_counts_though_nothing_is_asked(self) -> None:
+        zone = Zone(((-6.0, -6.0), (6.0, -6.0), (6.0, 6.0), (-6.0, 6.0)), 0.02)
+        square = ((-5.5, -5.5), (5.5, -5.5), (5.5, 5.5), (-5.5, 5.5))
+        core = replace(config(), fence=build_fence(MAP_ID, (square,), zones=(zone,)))
+        world = World(core=core).armed()
+        assert world.planner is not None
+        world.planner.mission, world.planner.goal_m = "m1", (4.0, 0.0)
+        world.until(Mode.ACTIVE)
+        self.hold_wheels(world)
+        world.run(4.9)
+        assert not raised(world, "STUCK.0"), "20 mm/s are too few for the first detector"
+        world.run(0.3)
+        assert raised(world, "STUCK.0")
+
+
+class TestYaw:
+    """Hold YAW_DISAGREE to its window."""
+
+    def test_a_gyro_that_turns_by_itself_caps_the_speed(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.gyro_off_radps = 0.35
+        silent_for(world, 48)
+        assert not raised(world, "YAW_DISAGREE.0")
+        silent_for(world, 4)
+        assert raised(world, "YAW_DISAGREE.0")
+        assert world.state.motion.cap == pytest.approx(0.3 / 0.5)
+        assert world.is_in(Mode.ACTIVE)
+        world.gyro_off_radps = 0.0
+        world.run(1.9)
+        assert raised(world, "YAW_DISAGREE.0")
+        world.run(0.3)
+        assert not raised(world, "YAW_DISAGREE.0")
+
+    def test_a_silent_gyro_counts(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.gyro_silent = True
+        world.run(0.8)
+        assert raised(world, "YAW_DISAGREE.0")
+
+    def test_a_robot_without_a_gyro_is_not_judged(self) -> None:
+        robot = RobotDescription.model_validate({"inputs": {"imu": False}})
+        world = World(core=config(robot), gyro_silent=True).driving((5.0, 0.0))
+        world.run(1.0)
+        assert not raised(world, "YAW_DISAGREE.0")
+
+
+class TestSight:
+    """Hold LIDAR_BLIND and NO_RANGE to their windows."""
+
+    def test_a_covered_lidar_holds_after_300_ms_and_disarms_after_5_s(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.lidar_blind = True
+        world.run(0.25)
+        assert not raised(world, "LIDAR_BLIND.0")
+        world.run(0.2)
+        assert raised(world, "LIDAR_BLIND.0")
+        assert world.is_in(Mode.STOPPING)
+        world.run(4.4)
+        assert world.is_in(Mode.HOLD)
+        world.run(0.6)
+        assert world.is_in(Mode.DISARMED)
+        assert raised(world, "LIDAR_BLIND.1")
+
+    def test_one_that_sees_again_is_trusted_after_2_s(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.lidar_blind = True
+        world.run(1.0)
+        world.lidar_blind = False
+        world.run(1.9)
+        assert world.is_in(Mode.HOLD)
+        world.until(Mode.ACTIVE, 0.5)
+
+    def test_without_a_living_lidar_there_is_no_range(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.lidar_silent = True
+        world.run(4.0)
+        assert not raised(world, "NO_RANGE.0")
+        world.run(2.0)
+        assert raised(world, "NO_RANGE.0")
+        assert raised(world, "NO_RANGE.1")
+
+
+class TestPower:
+    """Hold BATTERY and OVERCURRENT to their windows."""
+
+    def test_a_low_battery_slows_and_an_empty_one_disarms(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.battery = 0.19
+        world.run(1.95)
+        assert not raised(world, "BATTERY.0")
+        world.run(0.1)
+        assert raised(world, "BATTERY.0")
+        assert world.state.motion.cap == pytest.approx(0.3 / 0.5)
+        world.drive.battery = 0.24
+        world.run(7.0)
+        assert raised(world, "BATTERY.0"), "until it is 5 % up"
+        world.drive.battery = 0.26
+        world.run(5.2)
+        assert not raised(world, "BATTERY.0")
+        world.drive.battery = 0.09
+        world.run(2.6)
+        assert raised(world, "BATTERY.1")
+        world.until(Mode.DISARMED, 2.0)
+
+    def test_a_sag_that_comes_and_goes_adds_up(self) -> None:
+        world = World().driving((5.0, 0.0))
+        for _ in range(6):
+            world.drive.battery = 0.05
+            world.run(0.5)
+            world.drive.battery = 0.9
+            world.run(0.3)
+        assert raised(world, "BATTERY.1")
+
+    @pytest.mark.parametrize(("current_a", "after_s"), [(31.0, 0.1), (20.0, 7.7)])
+    def test_too_much_current_stops_by_peak_or_by_heat(
+        self, current_a: float, after_s: float
+    ) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.current_a = current_a
+        world.run(after_s - 0.05)
+        assert not raised(world, "OVERCURRENT.0")
+        world.run(0.15)
+        assert raised(world, "OVERCURRENT.0")
+        world.until(Mode.FAULT, 2.0)
+
+    def test_what_may_flow_for_ever_flows(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.current_a = -14.9
+        world.run(8.0)
+        assert not raised(world, "OVERCURRENT.0")
+
+
+def test_a_zone_caps_at_its_speed_while_the_robot_is_in_it() -> None:
+    zone = Zone(((1.5, -1.0), (2.5, -1.0), (2.5, 1.0), (1.5, 1.0)), 0.2)
+    square = ((-5.5, -5.5), (5.5, -5.5), (5.5, 5.5), (-5.5, 5.5))
+    core = replace(config(), fence=build_fence(MAP_ID, (square,), zones=(zone,)))
+    world = World(core=core).driving((5.0, 0.0))
+    inside: list[float] = []
+    while world.here.x_m < 3.0:
+        world.tick()
+        assert raised(world, "SPEED_ZONE.0") == (1.5 <= world.here.x_m <= 2.5)
+        if 2.0 < world.here.x_m < 2.4:
+            inside.append(world.sent.v_mps)
+    assert max(inside) <= 0.2 + 1e-9
+    assert min(inside) > 0.15, "slow, not standing"
+
+
+class TestFlood:
+    """Hold CMD_FLOOD to its limit and its windows."""
+
+    def flood(self, world: World, seconds: float, key: str, each: int) -> None:
+        for _ in range(round(seconds / 0.01)):
+            world.extra = replace(world.extra, arrived=(ArrivedAt(key, each),))
+            world.tick()
+
+    @pytest.mark.parametrize("key", ["cmd/waypoints", "cmd/heartbeat", "cmd/hello", "cmd/grant"])
+    def test_four_windows_of_too_much_hold(self, key: str) -> None:
+        world = World().driving((5.0, 0.0))
+        self.flood(world, 0.9, key, 4)
+        assert not raised(world, "CMD_FLOOD.0")
+        self.flood(world, 0.3, key, 4)
+        assert raised(world, "CMD_FLOOD.0")
+        assert not world.is_in(Mode.ACTIVE)
+
+    def test_flooded_heartbeats_are_none(self) -> None:
+        world = World().driving((5.0, 0.0))
+        self.flood(world, 1.3, "cmd/heartbeat", 4)
+        assert raised(world, "BRAIN_STALE.0"), "horizons still show that the planner lives"
+
+    def test_as_often_as_allowed_is_heard(self) -> None:
+        world = World().driving((5.0, 0.0))
+        for tick in range(300):
+            if tick % 10 == 0:
+                world.extra = replace(world.extra, arrived=(ArrivedAt("cmd/waypoints", 1),))
+            world.tick()
+        assert world.is_in(Mode.ACTIVE)
+        assert world.state.flood.level_s == 0.0
+
+    def test_a_stop_is_heard_in_any_flood(self) -> None:
+        world = World().driving((5.0, 0.0))
+        self.flood(world, 0.5, "cmd/waypoints", 200)
+        stop_id = world.stop()
+        world.extra = replace(world.extra, arrived=(ArrivedAt("cmd/waypoints", 200),))
+        world.tick()
+        assert world.verdict(stop_id) == "ok"
