@@ -1,4 +1,4 @@
-"""Let through of a command what the lidar leaves of it, by direction.
+"""Let through of a command what lidar, fence and bumpers leave of it, by direction.
 
 The gate scales, down to nothing towards the trouble; what loses no clearance passes slowly. Shut
 for 0.5 s while waypoints move the robot it is ``blocked``: a HOLD2 that ends when the arc the
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.ages import sensor_age_s
 from bridge.core.braking import reaction_s
+from bridge.core.contactgate import contact_gate, touched
 from bridge.core.fencegate import fence_scale
 from bridge.core.freespace import free_length
 from bridge.core.kinematics import scaled
@@ -64,6 +65,9 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
         motion.bound_by = "unseen"
         passed = scaled(passed, UNKNOWN_MPS / fastest)
     passed = _inside_fence(tick, passed)
+    felt = contact_gate(s.drive.newest, passed)
+    if felt != passed:
+        motion.bound_by, passed = "contact", felt
     _note(tick, shut=_shut(twist, passed))
     return passed
 
@@ -121,7 +125,9 @@ def reconsider(tick: Tick, asked: Twist2) -> None:
     if tick.s.mode not in {Mode.HOLD, Mode.STOPPING, Mode.ACTIVE}:
         return
     free = look(tick, asked) if asked != STILL else None
-    count = gate.free_scans + 1 if free is not None and free.s_m >= FREE_M else 0
+    clear = free is not None and free.s_m >= FREE_M
+    clear = clear and touched(tick.s.drive.newest, asked.v_mps) is None
+    count = gate.free_scans + 1 if clear else 0
     if count >= FREE_SCANS:
         tick.s.gate = Gate()
         tick.say("unblocked")

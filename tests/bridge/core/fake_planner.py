@@ -46,6 +46,8 @@ class FakeDrive:
     estop_pressed: bool = False
     battery: float | None = None
     current_a: float | None = None
+    pressed: tuple[str, ...] = ()
+    """Bumpers, or the cliff sensor."""
     deaf: bool = False
     """Hears no commands but reports."""
     runs_on: bool = False
@@ -83,6 +85,9 @@ class FakeDrive:
             estop_pressed=self.estop_pressed,
             battery=self.battery,
             current_a=self.current_a,
+            bumper_front="bumper_front" in self.pressed,
+            bumper_rear="bumper_rear" in self.pressed,
+            cliff="cliff" in self.pressed,
         )
 
     def hear(self, decision: Decision, now_s: float) -> None:
