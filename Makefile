@@ -16,7 +16,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev page run test e2e page-stories check fmt docs bench bench-long lock clean
+.PHONY: help setup dev page run test e2e check fmt docs bench bench-long lock clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -33,19 +33,16 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 
 # Stories run real processes in real time; what needs minutes or a browser is not for `test`. Only
 # the files that tell some are read, for reading all tests costs seconds.
-WHOLE := tests/e2e/test_model.py
-STORIES = $(filter-out $(WHOLE) tests/web/%,\
+WHOLE := tests/e2e/test_model.py tests/web
+STORIES = $(filter-out $(WHOLE:=%),\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 5 min on 2 cores)
 	@$(BIN)/python -m pytest -n logical --maxprocesses 4 -m "not e2e and not home" $(ARGS)
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
-e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models on the running system
+e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, and the page in Chromium
 	@exec scripts/stories.sh -m "e2e or home" tests/e2e/test_home_tour.py $(WHOLE) $(ARGS)
-
-page-stories: $(DEV) $(PAGE_DEV) $(PAGE) ## try the page in Chromium on the running system (not in CI yet: some fail)
-	@exec $(BIN)/python -m pytest -m e2e tests/web $(ARGS)
 
 check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py

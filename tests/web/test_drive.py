@@ -113,7 +113,6 @@ def test_an_order_is_spoken_into_the_page(robot: Robot, open_page: OpenPage) -> 
         page.mouse.up()
     assert answered.value.status == 202, answered.value.text()
     assert answered.value.json()["goal"]["text"] == ORDER
-    page.locator("#announcer", has_text=f"Sent: {ORDER}").wait_for()
     assert ORDER in ended(page, answered.value.json()["goal"]["id"])
     robot.assert_there(robot.place("kitchen"))
     assert page.locator("#talk.idle").count() == 1
