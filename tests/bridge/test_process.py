@@ -120,7 +120,7 @@ def test_killed_it_leaves_a_recording_that_replays(tmp_path: Path) -> None:
 
     assert until(written)
     (recording,) = folder.iterdir()
-    assert until(lambda: replay(recording).ticks > 20)
+    assert until(lambda: replay(recording).ticks > 16)  # up to four were not handed over yet
     assert replay(recording).differing == 0
 
 
