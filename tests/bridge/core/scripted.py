@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import cos, sin
+from math import cos, pi, sin, tau
 
 from bridge.core import CoreConfig, Decision, Inbox, LoopFacts, OpArrived, initial, step
 from bridge.core.fence import build_fence
@@ -263,15 +263,15 @@ class World:
         beams = 72
         noise = 1e-6 * self.scans
         ranges = tuple(
-            self._range(here, here.yaw_rad - 3.141592 + index * 6.283184 / beams) + noise
+            self._range(here, here.yaw_rad - pi + index * tau / beams) + noise
             for index in range(beams)
         )
         return Scan(
             boot_id="l0",
             seq=self.ticks,
             stamp_s=self.now_s,
-            angle_min_rad=-3.141592,
-            angle_increment_rad=6.283184 / beams,
+            angle_min_rad=-pi,
+            angle_increment_rad=tau / beams,
             range_min_m=0.12,
             range_max_m=20.0,
             ranges_m=tuple(r if r <= 20.0 and not self.lidar_blind else None for r in ranges),
