@@ -51,11 +51,13 @@ class Child:
     started_s: float = 0.0
     next_start_s: float = 0.0
     backoff: Backoff = field(default_factory=Backoff)
+    log_began: int = 0
 
     def start(self, now_s: float) -> None:
         """Start it in a process group of its own, bound to this process, logging to its file."""
         command = [sys.executable, "-m", "pons.child", str(os.getpid()), *self.arguments]
         with self.log.open("ab") as log:
+            self.log_began = log.tell()
             self.process = subprocess.Popen(
                 command,
                 stdin=subprocess.DEVNULL,
@@ -102,9 +104,10 @@ class Child:
         self.process = None
 
     def last_words(self, lines: int = 8) -> str:
-        """Return the end of its log."""
+        """Return the end of what it has logged since its start; earlier runs said other things."""
         try:
             with self.log.open(encoding="utf-8", errors="replace") as text:
+                text.seek(self.log_began)
                 return "".join(deque(text, maxlen=lines)).rstrip()
         except OSError:
             return ""

@@ -158,7 +158,13 @@ def check(settings: Settings) -> RobotDescription:
             f"site_missing: {settings.site} has no map.yaml; sites beside it: "
             f"{', '.join(known) or 'none'}"
         )
-    (settings.home / "logs").mkdir(parents=True, exist_ok=True)
+    try:
+        (settings.home / "logs").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CannotStart(
+            f"home_unwritable: {settings.home}: {error.strerror}; "
+            "set PONS_HOME to a folder that you may write"
+        ) from None
     free = shutil.disk_usage(settings.home).free
     if not free >= MIN_FREE_BYTES:
         raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")

@@ -11,7 +11,7 @@ import tomllib
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from wire.base import Record
 from wire.errors import Misconfigured
@@ -155,16 +155,28 @@ def load_robot(path: Path) -> RobotDescription:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise Misconfigured("robot_toml_syntax", f"{path}: {error}") from None
     except ValidationError as error:
-        raise Misconfigured("robot_toml_invalid", f"{path}: {explain(error)}") from None
+        raise Misconfigured(
+            "robot_toml_invalid", f"{path}: {explain(error, RobotDescription)}"
+        ) from None
 
 
-def explain(error: ValidationError) -> str:
-    """Say in one line what came and what was expected, field by field."""
+def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str:
+    """Say in one line what came and what was expected, field by field; of a model, what exists."""
     lines = []
     for item in error.errors(include_url=False):
         where = ".".join(str(part) for part in item["loc"]) or "whole file"
         if item["type"] == "extra_forbidden":
-            lines.append(f"unknown key '{where}'")
+            known = ", ".join(_keys_beside(model, item["loc"]))
+            lines.append(f"unknown key '{where}'" + (f", known there: {known}" if known else ""))
         else:
             lines.append(f"{where}: got {item['input']!r}; {item['msg']}")
     return "; ".join(lines)
+
+
+def _keys_beside(model: type[BaseModel] | None, loc: tuple[int | str, ...]) -> list[str]:
+    """Return the keys of the table that an unknown key stood in; none where that is no table."""
+    for part in loc[:-1]:
+        field = model.model_fields.get(str(part)) if model is not None else None
+        inner = field.annotation if field is not None else None
+        model = inner if isinstance(inner, type) and issubclass(inner, BaseModel) else None
+    return list(model.model_fields) if model is not None else []

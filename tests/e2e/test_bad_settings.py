@@ -32,13 +32,16 @@ def refusal(system: System, *words: str) -> str:
 
 @pytest.mark.parametrize(
     ("line", "named"),
-    [("max_sped_mps = 0.5", ("unknown", "max_sped_mps")), ("max_speed_mps = 50.0", ("50",))],
+    [
+        ("max_sped_mps = 0.5", ("unknown key 'limits.max_sped_mps'", "known there: max_speed_mps")),
+        ("max_speed_mps = 50.0", ("got 50.0", "less than or equal to 2")),
+    ],
 )
 def test_a_robot_file_that_cannot_be_right(home: Path, line: str, named: tuple[str, ...]) -> None:
     robot = home / "robot.toml"
     robot.write_text(f"[limits]\n{line}\n")
     said = refusal(System(home / "h", PONS_ROBOT=str(robot)))
-    for word in ("robot.toml", *named):
+    for word in ("robot_toml_invalid", str(robot), *named):
         assert word in said, said
 
 
@@ -51,7 +54,8 @@ def site(home: Path) -> Path:
 def test_a_map_whose_image_is_missing(home: Path, site: Path) -> None:
     (site / "map.pgm").unlink()
     said = refusal(System(home / "h", site=site))
-    assert "map.pgm" in said
+    assert "map_image_missing" in said
+    assert str(site / "map.pgm") in said
 
 
 @pytest.mark.parametrize("name", ["fence.json", "places.yaml"])

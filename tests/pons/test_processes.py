@@ -85,6 +85,7 @@ def test_a_steady_life_forgives() -> None:
 
 @pytest.mark.parametrize("child", ["failing"], indirect=True)
 def test_a_death_is_noticed_once_and_its_words_kept(child: Child) -> None:
+    child.log.write_text("words of an earlier run\n")
     child.start(100.0)
     assert child.process is not None
     child.process.wait()

@@ -19,6 +19,18 @@ def nowhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, free_port: int) -> 
     monkeypatch.setenv("PONS_PORT", str(free_port))
 
 
+def test_a_home_that_cannot_be_written_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("no folder")
+    monkeypatch.setenv("PONS_HOME", str(tmp_path / "file"))
+    assert main(["up"]) == REFUSED
+    said = capsys.readouterr().err
+    assert "home_unwritable" in said
+    assert str(tmp_path / "file") in said
+    assert "PONS_HOME" in said
+
+
 @pytest.mark.parametrize(
     ("table", "line", "named"),
     [

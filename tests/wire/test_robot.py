@@ -29,8 +29,9 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "code", "named"),
     [
-        ("max_sped_mps = 1", "robot_toml_invalid", "unknown key 'max_sped_mps'"),
-        ("[limits]\nmax_sped_mps = 1", "robot_toml_invalid", "unknown key 'limits.max_sped_mps'"),
+        ("max_sped_mps = 1", "robot_toml_invalid", "unknown key 'max_sped_mps', known there: id, "),
+        ("[limits]\nmax_sped_mps = 1", "robot_toml_invalid",
+         "unknown key 'limits.max_sped_mps', known there: max_speed_mps, "),
         ("[limits]\nmax_speed_mps = 50.0", "robot_toml_invalid", "limits.max_speed_mps: got 50.0"),
         ("[limits]\nmax_speed_mps = nan", "robot_toml_invalid", "limits.max_speed_mps"),
         ("[limits]\nmax_speed_mps = inf", "robot_toml_invalid", "limits.max_speed_mps"),
@@ -46,7 +47,7 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
         ("id = 'r1/../x'", "robot_toml_invalid", "id"),
         ("[limits", "robot_toml_syntax", "robot.toml"),
     ],
-)
+)  # fmt: skip
 def test_what_is_unknown_or_unsafe_refuses(
     tmp_path: Path, text: str, code: str, named: str
 ) -> None:
