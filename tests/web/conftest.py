@@ -24,6 +24,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import ENDED, new_home
 from tests.pons.mock.mocks import RunningMock, running_mock
+from tests.web.person import ended
 
 ROOT = Path(__file__).resolve().parents[2]
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
@@ -213,6 +214,30 @@ def set_off(robot: Robot, order: Callable[[], T]) -> T:
     given = order()
     robot.judge.until_moving()
     return given
+
+
+ARRIVAL_S = 60.0
+
+
+def arrived(robot: Robot, page: Page, goal_id: str) -> str:
+    """Wait until a goal has succeeded; return what its line in the page says.
+
+    What a stall of this machine has stopped, a person lets go on: armed again, and Resume pressed.
+    """
+
+    def done() -> bool:
+        page.wait_for_timeout(200)  # the page's own sockets are served meanwhile
+        goal = robot.system.goal(goal_id)
+        if goal["state"] == "paused" and goal["reason"].startswith(("fault", "disarmed")):
+            robot.system.operate("reset" if robot.judge.status.mode == "FAULT" else "arm")
+            resume = page.locator(f"#now .goal[data-goal='{goal_id}'] button.main")
+            if robot.judge.status.mode == "HOLD" and resume.is_visible():
+                resume.click()
+        assert goal["state"] not in ("failed", "refused", "cancelled"), goal
+        return bool(goal["state"] == "succeeded")
+
+    until(done, ARRIVAL_S, f"goal {goal_id} succeeded", robot.judge.describe)
+    return ended(page, goal_id)
 
 
 def anywhere(robot: Robot) -> Callable[[], object]:

@@ -7,8 +7,8 @@ import shutil
 import pytest
 
 from tests.e2e.robot import Robot
-from tests.web.conftest import ORDER, OpenPage, set_off
-from tests.web.person import click_at, ended, give
+from tests.web.conftest import ORDER, OpenPage, arrived, set_off
+from tests.web.person import click_at, give
 
 pytestmark = pytest.mark.e2e
 
@@ -30,7 +30,7 @@ def test_a_typed_goal_ends_with_the_robot_there(
     step.wait_for()
     assert (place.name.en if locale == "en-US" else place.name.zh) in step.inner_text()
     assert page.locator("path.way").get_attribute("d")
-    line = ended(page, goal_id)
+    line = arrived(robot, page, goal_id)
     assert text in line
     assert words[1] in line
     robot.assert_there(place)
@@ -57,7 +57,7 @@ def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None
     page.locator("#queue li").wait_for()
     page.locator("#queue li").get_by_role("button", name="Cancel").click()
     page.locator("#queue").wait_for(state="detached")
-    assert place.name.en in ended(page, goal["id"])
+    assert place.name.en in arrived(robot, page, goal["id"])
     robot.assert_there(place)
 
 
@@ -113,7 +113,7 @@ def test_an_order_is_spoken_into_the_page(robot: Robot, open_page: OpenPage) -> 
         page.mouse.up()
     assert answered.value.status == 202, answered.value.text()
     assert answered.value.json()["goal"]["text"] == ORDER
-    assert ORDER in ended(page, answered.value.json()["goal"]["id"])
+    assert ORDER in arrived(robot, page, answered.value.json()["goal"]["id"])
     robot.assert_there(robot.place("kitchen"))
     assert page.locator("#talk.idle").count() == 1
 

@@ -13,8 +13,8 @@ import pytest
 
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
-from tests.web.conftest import OpenPage, anywhere, set_off
-from tests.web.person import Claim, ended, give, look
+from tests.web.conftest import OpenPage, anywhere, arrived, set_off
+from tests.web.person import Claim, give, look
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page, WebSocketRoute
@@ -94,7 +94,7 @@ def test_a_killed_planner_is_told_and_nothing_goes_on_by_itself(
         page.get_by_role("button", name="Yes, arm").click()
         page.wait_for_selector("#mode[data-mode=HOLD]")
     page.locator("#now").get_by_role("button", name="Resume").click()
-    assert place.name.en in ended(page, goal_id)
+    assert place.name.en in arrived(robot, page, goal_id)
     robot.assert_there(place)
 
 
