@@ -41,6 +41,7 @@ effect(() => {
 socket.connect();
 
 let loading = false;
+void load(); // beside the socket's opening, not after it
 
 /** Load what does not change while a planner runs; again until it is there. */
 async function load(): Promise<void> {
