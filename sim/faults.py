@@ -13,8 +13,8 @@ from wire import SimFault
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-RUNAWAY_RADPS: Final = 6.0
-"""What a runaway motor turns at: 0.6 m/s, faster than anybody asks."""
+RUNAWAY_RADPS: Final = 12.0
+"""What a runaway motor turns at: 1.2 m/s, far faster than anybody asks."""
 LOW_CHARGE, SAGGING_CHARGE = 0.15, 0.05
 
 

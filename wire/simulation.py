@@ -37,7 +37,7 @@ class SimFault(StrEnum):
     GYRO_INTERMITTENT = "gyro_intermittent"
     WHEEL_STUCK = "wheel_stuck"  # the left wheel is blocked
     SLIP = "slip"  # wheels on ice
-    RUNAWAY = "runaway"  # both wheels at 0.6 m/s whatever is asked, while there is torque
+    RUNAWAY = "runaway"  # both wheels at 1.2 m/s whatever is asked, while there is torque
     REVERSED = "reversed"  # both wheels turn the other way
     BATTERY_LOW = "battery_low"  # 15 %
     BATTERY_SAG = "battery_sag"  # 5 % as soon as a wheel is asked to turn

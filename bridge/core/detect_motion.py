@@ -108,11 +108,23 @@ def _unmoved(tick: Tick) -> str | None:
     v_mps, w_radps = abs(sent.v_mps), abs(sent.w_radps)
     held_v = v_mps > ASKED_MPS and abs(real.v_mps) < min(MOVED_MPS, MOVED_SHARE * v_mps)
     held_w = w_radps > ASKED_RADPS and abs(real.w_radps) < TURNED_RADPS
-    held = tick.moving and (held_v or held_w)
+    held = tick.moving and (held_v or held_w or _wheel_held(tick))
     watch.stuck_s = filled(watch.stuck_s, tick.dt_s, STUCK_S, dirty=held)
     if not (held and watch.stuck_s >= STUCK_S):
         return None
     return f"sent {sent.v_mps:.2f} m/s {sent.w_radps:.2f} rad/s, measured {real.v_mps:.2f} m/s"
+
+
+def _wheel_held(tick: Tick) -> bool:
+    """Tell whether one wheel stands that should turn: the robot then drives round it."""
+    half_m = tick.config.robot.base.wheel_separation_m / 2
+    sent, real = tick.s.motion.limiter.sent, tick.s.odometry.measured
+    for side_m in (-half_m, half_m):
+        asked_mps = abs(sent.v_mps + side_m * sent.w_radps)
+        moved_mps = abs(real.v_mps + side_m * real.w_radps)
+        if asked_mps > ASKED_MPS and moved_mps < min(MOVED_MPS, MOVED_SHARE * asked_mps):
+            return True
+    return False
 
 
 def _no_progress(tick: Tick) -> str | None:

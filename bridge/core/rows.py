@@ -121,7 +121,7 @@ ROWS: tuple[Row, ...] = (
     _row("POSE_JUMP", "the robot displaced over 0.1 m or 5 degrees between two localizations; "
          "route and grant anew",
          _do("once", _HOLD2, "W", _GRANT)),
-    _row("STUCK", "asked to move and measured still, or no progress on an open leg",
+    _row("STUCK", "told to move and measured still, or one wheel is, or an open leg makes no way",
          _do("1 s; 5 s without progress; the grant is taken", _HOLD2, "WTX", clean_s=2.0),
          _do("3 in 5 min", _STOP1, "WTX", _REARM)),
     _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s, or of other sign",

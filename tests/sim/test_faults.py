@@ -151,7 +151,7 @@ def test_on_ice_wheels_turn_more_than_the_robot_moves(driven: Driven) -> None:
 
 def test_a_runaway_heeds_no_speed_but_the_torque(driven: Driven) -> None:
     driven.robot.break_down(SimFault.RUNAWAY)
-    assert drives(driven.go(0.5, 0.0))[-1].left_radps == pytest.approx(6.0, rel=0.05)
+    assert drives(driven.go(0.5, 0.0))[-1].left_radps == pytest.approx(12.0, rel=0.05)
     for _ in range(60):  # silence: the drive's own dead-man takes the torque
         driven.robot.tick(driven.robot.time_s + 0.01)
     assert driven.robot.twist.v_mps == pytest.approx(0.0, abs=0.01)
