@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict
+from subprocess import SubprocessError
 from typing import TYPE_CHECKING
 
 from pons.doctor import jitter as late
 from pons.doctor import machine, mind, place
-from pons.doctor.finding import Finding, Verdict
+from pons.doctor.finding import Finding, Verdict, Words, fail
 
 if TYPE_CHECKING:
     from pons.settings import Settings
 
 EXIT = {Verdict.OK: 0, Verdict.WARN: 1, Verdict.FAIL: 2}
 """0: all is well; 1: something works less well; 2: something must be mended first."""
+NO_CYCLICTEST = (
+    "cyclictest did not run beside it -> sudo apt install rt-tests; it needs the same rights\n"
+    "cyclictest 未能同时运行 -> sudo apt install rt-tests；需要同样的权限"
+)
 MARKS = {Verdict.OK: "ok  ", Verdict.WARN: "warn", Verdict.FAIL: "FAIL"}
 
 
@@ -33,9 +39,7 @@ def run(settings: Settings, *, as_json: bool = False, jitter: bool = False) -> i
         if jitter:
             print(f"\n{late.table(rows)}")
             if len(rows) < 2:
-                print(
-                    "cyclictest did not run beside it (Debian: rt-tests; it needs the same rights)"
-                )
+                print(NO_CYCLICTEST)
     return max(EXIT[one.verdict] for one in found)
 
 
@@ -44,30 +48,41 @@ def findings(settings: Settings) -> list[Finding]:
     described, robot = place.robot(settings.robot)
     sited, site = place.site(settings.site)
     running = bool(place.listening(settings.home))
+    priority, virtual = robot.realtime.priority, robot.drive.virtual
     return [
         machine.python(),
         machine.page_size(),
-        machine.real_time(robot.realtime.priority, virtual=robot.drive.virtual),
-        machine.locked_memory(),
+        checked("real_time", lambda: machine.real_time(priority, virtual=virtual)),
+        checked("locked_memory", machine.locked_memory),
         machine.node(),
-        place.home(settings.home),
-        place.disk(settings.home),
-        place.sockets(settings.home),
-        place.port(settings.host, settings.port, running=running),
+        checked("home", lambda: place.home(settings.home)),
+        checked("disk", lambda: place.disk(settings.home)),
+        checked("sockets", lambda: place.sockets(settings.home)),
+        checked("port", lambda: place.port(settings.host, settings.port, running=running)),
         described,
         sited,
-        mind.model(settings.home),
-        mind.recogniser(site),
+        checked("model", lambda: mind.model(settings.home)),
+        checked("recogniser", lambda: mind.recogniser(site)),
     ]
 
 
+def checked(name: str, check: Callable[[], Finding]) -> Finding:
+    """Return what a check finds; one that the system itself cuts short must not hide the others."""
+    try:
+        return check()
+    except (OSError, SubprocessError, RuntimeError) as error:
+        return fail(
+            name,
+            Words(f"could not be checked: {error}", f"无法检查：{error}"),
+            Words("run as the user that runs the robot, and mend what it names",
+                  "请以运行机器人的用户执行，并修正上述问题"),
+        )  # fmt: skip
+
+
 def lines(one: Finding) -> list[str]:
-    """Return a finding for a terminal: both languages, and the fix below."""
+    """Return a finding for a terminal: one line, with its fix; a fault in both languages."""
     shown = [f"{MARKS[one.verdict]}  {one.name:<14} {one.found.en}"]
     if one.fix is not None:
-        shown += [
-            f"      {'':<14} {one.found.zh}",
-            f"      {'':<14} -> {one.fix.en}",
-            f"      {'':<14} -> {one.fix.zh}",
-        ]
+        shown[0] += f" -> {one.fix.en}"
+        shown.append(f"      {'':<14} {one.found.zh} -> {one.fix.zh}")
     return shown

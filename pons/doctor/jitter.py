@@ -16,6 +16,8 @@ from bridge.realtime import MonotonicClock, Pacer, pin, take_fifo
 
 PERIOD_S = 0.01
 TICKS = 500
+LATE_S = 5.0
+"""How long cyclictest may take after our own loop has ended: all is over within 15 s."""
 _CYCLIC = re.compile(r"Min:\s*(\d+).*Avg:\s*(\d+).*Max:\s*(\d+)")
 HEAD = ("loop", "ticks", "p50 us", "p99 us", "max us", "missed", "scheduled")
 
@@ -79,7 +81,7 @@ def _start_cyclictest(priority: int, ticks: int) -> subprocess.Popen[str] | None
 
 def _finish(process: subprocess.Popen[str], ticks: int, priority: int) -> list[Lateness]:
     try:
-        said, _ = process.communicate(timeout=ticks * PERIOD_S + 20.0)
+        said, _ = process.communicate(timeout=LATE_S)
     except subprocess.TimeoutExpired:
         process.kill()
         process.communicate()

@@ -58,8 +58,10 @@ def recogniser(site: Site | None) -> Finding:
         return warn(
             "recogniser",
             Words(f"no spoken orders: {error}", f"无法使用语音：{error}"),
-            Words("use Python 3.11 or 3.13, for which pocketsphinx has wheels; typing works",
-                  "请使用有 pocketsphinx 安装包的 Python 3.11 或 3.13；文字输入不受影响"),
+            Words("run `make clean setup PYTHON=python3.11` (or 3.13): pocketsphinx has no wheel "
+                  "for Python 3.12 on ARM; typing works meanwhile",
+                  "请运行 `make clean setup PYTHON=python3.11`（或 3.13）：pocketsphinx 没有用于 "
+                  "ARM 上 Python 3.12 的安装包；文字输入不受影响"),
         )  # fmt: skip
     names = [name for place in site.places for name in place.said_in_english] if site else []
     try:

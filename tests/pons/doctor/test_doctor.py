@@ -7,6 +7,7 @@ import json
 import os
 import shutil
 import socket
+import subprocess
 import sys
 from contextlib import closing
 from pathlib import Path
@@ -62,6 +63,61 @@ def test_the_worst_finding_is_the_exit_status(
         monkeypatch.setattr(command, "findings", lambda _settings, shown=shown: shown)
         assert command.run(settings) == status
     assert "FAIL  it" in capsys.readouterr().out
+
+
+def test_a_fault_is_one_line_with_its_fix_in_each_language(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = Finding("port", Verdict.FAIL, Words("it is taken", "被占用"), Words("free it", "释放"))
+    monkeypatch.setattr(command, "findings", lambda _: [found])
+    command.run(settings)
+    english, chinese = capsys.readouterr().out.splitlines()
+    assert english.startswith("FAIL  port")
+    assert english.endswith("it is taken -> free it")
+    assert chinese.strip() == "被占用 -> 释放"
+
+
+@pytest.mark.parametrize(
+    "error", [PermissionError("denied"), subprocess.TimeoutExpired("x", 1), RuntimeError("odd")]
+)
+def test_a_check_that_is_cut_short_hides_no_other(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def broken() -> Finding:
+        raise error
+
+    monkeypatch.setattr(machine, "locked_memory", broken)
+    found = {one.name: one for one in command.findings(settings)}
+    assert len(found) == 13
+    assert_says(found["locked_memory"], Verdict.FAIL, "could not be checked", str(error))
+
+
+def test_without_the_recogniser_it_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pocketsphinx", None)
+    monkeypatch.delitem(sys.modules, "planner.voice.sphinx", raising=False)
+    found = mind.recogniser(None)
+    assert_says(found, Verdict.WARN, "no spoken orders")
+    assert found.fix is not None
+    assert "3.11" in found.fix.en
+
+
+def test_without_cyclictest_it_says_how_to_get_it(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    monkeypatch.setattr(command, "findings", lambda _: [Finding("a", Verdict.OK, Words("a", "甲"))])
+    rows = jitter.measure(60, ticks=5)
+    assert len(rows) == 1
+    monkeypatch.setattr(jitter, "measure", lambda _: rows)
+    assert command.run(settings, jitter=True) == 0
+    assert "rt-tests" in capsys.readouterr().out
+
+
+def test_a_cyclictest_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(jitter, "LATE_S", 0.1)
+    with subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, text=True) as hanging:
+        assert jitter._finish(hanging, 5, 60) == []
+        assert hanging.returncode is not None
 
 
 def test_json_is_for_machines(
