@@ -32,6 +32,12 @@ def tracked(repository: Path) -> list[Path]:
     return [path for path in paths if path.is_file()]
 
 
+@pytest.fixture(scope="module")
+def trees(tracked: list[Path]) -> dict[Path, ast.Module]:
+    """Return every Python file that git tracks, parsed once."""
+    return {path: ast.parse(path.read_text()) for path in tracked if path.suffix == ".py"}
+
+
 def test_readme_is_short(repository: Path) -> None:
     assert len((repository / "README.md").read_text().splitlines()) <= MAX_README_LINES
 
@@ -41,10 +47,10 @@ def test_files_stay_small(tracked: list[Path]) -> None:
     assert {str(path): n for path, n in counts.items() if n > MAX_FILE_LINES} == {}
 
 
-def test_functions_stay_small(tracked: list[Path]) -> None:
+def test_functions_stay_small(trees: dict[Path, ast.Module]) -> None:
     long = []
-    for path in (path for path in tracked if path.suffix == ".py"):
-        for node in ast.walk(ast.parse(path.read_text())):
+    for path, tree in trees.items():
+        for node in ast.walk(tree):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 lines = (node.end_lineno or node.lineno) - node.lineno + 1
                 if lines > MAX_FUNCTION_LINES:
@@ -52,9 +58,8 @@ def test_functions_stay_small(tracked: list[Path]) -> None:
     assert not long
 
 
-def test_every_python_file_opens_with_its_law(tracked: list[Path]) -> None:
-    files = [path for path in tracked if path.suffix == ".py"]
-    assert [str(path) for path in files if not ast.get_docstring(ast.parse(path.read_text()))] == []
+def test_every_python_file_opens_with_its_law(trees: dict[Path, ast.Module]) -> None:
+    assert [str(path) for path, tree in trees.items() if not ast.get_docstring(tree)] == []
 
 
 def test_no_file_names_a_builder_s_place(tracked: list[Path]) -> None:
