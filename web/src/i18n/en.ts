@@ -29,7 +29,7 @@ export const en = {
   "stop.unconfirmed": "NOT confirmed by the bridge. Use the robot's own stop button.",
   "stop.confirmed": "Stop confirmed by the bridge after {ms} ms.",
 
-  "motion.limit": "limit {speed} m/s, by {what}",
+  "motion.limit": "limit {speed} m/s · {what}",
   "motion.moving": "Moving at {speed} m/s",
   "motion.standing": "Standing still",
   "motion.unknown": "No word from the bridge: nobody here knows whether the robot moves.",

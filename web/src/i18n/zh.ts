@@ -31,7 +31,7 @@ export const zh: Record<Key, string> = {
   "stop.unconfirmed": "安全桥没有确认停止！请按机器人上的停止按钮。",
   "stop.confirmed": "安全桥已确认停止，用时 {ms} 毫秒。",
 
-  "motion.limit": "限速 {speed} 米/秒，来自{what}",
+  "motion.limit": "限速 {speed} 米/秒 · {what}",
   "motion.moving": "正在移动，{speed} 米/秒",
   "motion.standing": "静止",
   "motion.unknown": "没有安全桥的消息：此处无法知道机器人是否在动。",

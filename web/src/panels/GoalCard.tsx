@@ -15,6 +15,7 @@ const MARKS: { readonly [state: string]: string } = {
 };
 
 export function GoalCard({ goal }: { goal: Goal }) {
+  const asks = goal.state === "needs_clarification"; // its question says why, in words
   return (
     <article class={`goal goal-${goal.state}`} data-state={goal.state} data-goal={goal.id}>
       <header>
@@ -23,10 +24,10 @@ export function GoalCard({ goal }: { goal: Goal }) {
         </p>
         <span class={`chip state-${goal.state}`}>{word("state", goal.state)}</span>
       </header>
-      {goal.reason && <p class="reason">{reasonWords(goal.reason)}</p>}
+      {goal.reason && !asks && <p class="reason">{reasonWords(goal.reason)}</p>}
       {goal.plan && goal.plan.steps.length > 0 && <Steps steps={goal.plan.steps} />}
-      {goal.state === "needs_clarification" && <Question goal={goal} />}
-      {goal.outcome && <Ended outcome={goal.outcome} />}
+      {asks && <Question goal={goal} />}
+      {goal.outcome && !asks && <Ended outcome={goal.outcome} />}
       {goal.brain && <PlannedBy tag={goal.brain} />}
       <Buttons goal={goal} />
     </article>

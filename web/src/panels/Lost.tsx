@@ -15,8 +15,9 @@ export function Lost() {
 function Strip({ why, forS }: { why: "planner" | "bridge"; forS: number }) {
   return (
     <p class="lost" id="lost" data-why={why} role="status">
-      {t(`lost.${why}`)}{" "}
-      <span aria-hidden="true">{/* not read aloud at each tick */ seconds(forS)}</span>
+      {t(`lost.${why}`)}
+      {/* not read aloud at each tick */}
+      <span aria-hidden="true"> · {seconds(forS)}</span>
     </p>
   );
 }

@@ -69,11 +69,20 @@ export function Talk() {
         }}
         onContextMenu={(event) => event.preventDefault()} // a long touch is talking, no menu
       >
-        <span aria-hidden="true">🎙 </span>
+        <Microphone />
         {t(`talk.${phase.value}`)}
       </button>
       <span class="fine">{t("talk.english")}</span>
     </div>
+  );
+}
+
+function Microphone() {
+  return (
+    <svg class="microphone" viewBox="0 0 16 16" aria-hidden="true">
+      <rect x="5.5" y="1" width="5" height="9" rx="2.5" fill="currentColor" />
+      <path d="M3 7.5a5 5 0 0 0 10 0M8 12.5V15" fill="none" stroke="currentColor" />
+    </svg>
   );
 }
 
