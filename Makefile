@@ -33,8 +33,8 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 
 # Stories run real processes in real time; what needs minutes or a browser is not for `test`. Only
 # the files that tell some are read, for reading all tests costs seconds.
-WHOLE := tests/e2e/test_model.py tests/web
-STORIES = $(filter-out $(WHOLE:=%),\
+WHOLE := tests/e2e/test_model.py
+STORIES = $(filter-out $(WHOLE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 5 min on 2 cores)
@@ -42,7 +42,8 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, and the page in Chromium
-	@exec scripts/stories.sh -m "e2e or home" tests/e2e/test_home_tour.py $(WHOLE) $(ARGS)
+	@scripts/stories.sh -m "e2e or home" tests/e2e/test_home_tour.py $(WHOLE) $(ARGS)
+	@exec scripts/stories.sh -n 0 -m e2e tests/web $(ARGS) # a browser beside a robot fills two cores
 
 check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -40,6 +41,20 @@ def click_at(page: Page, x_m: float, y_m: float) -> None:
         box["x"] + (x_m - left) / wide * box["width"],
         box["y"] + (-y_m - top) / high * box["height"],
     )
+
+
+def note_presses(page: Page) -> None:
+    """Let the page note when a person pressed: a busy machine hands a press on late."""
+    page.evaluate(
+        """() => ["pointerdown", "keydown"].forEach((kind) =>
+          addEventListener(kind, () => (window.pressedMs = Date.now()), { capture: true }))"""
+    )
+
+
+def pressed_s(page: Page) -> float:
+    """Return when the newest press came, on this process's monotonic clock [s]."""
+    ago_s = time.time() - float(page.evaluate("window.pressedMs")) / 1e3
+    return time.monotonic() - ago_s
 
 
 @dataclass(frozen=True, slots=True)

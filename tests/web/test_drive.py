@@ -24,8 +24,7 @@ def test_a_typed_goal_ends_with_the_robot_there(
     text = order.format(en=place.name.en, zh=place.name.zh)
     page = open_page(locale=locale)
     goal_id = set_off(robot, lambda: give(page, text))
-    page.wait_for_selector("#mode[data-mode=ACTIVE]")
-    assert page.inner_text("#mode") == words[0]
+    page.locator("#mode[data-mode=ACTIVE]", has_text=words[0]).wait_for()
     step = page.locator("#now .step-running .what")
     step.wait_for()
     assert (place.name.en if locale == "en-US" else place.name.zh) in step.inner_text()

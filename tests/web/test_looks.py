@@ -139,20 +139,24 @@ TAG = '<img src=x onerror="document.title=`owned`"><script>document.title="owned
 NAMES = (TAG, "🛋️👩‍👩‍👧 ﷽ \u202eevil\u202c", "long " * 100, "x" * 500)
 
 
-def spoiled(route: Route) -> None:
-    """Let the site's places bear names that a hostile or careless person gave them."""
-    answer = route.fetch()
-    content = answer.json()
+def spoiled(robot: Robot) -> dict[str, Any]:
+    """Return the site's places with names that a hostile or careless person gave them."""
+    content: dict[str, Any] = robot.system.http("GET", "/v1/places").body
     for place, name in zip(content["places"], NAMES * 4, strict=False):
         place["name"] = {"en": name, "zh": name}
-    route.fulfill(response=answer, json=content)
+    return content
 
 
 @pytest.mark.parametrize("size", [(1280, 800), PHONE], ids=["wide", "phone"])
 def test_names_of_any_kind_are_text(
     robot: Robot, open_page: OpenPage, size: tuple[int, int]
 ) -> None:
-    page = open_page(size, before=lambda page: page.route("**/v1/places", spoiled))
+    places = spoiled(robot)
+
+    def serve(route: Route) -> None:
+        route.fulfill(json=places)
+
+    page = open_page(size, before=lambda page: page.route("**/v1/places", serve))
     page.locator("#map .name").first.wait_for(state="attached")
     if size == PHONE:
         page.locator(".names summary").click()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,7 @@ import pytest
 from tests.e2e.robot import Robot
 from tests.pons.mock.mocks import RunningMock
 from tests.web.conftest import OpenPage, anywhere, set_off
-from tests.web.person import ended, give
+from tests.web.person import ended, give, note_presses, pressed_s
 from tests.web.test_stop import by_button, by_escape, by_space
 
 if TYPE_CHECKING:
@@ -33,10 +32,10 @@ def test_stop_stops_while_the_model_hangs(
     page.fill("#goal-text", "go to the kitchen")
     page.get_by_role("button", name="Do this instead").click()
     page.locator("#now .goal[data-state=planning]").wait_for()
-    pressed_s = time.monotonic()
+    note_presses(page)
     press(page)
     page.locator("#stop-state.good", has_text="confirmed by the bridge").wait_for()
-    robot.assert_stops(pressed_s)
+    robot.assert_stops(pressed_s(page))
     held = robot.judge.status.held
     assert held is not None
     assert held.reason == "stop"
