@@ -12,11 +12,13 @@ from bridge.core.epoch import shelved
 from bridge.core.legs import callable_horizon
 from bridge.core.state_watch import Sent
 from bridge.core.window import filled
-from wire import Mode, wrap
+from wire import STILL, Mode, wrap
 
 if TYPE_CHECKING:
     from bridge.core.latch import Dirty
     from bridge.core.tick import Tick
+    from wire import Twist2
+    from wire.robot import Base
 
 SLACK_MPS = 0.15
 RUNAWAY_S, RUNAWAY_LONG_S = 0.1, 0.25
@@ -40,27 +42,36 @@ def runaway(tick: Tick, dirty: Dirty) -> None:
     watch, drive = s.watch, s.drive
     half_m = tick.config.robot.base.wheel_separation_m / 2
     sent, real = s.motion.limiter.sent, s.odometry.measured
-    _remember(tick, sent.v_mps - sent.w_radps * half_m, sent.v_mps + sent.w_radps * half_m)
+    side = sent.w_radps * half_m
+    _remember(tick, sent.v_mps - side, sent.v_mps + side)
     if drive.received_s is None or not tick.now_s - drive.received_s <= ENC_S:
         return  # nothing is measured: row ENC_STALE
-    left, right = real.v_mps - real.w_radps * half_m, real.v_mps + real.w_radps * half_m
-    # What was sent and standstill, and all between, is what a wheel may do.
-    lows = min(0.0, *[b.left_low for b in watch.sent]), min(0.0, *[b.right_low for b in watch.sent])
-    highs = (
-        max(0.0, *[b.left_high for b in watch.sent]),
-        max(0.0, *[b.right_high for b in watch.sent]),
-    )
-    fits = (
-        lows[0] - SLACK_MPS <= left <= highs[0] + SLACK_MPS
-        and lows[1] - SLACK_MPS <= right <= highs[1] + SLACK_MPS
-    )
-    wild = tick.powered and not fits
+    side = real.w_radps * half_m
+    left, right = real.v_mps - side, real.v_mps + side
+    wild = tick.powered and not _fits(watch.sent, left, right)
+    if not wild and watch.runaway_s == 0.0:
+        return
     watch.runaway_s = filled(watch.runaway_s, tick.dt_s, RUNAWAY_LONG_S, dirty=wild)
     if wild and watch.runaway_s >= RUNAWAY_S:
         evidence = f"wheels at {left:.2f} and {right:.2f} m/s, sent {sent.v_mps:.2f} m/s"
         dirty.append(("RUNAWAY.0", evidence))
         if watch.runaway_s >= RUNAWAY_LONG_S:
             dirty.append(("RUNAWAY.1", evidence))
+
+
+def _fits(sent: tuple[Sent, ...], left: float, right: float) -> bool:
+    """Tell whether wheels do what was sent, or stand, or something between; with the slack."""
+    fits_left, fits_right = abs(left) <= SLACK_MPS, abs(right) <= SLACK_MPS
+    for bounds in reversed(sent):  # the newest most often settles it
+        if fits_left and fits_right:
+            return True
+        fits_left = fits_left or _within(left, bounds.left_low, bounds.left_high)
+        fits_right = fits_right or _within(right, bounds.right_low, bounds.right_high)
+    return fits_left and fits_right
+
+
+def _within(speed: float, low: float, high: float) -> bool:
+    return min(0.0, low) - SLACK_MPS <= speed <= max(0.0, high) + SLACK_MPS
 
 
 def _remember(tick: Tick, left: float, right: float) -> None:
@@ -90,6 +101,9 @@ def _remember(tick: Tick, left: float, right: float) -> None:
 def stuck(tick: Tick, dirty: Dirty) -> None:
     """Judge whether the robot gets on; where it doesn't, end the grant of who asked for it."""
     s, watch = tick.s, tick.s.watch
+    if not tick.moving and watch.stuck_s == 0.0:
+        watch.progress_at = None
+        return
     evidence = _unmoved(tick) or _no_progress(tick)
     if evidence is None:
         return
@@ -104,26 +118,27 @@ def stuck(tick: Tick, dirty: Dirty) -> None:
 
 def _unmoved(tick: Tick) -> str | None:
     s, watch = tick.s, tick.s.watch
-    sent, real = s.motion.limiter.sent, s.odometry.measured
+    sent, real = (s.motion.limiter.sent if tick.moving else STILL), s.odometry.measured
     v_mps, w_radps = abs(sent.v_mps), abs(sent.w_radps)
     held_v = v_mps > ASKED_MPS and abs(real.v_mps) < min(MOVED_MPS, MOVED_SHARE * v_mps)
     held_w = w_radps > ASKED_RADPS and abs(real.w_radps) < TURNED_RADPS
-    held = tick.moving and (held_v or held_w or _wheel_held(tick))
+    held = held_v or held_w or _wheel_held(sent, real, tick.config.robot.base)
+    if not held and watch.stuck_s == 0.0:
+        return None
     watch.stuck_s = filled(watch.stuck_s, tick.dt_s, STUCK_S, dirty=held)
     if not (held and watch.stuck_s >= STUCK_S):
         return None
     return f"sent {sent.v_mps:.2f} m/s {sent.w_radps:.2f} rad/s, measured {real.v_mps:.2f} m/s"
 
 
-def _wheel_held(tick: Tick) -> bool:
+def _wheel_held(sent: Twist2, real: Twist2, base: Base) -> bool:
     """Tell whether one wheel stands that should turn: the robot then drives round it."""
-    half_m = tick.config.robot.base.wheel_separation_m / 2
-    sent, real = tick.s.motion.limiter.sent, tick.s.odometry.measured
-    for side_m in (-half_m, half_m):
-        asked_mps = abs(sent.v_mps + side_m * sent.w_radps)
+    for side_m in (-base.wheel_separation_m / 2, base.wheel_separation_m / 2):
         moved_mps = abs(real.v_mps + side_m * real.w_radps)
-        if asked_mps > ASKED_MPS and moved_mps < min(MOVED_MPS, MOVED_SHARE * asked_mps):
-            return True
+        if moved_mps < MOVED_MPS:
+            asked_mps = abs(sent.v_mps + side_m * sent.w_radps)
+            if asked_mps > ASKED_MPS and moved_mps < MOVED_SHARE * asked_mps:
+                return True
     return False
 
 
@@ -161,6 +176,8 @@ def yaw(tick: Tick, dirty: Dirty) -> None:
             evidence = f"the gyro's reading is {age_s:.2f} s old"
         else:
             evidence = "" if off_radps <= YAW_RADPS else f"{off_radps:.2f} rad/s apart"
+    if not evidence and s.watch.yaw_s == 0.0:
+        return
     s.watch.yaw_s = filled(s.watch.yaw_s, tick.dt_s, YAW_S, dirty=bool(evidence))
     if evidence and s.watch.yaw_s >= YAW_S:
         dirty.append(("YAW_DISAGREE.0", evidence))

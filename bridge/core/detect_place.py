@@ -22,6 +22,8 @@ def blind(tick: Tick, dirty: Dirty) -> None:
         return
     normal = lidar.baseline_returns
     sees = lidar.picture.returns >= max(1.0, BLIND_SHARE * normal)
+    if sees and watch.blind_s == 0.0:
+        return
     watch.blind_s = filled(watch.blind_s, tick.dt_s, BLIND_LONG_S, dirty=not sees)
     if watch.blind_s >= BLIND_S and not sees:
         evidence = f"{lidar.picture.returns} of {lidar.picture.beams} beams, normally {normal:.0f}"

@@ -40,6 +40,8 @@ def battery(tick: Tick, dirty: Dirty) -> None:
     if state is None or state.battery is None:
         return
     charge, dt_s = state.battery, tick.dt_s
+    if charge >= LOW + UP and watch.low_s == watch.empty_s == 0.0:
+        return
     watch.low_s = filled(watch.low_s, dt_s, CHARGE_S, dirty=not charge >= LOW)
     watch.empty_s = filled(watch.empty_s, dt_s, CHARGE_S, dirty=not charge >= EMPTY)
     if watch.low_s >= CHARGE_S or ("BATTERY.0" in rows and not charge >= LOW + UP):

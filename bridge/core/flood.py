@@ -40,7 +40,8 @@ _FIELDS = ("waypoints", "teleop", "external", "grants", "heartbeats", "hellos")
 def thinned(tick: Tick) -> Inbox:
     """Return this tick's inbox without what came too fast; remember the counts."""
     inbox, flood = tick.inbox, tick.s.flood
-    if not inbox.arrived and not flood.counts and flood.level_s == 0.0:
+    goes_on = not flood.counts or tick.now_s - flood.half_since_s < WINDOW_S / 2
+    if goes_on and not inbox.arrived and flood.level_s == 0.0:
         return inbox
     counts, before, half_s = _turned(flood, tick.now_s)
     if inbox.arrived:
