@@ -44,6 +44,7 @@ def parser() -> argparse.ArgumentParser:
     )
     seen.add_argument("--json", action="store_true")
     seen.add_argument("--jitter", action="store_true", help="measure a 100 Hz loop for 5 s")
+    words.add_parser("why", help="explain the last stop: row, evidence, what to do")
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
@@ -103,6 +104,10 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         from pons import doctor
 
         return doctor.run(settings, as_json=said.json, jitter=said.jitter)
+    if said.word == "why":
+        from pons import why
+
+        return why.run(settings)
     if said.word == "fault":
         from pons import fault
 

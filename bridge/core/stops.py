@@ -1,7 +1,8 @@
 """Judge the stop in progress: done, slower than planned, or to be taken back.
 
-A stop that is too slow or too long ends in FAULT with the torque cut: something pushes, or the
-drive does not do what it is told.
+A stop that is measured to be too slow or too long ends in FAULT with the torque cut: something
+pushes, or the drive does not do what it is told. Where the drive reports nothing there is nothing
+to judge: such a stop ends with the torque off when its time is over (row ENC_STALE).
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from bridge.core.detect_senses import ENC_LONG_S
 from bridge.core.modes import Fact
 from bridge.core.stopcurve import too_long, too_slow
 from bridge.core.transition import go
@@ -29,6 +31,11 @@ def judge(tick: Tick) -> None:
         return
     if tick.still_for(DWELL_S) and s.motion.limiter.sent == STILL:
         _stood(tick)
+        return
+    if _unmeasured(tick):
+        if too_long(stop.plan, tick.now_s - stop.since_s, tick.config.robot.drive.lag_s):
+            tick.say("stop_unmeasured", stop.cause)
+            _stood(tick)
         return
     failure = _failure(tick)
     if failure is None:
@@ -51,6 +58,12 @@ def _stood(tick: Tick) -> None:
         go(tick, Fact.STOOD_HOLD, stop.cause)
     else:
         go(tick, Fact.STOOD_DISARM, stop.cause)
+
+
+def _unmeasured(tick: Tick) -> bool:
+    """Tell whether the drive has been silent for so long that ENC_STALE takes the torque away."""
+    received_s = tick.s.drive.received_s
+    return received_s is None or not tick.now_s - received_s <= ENC_LONG_S
 
 
 def _failure(tick: Tick) -> str | None:

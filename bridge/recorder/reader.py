@@ -9,9 +9,10 @@ from pydantic import ValidationError
 
 from bridge.recorder.format import FRAMES, Frame, Header
 from bridge.recorder.upgrade import STATE, state_of_version_1
+from bridge.recorder.writer import HEADER
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
 _GZIP = 31
@@ -42,6 +43,35 @@ def read_recording(path: Path) -> Iterator[Frame]:
             header = frame
         if number == 1 and not isinstance(frame, Header):
             raise BadRecording("recording_headless", f"{path} begins with {frame.kind}")
+        yield frame
+
+
+def read_segments(path: Path) -> Iterator[list[bytes]]:
+    """Yield the lines of each segment, unparsed: a search over an hour parses what it finds only.
+
+    Raises:
+        BadRecording: no such file, or not gzip.
+    """
+    lines: list[bytes] = []
+    for line in _lines(path):
+        if line.startswith(HEADER) and lines:
+            yield lines
+            lines = []
+        lines.append(line)
+    if lines:
+        yield lines
+
+
+def parsed(path: Path, lines: Iterable[bytes]) -> Iterator[Frame]:
+    """Yield the frames of lines that begin with a header.
+
+    Raises:
+        BadRecording: they are no frames of ours.
+    """
+    header: Header | None = None
+    for number, line in enumerate(lines, start=1):
+        frame = _frame(path, number, line, header)
+        header = frame if isinstance(frame, Header) else header
         yield frame
 
 

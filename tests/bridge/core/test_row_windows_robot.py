@@ -117,6 +117,21 @@ def test_a_drive_silent_for_250_ms_is_stopped_hardest_and_needs_arming() -> None
     assert not raised(world, "ENC_STALE.1")
 
 
+def test_a_drive_that_stays_silent_ends_disarmed_as_nothing_was_measured_to_be_slow() -> None:
+    world = World().driving()
+    world.drive_silent = True
+    world.until(Mode.DISARMED, 2.0)
+    assert world.last is not None
+    assert world.last.command is not None
+    assert not world.last.command.enable
+    assert "stop_unmeasured" in [event.code for event in world.events]
+    world.drive_silent = False
+    world.run(1.0)
+    request_id = world.op("arm")
+    world.tick()
+    assert world.verdict(request_id) == "ok", "no reset is needed"
+
+
 def test_a_deaf_drive_holds_after_10_commands_and_faults_after_50() -> None:
     world = World().driving()
     world.drive.deaf = True

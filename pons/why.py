@@ -1,0 +1,93 @@
+"""Explain the robot's last stop in one screen: ``pons why``. Reads recordings; asks no process.
+
+Which row or order it was, the evidence, what came of it, and what a person can do now.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from bridge.core.row_words import WORDS
+from bridge.why import BadRecording, last_stop
+from wire import Mode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bridge.why import Stop
+    from pons.settings import Settings
+
+EXIT_TOLD, EXIT_NO_STOP, EXIT_BAD = 0, 1, 2
+_SHOWN = 12
+
+_ORDERS = {
+    "stop": ("Somebody said stop.", "有人下达了停止指令。"),
+    "estop": ("A protective stop was ordered or pressed.", "触发了保护性停止。"),
+    "disarm": ("Somebody disarmed the robot.", "有人解除了使能。"),
+    "obstacle": ("Something stands in the way.", "前方有障碍物。"),
+    "stop_too_slow": ("The robot braked more slowly than planned.", "制动慢于计划。"),
+    "stop_too_long": ("The stop took longer than planned.", "停车用时超过计划。"),
+}
+_TO_DO = {
+    Mode.FAULT: "mend what the evidence names; then pons reset, pons arm, pons resume",
+    Mode.ESTOPPED: "let go of the button; then pons reset, pons arm, pons resume",
+    Mode.DISARMED: "pons arm, then pons resume",
+}
+
+
+def run(settings: Settings) -> int:
+    """Explain; 0 told, 1 no recording shows a stop, 2 a recording can't be read."""
+    folder = settings.home / "recordings"
+    try:
+        stop = last_stop(folder)
+    except BadRecording as wrong:
+        print(wrong, file=sys.stderr)
+        return EXIT_BAD
+    if stop is None:
+        print(f"no_stop: no recording in {folder} shows a robot that was ready and stopped")
+        return EXIT_NO_STOP
+    for name, text in _lines(stop):
+        print(f"{name:<9} {text}")
+    return EXIT_TOLD
+
+
+def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
+    began_s = stop.path.stat().st_mtime - stop.ago_s
+    when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(began_s))
+    yield "when", f"about {when}, {stop.ago_s:.1f} s before the record ends"
+    yield "stop", f"{stop.before.value} -> {stop.after.value}, by {stop.cause}"
+    en, zh = WORDS.get(stop.cause.upper()) or _ORDERS.get(stop.cause) or ("", "")
+    if en:
+        yield "why", f"{en} {zh}"
+    if stop.ordered_by is not None:
+        yield "who", stop.ordered_by
+    for stage, evidence in stop.rows:
+        yield "evidence", f"{stage.name} ({stage.action.value}): {evidence}"
+    yield "motion", _motion(stop)
+    held = f", held: {stop.held.reason.value} {stop.held.id}" if stop.held is not None else ""
+    yield "then", f"{stop.ended.value}{held}"
+    yield "to do", _to_do(stop)
+    for passed_s, code, detail in stop.events[:_SHOWN]:
+        yield f"+{passed_s:.2f} s", f"{code} {detail}"
+    if len(stop.events) > _SHOWN:
+        yield "", f"and {len(stop.events) - _SHOWN} more"
+    yield "record", str(stop.path)
+
+
+def _motion(stop: Stop) -> str:
+    if stop.stood_s is None:
+        return f"{stop.speed_mps:.2f} m/s when it began; the record ends before it stood"
+    stood = f"stood {stop.stood_s:.2f} s and {stop.way_m:.2f} m later"
+    return f"{stop.speed_mps:.2f} m/s when it began; {stood}"
+
+
+def _to_do(stop: Stop) -> str:
+    if stop.ended in _TO_DO:
+        return _TO_DO[stop.ended]
+    if stop.held is not None:
+        return "pons resume"
+    if stop.ended in {Mode.ACTIVE, Mode.TELEOP}:
+        return "nothing: it went on by itself"
+    return "nothing: it goes on by itself once the evidence is gone"
