@@ -6,6 +6,7 @@ import fcntl
 import os
 import shutil
 import socket
+import stat
 from contextlib import closing
 from pathlib import Path
 
@@ -54,7 +55,7 @@ def home(path: Path) -> Finding:
             Words(f"{nearest} can't be written by this user", f"当前用户无法写入 {nearest}"),
             Words("change its owner, or set PONS_HOME", "请更改所有者或设置 PONS_HOME"),
         )
-    if path.exists() and path.stat().st_mode & 0o022:
+    if path.exists() and _open_to_others(path.stat().st_mode):
         return warn(
             "home",
             Words(f"{path} can be written by others", f"其他用户可以写入 {path}"),
@@ -62,6 +63,11 @@ def home(path: Path) -> Finding:
         )
     state = "is there" if path.exists() else "will be made"
     return ok("home", f"{path} {state}", f"{path} {'已存在' if path.exists() else '将被创建'}")
+
+
+def _open_to_others(mode: int) -> bool:
+    """Tell whether others may replace what lies there; a group may share a sticky folder."""
+    return bool(mode & 0o002 or (mode & 0o020 and not mode & stat.S_ISVTX))
 
 
 def disk(path: Path) -> Finding:

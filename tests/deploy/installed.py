@@ -67,7 +67,8 @@ def moved(command: list[str], home: Path, site: Path, port: int) -> list[str]:
         "/opt/pons/deploy/with-token.sh": str(ROOT / "deploy" / "with-token.sh"),
         "/var/lib/pons": str(home),
         "/etc/pons/robot.toml": str(ROOT / "robot.toml"),
-        "/etc/pons/site": str(site),
+        "/etc/pons/sites/home": str(site),
+        "/etc/pons/sites/${PONS_SITE_NAME:-home}": str(site),
         "0.0.0.0": "127.0.0.1",  # a container's own network; here the machine's
         PORT: str(port),
     }

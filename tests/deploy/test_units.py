@@ -9,7 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from tests.deploy.installed import PROCESSES, UNITS, services, unit
+from tests.deploy.installed import (
+    PROCESSES,
+    UNITS,
+    by_compose,
+    by_units,
+    services,
+    unit,
+)
 from wire import load_robot
 
 
@@ -62,7 +69,15 @@ def test_every_service_is_hardened_and_does_not_repeat_a_refusal(name: str) -> N
 def test_neither_user_can_replace_what_the_other_made() -> None:
     lines = (UNITS / "pons.tmpfiles.conf").read_text().splitlines()
     assert "d /var/lib/pons 3770 root pons -" in lines
-    assert "d /var/lib/pons/recordings 2750 pons-bridge pons -" in lines
+    assert "d /var/lib/pons/recordings 0700 pons-bridge pons -" in lines
+
+
+def test_a_site_keeps_its_folders_name(repository: Path) -> None:
+    """The simulator refuses a site in a folder of another name."""
+    for name, command in {**by_units(), **by_compose()}.items():
+        folder = command[command.index("--site") + 1]
+        assert folder in ("/etc/pons/sites/home", "/etc/pons/sites/${PONS_SITE_NAME:-home}"), name
+    assert "cp -r sites/home /etc/pons/sites/" in (repository / "docs" / "deploy.md").read_text()
 
 
 def test_targets_start_what_is_there() -> None:

@@ -173,6 +173,10 @@ def test_a_home_that_others_may_write_is_a_warning(tmp_path: Path) -> None:
     assert_says(place.home(tmp_path), Verdict.OK)
     tmp_path.chmod(0o777)
     assert_says(place.home(tmp_path), Verdict.WARN, "others")
+    tmp_path.chmod(0o3770)  # as deploy/systemd makes it: one group, none replaces another's
+    assert_says(place.home(tmp_path), Verdict.OK)
+    tmp_path.chmod(0o2770)
+    assert_says(place.home(tmp_path), Verdict.WARN, "others")
     file = tmp_path / "file"
     file.touch()
     assert_says(place.home(file / "below"), Verdict.FAIL, "can't be written")
