@@ -156,4 +156,7 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
 def _trouble(trouble: Exception) -> int:
     hint = " Is `pons up` running?" if isinstance(trouble, PlannerDown) else ""
     print(f"{trouble}{hint}", file=sys.stderr)
+    if isinstance(trouble, Refused):
+        for sentence in trouble.told.values():
+            print(f"  {sentence}", file=sys.stderr)
     return EXIT_UNREACHED

@@ -21,11 +21,15 @@ class PlannerDown(Exception):
 class Refused(Exception):
     """The planner answered with a problem."""
 
-    def __init__(self, status: int, code: str, detail: str) -> None:
+    def __init__(
+        self, status: int, code: str, detail: str, told: dict[str, str] | None = None
+    ) -> None:
         super().__init__(f"{code}: {detail}")
         self.status = status
         self.code = code
         self.detail = detail
+        self.told = told or {}
+        """A sentence for a person by language, where the planner has one."""
 
 
 def call(
@@ -68,5 +72,7 @@ def _judge(status: int, raw: bytes) -> Any:
     if status >= 400:
         problem = content if isinstance(content, dict) else {}
         code = str(problem.get("code", f"http_{status}"))
-        raise Refused(status, code, str(problem.get("detail", problem.get("title", ""))))
+        told = problem.get("message")
+        detail = str(problem.get("detail", problem.get("title", "")))
+        raise Refused(status, code, detail, told if isinstance(told, dict) else None)
     return content

@@ -1,7 +1,8 @@
 """Measure spoken orders: how long a recording takes to become a goal, and what is heard right.
 
-Real processes for the time: from before the request is sent until the goal is answered. The orders
-are spoken by espeak-ng, so they say how the chain works, not how well it hears people.
+A wrong motion is one that nobody was asked about: what is heard, but not quite surely, waits for a
+yes. Real processes for the time: from before the request is sent until the goal is answered. The
+orders are spoken by espeak-ng, so they say how the chain works, not how well it hears people.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from planner.brain.offline import plan
 from planner.brain.stoplane import is_stop
 from planner.mission.facts import vocabulary_of
 from planner.plan import Step, StepPlan, Vocabulary
-from planner.voice import read_wav
+from planner.voice import Heard, read_wav
 from planner.world import Site
 from pons.http import Refused, call
 from pons.settings import CHECKOUT
@@ -49,7 +50,7 @@ ORDERS = (
     "go to the {a} and then come back",
     "move to the {a} please",
     "return home",
-    "come back please",
+    "return home please",
     "stop",
 )
 STOPPED = "stopped"
@@ -84,8 +85,12 @@ def measure(lab: Lab) -> list[Row]:
 
 def _heard_rows(heard: dict[str, Any]) -> list[Row]:
     right = f"{100.0 * heard['right'] / heard['orders']:.0f}"
-    told = f"{heard['orders']} orders, {len(VOICES)} voices of espeak-ng at 2 speeds"
-    none = f"of {heard['orders']} orders and {heard['chatter']} other sentences"
+    told = (
+        f"{heard['orders']} orders, {len(VOICES)} espeak-ng voices; {heard['asked']} ask for a yes"
+    )
+    tried = heard["orders"] + heard["chatter"]
+    bound = f"; 3/n {100.0 * 3 / tried:.1f} %" if not heard["wrong"] else ""
+    none = f"of {heard['orders']} orders and {heard['chatter']} other sentences{bound}"
     return [
         Row("orders heard right", "%", GOAL_RIGHT, value=right, note=told),
         Row("wrong motions", "", GOAL_WRONG, value=str(heard["wrong"]), note=none),
@@ -99,22 +104,27 @@ def _listen(lab: Lab) -> dict[str, Any]:
     vocabulary = vocabulary_of(site)
     ears = Sphinx([name for place in site.places for name in place.said_in_english])
     names = itertools.cycle(name for place in site.places for name in place.said_in_english)
-    right = wrong = 0
+    right = wrong = asked = 0
     speakers = list(itertools.product(VOICES, SPEEDS_WPM))
     for number, (form, (voice, wpm)) in enumerate(itertools.product(ORDERS, speakers)):
         lab.say(f"order {number + 1}/{len(ORDERS) * len(speakers)}")
         text = form.format(a=next(names), b=next(names))
-        meant, done = _steps(text, vocabulary), _steps(_hear(ears, text, voice, wpm), vocabulary)
+        heard = _hear(ears, text, voice, wpm)
+        meant, done = _steps(text, vocabulary), _steps(_text(heard), vocabulary)
         right += done == meant
-        wrong += done != meant and bool(done) and done != STOPPED
+        moves = bool(done) and done != STOPPED
+        wrong += moves and done != meant and heard.sure
+        asked += moves and not heard.sure
     for number, (form, (voice, wpm)) in enumerate(itertools.product(CHATTER, speakers)):
         lab.say(f"other sentence {number + 1}/{len(CHATTER) * len(speakers)}")
-        done = _steps(_hear(ears, form.format(a=next(names)), voice, wpm), vocabulary)
-        wrong += bool(done) and done != STOPPED
+        heard = _hear(ears, form.format(a=next(names)), voice, wpm)
+        done = _steps(_text(heard), vocabulary)
+        wrong += bool(done) and done != STOPPED and heard.sure
     count = len(speakers)
     return {
         "right": right,
         "wrong": wrong,
+        "asked": asked,
         "orders": count * len(ORDERS),
         "chatter": count * len(CHATTER),
     }
@@ -128,9 +138,12 @@ def _steps(text: str, vocabulary: Vocabulary) -> tuple[Step, ...] | str:
     return made.steps if isinstance(made, StepPlan) else ()
 
 
-def _hear(ears: Sphinx, text: str, voice: str, wpm: int) -> str:
+def _hear(ears: Sphinx, text: str, voice: str, wpm: int) -> Heard:
     sound = read_wav(speak(text, voice, wpm))
-    heard = ears.hear(sound.pcm, sound.rate_hz, sound.channels)
+    return ears.hear(sound.pcm, sound.rate_hz, sound.channels)
+
+
+def _text(heard: Heard) -> str:
     return heard.transcript if heard.understood else ""
 
 

@@ -72,7 +72,8 @@ def routes(services: Services) -> APIRouter:
     ) -> Spoken:
         """Give a goal by an English recording (WAV, 16-bit PCM, at most 15 s).
 
-        202 with the goal; 200 without one where no order was heard surely enough: nothing moves.
+        202 with the goal, which waits for a yes where the order was heard but not quite surely; 200
+        without one where none was heard: nothing moves.
         """
         heard = await _heard(services, await request.body())
         if not heard.understood:
@@ -83,7 +84,7 @@ def routes(services: Services) -> APIRouter:
         goal = await services.goals.submit(
             text,
             language=Language.EN,
-            confirm=confirm,
+            confirm=confirm or not (heard.sure or is_stop(text)),
             replace=replace,
             idempotency_key=idempotency_key,
             act=None if is_stop(text) else persons_act(services.robot, None),

@@ -70,6 +70,8 @@ class Language:
 
     jsgf: str
     orders: re.Pattern[str]
+    names: tuple[str, ...]
+    """Names that can be said."""
     left_out: tuple[str, ...]
     """Names that can't be said: a word without a pronunciation, digits, or too many names."""
 
@@ -94,7 +96,9 @@ def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> Lang
     left_out = tuple(name for name in unique if name not in set(kept))
     orders = _orders(any_of(*kept) if kept else None)
     decoys = _decoys(any_of(*kept) if kept else None)
-    return Language(_file(one_of(orders, decoys)), re.compile(orders.pattern), left_out)
+    return Language(
+        _file(one_of(orders, decoys)), re.compile(orders.pattern), tuple(kept), left_out
+    )
 
 
 def _all(name: str, pronounced: Callable[[str], bool]) -> bool:
@@ -104,7 +108,9 @@ def _all(name: str, pronounced: Callable[[str], bool]) -> bool:
 def _orders(place: Form | None) -> Form:
     back = any_of("come back", "return home", "go home")
     asked = words("where are you")
-    alone = one_of(any_of(*_STOPS), asked, after(maybe(words("please")), back))
+    alone = one_of(
+        any_of(*_STOPS), asked, after(maybe(words("please")), back, maybe(words("please")))
+    )
     if place is None:
         return alone
     the = after(words("the"), place)
@@ -118,10 +124,15 @@ def _decoys(place: Form | None) -> Form:
     alone = one_of(after(never, words("stop")), words("go away"))
     if place is None:
         return alone
-    other = one_of(after(never, _GO), any_of("open", "close", "clean", "find", "in", "at", "on"))
+    other = one_of(after(never, _GO), any_of(*_OTHER))
     return one_of(alone, after(other, words("the"), place))
 
 
+_OTHER = (
+    *("open", "close", "clean", "find", "put", "take", "not", "not to"),
+    *("in", "at", "on", "from", "around"),
+)
+"""What else comes before a place and must not be bent into "go to"."""
 _GO = any_of("go to", "drive to", "move to")
 _THEN = any_of("then", "and", "and then")
 _COURTESY = any_of("please", "can you", "could you")

@@ -112,6 +112,8 @@ def _chunks(data: bytes) -> list[tuple[bytes, int, int]]:
             raise BadRecording("wav_malformed", f"more than {MAX_CHUNKS} chunks")
         found.append((kind, at, size))
         at += size + size % 2
+    if at < len(data):
+        raise BadRecording("wav_malformed", f"{len(data) - at} bytes at the end are no chunk")
     return found
 
 

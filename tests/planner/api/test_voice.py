@@ -75,6 +75,19 @@ def test_what_is_not_heard_is_an_outcome_and_no_goal(
     assert services.goals.calls == []
 
 
+def test_what_is_heard_but_not_surely_waits_for_a_yes(
+    client: TestClient, services: FakeServices
+) -> None:
+    services.ears.heard = Heard("go to the kitchen", 0.6, understood=True)
+    assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
+    services.ears.heard = Heard("stop", 0.6, understood=True)
+    assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
+    assert [(call[1], call[3]) for call in services.goals.calls] == [
+        ("go to the kitchen", True),
+        ("stop", False),
+    ]
+
+
 def test_a_spoken_stop_carries_no_act_that_clears_a_hold() -> None:
     services = FakeServices(STATUS)  # held
     services.ears.heard = Heard("stop now", 0.6, understood=True)

@@ -80,6 +80,7 @@ def test_extensible_pcm_is_pcm() -> None:
         (patched(wav(SECOND), 16, "<I", 0x66666666), "wav_truncated"),
         (patched(wav(SECOND), 40, "<I", 0xFFFFFFFF), "wav_truncated"),
         (patched(wav(SECOND), 40, "<I", 31_999), "wav_malformed"),
+        (patched(wav(SECOND), 40, "<I", 31_998), "wav_malformed"),
         (patched(wav(SECOND), 4, "<I", 0xFFFFFFFF), "wav_truncated"),
         (patched(wav(SECOND), 4, "<I", 0), "wav_malformed"),
         (b"RIFF\x04\x00\x00\x00WAVE", "wav_malformed"),
