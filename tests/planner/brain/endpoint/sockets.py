@@ -35,11 +35,13 @@ def serving(script: Script, context: ssl.SSLContext | None = None) -> Iterator[W
         ears.settimeout(0.05)
         wire = Wire(int(ears.getsockname()[1]))
         threads: list[threading.Thread] = []
+        connections: list[socket.socket] = []
 
         def accept() -> None:
             while not wire.ending.is_set():
                 with contextlib.suppress(TimeoutError):
                     connection, _ = ears.accept()
+                    connections.append(connection)
                     one = threading.Thread(target=answer, args=(connection,))
                     one.start()
                     threads.append(one)
@@ -58,6 +60,9 @@ def serving(script: Script, context: ssl.SSLContext | None = None) -> Iterator[W
             yield wire
         finally:
             wire.ending.set()
+            for connection in connections:
+                with contextlib.suppress(OSError):  # a thread may have closed it
+                    connection.shutdown(socket.SHUT_RDWR)
             for thread in (keeper, *threads):
                 thread.join(END_S)
 
