@@ -40,8 +40,8 @@ class Trial:
     rows: tuple[str, ...]
 
 
-def trial(fault: SimFault, seed: int, watch_s: float = WATCH_S) -> Trial:
-    """Drive, break it, watch for so long."""
+def trial(fault: SimFault, seed: int, watch_s: float = WATCH_S, after_s: float = WATCH_S) -> Trial:
+    """Drive, break it, watch for so long, and no longer than ``after_s`` from the first word on."""
     world = Together(seed=seed, start=START)
     world.say("go to the living room")
     world.run_until(lambda w: w.status.mode is Mode.ACTIVE and w.twist.v_mps > CRUISE_MPS, 30.0)
@@ -57,6 +57,8 @@ def trial(fault: SimFault, seed: int, watch_s: float = WATCH_S) -> Trial:
             stood_ticks = tick
         elif stood_ticks is not None and not world.standing:
             stood_ticks = None  # it went on
+        if first_ticks is not None and (tick - first_ticks) * TICK_S >= after_s:
+            break
     return Trial(fault.value, first, first_ticks, stood_ticks, world.contacts, tuple(rows))
 
 

@@ -47,7 +47,7 @@ def test_every_fault_is_told_of_here() -> None:
 
 @pytest.mark.parametrize("name", NOTICED)
 def test_a_broken_thing_is_noticed_by_its_row(name: str) -> None:
-    result = trial(SimFault(name), 1, watch_s=3.5)
+    result = trial(SimFault(name), 1, watch_s=3.5, after_s=1.4)
     assert result.first == NOTICED[name]
     assert (result.stood_ticks is not None) is (name not in SLOWS_ONLY)
     assert result.contacts == 0
@@ -55,5 +55,5 @@ def test_a_broken_thing_is_noticed_by_its_row(name: str) -> None:
 
 @pytest.mark.parametrize("name", UNNOTICED)
 def test_what_does_no_harm_stops_nobody(name: str) -> None:
-    result = trial(SimFault(name), 1, watch_s=3.5)
+    result = trial(SimFault(name), 1, watch_s=2.0)
     assert (result.first, result.contacts) == ("", 0)
