@@ -150,7 +150,7 @@ def _text(heard: Heard) -> str:
 def _time(lab: Lab) -> dict[str, Any]:
     recordings = [
         _stretched(speak(f"go to the {place} then the {then}", "en-us+f3", 150))
-        for place, then in (("kitchen", "bedroom"), ("living room", "study"))
+        for place, then in (("kitchen", "bedroom"), ("bedroom", "kitchen"))
     ]
     times_ms: list[float] = []
     with lab.folder() as home, Robot(home, "home") as robot:

@@ -11,31 +11,32 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from planner.voice.grammar import is_stop
-
-WORD_LIMIT = -4.2
+WORD_LIMIT = -4.5
 """The worst word against everyday words in the same frames [natural logarithm per frame]. Of
 synthetic orders heard right all but the odd one lie above -3.3; "is the desk clean", heard as "move
 to the desk", below -5."""
-MISFIT_LIMIT = -80.0
+MISFIT_LIMIT = -90.0
 """The worst word's whole distance from everyday words [natural logarithm]: a long word need not fit
 as badly. "put the book on the sofa" heard as "go to the sofa and the sofa" has a sofa at -78."""
 PAUSE_LIMIT = -85.0
 """All pauses against phones [natural logarithm]: below it somebody spoke where the order is silent.
 Heard right mostly above -37, which is sure; "return home" for a longer sentence below -60."""
-WHOLE_LIMIT = 3.5
+WHOLE_LIMIT = 2.0
 """The order against everyday words, per frame, as the decoder scales whole sentences [1e-4]. They
 pay for each word, so it is above zero: right mostly 7.7 to 20, which is sure; "go to the basement"
 3 to 5."""
 STOP_LIMIT = -8.0
 """A stop against phones, per frame [1e-4]. Synthetic stops lie above -3, what is taken for one
 below -9; a wrong one costs a resume."""
-_SCALES = (1.0, 20.0, 43.0, 3.8)
+_SCALES = (1.27, 29.0, 43.0, 5.1)
 """How far past its limit a measure must be for 0.73; past 1.1 times that nobody is asked first."""
 _SHIFT = 1024
 """The decoder keeps scores without their last ten bits."""
 _SHORT_FRAMES = 5
 _PAUSE_FRAMES = 8
+
+Timed = tuple[str, float, int, int]
+"""Word, natural logarithm of its acoustic score, first frame, frame after its last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,19 +46,24 @@ class Decoded:
     text: str
     score: float
     """Natural logarithm, as the decoder scales whole sentences."""
-    words: tuple[tuple[str, float, int, int], ...]
-    """Word, natural logarithm of its acoustic score, first frame, frame after its last."""
+    words: tuple[Timed, ...]
 
 
-def confidence(order: Decoded, phones: Decoded, words: Decoded, frames: float) -> float:
-    """Return how far to believe an order, 0 to 1; from one half on it is believed."""
-    if is_stop(order.text):
-        return _sure(((order.score - phones.score) / frames * 1e4 - STOP_LIMIT) / 2.0)
+def stop_confidence(stop: Decoded, phones: Decoded, frames: float) -> float:
+    """Return how far to believe a stop, 0 to 1; from one half on it is believed."""
+    return _sure(((stop.score - phones.score) / frames * 1e4 - STOP_LIMIT) / 2.0)
+
+
+def confidence(order: Decoded, phones: Decoded | None, words: Decoded, frames: float) -> float:
+    """Return how far to believe an order, 0 to 1; from one half on it is believed.
+
+    Without ``phones`` its pauses are known to be silent.
+    """
     fits = misfits(order, words)
     measured = (
         min((fit / frames for fit, frames in fits), default=-math.inf) - WORD_LIMIT,
         min((fit for fit, _ in fits), default=-math.inf) - MISFIT_LIMIT,
-        pauses(order, phones) - PAUSE_LIMIT,
+        (0.0 if phones is None else pauses(order, phones)) - PAUSE_LIMIT,
         (order.score - words.score) / frames * 1e4 - WHOLE_LIMIT,
     )
     margins = (over / scale for over, scale in zip(measured, _SCALES, strict=True))
@@ -79,9 +85,17 @@ def pauses(order: Decoded, phones: Decoded) -> float:
     free = _by_frame(phones)
     return sum(
         min(0.0, (score - sum(free[start:end])) * _SHIFT)
-        for word, score, start, end in order.words
-        if word.startswith("<") and end - start >= _PAUSE_FRAMES
+        for _, score, start, end in long_pauses(order)
     )
+
+
+def long_pauses(order: Decoded) -> list[Timed]:
+    """Return the pauses that are long enough to hide a word."""
+    return [
+        timed
+        for timed in order.words
+        if timed[0].startswith("<") and timed[3] - timed[2] >= _PAUSE_FRAMES
+    ]
 
 
 def _by_frame(decoded: Decoded) -> list[float]:

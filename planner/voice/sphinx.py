@@ -17,10 +17,10 @@ import pocketsphinx
 
 from planner.voice.apart import Apart
 from planner.voice.common import COMMON
-from planner.voice.doubt import Decoded, confidence
+from planner.voice.doubt import Decoded, confidence, long_pauses, stop_confidence
 from planner.voice.grammar import STOPS, Language, is_stop, language_of
 from planner.voice.protocol import Heard
-from planner.voice.samples import prepare
+from planner.voice.samples import FRAME, prepare, quiet
 
 _SOUNDS = (
     ("settee", "S EH T IY"),
@@ -30,7 +30,8 @@ _SOUNDS = (
 """What the American dictionary lacks or Britons say otherwise. Not "bath":
 with their vowel it is too near "dock", and an order to the dock went to the bath."""
 _SURE = 0.5
-_FRAME_SAMPLES = 160
+_NARROW = {"beam": 1e-30, "pbeam": 1e-30, "wbeam": 1e-18}
+"""For the free searches. The bound one loses a tenth of the orders with it."""
 _BREATH_FRAMES = 45
 _JOINTS = frozenset({"and", "then", "the"})
 _NEVER = -1e9
@@ -41,25 +42,15 @@ class Sphinx:
 
     def __init__(self, names: Sequence[str]) -> None:
         """Load the model that pocketsphinx brings, about 0.5 s."""
-        self._decoder = pocketsphinx.Decoder(
-            loglevel="FATAL",  # else each sentence that is no order is an error in our log
-            samprate=16_000,
-            lm=None,
-            cmn="batch",
-            silprob=0.1,
-            fillprob=1e-20,
-            lw=3.0,
-            wip=0.1,
-            allphone_ci=True,
-            fwdflat=False,
-            bestpath=False,  # the second pass over the lattice took 290 of 410 ms and mends nothing
-        )
+        self._decoder = _decoder()
+        self._free = _decoder(**_NARROW)
         for word, phones in _SOUNDS:
             self._decoder.add_word(word, phones, False)
+            self._free.add_word(word, phones, False)
         self.language: Language = language_of(names, self._pronounced)
         self._decoder.add_jsgf_string("orders", self.language.jsgf)
         self._decoder.add_jsgf_string("stops", STOPS)
-        self._decoder.add_allphone_file("phones", None)
+        self._free.add_allphone_file("phones", None)
         self._add_words({*chain.from_iterable(name.split() for name in self.language.names)})
 
     def _pronounced(self, word: str) -> bool:
@@ -71,8 +62,8 @@ class Sphinx:
         with TemporaryDirectory() as folder:  # the decoder reads language models from files alone
             path = Path(folder) / "words.arpa"
             path.write_text(_unigrams(known), "utf-8")
-            model = pocketsphinx.NGramModel(self._decoder.config, self._decoder.logmath, str(path))
-        self._decoder.add_lm("words", model)
+            model = pocketsphinx.NGramModel(self._free.config, self._free.logmath, str(path))
+        self._free.add_lm("words", model)
 
     def hear(self, pcm: bytes, rate_hz: int, channels: int) -> Heard:
         """Return what was said and how sure that is. Same bytes, same answer, whatever came before.
@@ -83,44 +74,70 @@ class Sphinx:
         samples = prepare(pcm, rate_hz, channels)
         if samples is None:
             return Heard("", 0.0, understood=False)
+        frames = len(samples) / (2 * FRAME)
         with (
-            Apart(lambda: self._decode("words", samples)) as spoken,
+            Apart(lambda: _decode(self._free, "words", samples)) as spoken,
             Apart(lambda: self._order(samples)) as bound,
-            Apart(lambda: self._decode("phones", samples)) as sounds,
         ):
-            order, phones = bound.result(), sounds.result()
-            if order is None or not order.text:
-                return Heard("", 0.0, understood=False)
-            if phones is None or not self.language.is_order(order.text):
-                return Heard(order.text, 0.0, understood=False)
-            words = phones if is_stop(order.text) else spoken.result()
-        if words is None:
-            return Heard(order.text, 0.0, understood=False)
-        sure = confidence(order, phones, words, len(samples) / (2 * _FRAME_SAMPLES))
+            order = bound.result()
+            if order is None or not self.language.is_order(order.text):
+                return Heard("" if order is None else order.text, 0.0, understood=False)
+            stop = is_stop(order.text)
+            phones = self._phones(samples) if stop or not _silent_between(order, samples) else None
+            words = None if stop else spoken.result()
+        if phones is not None and stop:
+            sure = stop_confidence(order, phones, frames)
+        else:
+            sure = 0.0 if words is None else confidence(order, phones, words, frames)
         return Heard(order.text, round(sure, 3), understood=sure >= _SURE)
 
+    def _phones(self, samples: bytes) -> Decoded:
+        with Apart(lambda: _decode(self._free, "phones", samples)) as sounds:
+            return sounds.result() or Decoded("", 0.0, ())  # fits perfectly: nothing is believed
+
     def _order(self, samples: bytes) -> Decoded | None:
-        order = _trimmed(self._decode("orders", samples))
+        order = _trimmed(_decode(self._decoder, "orders", samples))
         if order is None or is_stop(order.text) or not self.language.is_order(order.text):
             # A stop must not drown among the names, nor pay for them in its score.
-            order = self._decode("stops", samples) or order
+            order = _decode(self._decoder, "stops", samples) or order
         return order
 
-    def _decode(self, search: str, samples: bytes) -> Decoded | None:
-        decoder = self._decoder
-        decoder.activate_search(search)
-        decoder.start_utt()
-        decoder.process_raw(samples, full_utt=True)
-        decoder.end_utt()
-        best = decoder.hyp()
-        if best is None or not best.score > 0.0:
-            return None
-        words = tuple(
-            (part.word, _log(part.ascore), part.start_frame, part.end_frame + 1)
-            for part in decoder.seg()
-            if part.word != "(NULL)"  # a joint of the grammar, no sound
-        )
-        return Decoded(best.hypstr, math.log(best.score), words)
+
+def _decoder(**beams: float) -> pocketsphinx.Decoder:
+    return pocketsphinx.Decoder(
+        loglevel="FATAL",  # else each sentence that is no order is an error in our log
+        samprate=16_000,
+        lm=None,
+        cmn="batch",
+        silprob=0.1,
+        fillprob=1e-20,
+        lw=3.0,
+        wip=0.1,
+        allphone_ci=True,
+        fwdflat=False,
+        bestpath=False,  # the second pass over the lattice took 290 of 410 ms and mends nothing
+        **beams,
+    )
+
+
+def _decode(decoder: pocketsphinx.Decoder, search: str, samples: bytes) -> Decoded | None:
+    decoder.activate_search(search)
+    decoder.start_utt()
+    decoder.process_raw(samples, full_utt=True)
+    decoder.end_utt()
+    best = decoder.hyp()
+    if best is None or not best.score > 0.0:
+        return None
+    words = tuple(
+        (part.word, _log(part.ascore), part.start_frame, part.end_frame + 1)
+        for part in decoder.seg()
+        if part.word != "(NULL)"  # a joint of the grammar, no sound
+    )
+    return Decoded(best.hypstr, math.log(best.score), words) if best.hypstr else None
+
+
+def _silent_between(order: Decoded, samples: bytes) -> bool:
+    return all(quiet(samples, start, end - start) for _, _, start, end in long_pauses(order))
 
 
 def _trimmed(order: Decoded | None) -> Decoded | None:

@@ -10,8 +10,10 @@ from planner.voice.doubt import (
     WORD_LIMIT,
     Decoded,
     confidence,
+    long_pauses,
     misfits,
     pauses,
+    stop_confidence,
 )
 from planner.voice.protocol import SURE
 
@@ -54,11 +56,16 @@ def test_one_doubt_is_enough(heard: Decoded, words: Decoded) -> None:
 
 
 def test_a_stop_is_judged_by_the_phones_alone() -> None:
-    bad = Decoded("x", 0.0, ())
     near = Decoded("stop", -0.41, (("stop", -9.0, 0, 60),))
-    assert confidence(near, PHONES, bad, FRAMES) > 0.9
+    assert stop_confidence(near, PHONES, FRAMES) > 0.9
     far = Decoded("stop", -0.6, (("stop", -9.0, 0, 60),))
-    assert confidence(far, PHONES, bad, FRAMES) < 0.5
+    assert stop_confidence(far, PHONES, FRAMES) < 0.5
+
+
+def test_pauses_known_to_be_silent_need_no_phones() -> None:
+    bad = order(pause=PAUSE_LIMIT - 1.0)
+    assert confidence(bad, PHONES, WORDS, FRAMES) < 0.5 < confidence(bad, None, WORDS, FRAMES)
+    assert long_pauses(bad) == [bad.words[1]]
 
 
 def test_the_measures() -> None:

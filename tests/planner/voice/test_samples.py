@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from planner.voice.samples import RATE_HZ, SILENT_PEAK, prepare, resampled
+from planner.voice.samples import FRAME, RATE_HZ, SILENT_PEAK, prepare, quiet, resampled
 
 
 @pytest.mark.parametrize("rate_hz", [8_000, 11_025, 22_050, 44_100, 48_000])
@@ -35,3 +35,14 @@ def test_silence_is_not_made_loud() -> None:
     assert prepare(quiet.tobytes(), RATE_HZ, 1) is None
     below = ((SILENT_PEAK - 2) * np.sin(np.arange(16_000) / 10)).astype("<i2")
     assert prepare(below.tobytes(), RATE_HZ, 1) is None
+
+
+def test_silence_at_the_ends_is_cut_and_what_is_quiet_between_is_known() -> None:
+    tone = (9_000 * np.sin(np.arange(16_000) / 10)).astype("<i2").tobytes()
+    short = prepare(tone + bytes(16_000) + tone, RATE_HZ, 1) or b""
+    assert prepare(bytes(32_000) + tone + bytes(16_000) + tone + bytes(64_000), RATE_HZ, 1)
+    long = prepare(bytes(32_000) + tone + bytes(16_000) + tone + bytes(64_000), RATE_HZ, 1) or b""
+    assert 0 <= len(long) - len(short) <= 2 * 2 * 0.1 * RATE_HZ
+    assert quiet(short, 16_000 // FRAME, 8_000 // FRAME)
+    assert not quiet(short, 0, 50)
+    assert not quiet(short, 90, 30)
