@@ -67,12 +67,16 @@ class Claim:
         """Take the lock; ``shared`` parties may be many at once.
 
         Raises:
-            Misconfigured: another live process holds it; nothing of its is touched.
+            Misconfigured: another live process holds it, and nothing of its is touched; or the
+                folder can't be written.
         """
         run = home.absolute() / "run"
-        run.mkdir(parents=True, exist_ok=True)
         self._path = run / f"{party.value}.lock"
-        self._file = self._path.open("a+")
+        try:
+            run.mkdir(parents=True, exist_ok=True)
+            self._file = self._path.open("a+")
+        except OSError as error:
+            raise Misconfigured("home_unwritable", f"{self._path}: {error.strerror}") from None
         try:
             wanted = fcntl.LOCK_SH if shared else fcntl.LOCK_EX
             fcntl.flock(self._file, wanted | fcntl.LOCK_NB)

@@ -53,6 +53,15 @@ def test_a_second_claim_names_the_first(tmp_path: Path) -> None:
     Claim(tmp_path, Party.BRIDGE).close()
 
 
+def test_a_home_that_cannot_be_written_is_refused_by_its_path(tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    file.write_text("a file where a folder should be")
+    with pytest.raises(Misconfigured) as refused:
+        Claim(file, Party.BRIDGE)
+    assert refused.value.code == "home_unwritable"
+    assert str(file) in refused.value.detail
+
+
 def test_different_parties_do_not_disturb_each_other(tmp_path: Path) -> None:
     claims = [Claim(tmp_path, party) for party in (Party.BRIDGE, Party.PLANNER, Party.ROBOT)]
     for claim in claims:
