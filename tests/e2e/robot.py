@@ -6,13 +6,13 @@ Joins the system that a person runs with the judge that watches it. Every verdic
 from __future__ import annotations
 
 import time
-from math import hypot, pi, remainder
+from math import hypot, inf, pi, remainder
 from pathlib import Path
 
 import psutil
 
 from planner.world import Place, Site
-from tests.e2e.judge import Judge
+from tests.e2e.judge import Judge, still
 from tests.e2e.polling import until
 from tests.e2e.system import ENDED, TWO_ROOM, Json, System
 from wire import Mode
@@ -138,6 +138,12 @@ class Robot:
             assert turned < FACING_RAD, (place, pose)
         assert self.away_m(place) < THERE_M, (place.id, self.judge.describe())
         self.judge.assert_no_contact()
+
+    def assert_stood_at(self, place: Place, began_s: float) -> None:
+        """Hold that the robot really stood at a place at some time since; it may have left it."""
+        stood = [truth.base_in_map for _, truth in self.judge.truths.since(began_s) if still(truth)]
+        near_m = [hypot(p.x_m - place.pose.x_m, p.y_m - place.pose.y_m) for p in stood]
+        assert min(near_m, default=inf) < THERE_M, (place.id, self.judge.describe())
 
     def assert_figures(self, goal: Json, place: Place, began_s: float) -> None:
         """Hold that the record's figures agree with the truth since the goal was given."""

@@ -23,15 +23,17 @@ ROGUE = "rogue-planner"
 
 
 def test_two_goals_are_done_in_the_order_given(robot: Robot) -> None:
-    first = robot.elsewhere()
+    first, began_s = robot.elsewhere(), time.monotonic()
     one = robot.system.give(f"go to the {first.name.en}")
     two = robot.system.give("去厨房" if first.id != "kitchen" else "去充电桩")
     queued = robot.system.until_goal(two["id"], "queued", limit_s=3.0)
     assert queued["position"] == 0
     assert robot.system.goal(one["id"])["state"] == "running"
-    robot.arrive(first, one)
+    ended = robot.system.until_goal(one["id"], "succeeded", limit_s=40.0)
+    assert ended["outcome"]["reached"]["place"] == first.id
     second = robot.place("kitchen" if first.id != "kitchen" else "charging_dock")
     robot.arrive(second, two)
+    robot.assert_stood_at(first, began_s)  # it left for the second at once
 
 
 def test_a_second_planner_and_a_second_up_are_refused(robot: Robot) -> None:
