@@ -39,10 +39,10 @@ WATCH_S = 0.15
 
 
 def measure(lab: Lab) -> list[Row]:
-    """Take 40 kills and 40 freezes, in a long run 120 of each: another row may come first."""
+    """Take 20 kills and 20 freezes, in a long run 120 of each: another row may come first."""
     rows: list[Row] = []
     for way, take in (("kill", _kills), ("freeze", _freezes)):
-        count = lab.count(2, 6)
+        count = lab.count(1, 6)
         runs = list(lab.slices(way, count, lambda index, take=take: _run(lab, index, take)))  # type: ignore[misc]  # the default binds the loop's function
         ticks = [round(age / TICK_S) for run in runs for age in run["ages_s"]]
         slowest = min((run["speed"] for run in runs), default=0.0)

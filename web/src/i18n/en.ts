@@ -225,8 +225,8 @@ export const en = {
   "limits.speed": "Speed",
   "limits.turn": "Turn",
   "limits.by": "Set by",
-  "limits.free": "Free ahead",
-  "limits.margin": "Beyond stopping",
+  "limits.free": "Free ahead, at least",
+  "limits.margin": "Beyond stopping, at least",
   "limits.left": "Left until a person acts",
 
   "by.robot": "its own settings",

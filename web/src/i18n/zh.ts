@@ -226,8 +226,8 @@ export const zh: Record<Key, string> = {
   "limits.speed": "速度",
   "limits.turn": "转动",
   "limits.by": "来自",
-  "limits.free": "前方空闲",
-  "limits.margin": "超出停车距离",
+  "limits.free": "前方空闲，至少",
+  "limits.margin": "超出停车距离，至少",
   "limits.left": "需人操作前剩余",
 
   "by.robot": "机器人设置",
