@@ -17,6 +17,7 @@ from bench.measure import (
     planner_silent,
     suite_time,
     tick_lateness,
+    tick_stress,
     voice,
 )
 
@@ -37,6 +38,7 @@ ALL: tuple[Measure, ...] = cast(
         brain_silent,
         planner_silent,
         fault_times,
+        tick_stress,
         clone_to_url,
         suite_time,
     ),

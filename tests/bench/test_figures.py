@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bench.figures import Figures, none_in, percentile
+from bench.figures import Figures, none_in, percentile, poisson_upper_95
 
 SAMPLES = st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=200)
 
@@ -36,3 +36,8 @@ def test_nothing_has_no_figures() -> None:
 def test_zero_of_n_is_said_with_its_bound() -> None:
     assert none_in(100) == "0 of 100 (< 3.00% with 95 % confidence)"
     assert none_in(0) == "no trials"
+
+
+@pytest.mark.parametrize(("count", "upper"), [(0, 3.689), (1, 5.572), (10, 18.39), (100, 121.63)])
+def test_the_upper_end_of_a_poisson_interval_is_the_tables(count: int, upper: float) -> None:
+    assert poisson_upper_95(count) == pytest.approx(upper, abs=0.01)
