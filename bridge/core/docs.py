@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bridge.core.hazards import HAZARDS, LAWS
 from bridge.core.modes import TRANSITIONS
 from bridge.core.rows import ALL, ROWS, Stage
 from wire import Action
@@ -74,6 +75,18 @@ passes; 2 m where a scan is old or a tight curve was just left. At that length i
 """
 
 
+_HAZARDS = """\
+## Hazards
+
+What can go wrong, the row or gate that watches for it or the law that rules it out, the function in
+`bridge/core` that does it, and the tests in `tests/bridge/core` that prove it. A test holds each
+name in this table to exist.
+
+| hazard | row, gate or law | function | tests |
+|---|---|---|---|
+"""
+
+
 def safety_md() -> str:
     """Return the whole page."""
     actions = " < ".join(f"`{action.value}`" for action in Action)
@@ -81,9 +94,8 @@ def safety_md() -> str:
         f"| {mode.value} | {_cause(cause)} | {to.value} |\n"
         for (mode, cause), to in TRANSITIONS.items()
     )
-    return "\n".join(
-        (_HEAD.format(actions=actions), _MODES + modes, "".join(_rows()), _GATES, _sentences())
-    )
+    parts = (_MODES + modes, "".join(_rows()), _GATES, "".join(_hazards()), _sentences())
+    return "\n".join((_HEAD.format(actions=actions), *parts))
 
 
 def _cause(cause: object) -> str:
@@ -121,6 +133,15 @@ def _clears(stage: Stage) -> str:
     if stage.clears.value != "AUTO":
         return f"`{stage.clears.value}`"
     return f"`AUTO`, clean for {stage.clean_s:g} s" if stage.clean_s > 0.0 else "`AUTO`, at once"
+
+
+def _hazards() -> Iterator[str]:
+    yield _HAZARDS
+    for hazards in (HAZARDS, LAWS):
+        for hazard in hazards:
+            guard = f"`{hazard.guard}`" if hazard.guard.isupper() else hazard.guard
+            tests = "<br>".join(f"`{test}`" for test in hazard.tests)
+            yield f"| {hazard.what} | {guard} | `{hazard.function}` | {tests} |\n"
 
 
 def _sentences() -> str:

@@ -185,6 +185,7 @@ class TestSight:
         world.run(1.0)
         world.lidar_blind = False
         world.run(1.9)
+        assert raised(world, "LIDAR_BLIND.0")
         assert world.is_in(Mode.HOLD)
         world.until(Mode.ACTIVE, 0.5)
 

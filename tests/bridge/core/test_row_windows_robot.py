@@ -211,6 +211,7 @@ def test_the_drives_stop_input_latches_until_reset() -> None:
     world.drive.estop_pressed = True
     world.tick()
     assert world.is_in(Mode.ESTOPPED)
+    assert raised(world, "ESTOP.0")
     assert world.last is not None
     assert world.last.command is not None
     assert world.last.command.enable, "torque brakes until the robot stands"
@@ -238,6 +239,7 @@ def test_an_estop_message_needs_no_proof() -> None:
     world.tick()
     assert world.verdict(request_id) == "ok"
     assert world.is_in(Mode.ESTOPPED)
+    assert raised(world, "ESTOP.0")
 
 
 def test_a_reset_is_no_way_around_the_self_test() -> None:
@@ -277,6 +279,7 @@ def test_a_stop_link_that_falls_silent_counts_as_pressed() -> None:
     assert world.is_in(Mode.DISARMED)
     silent_for(world, 2)
     assert world.is_in(Mode.ESTOPPED)
+    assert raised(world, "ESTOP.0")
 
 
 def test_stage_names_are_unique() -> None:
