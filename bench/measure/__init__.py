@@ -18,6 +18,7 @@ from bench.measure import (
     suite_time,
     tick_lateness,
     tick_stress,
+    unexplained_stops,
     voice,
 )
 
@@ -39,6 +40,7 @@ ALL: tuple[Measure, ...] = cast(
         planner_silent,
         fault_times,
         tick_stress,
+        unexplained_stops,
         clone_to_url,
         suite_time,
     ),
