@@ -7,11 +7,13 @@ ends whole process groups.
 from __future__ import annotations
 
 import json
+import re
 import secrets
 import socket
 import time
 from contextlib import ExitStack
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from bench.lab import Missed, until
@@ -24,6 +26,7 @@ from wire.keys import OPS, SIM_TRUTH, STATUS, Party
 from wire.session import open_session
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from types import TracebackType
     from typing import Self
 
@@ -39,7 +42,13 @@ class Robot:
     """Be one running robot."""
 
     def __init__(
-        self, home: Path, site: str, *, tapped: bool = False, only: tuple[str, ...] = EVERYTHING
+        self,
+        home: Path,
+        site: str,
+        *,
+        tapped: bool = False,
+        only: tuple[str, ...] = EVERYTHING,
+        limits: Mapping[str, float] = MappingProxyType({}),
     ) -> None:
         """Describe it; entering the context starts it.
 
@@ -48,9 +57,10 @@ class Robot:
             site: name of one of the checkout's sites.
             tapped: run the bridge with a stopwatch; ``tap`` reads it after the end.
             only: which processes to start.
+            limits: keys of robot.toml that are to have other values than the checkout's.
         """
         self.settings = Settings(
-            home, CHECKOUT / "robot.toml", CHECKOUT / "sites" / site, "127.0.0.1", free_port()
+            home, described(home, limits), CHECKOUT / "sites" / site, "127.0.0.1", free_port()
         )
         common = ["--home", str(home), "--robot", str(self.settings.robot)]
         common += ["--site", str(self.settings.site)]
@@ -217,6 +227,18 @@ class Robot:
         if not self._in(Mode.HOLD):
             self.operate("arm")
         return self._in(Mode.HOLD)
+
+
+def described(home: Path, limits: Mapping[str, float]) -> Path:
+    """Write the checkout's robot.toml into a folder, some values changed; return its path."""
+    text = (CHECKOUT / "robot.toml").read_text("utf-8")
+    for key, value in limits.items():
+        text, found = re.subn(rf"(?m)^{key} = \S+", f"{key} = {value}", text)
+        if found != 1:
+            raise Missed(f"robot.toml has {found} lines that set {key!r}, expected 1")
+    made = home / "robot.toml"
+    made.write_text(text, "utf-8")
+    return made
 
 
 def free_port() -> int:

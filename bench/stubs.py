@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from math import inf
 from typing import TYPE_CHECKING
 
 from bench.lab import Missed
@@ -68,7 +69,8 @@ class Stub:
 class Legs:
     """Make legs between two places of a site, over and over."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, fastest_mps: float = inf) -> None:
+        self._fastest_mps = fastest_mps
         self._site = Site.load(robot.settings.site)
         self._router = Router(self._site, RouteLimits.of(load_robot(robot.settings.robot)))
 
@@ -82,7 +84,7 @@ class Legs:
 
     def _leg(self, start: Pose2, goal: Pose2) -> Leg:
         found = self._router.route(RouteRequest(start, goal))
-        return [(point.x_m, point.y_m, point.speed_mps) for point in found.points]
+        return [(p.x_m, p.y_m, min(p.speed_mps, self._fastest_mps)) for p in found.points]
 
     def _place(self, place_id: str) -> Pose2:
         place = self._site.place(place_id)

@@ -34,15 +34,16 @@ TICK_S = 0.01
 BODY = ("sim", "localization", "bridge")
 PER_SLICE = 20
 MOVING_MPS = 0.1
+SPEEDS_MPS = (0.5, 0.2)
 WATCH_S = 0.15
 """How long a new brain asks in vain before a person resumes."""
 
 
 def measure(lab: Lab) -> list[Row]:
-    """Take 20 kills and 20 freezes, in a long run 120 of each: another row may come first."""
+    """Take 20 kills and 20 freezes, in a long run 280 of each; every second slice is slow."""
     rows: list[Row] = []
     for way, take in (("kill", _kills), ("freeze", _freezes)):
-        count = lab.count(1, 6)
+        count = lab.count(1, 14)
         runs = list(lab.slices(way, count, lambda index, take=take: _run(lab, index, take)))  # type: ignore[misc]  # the default binds the loop's function
         ticks = [round(age / TICK_S) for run in runs for age in run["ages_s"]]
         slowest = min((run["speed"] for run in runs), default=0.0)
@@ -53,6 +54,9 @@ def measure(lab: Lab) -> list[Row]:
             f"{late} over 31; {len(ticks)} of {asked} out of ACTIVE, {other} while another row "
             f"held already; slowest run's simulator {slowest:.2f} x"
         )
+        for fast in SPEEDS_MPS[: len(runs)]:
+            at = [round(a / TICK_S) for r in runs if r["speed_mps"] == fast for a in r["ages_s"]]
+            note += f"; most {max(at, default=0)} at {fast} m/s (n {len(at)})"
         samples = [float(tick) for tick in ticks]
         rows.append(row_of(f"{way} -> HOLD2", "ticks", GOAL, samples, note, valid=slowest >= SLOW))
         if way == "kill":
@@ -63,28 +67,29 @@ def measure(lab: Lab) -> list[Row]:
 
 
 def _run(
-    lab: Lab, index: int, take: Callable[[Lab, Robot, Random, ExitStack], int]
+    lab: Lab, index: int, take: Callable[[Lab, Robot, Random, ExitStack, Legs], int]
 ) -> dict[str, Any]:
-    chance = Random(index)
+    chance, speed_mps = Random(index), SPEEDS_MPS[index % len(SPEEDS_MPS)]
     with lab.folder() as home, Robot(home, "two_room", tapped=True, only=BODY) as robot:
         with ExitStack() as stubs:
             robot.make_ready()
             robot.forget()
-            unasked = take(lab, robot, chance, stubs)
+            unasked = take(lab, robot, chance, stubs, Legs(robot, speed_mps))
         noted = robot.end_bridge()
         held = [s for s in noted["silences"] if s["from"] == Mode.ACTIVE.value]
         return {
             "ages_s": [one["age_s"] for one in held if one["age_s"] is not None],
             "cycles": PER_SLICE,
+            "speed_mps": speed_mps,
             "unasked": unasked,
             "speed": robot.speed,
             "otherwise": [s for s in noted["silences"] if s["from"] != Mode.ACTIVE.value],
         }
 
 
-def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack) -> int:
+def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Legs) -> int:
     """Kill stub after stub; return how often one of them moved unasked."""
-    legs, unasked = Legs(robot), 0
+    unasked = 0
     following = _stub(robot, stubs, 0)
     for number in range(PER_SLICE):
         lab.say(f"kill {number + 1}/{PER_SLICE}")
@@ -100,10 +105,10 @@ def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack) -> int:
     return unasked
 
 
-def _freezes(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack) -> int:
+def _freezes(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Legs) -> int:
     """Freeze one stub again and again; it goes on by itself each time."""
     stub = _stub(robot, stubs, 0)
-    _send_off(robot, stub, Legs(robot), 0)
+    _send_off(robot, stub, legs, 0)
     for number in range(PER_SLICE):
         lab.say(f"freeze {number + 1}/{PER_SLICE}")
         _until_moving(robot)

@@ -29,16 +29,20 @@ TICK_S = 0.01
 ORDERS = ("go to the living room", "go to the kitchen")
 WATCH_S = 1.0
 FREEZE_S = 0.7
+SPEEDS_MPS = (0.5, 0.2)
 
 
 def measure(lab: Lab) -> list[Row]:
-    """Take a few of each; every slice is one robot, one kill and one freeze."""
-    runs = list(lab.slices("planner", lab.count(2, 10), lambda _: _run(lab)))
+    """Take a few of each, slow and fast; every slice is one robot, one kill and one freeze."""
+    runs = list(lab.slices("planner", lab.count(2, 20), lambda i: _run(lab, i)))
     ticks = [float(round(age / TICK_S)) for run in runs for age in run["ages_s"]]
     unasked = sum(run["unasked"] for run in runs)
     speed = min((run["speed"] for run in runs), default=0.0)
     asked = 2 * len(runs)
     note = f"{len(ticks)} of {asked} held; slowest run's simulator {speed:.2f} x"
+    for fastest in SPEEDS_MPS[: len(runs)]:
+        at = [round(a / TICK_S) for r in runs if r["fastest_mps"] == fastest for a in r["ages_s"]]
+        note += f"; most {max(at, default=0)} at {fastest} m/s (n {len(at)})"
     return [
         row_of("real planner -> HOLD2", "ticks", GOAL, ticks, note, valid=speed >= SLOW),
         Row("restarts unasked after a kill", "", "0",
@@ -46,8 +50,10 @@ def measure(lab: Lab) -> list[Row]:
     ]  # fmt: skip
 
 
-def _run(lab: Lab) -> dict[str, Any]:
-    with lab.folder() as home, Robot(home, "two_room", tapped=True) as robot:
+def _run(lab: Lab, index: int) -> dict[str, Any]:
+    fastest_mps = SPEEDS_MPS[index % len(SPEEDS_MPS)]
+    limits = {"max_speed_mps": fastest_mps}
+    with lab.folder() as home, Robot(home, "two_room", tapped=True, limits=limits) as robot:
         robot.make_ready()
         robot.forget()
         goal_id = robot.say(ORDERS[0])
@@ -61,7 +67,7 @@ def _run(lab: Lab) -> dict[str, Any]:
         speed = robot.speed
         noted = robot.end_bridge()
         held = [s["age_s"] for s in noted["silences"] if s["from"] == Mode.ACTIVE.value]
-        return {"ages_s": held, "unasked": unasked, "speed": speed}
+        return {"ages_s": held, "unasked": unasked, "speed": speed, "fastest_mps": fastest_mps}
 
 
 def _freeze(robot: Robot) -> None:
