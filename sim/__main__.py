@@ -1,4 +1,7 @@
-"""Start the simulator: ``python -m sim --site sites/home [--robot robot.toml] [--home DIR]``."""
+"""Start the simulator: ``python -m sim --site sites/home [--robot robot.toml] [--home DIR]``.
+
+``--metal FILE`` makes motors and wheels differ from what robot.toml believes (docs/calibrate.md).
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,7 @@ import sys
 import threading
 from pathlib import Path
 
+from sim.metal import load_metal
 from sim.robot import SimRobot
 from sim.shell import Shell
 from sim.site import check_fresh
@@ -29,6 +33,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--site", type=Path, required=True, help="folder with a home.yaml")
     parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
+    parser.add_argument("--metal", type=Path, help="what the robot is really like (TOML)")
     parser.add_argument("--seed", type=int, default=0, help="seed of all noise (default 0)")
     parser.add_argument(
         "--start", type=float, nargs=3, metavar=("X_M", "Y_M", "YAW_RAD"), help="default: the dock"
@@ -45,7 +50,15 @@ def _serve(options: argparse.Namespace) -> None:
     description = load_robot(options.robot) if options.robot else RobotDescription()
     boot_id = f"sim-{secrets.token_hex(4)}"
     start = Pose2(*options.start) if options.start else None
-    robot = SimRobot(options.site, description, seed=options.seed, start=start, boot_id=boot_id)
+    hardware = load_metal(options.metal) if options.metal else None
+    robot = SimRobot(
+        options.site,
+        description,
+        seed=options.seed,
+        start=start,
+        hardware=hardware,
+        boot_id=boot_id,
+    )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     _go_before_others()  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:

@@ -19,6 +19,7 @@ from sim.deadman import DeadMan
 from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
 from sim.messages import Inputs, Report, Speaker
+from sim.metal import true_base
 from sim.mjcf import OBSTACLES
 from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
@@ -59,7 +60,8 @@ class SimRobot:
         self.boot_id = boot_id
         self.faults = Faults()
         self._hardware = hardware or Hardware()
-        self._world = World(solids(self.home), self.robot.base, self._hardware, PERIODS.step_s)
+        base = true_base(self.robot.base, self._hardware)
+        self._world = World(solids(self.home), base, self._hardware, PERIODS.step_s)
         self._world.place_robot(start or pose2(self.home.places[self.home.dock].pose))
         self._dead_man = DeadMan(self.robot.drive.timeout_s, self._hardware.timeout_ramp_radps2)
         left_rad, right_rad = self._world.wheel_angles()
@@ -114,8 +116,8 @@ class SimRobot:
             wheels.left_radps, wheels.right_radps, torque=wheels.torque
         )
         self._world.step(
-            self._past_dead_zone(left),
-            self._past_dead_zone(right),
+            self._past_dead_zone(left, self._hardware.left_gain),
+            self._past_dead_zone(right, self._hardware.right_gain),
             braked=not wheels.torque,
             steps=_STEPS,
         )
@@ -176,9 +178,9 @@ class SimRobot:
         self._world.block_left_wheel(blocked=SimFault.WHEEL_STUCK in self.faults)
         self._world.make_slippery(slippery=SimFault.SLIP in self.faults)
 
-    def _past_dead_zone(self, wheel_radps: float) -> float:
+    def _past_dead_zone(self, wheel_radps: float, gain: float) -> float:
         """Return what the motor follows: friction swallows the first part of every wish."""
-        left_over = max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
+        left_over = gain * max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
         return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 
     def _drive_due(self, now_s: float, wheels: Wheels) -> DriveState | None:

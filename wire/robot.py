@@ -65,7 +65,16 @@ class DriveConfig(Record):
     timeout_s: float = Field(default=0.2, ge=0.05, le=0.5)
     """The drive's own dead-man: without a command for this long it stops by itself."""
     dead_zone_radps: float = Field(default=0.05, ge=0.0, le=2.0)
-    """The motor turns so much slower than told; the drive adds it to every command but zero."""
+    """The motor turns so much slower than told; the bridge adds it to every command but zero."""
+    response_s: float = Field(default=0.05, ge=0.0, le=0.5)
+    """First-order lag of motor and wheel, fed forward. The shortest measured: more would make the
+    wheels change speed faster than meant. What exceeds lag_s does not count."""
+    kp: float = Field(default=0.5, ge=0.0, le=2.0)
+    """Wheel control, rad/s told per rad/s missing; 0 with ki_per_s 0 is feed-forward alone."""
+    ki_per_s: float = Field(default=8.0, ge=0.0, le=40.0)
+    max_correction: float = Field(default=0.2, ge=0.0, le=0.3)
+    """Most that wheel control may add or take, as a share of the speed meant, beside the dead zone:
+    a motor 15 % weak needs 0.18."""
     peak_current_a: float = Field(default=30.0, ge=0.5, le=500.0)
     """All motors together; OVERCURRENT after 0.1 s of more. Judged where the drive reports it."""
     continuous_current_a: float = Field(default=15.0, ge=0.2, le=400.0)

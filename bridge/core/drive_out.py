@@ -9,16 +9,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bridge.core import external, gate, stick
-from bridge.core.kinematics import feed_forward, saturate, wheels_of
+from bridge.core.kinematics import saturate, wheels_of
 from bridge.core.latch import cap
-from bridge.core.limiter import LimiterState, Profile, shape
+from bridge.core.limiter import LimiterState, Profile, shape, tick_length
 from bridge.core.modes import POWERED
 from bridge.core.pursuit import follow
 from bridge.core.transition import profile_of
+from bridge.core.wheelcontrol import AT_REST, turned
 from wire import STILL, DriveCommand, Mode, Twist2
 
 if TYPE_CHECKING:
     from bridge.core.tick import Tick
+
+STALE = "ENC_STALE.0"
+"""The row that says that nothing is measured: no feedback, so feed-forward alone."""
 
 
 def wanted(tick: Tick) -> tuple[Twist2, bool]:
@@ -81,22 +85,55 @@ def shaped(tick: Tick, asked: Twist2) -> LimiterState:
 
 
 def command(tick: Tick) -> DriveCommand:
-    """Write down the wheel speeds of what is sent, the motors' dead zone fed forward.
+    """Write down what both wheels are told, so that they turn as what is sent means.
 
     Behind the limiter's memory, which keeps what was meant: rates and stopping stay true.
     """
     s = tick.s
-    robot = tick.config.robot
-    wheels = feed_forward(
-        wheels_of(s.motion.limiter.sent, robot.base),
-        robot.drive.dead_zone_radps,
-        robot.limits.max_wheel_radps,
-    )
+    motion = s.motion
+    if motion.powered:
+        _control(tick)
+    else:
+        motion.left = motion.right = AT_REST
     s.command_seq += 1
     return DriveCommand(
         boot=tick.config.boot,
         seq=s.command_seq,
-        left_radps=wheels.left_radps,
-        right_radps=wheels.right_radps,
-        enable=s.motion.powered,
+        left_radps=motion.left.told_radps,
+        right_radps=motion.right.told_radps,
+        enable=motion.powered,
+    )
+
+
+def _control(tick: Tick) -> None:
+    """Take both wheels one tick further. Readings of a drive that is not to be trusted are none."""
+    s, robot = tick.s, tick.config.robot
+    motion, drive, report = s.motion, s.drive, s.drive.newest
+    meant = wheels_of(motion.limiter.sent, robot.base)
+    dt_s = tick_length(tick.dt_s, tick.config.period_s)
+    trusted, left_radps, right_radps = False, None, None
+    if report is not None and report.enabled and not report.timed_out and STALE not in s.rows:
+        trusted = drive.reborn_s != tick.now_s
+        if drive.received_s == tick.now_s:
+            left_radps, right_radps = report.left_radps, report.right_radps
+    moving, limiter = tick.moving, motion.limiter
+    motion.left = turned(
+        motion.left,
+        meant.left_radps,
+        limiter.left_mps2,
+        left_radps,
+        dt_s,
+        robot,
+        trusted=trusted,
+        stopping=not moving,
+    )
+    motion.right = turned(
+        motion.right,
+        meant.right_radps,
+        limiter.right_mps2,
+        right_radps,
+        dt_s,
+        robot,
+        trusted=trusted,
+        stopping=not moving,
     )

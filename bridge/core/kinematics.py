@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from wire.robot import Base, Limits
 
 _WHEEL = Field(ge=-1_000.0, le=1_000.0)
-_CREEP_RADPS = 0.01  # below it a dead-zone step would only make the wheel chatter
 
 
 @value
@@ -101,24 +100,6 @@ def scaled(twist: Twist2, factor: float) -> Twist2:
     if factor == 1.0:
         return twist
     return Twist2(twist.v_mps * factor, twist.w_radps * factor)
-
-
-def feed_forward(wheels: Wheels, dead_zone_radps: float, max_wheel_radps: float) -> Wheels:
-    """Add what the motors swallow to each wheel that is to turn; the last step before the drive."""
-    if not dead_zone_radps > 0.0:
-        return wheels
-    return Wheels(
-        _lifted(wheels.left_radps, dead_zone_radps, max_wheel_radps),
-        _lifted(wheels.right_radps, dead_zone_radps, max_wheel_radps),
-    )
-
-
-def _lifted(wheel_radps: float, dead_zone_radps: float, most_radps: float) -> float:
-    if abs(wheel_radps) >= _CREEP_RADPS:
-        return _held(
-            wheel_radps + (dead_zone_radps if wheel_radps > 0 else -dead_zone_radps), most_radps
-        )
-    return 0.0
 
 
 def _ratio(limit: float, value: float) -> float:

@@ -22,6 +22,7 @@ from bridge.core.state_senses import (
 )
 from bridge.core.state_watch import Flood, Watch
 from bridge.core.stopcurve import StopPlan
+from bridge.core.wheelcontrol import AT_REST, Wheel
 from wire import STILL, Action, Held, Mode, Pose2, Twist2
 from wire.value import value
 
@@ -83,7 +84,9 @@ class Motion:
     asked: Twist2 = STILL
     """What the source in charge wants, before gates and limits."""
     limiter: LimiterState = field(default_factory=LimiterState)
-    """Its ``sent`` is what was sent last, before dead-zone feed-forward."""
+    """Its ``sent`` is what was meant last: what wheel control adds to it is not in there."""
+    left: Wheel = AT_REST
+    right: Wheel = AT_REST
     powered: bool = False
     follow: FollowState = NEW
     bound_by: str = "robot"

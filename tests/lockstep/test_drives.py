@@ -35,9 +35,11 @@ def assert_within_limits(world: Together) -> None:
     fastest = max(max(abs(c.left_radps), abs(c.right_radps)) for c in sent)
     assert fastest <= limits.max_wheel_radps
     forward = max(abs(c.left_radps + c.right_radps) / 2 * base.wheel_radius_m for c in sent)
-    # What the motors swallow is added behind the limits, so that they keep the speed meant.
-    swallowed_mps = world.scene.robot.drive.dead_zone_radps * base.wheel_radius_m
-    assert forward <= limits.max_speed_mps + swallowed_mps + 1e-9
+    # What the motors swallow is added behind the limits, and what wheel control finds missing.
+    drive = world.scene.robot.drive
+    swallowed_mps = drive.dead_zone_radps * base.wheel_radius_m
+    correction_mps = swallowed_mps + drive.max_correction * limits.max_speed_mps
+    assert forward <= limits.max_speed_mps + swallowed_mps + correction_mps + 1e-9
     assert all(a.seq < b.seq for a, b in pairwise(sent))
 
 

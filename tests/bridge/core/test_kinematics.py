@@ -9,10 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.kinematics import (
-    STOPPED,
-    Wheels,
     fastest_rim,
-    feed_forward,
     rim_speeds,
     saturate,
     twist_of,
@@ -113,11 +110,3 @@ def test_a_runaway_is_still_seen_as_fast() -> None:
 def test_fastest_rim_is_the_faster_wheel(v: float, w: float) -> None:
     left, right = rim_speeds(Twist2(v, w), 0.5)
     assert fastest_rim(Twist2(v, w), 0.5) == pytest.approx(max(abs(left), abs(right)))
-
-
-def test_the_dead_zone_is_added_to_wheels_that_turn() -> None:
-    # VS2 of nav2's velocity smoother expects the first output above the dead band; so is ours.
-    assert feed_forward(Wheels(1.0, -1.0), 0.3, 10.0) == Wheels(1.3, -1.3)
-    assert feed_forward(Wheels(0.001, 0.0), 0.3, 10.0) == STOPPED
-    assert feed_forward(Wheels(9.9, -9.9), 0.3, 10.0) == Wheels(10.0, -10.0)
-    assert feed_forward(Wheels(1.0, -1.0), 0.0, 10.0) == Wheels(1.0, -1.0)

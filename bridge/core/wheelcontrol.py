@@ -1,0 +1,132 @@
+"""Make one wheel turn as it is meant to: feed forward what is known of its motor, correct the rest.
+
+Stands behind the limiter, whose memory keeps what was meant. Fed forward are the dead zone and the
+motor's lag (a first-order motor told ``meant + T d(meant)/dt`` turns as meant); the same model says
+what the encoder should show by now, and a PI law works on the difference alone. Knows one wheel;
+no mode, no limits of the body, no time but the tick's length.
+
+Laws: zero meant is zero told. A wheel is never told to turn against what is meant. The correction
+is bounded; without feedback there is none. While stopping it may only brake, nothing is integrated,
+and what is told never grows.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from wire.value import value
+
+if TYPE_CHECKING:
+    from wire.robot import DriveConfig, RobotDescription
+
+CREEP_RADPS = 0.01
+"""Below it a dead zone's step would only make the wheel chatter: it is told to stand."""
+CORRECTION_MPS = 0.10
+"""At the rim; two thirds of the slack of row RUNAWAY. So much faster than meant, and no more, can a
+lying encoder make a wheel; and the correction of an honest one can never look like a runaway."""
+
+
+@value
+class Wheel:
+    """Remember one wheel's control between two ticks."""
+
+    integral: float = 0.0
+    """What has been learnt of this motor since it began to turn, as a share of the bound, with the
+    sign of the speed meant: +0.5 is half of what may be added. So it shrinks with the speed."""
+    push: float = 0.0
+    """Proportional and integral part of the newest reading together, likewise."""
+    expected_radps: float = 0.0
+    """What the motor of the description turns at when this tick's command has worked."""
+    due_radps: float = 0.0
+    """That of the tick before: what the newest reading should show."""
+    told_radps: float = 0.0
+
+
+AT_REST = Wheel()
+
+
+def turned(
+    wheel: Wheel,
+    meant_radps: float,
+    by_mps2: float,
+    reading_radps: float | None,
+    dt_s: float,
+    robot: RobotDescription,
+    *,
+    trusted: bool,
+    stopping: bool,
+) -> Wheel:
+    """Return the wheel's control after this tick; its ``told_radps`` is the command.
+
+    Args:
+        wheel: this function's last answer, or AT_REST.
+        meant_radps: what the limiter lets this wheel turn.
+        by_mps2: how fast that changes, at the rim.
+        reading_radps: what a state that came in this tick shows; None where none came.
+        dt_s: the tick's length.
+        robot: motor, wheel and limits as robot.toml describes them.
+        trusted: readings are fresh and the drive has torque.
+        stopping: the target is zero, whoever wants it: no correction may add speed.
+    """
+    if not (meant_radps >= CREEP_RADPS or meant_radps <= -CREEP_RADPS):
+        return AT_REST  # all it had learnt is forgotten with it
+    drive, radius_m, most_radps = (
+        robot.drive,
+        robot.base.wheel_radius_m,
+        robot.limits.max_wheel_radps,
+    )
+    dead_zone, lag_s = drive.dead_zone_radps, drive.response_s
+    if lag_s > drive.lag_s:
+        lag_s = drive.lag_s
+    sign = 1.0 if meant_radps > 0.0 else -1.0
+    meant, told_before = meant_radps * sign, wheel.told_radps * sign
+    integral, push = wheel.integral, wheel.push
+    expected, due = wheel.expected_radps, wheel.due_radps
+    if not told_before > 0.0:  # it stood, or turned the other way: begin anew
+        integral = push = told_before = 0.0
+        expected = due = reading_radps if trusted and reading_radps is not None else 0.0
+    ahead = _held(meant + lag_s * by_mps2 * sign / radius_m, most_radps)
+    bound = dead_zone + drive.max_correction * meant
+    if not bound * radius_m <= CORRECTION_MPS:
+        bound = CORRECTION_MPS / radius_m
+    if not (trusted and bound > 0.0):
+        integral = push = 0.0
+    elif reading_radps is not None:
+        off = (due - reading_radps) * sign / bound
+        integral, push = _corrected(integral, off, dt_s, drive)
+        if ahead + dead_zone + push * bound > most_radps:
+            integral = min(integral, wheel.integral)  # the wheel's limit: winds up no further
+    if stopping:
+        integral, push = 0.0, min(0.0, push - integral)
+        told = min(_held(ahead + dead_zone + push * bound, meant + dead_zone), told_before)
+    else:
+        told = _held(ahead + dead_zone + push * bound, most_radps)
+    return Wheel(
+        integral,
+        push,
+        expected + (ahead * sign - expected) * dt_s / (lag_s + dt_s),
+        expected,
+        told * sign,
+    )
+
+
+def _corrected(integral: float, off: float, dt_s: float, drive: DriveConfig) -> tuple[float, float]:
+    """Return integral and whole correction after a reading that is ``off``, as shares of the bound.
+
+    Where both together reach the bound, the integral goes no further that way. What is no number
+    brakes.
+    """
+    grown = integral + drive.ki_per_s * dt_s * off
+    if not -1.0 <= grown <= 1.0:
+        grown = 1.0 if grown > 1.0 else -1.0
+    whole = drive.kp * off + grown
+    if -1.0 <= whole <= 1.0:
+        return grown, whole
+    if (grown - integral) * whole > 0.0:
+        grown = integral
+    return grown, 1.0 if whole > 1.0 else -1.0
+
+
+def _held(speed: float, most: float) -> float:
+    """Hold a speed between standing and the most; what is no number stands."""
+    return speed if 0.0 <= speed <= most else most if speed > most else 0.0

@@ -1,0 +1,60 @@
+"""Read what the simulated robot is really like, where that differs from what robot.toml believes.
+
+A metal file is TOML with any fields of :class:`sim.hardware.Hardware`. Bridge and planner never see
+it: it stands for the workshop that built the robot, and calibration has to find it out.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+from pydantic import TypeAdapter, ValidationError
+
+from sim.hardware import Hardware
+from wire import Misconfigured
+from wire.robot import explain
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from wire.robot import Base
+
+_FILE = TypeAdapter(Hardware)
+KNOWN = tuple(field.name for field in fields(Hardware))
+
+
+def load_metal(path: Path) -> Hardware:
+    """Return the hardware that a file describes; what it leaves out is as always.
+
+    Raises:
+        Misconfigured: it is missing, no TOML, or has an unknown key or an impossible value.
+    """
+    try:
+        told = tomllib.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise Misconfigured("metal_missing", f"{path}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise Misconfigured("metal_syntax", f"{path}: {error}") from None
+    unknown = sorted(told.keys() - set(KNOWN))
+    if unknown:
+        text = f"{path}: unknown key {', '.join(map(repr, unknown))}, known: {', '.join(KNOWN)}"
+        raise Misconfigured("metal_invalid", text)
+    try:
+        return _FILE.validate_python(told)
+    except ValidationError as error:
+        raise Misconfigured("metal_invalid", f"{path}: {explain(error)}") from None
+
+
+def true_base(believed: Base, hardware: Hardware) -> Base:
+    """Return the geometry that the physics has: the hardware's own where it says so."""
+    radius_m, separation_m = hardware.wheel_radius_m, hardware.wheel_separation_m
+    return believed.model_copy(
+        update={
+            "wheel_radius_m": believed.wheel_radius_m if radius_m is None else radius_m,
+            "wheel_separation_m": (
+                believed.wheel_separation_m if separation_m is None else separation_m
+            ),
+        }
+    )
