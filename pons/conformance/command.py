@@ -1,0 +1,115 @@
+"""Be ``pons conformance``: play broken and hostile brains at a bridge and print what held.
+
+Starts simulator, localization and bridge in a home of its own; leaves nothing behind. Exit status:
+0 every cell held, 1 one did not, 2 nothing could be tested, 130 Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bench.machine import commit, machine, today
+from pons.conformance import matrix
+from pons.conformance.adapter import CannotTest
+from pons.conformance.catalogue import FAULTS, chosen
+from pons.conformance.rig import OURS, Rig
+from pons.conformance.runner import play_all
+from pons.conformance.track import find_track
+from pons.settings import CHECKOUT
+from wire import Misconfigured, load_robot
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+    from pons.conformance.adapter import Adapter
+    from pons.conformance.fault import Fault
+    from pons.conformance.runner import Line
+    from pons.conformance.track import Track
+    from pons.settings import Settings
+
+EXIT_HELD, EXIT_BROKEN, EXIT_UNTESTED, EXIT_INTERRUPTED = 0, 1, 2, 130
+SITE = CHECKOUT / "sites" / "two_room"
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the grammar of the command."""
+    top = argparse.ArgumentParser(prog="pons conformance", description=__doc__)
+    top.add_argument("faults", nargs="*", metavar="FAULT", help="play these only; --list shows all")
+    top.add_argument("--list", action="store_true", help="list the faults and end")
+    top.add_argument("--quick", action="store_true", help="the short run, under 40 s")
+    top.add_argument("--site", type=Path, default=SITE, help="folder of a site")
+    top.add_argument("--json", type=Path, metavar="FILE", help="write all of it there")
+    top.add_argument("--docs", type=Path, metavar="FILE", help="put the matrix into this page")
+    top.add_argument("--seed", type=int, default=1, help="of all chance (default 1)")
+    which = top.add_mutually_exclusive_group()
+    which.add_argument(
+        "--connect", action="store_true",
+        help="test the bridge that runs in $PONS_HOME; its drive must be virtual",
+    )  # fmt: skip
+    which.add_argument(
+        "--bridge", default=OURS, metavar="MODULE",
+        help="start another bridge that speaks the wire: python -m MODULE --home … --site …",
+    )  # fmt: skip
+    return top
+
+
+def main(settings: Settings, arguments: list[str]) -> int:
+    """Run the kit; print; return the exit status."""
+    said = parser().parse_args(arguments)
+    if said.list:
+        for fault in FAULTS:
+            print(f"{fault.name:20} {' '.join(fault.kinds):18} {fault.what}")
+        return EXIT_HELD
+    signal.signal(signal.SIGTERM, _as_interrupt)
+    try:
+        faults = chosen(said.faults, quick=said.quick)
+        settings = replace(settings, site=said.site.absolute())
+        track = find_track(settings.site, load_robot(settings.robot).base.radius_m)
+        rig = Rig(settings, track, module=said.bridge, join=said.connect)
+        lines = run(rig, track, faults, said.seed)
+    except (CannotTest, Misconfigured, OSError) as why:
+        print(f"pons conformance: {why}", file=sys.stderr)
+        return EXIT_UNTESTED
+    except KeyboardInterrupt:
+        print("\npons conformance: interrupted; all that was started is ended", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    site = settings.site.name
+    origin = matrix.Origin(rig.name, site, commit(), today(), machine(), said.seed)
+    print(f"\n{matrix.table(lines)}\n\n{origin.line()}\n{matrix.summary(lines)}")
+    _write(said, lines, origin)
+    return EXIT_HELD if lines and all(line.passed for line in lines) else EXIT_BROKEN
+
+
+def run(adapter: Adapter, track: Track, faults: tuple[Fault, ...], seed: int) -> list[Line]:
+    """Play the faults at one bridge, telling each row as it ends."""
+    count = sum(len(fault.kinds) for fault in faults)
+    began_s = time.monotonic()
+    print(f"starting {adapter.name}; {count} rows", file=sys.stderr, flush=True)
+    lines: list[Line] = []
+    with adapter:
+        for line in play_all(adapter, track, faults, seed):
+            lines.append(line)
+            at_s = time.monotonic() - began_s
+            told = matrix.one_line(line, len(lines), count, at_s)
+            print(told, file=sys.stderr, flush=True)
+    return lines
+
+
+def _write(said: argparse.Namespace, lines: list[Line], origin: matrix.Origin) -> None:
+    if said.json is not None:
+        text = json.dumps(matrix.record(lines, origin), ensure_ascii=False, indent=1)
+        said.json.write_text(text + "\n", "utf-8")
+    if said.docs is not None:
+        page = matrix.into_page(said.docs.read_text("utf-8"), matrix.markdown(lines, origin))
+        said.docs.write_text(page, "utf-8")
+
+
+def _as_interrupt(_number: int, _frame: FrameType | None) -> None:
+    raise KeyboardInterrupt

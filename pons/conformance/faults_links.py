@@ -1,0 +1,109 @@
+"""Break the brain's process or its link: kill, freeze, cut, keep back, flood."""
+
+from __future__ import annotations
+
+import signal
+import time
+from typing import TYPE_CHECKING, Any
+
+from pons.conformance.driver import mute
+from pons.conformance.fault import PATH_S, SILENT, VELOCITY_S, Fault, W, X
+from pons.conformance.proxy import Proxy, Way
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pons.conformance.stage import Stage
+
+FLOOD_HZ, JUNK_HZ = 10_000, 1_000
+FLOODED_S = 0.1
+"""A flood fills its window a moment after it began, and its first messages may be the good ones."""
+KEPT_S = 1.0
+AFTER_S = 0.6
+
+
+def _killed(stage: Stage) -> None:
+    puppet = stage.hand_over()
+    stage.begin()
+    puppet.process.send_signal(signal.SIGKILL)
+    stage.until_standing()
+
+
+def _frozen(stage: Stage) -> None:
+    puppet = stage.hand_over()
+    stage.begin()
+    puppet.process.send_signal(signal.SIGSTOP)
+    try:
+        stage.until_standing()
+        stage.end()
+    finally:
+        puppet.process.send_signal(signal.SIGCONT)
+
+
+def _half_open(stage: Stage) -> None:
+    proxy = Proxy(stage.adapter.door())
+    stage.stack.callback(proxy.close)
+    stage.hand_over(proxy.address)
+    stage.begin()
+    proxy.way = Way.STALLED
+    stage.until_standing()
+
+
+def _buffered(stage: Stage) -> None:
+    """Keep a second of commands back, and deliver them when who sent them is gone."""
+    proxy = Proxy(stage.adapter.door())
+    stage.stack.callback(proxy.close)
+    puppet = stage.hand_over(proxy.address)
+    stage.begin()
+    proxy.way = Way.KEPT
+    began_s = time.monotonic()
+    stage.until_standing()
+    stage.wait(max(0.0, KEPT_S - (time.monotonic() - began_s)))
+    puppet.process.send_signal(signal.SIGKILL)
+    puppet.process.wait()
+    proxy.way = Way.OPEN
+    stage.wait(AFTER_S)
+
+
+def _flooded(task: Callable[[Stage], dict[str, Any]]) -> Callable[[Stage], None]:
+    def play(stage: Stage) -> None:
+        flooder = stage.stack.enter_context(stage.helper("flooder", task(stage)))
+        stage.until(stage.moves, "driving before the flood")
+        stage.begin()
+        flooder.go()
+        stage.until_standing()
+        stage.wait(0.5)
+
+    return play
+
+
+def _valid(stage: Stage) -> dict[str, Any]:
+    """Return a flood of messages that each look like the owner's newest command."""
+    brain, status = stage.brain, stage.status
+    _, message = (
+        brain.velocity(status, 0, 0.5, 0.0) if stage.external else brain.waypoints(status, 0, [])
+    )
+    return {"key": stage.command_key, "template": message, "hertz": FLOOD_HZ}
+
+
+def _malformed(stage: Stage) -> dict[str, Any]:
+    return {"key": stage.command_key, "text": '{"v_mps": NaN, "points": 7}', "hertz": JUNK_HZ}
+
+
+def _silent(stage: Stage) -> None:
+    stage.begin(mute)
+    stage.until_standing()
+
+
+_FLOOD = {X: VELOCITY_S + FLOODED_S, W: PATH_S + FLOODED_S}
+
+FAULTS = (
+    Fault("silent", "the brain says no more", _silent, SILENT, quick=True),
+    Fault("killed", "SIGKILL of the brain's process", _killed, SILENT, quick=True),
+    Fault("frozen", "SIGSTOP of the brain's process", _frozen, SILENT),
+    Fault("half_open", "the link accepts and is never read", _half_open, SILENT, quick=True),
+    Fault("buffered", "1 s of commands kept back, then delivered at once", _buffered, SILENT),
+    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD,
+          quick=True),
+    Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flooded(_malformed), _FLOOD),
+)  # fmt: skip

@@ -1,0 +1,41 @@
+"""Say bytes on any key of one robot, as they are: what breaks messages can't use their models."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from wire.keys import COMMANDS, OPS, Party
+from wire.session import open_session
+from wire.sockets import Endpoints
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from wire.session import Session
+
+
+class Mouth:
+    """Hold publishers of every command and every operator's request."""
+
+    def __init__(self, session: Session) -> None:
+        keys = (*COMMANDS, *OPS)
+        declared: dict[str, Any] = {key.path: session.publisher(key) for key in keys}
+        # Their own ``put`` takes a message that was checked at birth, which these are not.
+        self._raw = {path: one._publisher for path, one in declared.items()}  # noqa: SLF001
+
+    def say(self, key: str, payload: bytes) -> None:
+        """Send and forget."""
+        self._raw[key].put(payload)
+
+
+def dial(party: Party, robot_id: str, home: Path, through: str | None) -> Session:
+    """Open a session of a home, the bridge behind a proxy where one is named."""
+    endpoints = Endpoints(home, {Party.BRIDGE: through}) if through else None
+    return open_session(party, robot_id, home, endpoints)
+
+
+def read_task(line: str) -> dict[str, Any]:
+    """Return a helper's task from its one line of standard input; empty where there is none."""
+    task: dict[str, Any] = json.loads(line or "{}")
+    return task

@@ -1,0 +1,212 @@
+"""Give a fault what it plays with: the brain, the bridge, helpers, and the moments that count."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import time
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from pons.conformance.driver import mute, plain
+from pons.conformance.record import between
+from pons.conformance.verdict import CREEP_RADPS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from pons.conformance.adapter import Adapter
+    from pons.conformance.brain import Brain
+    from pons.conformance.driver import Breaker, Driver
+    from wire import Status
+
+POLL_S = 0.005
+STOOD_S = 0.25
+"""Watched on for so long, once it stands."""
+LIMIT_S = 8.0
+WATCH_S = 1.0
+MOVING_MPS, FAST_MPS = 0.15, 0.38
+
+
+class NotBegun(Exception):
+    """The good brain could not be brought to where the fault begins."""
+
+
+@dataclass
+class Stage:
+    """Hold one play of one fault."""
+
+    adapter: Adapter
+    driver: Driver
+    chance: Random
+    patience_s: float
+    """How long to wait for it to stand before that is called a failure."""
+    stack: ExitStack = field(default_factory=ExitStack)
+    from_s: float | None = None
+    to_s: float | None = None
+
+    @property
+    def brain(self) -> Brain:
+        """Return the brain that is to go wrong."""
+        return self.driver.brain
+
+    @property
+    def external(self) -> bool:
+        """Tell whether it drives by velocity."""
+        return self.brain.kind == "external"
+
+    @property
+    def command_key(self) -> str:
+        """Return the key on which it drives."""
+        return "cmd/external" if self.external else "cmd/waypoints"
+
+    @property
+    def status(self) -> Status:
+        """Return the bridge's newest word. Raises NotBegun where there is none."""
+        status = self.adapter.status()
+        if status is None:
+            raise NotBegun("the bridge says nothing")
+        return status
+
+    # Moments ------------------------------------------------------------------------------------
+
+    def begin(self, breaker: Breaker | None = None) -> None:
+        """From here on it is wrong."""
+        self.from_s = time.monotonic()
+        if breaker is not None:
+            self.driver.breaker = breaker
+
+    def end(self) -> None:
+        """Up to here it was wrong."""
+        self.to_s = time.monotonic()
+
+    def wait(self, seconds: float = WATCH_S) -> None:
+        """Let time pass."""
+        time.sleep(seconds)
+
+    def until_standing(self) -> None:
+        """Wait until the wheels have been told to stand for a while, or patience ends."""
+        end_s = time.monotonic() + self.patience_s
+        while time.monotonic() < end_s and not self.told_to_stand(STOOD_S):
+            time.sleep(POLL_S)
+
+    def until(self, done: Callable[[], bool], what: str, limit_s: float = LIMIT_S) -> None:
+        """Wait for something before the fault. Raises NotBegun."""
+        end_s = time.monotonic() + limit_s
+        while not done():
+            if time.monotonic() > end_s:
+                raise NotBegun(f"{what}: not within {limit_s:.0f} s; {self.describe()}")
+            time.sleep(POLL_S)
+
+    # What is seen -------------------------------------------------------------------------------
+
+    def told_to_stand(self, for_s: float) -> bool:
+        """Tell whether every command of a while was zero."""
+        now_s = time.monotonic()
+        if self.from_s is not None and now_s - self.from_s < for_s:
+            return False
+        newest = between(self.adapter.record.commands, now_s - for_s)
+        return bool(newest) and all(
+            max(abs(one.left_radps), abs(one.right_radps)) <= CREEP_RADPS or not one.enabled
+            for one in newest
+        )
+
+    def moves(self) -> bool:
+        """Tell whether the robot drives, and the bridge says so."""
+        words, truths = self.adapter.record.words, self.adapter.record.truths
+        moving = bool(truths) and abs(truths[-1].v_mps) > MOVING_MPS
+        return moving and bool(words) and words[-1].moves
+
+    def drives_fast(self) -> bool:
+        """Tell whether it drives about as fast as it does."""
+        return self.moves() and abs(self.adapter.record.truths[-1].v_mps) > FAST_MPS
+
+    def describe(self) -> str:
+        """Say what the bridge says."""
+        status = self.adapter.status()
+        if status is None:
+            return "the bridge says nothing"
+        rows = ", ".join(row.row for row in status.rows) or "-"
+        owner = status.owner.planner_id if status.owner else "nobody"
+        held = status.held.reason if status.held else "not held"
+        return f"{status.mode}, {held}, owner {owner}, rows {rows}"
+
+    # Other processes ----------------------------------------------------------------------------
+
+    @contextmanager
+    def helper(self, module: str, task: dict[str, Any], through: str | None = None) -> Iterator[_H]:
+        """Start a helper, wait until it has loaded; ``go`` lets it begin."""
+        command = self.adapter.helper(module, [], through)
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        helper = _H(process, task)
+        try:
+            helper.hear("ready")
+            yield helper
+        finally:
+            helper.end()
+
+    def hand_over(self, through: str | None = None) -> _H:
+        """Let a brain of the same name, in a process of its own, drive on in place of ours."""
+        brain, track = self.brain, self.brain.track
+        task = {
+            "kind": brain.kind, "brain_id": brain.brain_id, "mission": brain.mission,
+            "start": track.start, "end": track.end, "heading": brain.heading, "leg": brain.leg,
+            "missions": brain.missions,
+        }  # fmt: skip
+        puppet = self.stack.enter_context(self.helper("puppet", task, through))
+        self.driver.breaker = mute
+        puppet.task |= {"heading": brain.heading, "leg": brain.leg, "mission": brain.mission}
+        puppet.go()
+        time.sleep(0.4)  # what our own brain has said is stale by now
+        self.until(self.moves, "the handed-over brain drives")
+        return puppet
+
+    def rest(self) -> None:
+        """Bring the robot to stand under a live owner without a grant, armed and not held."""
+        self.brain.asks = False
+        self.driver.breaker = plain
+        stop_id = f"kit-{self.chance.getrandbits(48):x}"
+        self.adapter.say("cmd/stop", json.dumps({"id": stop_id, "source": "kit"}).encode())
+        self.until(lambda: self.told_to_stand(0.1), "standing after a stop")
+        self.until(self._resumed, "resume")
+
+    def _resumed(self) -> bool:
+        status = self.status
+        if status.held is not None:
+            self.adapter.operate("resume")
+            time.sleep(0.1)
+            return False
+        mine = status.owner is not None and status.owner.planner_id == self.brain.brain_id
+        return mine and status.grant is None and status.mode == "HOLD"
+
+
+class _H:
+    """Hold one helper process."""
+
+    def __init__(self, process: subprocess.Popen[bytes], task: dict[str, Any]) -> None:
+        self.process, self.task = process, task
+
+    def go(self) -> None:
+        """Let it begin."""
+        if self.process.stdin is not None:
+            self.process.stdin.write(json.dumps(self.task).encode() + b"\n")
+            self.process.stdin.flush()
+        self.hear("going")
+
+    def hear(self, word: str) -> None:
+        """Wait for a line. Raises NotBegun."""
+        line = self.process.stdout.readline().strip() if self.process.stdout else b""
+        if line != word.encode():
+            raise NotBegun(f"a helper said {line!r} instead of {word}")
+
+    def end(self) -> str:
+        """Let it finish, else kill it; return what else it said."""
+        try:
+            said, _ = self.process.communicate(timeout=2.0)
+        except (subprocess.TimeoutExpired, ValueError, BrokenPipeError):
+            self.process.kill()
+            self.process.wait()
+            return ""
+        return said.decode(errors="replace") if said else ""

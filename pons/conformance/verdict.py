@@ -1,0 +1,220 @@
+"""Judge one span of a record, from outside: a cell for each thing that must hold. Pure.
+
+Every cell is written as its accepting condition; what can't be measured fails.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from pons.conformance.record import between
+
+if TYPE_CHECKING:
+    from pons.conformance.bounds import Bounds
+    from pons.conformance.record import Command, Record, Wheels
+
+EPS_MPS = 1e-3
+EPS_RADPS = 2e-3
+CREEP_RADPS = 1e-6
+WINDOW = 10
+"""Commands over which a change of speed is judged: a tick that ran late makes up for it."""
+LATE_S = 0.02
+UNASKED_RADPS = 0.1
+"""A wheel may grow by so much between two words that name no motion: a change of mode and back, too
+quick to be told, moves a wheel by less."""
+CLOSE_TICKS = 12
+MEASURED_S = 0.15
+STANDING_MPS = 0.03
+STANDING_RADPS = 0.06
+TICKS_OFF = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """Give one verdict with its figure. ``ok`` None: nothing is asked here."""
+
+    ok: bool | None
+    figure: str
+
+
+NOT_ASKED = Cell(None, "-")
+
+
+def speed(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
+    """Hold every command within the robot's speeds."""
+    commands = between(record.commands, from_s, to_s)
+    if not commands:
+        return Cell(False, "no command was seen")
+    bad = [text for at_s, text in record.unreadable if from_s <= at_s <= to_s]
+    if bad:
+        return Cell(False, f"unreadable command: {bad[0][:60]}")
+    v = w = wheel = 0.0
+    for one in commands:
+        left, right = bounds.rim_mps(one.left_radps), bounds.rim_mps(one.right_radps)
+        v = max(v, abs(left + right) / 2)
+        w = max(w, abs(right - left) / bounds.wheel_separation_m)
+        wheel = max(wheel, abs(one.left_radps), abs(one.right_radps))
+    ok = (
+        v <= bounds.speed_mps + EPS_MPS
+        and w <= bounds.turn_radps + EPS_RADPS
+        and wheel <= bounds.wheel_radps + EPS_RADPS
+    )
+    return Cell(ok, f"{v:.2f} m/s {w:.2f} rad/s")
+
+
+def acceleration(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
+    """Hold each wheel's change within its rates; show the quickest growth and the quickest braking.
+
+    A command between what was sent and what the wheel does is no acceleration of the robot: a
+    bridge that begins to follow begins at what is measured. Cutting the torque is no deceleration.
+    """
+    commands = between(record.commands, from_s, to_s)
+    if len(commands) <= WINDOW:
+        return Cell(False, "too few commands were seen")
+    wheels = between(record.wheels, from_s - MEASURED_S, to_s)
+    grew = braked = over = 0.0
+    for span, lent_s in ((1, bounds.period_s), (WINDOW, LATE_S)):
+        for first, last in zip(commands, commands[span:], strict=False):
+            if not (first.enabled and last.enabled):
+                continue
+            s = max((last.number - first.number) * bounds.period_s, last.at_s - first.at_s)
+            for side in ("left_radps", "right_radps"):
+                was, now = (bounds.rim_mps(getattr(one, side)) for one in (first, last))
+                if span == WINDOW:
+                    grew = max(grew, (abs(now) - abs(was)) / s)
+                    braked = max(braked, (abs(was) - abs(now)) / s)
+                if abs(now - was) > bounds.accel_mps2 * s:  # rarely
+                    really = _really(wheels, side, bounds, first.at_s, last.at_s)
+                    over = max(over, _over(was, now, s + lent_s, really, bounds))
+    return Cell(over <= EPS_MPS, f"+{grew:.2f} -{braked:.2f} m/s2")
+
+
+def _really(
+    wheels: list[Wheels], side: str, bounds: Bounds, from_s: float, to_s: float
+) -> list[float]:
+    """Return what the wheel did at its rim about then."""
+    near = between(wheels, from_s - MEASURED_S, to_s)
+    return [getattr(one, side) * bounds.wheel_radius_m for one in near]
+
+
+def _over(was: float, now: float, s: float, really: list[float], bounds: Bounds) -> float:
+    """Return by how much a wheel's change exceeds what its rates allow [m/s]."""
+    sign = 1.0 if now >= 0.0 else -1.0
+    most = max([was * sign, 0.0, *(one * sign for one in really)])
+    grew = abs(now) - most - bounds.accel_mps2 * s
+    low, high = min([was, *really]), max([was, *really])
+    away = max(low - now, now - high, 0.0)
+    return max(grew, away - bounds.hardest_mps2 * s)
+
+
+def stands(
+    record: Record, bounds: Bounds, from_s: float, to_s: float, noticed_s: float | None
+) -> Cell:
+    """Hold that the wheels are told to stand within their ticks, and stay told so.
+
+    Args:
+        record: what was seen.
+        bounds: of the robot.
+        from_s: when it went wrong.
+        to_s: until when it must stand.
+        noticed_s: within which the bridge must have begun to stop; None: it stood and must stay.
+    """
+    commands = between(record.commands, from_s, to_s)
+    if not commands:
+        return Cell(False, "no command was seen")
+    before = between(record.commands, from_s - 0.5, from_s)
+    start = before[-1] if before else commands[0]
+    rims = [bounds.rim_mps(speed) for one in (*before[-1:], *commands) for speed in _both(one)]
+    fastest = min(max(map(abs, rims)), _fastest(bounds))
+    most = 0 if noticed_s is None else bounds.stand_ticks(noticed_s, fastest)
+    turning = [one for one in commands if _turns(one)]
+    if turning and turning[-1] is commands[-1]:
+        return Cell(False, f"still moves after {commands[-1].number - start.number} ticks")
+    took = turning[-1].number + 1 - start.number if turning else 0
+    newest = between(record.truths, to_s - 0.1, to_s)[-1:]
+    rests = all(
+        abs(one.v_mps) <= STANDING_MPS and abs(one.w_radps) <= STANDING_RADPS for one in newest
+    )
+    told = "" if rests else ", but the robot moves"
+    return Cell(bool(newest) and rests and took <= most, f"{took} of {most} ticks{told}")
+
+
+def _fastest(bounds: Bounds) -> float:
+    return bounds.speed_mps + bounds.turn_radps * bounds.wheel_separation_m / 2
+
+
+def _both(command: Command) -> tuple[float, float]:
+    return command.left_radps, command.right_radps
+
+
+def _turns(command: Command) -> bool:
+    return command.enabled and max(map(abs, _both(command))) > CREEP_RADPS
+
+
+def unasked(record: Record, from_s: float, to_s: float) -> Cell:
+    """Hold that no wheel speeds up while the bridge itself says that it follows nobody."""
+    words = between(record.words, from_s, to_s)
+    commands = between(record.commands, from_s, to_s)
+    grew, looked = 0.0, 0
+    index = 0
+    for first, last in pairwise(words):
+        if first.moves or last.moves or not last.tick - first.tick <= CLOSE_TICKS:
+            continue
+        while index < len(commands) and record.tick(commands[index]) < first.tick:
+            index += 1
+        part = []
+        for one in commands[index:]:
+            if record.tick(one) > last.tick:
+                break
+            part.append(one)
+        looked += len(part)
+        if part:
+            grew = max(grew, _growth(part))
+    return Cell(grew <= UNASKED_RADPS, f"{grew:.2f} rad/s in {looked}")
+
+
+def _growth(part: list[Command]) -> float:
+    """Return the most by which either wheel was faster in a span than at its start [rad/s]."""
+    most = 0.0
+    for side in zip(*(_both(one) for one in part), strict=True):
+        most = max(most, max(map(abs, side)) - abs(side[0]))
+    return most
+
+
+def alive(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
+    """Hold that it is one run, that each period is a tick or told as missed, one command each.
+
+    The first and the last word are compared by the bridge's own clock, which is this machine's.
+    """
+    words = between(record.words, from_s, to_s)
+    if len(words) < 2:
+        return Cell(False, "silent")
+    first, last = words[0], words[-1]
+    if first.boot != last.boot:
+        return Cell(False, "it was started anew")
+    ticks, missed = last.tick - first.tick, last.missed - first.missed
+    due = (last.made_s - first.made_s) / bounds.period_s
+    numbers = [
+        one.number
+        for one in between(record.commands, from_s, to_s)
+        if first.tick <= record.tick(one) <= last.tick
+    ]
+    once = len(set(numbers)) == len(numbers)
+    known = abs(ticks + missed - due) <= TICKS_OFF
+    quiet_s = max(b.at_s - a.at_s for a, b in pairwise(words))
+    heard = to_s - last.at_s <= 1.0 and quiet_s <= 1.0
+    said = "" if once else ", two commands of one number"
+    said += "" if heard else f", silent for {max(quiet_s, to_s - last.at_s):.1f} s"
+    text = f"{ticks}" + (f" + {missed} missed" if missed else "") + f" of {due:.0f}{said}"
+    return Cell(known and once and heard, text)
+
+
+def contacts(record: Record, from_s: float, to_s: float) -> Cell:
+    """Hold that the robot touched nothing."""
+    seen = between(record.truths, from_s, to_s)
+    if not seen:
+        return Cell(False, "no truth was heard")
+    count = seen[-1].contacts - seen[0].contacts
+    return Cell(count == 0, str(count))
