@@ -55,14 +55,8 @@ class Adapter(Protocol):
         """Make an operator's request, with a proof; return its bytes."""
         ...
 
-    def helper(self, module: str, words: list[str], through: str | None) -> list[str]:
-        """Return the command of a helper that speaks to this bridge by a link of its own.
-
-        Args:
-            module: below ``pons.conformance``: ``puppet`` or ``flooder``.
-            words: its own arguments.
-            through: host:port of a proxy to dial in the bridge's place.
-        """
+    def helper(self) -> list[str]:
+        """Return the command of ``pons.conformance.helper``: a link of its own to this bridge."""
         ...
 
     def door(self) -> str:

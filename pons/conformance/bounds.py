@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from wire import RobotDescription
 
 PERIOD_S = 0.01
+TRIM_MPS = 0.12
+"""At most 0.10 m/s of correction, and the lag fed forward."""
 SLACK_TICKS = 8
 """Two for the way there and back, and what a judge that shares the machine sees late."""
 
@@ -30,7 +32,8 @@ class Bounds:
     """An ordinary stop, at the wheels."""
     hardest_mps2: float
     jerk_mps3: float
-    lag_s: float
+    trim_mps: float
+    """What wheel control may add to a wheel's command, at the rim, to make it turn as meant."""
     period_s: float = PERIOD_S
 
     @classmethod
@@ -41,7 +44,7 @@ class Bounds:
             base.wheel_radius_m, base.wheel_separation_m, robot.drive.dead_zone_radps,
             limits.max_speed_mps, limits.max_turn_radps, limits.max_wheel_radps,
             limits.max_accel_mps2, limits.max_decel_mps2, limits.hardest_decel_mps2,
-            limits.stop_jerk_mps3, robot.drive.lag_s,
+            limits.stop_jerk_mps3, TRIM_MPS,
         )  # fmt: skip
 
     def rim_mps(self, wheel_radps: float) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pons.conformance.driver import mute
 from pons.conformance.fault import PATH_S, SILENT, VELOCITY_S, Fault, W, X
+from pons.conformance.helper import FLOODER
 from pons.conformance.proxy import Proxy, Way
 
 if TYPE_CHECKING:
@@ -67,10 +68,10 @@ def _buffered(stage: Stage) -> None:
 
 def _flooded(task: Callable[[Stage], dict[str, Any]]) -> Callable[[Stage], None]:
     def play(stage: Stage) -> None:
-        flooder = stage.stack.enter_context(stage.helper("flooder", task(stage)))
-        stage.until(stage.moves, "driving before the flood")
+        flooder = stage.borrow()
+        stage.until(stage.drives_fast, "driving before the flood")
         stage.begin()
-        flooder.go()
+        flooder.go({"be": FLOODER, **task(stage)})
         stage.until_standing()
         stage.wait(0.5)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 from wire.keys import COMMANDS, OPS, Party
@@ -33,9 +32,3 @@ def dial(party: Party, robot_id: str, home: Path, through: str | None) -> Sessio
     """Open a session of a home, the bridge behind a proxy where one is named."""
     endpoints = Endpoints(home, {Party.BRIDGE: through}) if through else None
     return open_session(party, robot_id, home, endpoints)
-
-
-def read_task(line: str) -> dict[str, Any]:
-    """Return a helper's task from its one line of standard input; empty where there is none."""
-    task: dict[str, Any] = json.loads(line or "{}")
-    return task

@@ -40,11 +40,16 @@ class Word:
 
 @dataclass(frozen=True, slots=True)
 class Wheels:
-    """Hold how fast the wheels really turned."""
+    """Hold how far the wheels have really turned."""
 
     at_s: float
-    left_radps: float
-    right_radps: float
+    made_s: float
+    """On the drive's own clock."""
+    number: int
+    """Rises by one with each period of the drive; a simulator that is held up skips some."""
+    left_rad: float
+    right_rad: float
+    torque: bool
 
 
 @dataclass(frozen=True, slots=True)

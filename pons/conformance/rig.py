@@ -108,12 +108,10 @@ class Rig:
         self.say(f"op/{kind}", payload)
         return payload
 
-    def helper(self, module: str, words: list[str], through: str | None) -> list[str]:
+    def helper(self) -> list[str]:
         """Return the command of a helper, which dies with this process."""
-        bound = [sys.executable, "-m", "pons.child", str(os.getpid())]
-        proxy = [through] if through else []
-        return [*bound, f"pons.conformance.{module}", str(self._home), self._robot.id,
-                *proxy, *words]  # fmt: skip
+        words = ["pons.conformance.helper", str(self._home), self._robot.id]
+        return [sys.executable, "-m", "pons.child", str(os.getpid()), *words]
 
     def door(self) -> str:
         """Return the bridge's socket."""

@@ -3,30 +3,34 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import time
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pons.conformance.driver import mute, plain
+from pons.conformance.helper import PUPPET
+from pons.conformance.helpers import HelperLost
 from pons.conformance.record import between
 from pons.conformance.verdict import CREEP_RADPS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from pons.conformance.adapter import Adapter
     from pons.conformance.brain import Brain
     from pons.conformance.driver import Breaker, Driver
+    from pons.conformance.helpers import Helper, Helpers
     from wire import Status
 
 POLL_S = 0.005
 STOOD_S = 0.25
 """Watched on for so long, once it stands."""
 LIMIT_S = 8.0
-WATCH_S = 1.0
+WATCH_S = 0.9
+GONE_S = 0.4
+"""What a brain that fell silent has said is stale by then."""
 MOVING_MPS, FAST_MPS = 0.15, 0.38
 
 
@@ -40,6 +44,7 @@ class Stage:
 
     adapter: Adapter
     driver: Driver
+    helpers: Helpers
     chance: Random
     patience_s: float
     """How long to wait for it to stand before that is called a failure."""
@@ -135,32 +140,26 @@ class Stage:
 
     # Other processes ----------------------------------------------------------------------------
 
-    @contextmanager
-    def helper(self, module: str, task: dict[str, Any], through: str | None = None) -> Iterator[_H]:
-        """Start a helper, wait until it has loaded; ``go`` lets it begin."""
-        command = self.adapter.helper(module, [], through)
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        helper = _H(process, task)
+    def borrow(self) -> Helper:
+        """Return a loaded helper that ends with this play. Raises NotBegun."""
         try:
-            helper.hear("ready")
-            yield helper
-        finally:
-            helper.end()
+            helper = self.helpers.take()
+        except HelperLost as lost:
+            raise NotBegun(str(lost)) from None
+        self.stack.callback(helper.end)
+        return helper
 
-    def hand_over(self, through: str | None = None) -> _H:
+    def hand_over(self, through: str | None = None) -> Helper:
         """Let a brain of the same name, in a process of its own, drive on in place of ours."""
-        brain, track = self.brain, self.brain.track
-        task = {
-            "kind": brain.kind, "brain_id": brain.brain_id, "mission": brain.mission,
-            "start": track.start, "end": track.end, "heading": brain.heading, "leg": brain.leg,
-            "missions": brain.missions,
-        }  # fmt: skip
-        puppet = self.stack.enter_context(self.helper("puppet", task, through))
+        brain, puppet = self.brain, self.borrow()
         self.driver.breaker = mute
-        puppet.task |= {"heading": brain.heading, "leg": brain.leg, "mission": brain.mission}
-        puppet.go()
-        time.sleep(0.4)  # what our own brain has said is stale by now
-        self.until(self.moves, "the handed-over brain drives")
+        puppet.go({
+            "be": PUPPET, "through": through, "kind": brain.kind, "brain_id": brain.brain_id,
+            "mission": brain.mission, "missions": brain.missions, "leg": brain.leg,
+            "heading": brain.heading, "start": brain.track.start, "end": brain.track.end,
+        })  # fmt: skip
+        time.sleep(GONE_S)
+        self.until(self.drives_fast, "the handed-over brain drives")
         return puppet
 
     def rest(self) -> None:
@@ -180,33 +179,3 @@ class Stage:
             return False
         mine = status.owner is not None and status.owner.planner_id == self.brain.brain_id
         return mine and status.grant is None and status.mode == "HOLD"
-
-
-class _H:
-    """Hold one helper process."""
-
-    def __init__(self, process: subprocess.Popen[bytes], task: dict[str, Any]) -> None:
-        self.process, self.task = process, task
-
-    def go(self) -> None:
-        """Let it begin."""
-        if self.process.stdin is not None:
-            self.process.stdin.write(json.dumps(self.task).encode() + b"\n")
-            self.process.stdin.flush()
-        self.hear("going")
-
-    def hear(self, word: str) -> None:
-        """Wait for a line. Raises NotBegun."""
-        line = self.process.stdout.readline().strip() if self.process.stdout else b""
-        if line != word.encode():
-            raise NotBegun(f"a helper said {line!r} instead of {word}")
-
-    def end(self) -> str:
-        """Let it finish, else kill it; return what else it said."""
-        try:
-            said, _ = self.process.communicate(timeout=2.0)
-        except (subprocess.TimeoutExpired, ValueError, BrokenPipeError):
-            self.process.kill()
-            self.process.wait()
-            return ""
-        return said.decode(errors="replace") if said else ""

@@ -114,7 +114,10 @@ class Watch:
     def _hear_robot(self, now_s: float) -> None:
         for state in _all(self._wheels.drain_bytes(), DRIVE_STATE):
             if isinstance(state, DriveState):
-                self.record.wheels.append(Wheels(now_s, state.left_radps, state.right_radps))
+                turned = (state.left_rad, state.right_rad)
+                self.record.wheels.append(
+                    Wheels(now_s, state.stamp_s, state.seq, *turned, state.enabled)
+                )
         for truth in _all(self._truths.drain_bytes(), SIM_TRUTH):
             if isinstance(truth, SimTruth):
                 twist = truth.twist
