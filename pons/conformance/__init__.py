@@ -4,6 +4,19 @@ The kit knows nothing of a bridge's inside: it sees the commands that reach the 
 simulator says is true, and the bridge's own status. docs/conformance.md holds the matrix.
 """
 
-from pons.conformance.command import main
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+
+
+def main(settings: Settings, arguments: list[str]) -> int:
+    """Be ``pons conformance``."""
+    from pons.conformance import command  # late: its helpers need no map, and must load quickly
+
+    return command.main(settings, arguments)
+
 
 __all__ = ["main"]

@@ -21,7 +21,7 @@ from pons.conformance.adapter import CannotTest
 from pons.conformance.catalogue import FAULTS, chosen
 from pons.conformance.rig import OURS, Rig
 from pons.conformance.runner import play_all
-from pons.conformance.track import find_track
+from pons.conformance.site_track import find_track
 from pons.settings import CHECKOUT
 from wire import Misconfigured, load_robot
 

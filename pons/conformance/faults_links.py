@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pons.conformance.driver import mute
 from pons.conformance.fault import PATH_S, SILENT, VELOCITY_S, Fault, W, X
-from pons.conformance.helper import FLOODER
+from pons.conformance.helpers import FLOODER
 from pons.conformance.proxy import Proxy, Way
 
 if TYPE_CHECKING:

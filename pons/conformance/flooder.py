@@ -35,7 +35,7 @@ def halves(template: dict[str, Any], status: Status | None) -> tuple[bytes, byte
 
 
 def flood(session: Session, task: dict[str, Any]) -> None:
-    """Flood ``key`` with ``hertz`` messages made of ``template``, or with ``text``; say how many."""
+    """Flood ``key`` at ``hertz`` with messages made of ``template``, or with ``text``; count."""
     ears, mouth = session.subscriber(STATUS), Mouth(session)
     ended = threading.Event()
     threading.Thread(target=_await_end, args=(ended,), daemon=True).start()

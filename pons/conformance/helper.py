@@ -15,14 +15,13 @@ from typing import TYPE_CHECKING, Any
 from pons.conformance.brain import Brain
 from pons.conformance.driver import Driver, plain
 from pons.conformance.flooder import flood
+from pons.conformance.helpers import FLOODER
 from pons.conformance.mouth import Mouth, dial
 from pons.conformance.track import Track
 from wire.keys import STATUS, Party
 
 if TYPE_CHECKING:
     from wire.session import Session
-
-PUPPET, FLOODER = "puppet", "flooder"
 
 
 def main(arguments: list[str]) -> int:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from pons.conformance.adapter import Adapter
 
+PUPPET, FLOODER = "puppet", "flooder"
+"""What a helper can be."""
 PATIENCE_S = 2.0
 
 

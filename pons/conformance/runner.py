@@ -33,6 +33,7 @@ COLUMNS = ("speed", "acceleration", "stands", "unasked", "ticks", "contacts", AG
 AGAIN_S = 12.0
 ACT_S = 0.2
 PATIENCE_S = 3.0
+TRIES = 3
 GIVE_UP = 3
 """A bridge that can't be driven after so many faults running has failed all that is left."""
 NAMES: dict[OwnerKind, str] = {X: "velocity", W: "waypoints"}
@@ -86,31 +87,37 @@ class Runner:
         lost = 0
         for fault in faults:
             if lost < GIVE_UP:
-                cells = self._play(fault, drives=drives.ok is True)
+                cells = self._play(fault, time.monotonic(), TRIES, drives=drives.ok is True)
             else:
                 cells = dict.fromkeys(COLUMNS, NOT_ASKED) | {AGAIN: Cell(False, "not played")}
             drives = cells[AGAIN]
             lost = 0 if drives.ok else lost + 1
             yield Line(fault.name, fault.what, NAMES[self.driver.brain.kind], cells)
 
-    def _play(self, fault: Fault, *, drives: bool) -> dict[str, Cell]:
+    def _play(self, fault: Fault, from_s: float, tries: int, *, drives: bool) -> dict[str, Cell]:
+        """Play it; what could not begin, for the machine held something up, is begun again."""
         stage = self._stage()
-        began_s, trouble = time.monotonic(), None
+        trouble = self._try(stage, fault) if drives else "the good brain does not drive"
+        drives_again = self.again()
+        self._helpers.load()
+        if trouble is not None and drives_again.ok and tries > 1:
+            return self._play(fault, from_s, tries - 1, drives=True)
+        stands = Cell(False, trouble) if trouble else _stands(stage, fault)
+        return self._judge(from_s) | {"stands": stands, AGAIN: drives_again}
+
+    def _try(self, stage: Stage, fault: Fault) -> str | None:
+        """Play it once; return why it could not begin."""
         with stage.stack:
             try:
-                if not drives:
-                    raise NotBegun(f"the good brain does not drive; {stage.describe()}")
                 if not fault.rest:
                     stage.until(stage.drives_fast, "driving fast")
                 fault.play(stage)
             except NotBegun as why:
-                trouble = str(why)
-            if stage.to_s is None:
-                stage.end()
-        drives_again = self.again()
-        self._helpers.load()
-        stands = Cell(False, trouble) if trouble else _stands(stage, fault)
-        return self._judge(began_s) | {"stands": stands, AGAIN: drives_again}
+                return str(why)
+            finally:
+                if stage.to_s is None:
+                    stage.end()
+        return None
 
     def _judge(self, from_s: float) -> dict[str, Cell]:
         """Judge what must hold at every moment, up to now."""

@@ -10,8 +10,7 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from pons.conformance.driver import mute, plain
-from pons.conformance.helper import PUPPET
-from pons.conformance.helpers import HelperLost
+from pons.conformance.helpers import PUPPET, HelperLost
 from pons.conformance.record import between
 from pons.conformance.verdict import CREEP_RADPS
 
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
 POLL_S = 0.005
 STOOD_S = 0.25
 """Watched on for so long, once it stands."""
-LIMIT_S = 8.0
+LIMIT_S = 5.0
 WATCH_S = 0.9
 GONE_S = 0.4
 """What a brain that fell silent has said is stale by then."""

@@ -1,0 +1,207 @@
+"""The kit's parts: good words are good, broken ones are broken, and metal is refused."""
+
+from __future__ import annotations
+
+import json
+import socket
+import time
+from pathlib import Path
+from random import Random
+from typing import TYPE_CHECKING, Any, cast
+
+import pytest
+
+from pons.conformance import matrix
+from pons.conformance.adapter import CannotTest
+from pons.conformance.brain import Brain
+from pons.conformance.catalogue import FAULTS, chosen
+from pons.conformance.driver import pack, plain
+from pons.conformance.fault import W, X
+from pons.conformance.flooder import halves
+from pons.conformance.proxy import Proxy, Way
+from pons.conformance.rig import unfit
+from pons.conformance.runner import COLUMNS, Line
+from pons.conformance.site_track import find_track
+from pons.conformance.verdict import NOT_ASKED, Cell
+from tests.wire.examples import STATUS
+from wire import GrantLeft, Mode, Owner, Pose2, Record, Status, decode
+from wire.keys import COMMANDS
+
+if TYPE_CHECKING:
+    from wire import OwnerKind
+    from wire.keys import Key
+
+SITES = Path(__file__).resolve().parents[3] / "sites"
+KEYS: dict[str, Key[Record]] = {key.path: cast("Key[Record]", key) for key in COMMANDS}
+
+
+def status(**more: Any) -> Status:
+    return STATUS.model_copy(update={"held": None, "base_in_map": Pose2(1.5, 2.0, 1.5), **more})
+
+
+def brain(kind: OwnerKind, site: str = "two_room") -> Brain:
+    return Brain(kind, "kit", find_track(SITES / site, 0.3))
+
+
+def owned(kind: OwnerKind, **more: Any) -> Status:
+    grant = GrantLeft(mission="line-0", metres=50.0, seconds=600.0)
+    owner = Owner(planner_id="kit", kind=kind)
+    return status(**{"owner": owner, "grant": grant, "mode": Mode.ACTIVE, **more})
+
+
+@pytest.mark.parametrize("kind", [X, W])
+def test_a_good_brain_says_what_the_wire_takes(kind: OwnerKind) -> None:
+    good = brain(kind)
+    said = [
+        *good.answer(status(owner=None), 0.0, 1),
+        *good.answer(owned(kind, grant=None), 1.0, 2),
+        *good.answer(owned(kind), 2.0, 3),
+    ]
+    command = "cmd/external" if kind == X else "cmd/waypoints"
+    assert {key for key, _ in said} == {"cmd/hello", "cmd/heartbeat", "cmd/grant", command}
+    for key, payload in plain(said, status()):
+        message = decode(KEYS[key], payload)
+        assert isinstance(message, KEYS[key].message), (key, message)
+
+
+def test_a_good_brain_turns_back_at_both_ends_and_asks_for_more() -> None:
+    good = brain(W)
+    ends = [Pose2(*good.track.at(good.track.length_m), 1.5), Pose2(*good.track.at(0.0), 1.5)]
+    speeds = []
+    for number, pose in enumerate((*ends, *ends)):
+        said = dict(good.answer(owned(W, base_in_map=pose), float(number), number))
+        speeds += [point["speed_mps"] for point in said["cmd/waypoints"]["points"][:1]]
+    assert [speed > 0.0 for speed in speeds] == [False, True, False, True]
+    spent = GrantLeft(mission="line-0", metres=1.0, seconds=600.0)
+    said = dict(good.answer(owned(W, grant=spent), 9.0, 9))
+    assert said["cmd/grant"]["mission"] != "line-0"
+
+
+def test_every_fault_has_one_row_for_each_brain_and_knows_when_to_stand() -> None:
+    rows = [(fault.name, kind) for fault in FAULTS for kind in fault.kinds]
+    assert len(set(rows)) == len(rows)
+    assert not [fault.name for fault in FAULTS if fault.rest and fault.noticed_s]
+    assert {fault.name for fault in chosen([], quick=True)} < {fault.name for fault in FAULTS}
+    assert [fault.name for fault in chosen(["flood"], quick=False)] == ["flood"]
+    with pytest.raises(CannotTest, match=r"fault_unknown: nonesuch; there are: .*two_brains"):
+        chosen(["nonesuch"], quick=False)
+
+
+def test_a_flood_looks_valid() -> None:
+    good = brain(X)
+    first, last = halves(good.velocity(status(), 0, 0.5, 0.0)[1], owned(X))
+    message = decode(KEYS["cmd/external"], first + b"17" + last)
+    assert isinstance(message, KEYS["cmd/external"].message)
+
+
+@pytest.mark.parametrize("site", ["two_room", "home"])
+def test_each_site_has_a_line_to_drive_on(site: str) -> None:
+    track = find_track(SITES / site, 0.3)
+    assert 1.6 <= track.length_m <= 3.5
+    along_m, left_m = track.along(track.middle)
+    assert along_m == pytest.approx(track.length_m / 2)
+    assert left_m == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_robot_too_wide_is_told_so() -> None:
+    with pytest.raises(CannotTest, match=r"no_track: .* the longest has"):
+        find_track(SITES / "two_room", 1.3)
+
+
+def test_metal_is_refused_and_so_is_a_robot_that_somebody_owns() -> None:
+    virtual = status(owner=None)
+    assert unfit(virtual) is None
+    metal = virtual.model_copy(
+        update={"drive": virtual.drive.model_copy(update={"virtual": False})}
+    )
+    assert (unfit(metal) or "").startswith("metal: ")
+    assert (unfit(owned(W)) or "").startswith("owned: planner kit")
+
+
+class Door:
+    """Listen as a bridge would, and read what comes."""
+
+    def __init__(self, path: Path) -> None:
+        self.listener = socket.socket(socket.AF_UNIX)
+        self.listener.bind(str(path))
+        self.listener.listen()
+        self.listener.settimeout(2.0)
+
+    def accept(self) -> socket.socket:
+        link, _ = self.listener.accept()
+        link.settimeout(2.0)
+        return link
+
+
+def test_a_proxy_delivers_keeps_back_and_reads_no_more(tmp_path: Path) -> None:
+    door = Door(tmp_path / "s")
+    proxy = Proxy(str(tmp_path / "s"))
+    host, port = proxy.address.split(":")
+    with socket.create_connection((host, int(port))) as near, door.accept() as far:
+        near.settimeout(2.0)
+        near.sendall(b"one")
+        assert far.recv(9) == b"one"
+        far.sendall(b"two")
+        assert near.recv(9) == b"two"
+        proxy.way = Way.KEPT
+        time.sleep(0.05)
+        near.sendall(b"three")
+        far.settimeout(0.1)
+        with pytest.raises(TimeoutError):
+            far.recv(9)
+        far.sendall(b"heard")
+        assert near.recv(9) == b"heard", "the other way stays open"
+        near.shutdown(socket.SHUT_WR)
+        proxy.way = Way.OPEN
+        far.settimeout(2.0)
+        assert far.recv(9) == b"three", "delivered though its sender is gone"
+    proxy.close()
+    door.listener.close()
+
+
+def test_a_stalled_proxy_holds_both_ways(tmp_path: Path) -> None:
+    door = Door(tmp_path / "s")
+    proxy = Proxy(str(tmp_path / "s"))
+    host, port = proxy.address.split(":")
+    with socket.create_connection((host, int(port))) as near, door.accept() as far:
+        near.settimeout(0.1)
+        far.settimeout(0.1)
+        proxy.way = Way.STALLED
+        time.sleep(0.05)
+        for sender, hearer in ((near, far), (far, near)):
+            sender.sendall(b"x")
+            with pytest.raises(TimeoutError):
+                hearer.recv(9)
+    proxy.close()
+    door.listener.close()
+
+
+def lines() -> list[Line]:
+    good = dict.fromkeys(COLUMNS, Cell(True, "1")) | {"stands": NOT_ASKED}
+    bad = good | {"speed": Cell(False, "3.00 m/s")}
+    return [Line("nan", "NaN", "velocity", good), Line("flood", "much", "waypoints", bad)]
+
+
+def test_the_matrix_says_what_failed_in_every_form() -> None:
+    origin = matrix.Origin("bridge", "two_room", "abc", "2026-01-01", "a machine", 1)
+    assert "FAIL 3.00 m/s" in matrix.table(lines())
+    assert "2 rows, 1 failed; 12 cells measured, 1 failed: FAIL" in matrix.summary(lines())
+    assert matrix.summary(lines()[:1]).endswith("PASS")
+    assert matrix.summary([]).endswith("FAIL"), "nothing played is nothing proven"
+    told = json.loads(pack(matrix.record(lines(), origin)))
+    assert [row["passed"] for row in told["rows"]] == [True, False]
+    assert told["passed"] is False
+    page = matrix.into_page(f"a\n{matrix.BEGIN}\nold\n{matrix.END}\nb\n",
+                            matrix.markdown(lines(), origin))  # fmt: skip
+    assert page.startswith("a\n")
+    assert page.endswith("\nb\n")
+    assert "old" not in page
+    assert "| waypoints | `flood` | much | FAIL 3.00 m/s |" in page
+    with pytest.raises(ValueError, match="no <!-- matrix"):
+        matrix.into_page("a page", "x")
+
+
+def test_chance_is_seeded() -> None:
+    junk = chosen(["junk"], quick=False)[0]
+    assert junk.noticed_s == {X: 0.25, W: 0.5}
+    assert Random("1 external").random() == Random("1 external").random()

@@ -1,0 +1,138 @@
+"""Each cell holds and fails for what it should: a judge that can't fail is none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from pons.conformance import verdict
+from pons.conformance.record import Record
+from tests.pons.conformance.made_up import BOUNDS, OFFSET, ramp, record
+
+END_S = 2.0
+
+
+def steady(v_mps: float) -> Record:
+    return record(END_S, lambda _s: v_mps)
+
+
+def test_the_number_of_withheld_ticks_is_learnt() -> None:
+    assert steady(0.4).offset == OFFSET
+
+
+@pytest.mark.parametrize(("v_mps", "ok"), [(0.5, True), (-0.5, True), (0.54, False), (3.0, False)])
+def test_speed(v_mps: float, ok: bool) -> None:
+    assert verdict.speed(steady(v_mps), BOUNDS, 0.0, END_S).ok is ok
+
+
+def test_turning_too_fast_fails_though_neither_wheel_is_too_fast() -> None:
+    spin = record(END_S, lambda _s: -0.35, lambda _s: 0.35)
+    assert verdict.speed(spin, BOUNDS, 0.0, END_S).ok is False
+    slower = record(END_S, lambda _s: -0.25, lambda _s: 0.25)
+    assert verdict.speed(slower, BOUNDS, 0.0, END_S).ok is True
+
+
+def test_telling_the_wheels_too_much_fails_even_where_they_do_not_follow() -> None:
+    told = record(END_S, lambda _s: 0.4, told=lambda _s: 0.8)
+    assert verdict.speed(told, BOUNDS, 0.0, END_S).ok is False
+
+
+def test_a_command_that_is_none_fails_speed() -> None:
+    made = steady(0.4)
+    made.unreadable.append((1.0, "left_radps: Input should be a valid number"))
+    cell = verdict.speed(made, BOUNDS, 0.0, END_S)
+    assert cell.ok is False
+    assert "valid number" in cell.figure
+
+
+@pytest.mark.parametrize(("rate", "ok"), [(0.5, True), (1.5, False), (40.0, False)])
+def test_acceleration(rate: float, ok: bool) -> None:
+    made = record(END_S, lambda s: min(0.5, rate * max(0.0, s - 0.5)))
+    assert verdict.acceleration(made, BOUNDS, 0.0, END_S).ok is ok
+
+
+@pytest.mark.parametrize(("rate", "ok"), [(1.0, True), (2.5, True), (8.0, False)])
+def test_braking(rate: float, ok: bool) -> None:
+    made = record(END_S, ramp(0.8, 0.5, rate))
+    assert verdict.acceleration(made, BOUNDS, 0.0, END_S).ok is ok
+
+
+def test_a_cut_of_torque_is_no_braking_but_nothing_seen_is_no_pass() -> None:
+    made = record(END_S, ramp(0.8, 0.5, 50.0))
+    made.wheels = [replace(one, torque=one.at_s < 0.8) for one in made.wheels]
+    assert verdict.acceleration(made, BOUNDS, 0.0, END_S).ok is True
+    made.wheels = [replace(one, torque=False) for one in made.wheels]
+    assert verdict.acceleration(made, BOUNDS, 0.0, END_S).ok is False
+
+
+@pytest.mark.parametrize(("after_s", "ok"), [(0.2, True), (0.3, True), (0.7, False)])
+def test_stands_in_its_ticks(after_s: float, ok: bool) -> None:
+    made = record(END_S, ramp(0.5 + after_s, 0.4, 1.0))
+    assert verdict.stands(made, BOUNDS, 0.5, END_S, 0.25).ok is ok
+
+
+def test_stands_fails_where_it_moves_on_or_starts_again() -> None:
+    assert verdict.stands(steady(0.3), BOUNDS, 0.5, END_S, 0.25).ok is False
+    again = record(END_S, lambda s: 0.0 if 0.6 < s < 1.2 else 0.3)
+    assert verdict.stands(again, BOUNDS, 0.5, END_S, 0.25).ok is False
+
+
+def test_stands_fails_where_wheels_are_told_to_but_the_robot_moves() -> None:
+    made = record(END_S, ramp(0.5, 0.4, 1.0), rests=False)
+    assert verdict.stands(made, BOUNDS, 0.5, END_S, 0.25).ok is False
+
+
+def test_what_stood_must_not_move_by_one_tick() -> None:
+    still = record(END_S, lambda _s: 0.0)
+    assert verdict.stands(still, BOUNDS, 0.5, END_S, None).ok is True
+    jerk = record(END_S, lambda s: 0.02 if 1.0 <= s < 1.01 else 0.0)
+    assert verdict.stands(jerk, BOUNDS, 0.5, END_S, None).ok is False
+
+
+def test_nothing_heard_never_passes() -> None:
+    empty = Record()
+    assert verdict.speed(empty, BOUNDS, 0.0, 1.0).ok is False
+    assert verdict.acceleration(empty, BOUNDS, 0.0, 1.0).ok is False
+    assert verdict.stands(empty, BOUNDS, 0.0, 1.0, 0.25).ok is False
+    assert verdict.alive(empty, BOUNDS, 0.0, 1.0).ok is False
+    assert verdict.contacts(empty, 0.0, 1.0).ok is False
+
+
+def test_speeding_up_while_nobody_is_followed_fails() -> None:
+    grows = record(END_S, lambda s: 0.3 * min(1.0, s), mode=lambda _s: "HOLD")
+    assert verdict.unasked(grows, 0.0, END_S).ok is False
+    ramps = record(END_S, ramp(0.2, 0.4, 1.0), mode=lambda s: "ACTIVE" if s < 0.2 else "STOPPING")
+    assert verdict.unasked(ramps, 0.0, END_S).ok is True
+    asked = record(END_S, lambda s: 0.3 * min(1.0, s))
+    assert verdict.unasked(asked, 0.0, END_S).ok is True
+
+
+def test_ticks_must_be_there_or_told_as_missed() -> None:
+    made = steady(0.4)
+    assert verdict.alive(made, BOUNDS, 0.0, END_S).ok is True
+    lost = steady(0.4)
+    lost.words = [replace(one, tick=one.tick - (20 if one.at_s > 1.0 else 0)) for one in lost.words]
+    assert verdict.alive(lost, BOUNDS, 0.0, END_S).ok is False
+    told = [replace(one, missed=20 if one.at_s > 1.0 else 0) for one in lost.words]
+    lost.words = told
+    assert verdict.alive(lost, BOUNDS, 0.0, END_S).ok is True
+
+
+def test_a_new_run_a_silence_or_two_commands_in_a_tick_fail() -> None:
+    other = steady(0.4)
+    other.words[-1] = replace(other.words[-1], boot="another")
+    assert verdict.alive(other, BOUNDS, 0.0, END_S).ok is False
+    mute = record(3.0, lambda _s: 0.4)
+    mute.words = [one for one in mute.words if one.at_s < 1.0]
+    assert verdict.alive(mute, BOUNDS, 0.0, 3.0).ok is False
+    twice = steady(0.4)
+    twice.commands.insert(50, twice.commands[49])
+    assert verdict.alive(twice, BOUNDS, 0.0, END_S).ok is False
+
+
+def test_a_contact_fails() -> None:
+    made = steady(0.4)
+    assert verdict.contacts(made, 0.0, END_S).ok is True
+    made.truths[-1] = replace(made.truths[-1], contacts=1)
+    assert verdict.contacts(made, 0.0, END_S).ok is False
