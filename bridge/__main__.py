@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
 from bridge.drive import SimDrive
 from bridge.fence_file import load_fence
@@ -70,23 +71,26 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
 def _serve(options: argparse.Namespace) -> int:
     asked = _Asked()  # first: a signal during the slow part of the start must end it cleanly too
     robot = load_robot(options.robot) if options.robot else RobotDescription()
-    config = _config(robot, options.site)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+    config = _config(robot, options.site, home)
     key = load_operator_key(home, virtual=robot.drive.virtual)
     with open_session(Party.BRIDGE, robot.id, home) as session:
         drive = _drive(session, robot, config.boot)
         link = Link(session, robot.id, key)
         recorder = Recorder(home.absolute() / "recordings", config)
-        parts = Parts(link, drive, recorder, Collector(), Service())
+        keeper = BrakingKeeper(path_of(home, robot), robot, config.learnt)
+        parts = Parts(link, drive, recorder, Collector(), Service(), keeper)
         try:
             return _loop(config, parts, asked)
         finally:
             parts.service.stopping()
+            keeper.close()
             recorder.close()
 
 
-def _config(robot: RobotDescription, site: Path) -> CoreConfig:
-    """Read the site's fence; mint this run's name."""
+def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
+    """Read the site's fence and what is known of the brakes; mint this run's name."""
+    learnt, trouble = load_learnt(path_of(home, robot), robot)
     fence, fence_hash = load_fence(site / "fence.json")
     return CoreConfig(
         robot=robot,
@@ -95,6 +99,8 @@ def _config(robot: RobotDescription, site: Path) -> CoreConfig:
         fence_hash=fence_hash,
         map_id=fence.map_id,
         boot=secrets.token_hex(6),
+        learnt=learnt,
+        braking_trouble=trouble,
     )
 
 

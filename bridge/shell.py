@@ -17,6 +17,7 @@ from bridge.realtime.stats import LoopStats
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from bridge.braking_file import BrakingKeeper
     from bridge.core import CoreConfig, Inbox
     from bridge.drive import Drive
     from bridge.link import Link
@@ -39,6 +40,7 @@ class Parts:
     recorder: Recorder
     collector: Collector
     service: Service
+    keeper: BrakingKeeper
 
 
 class Shell:
@@ -77,6 +79,7 @@ class Shell:
         parts.link.publish(decision)
         parts.recorder.tick(state, inbox, now_s, decision)
         self.state = decision.state
+        parts.keeper.note(decision.state.learnt)
         self._stats.add(tick.late_s + tick.missed * period_s, step_ns)
         parts.service.feed(now_s)
         if not decision.state.motion.powered:

@@ -45,6 +45,8 @@ def parser() -> argparse.ArgumentParser:
     seen.add_argument("--json", action="store_true")
     seen.add_argument("--jitter", action="store_true", help="measure a 100 Hz loop for 5 s")
     words.add_parser("why", help="explain the last stop: row, evidence, what to do")
+    brakes = words.add_parser("braking", help="show what stops have taught of the brakes")
+    brakes.add_argument("act", nargs="?", choices=("forget",), help="after a repair, bridge down")
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
@@ -100,22 +102,8 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         given = {"site": said.site, "robot": said.robot, "port": port}
         chosen = {name: value for name, value in given.items() if value is not None}
         return up.run(replace(settings, **chosen))
-    if said.word == "doctor":
-        from pons import doctor
-
-        return doctor.run(settings, as_json=said.json, jitter=said.jitter)
-    if said.word == "why":
-        from pons import why
-
-        return why.run(settings)
-    if said.word == "fault":
-        from pons import fault
-
-        return fault.run(settings, said.names, seconds=said.seconds)
-    if said.word == "replay":
-        from pons import replay
-
-        return replay.run(said.file)
+    if said.word in _TOOLS:
+        return _tool(settings, said)
     if said.word in _OPERATOR or said.word == "status":
         from pons import operator
 
@@ -135,6 +123,32 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         text = " ".join(said.text)
         return goals.say(settings, text, wait=not said.no_wait, replace=said.replace)
     return goals.act(settings, said.word, said.goal)
+
+
+_TOOLS = frozenset({"doctor", "why", "braking", "fault", "replay"})
+
+
+def _tool(settings: Settings, said: argparse.Namespace) -> int:
+    """Run what looks at the robot, or works on it, without the planner."""
+    if said.word == "doctor":
+        from pons import doctor
+
+        return doctor.run(settings, as_json=said.json, jitter=said.jitter)
+    if said.word == "why":
+        from pons import why
+
+        return why.run(settings)
+    if said.word == "braking":
+        from pons import braking
+
+        return braking.run(settings, forget=said.act == "forget")
+    if said.word == "fault":
+        from pons import fault
+
+        return fault.run(settings, said.names, seconds=said.seconds)
+    from pons import replay
+
+    return replay.run(said.file)
 
 
 if __name__ == "__main__":

@@ -64,6 +64,16 @@ def stand_in(goal: Json, language: str) -> str:
     return f"{brain['name']} planned in place of {brain['fallback_from']}: {why}"
 
 
+def braking_line(braking: Json) -> str:
+    """Say what the gates count on when the robot brakes."""
+    source = f"learnt from {braking['stops']} stops" if braking["learnt"] else "configured"
+    trouble = f" ({braking['trouble']})" if braking["trouble"] else ""
+    return (
+        f"braking: {source}, lag {braking['lag_s']:.3f} s, "
+        f"deceleration {braking['decel_mps2']:.2f} m/s2{trouble}"
+    )
+
+
 def robot_lines(robot: Json) -> list[str]:
     """Describe the robot's state, what is up and what limits it."""
     status = robot.get("status")
@@ -82,6 +92,7 @@ def robot_lines(robot: Json) -> list[str]:
             f"measured {status['measured']['v_mps']:.2f} m/s"
         ),
         f"limit {limits['v_mps']:.2f} m/s by {limits['by']}",
+        braking_line(status["braking"]),
     ]
     if status["waiting_for"]:
         lines.append(f"waiting for: {', '.join(status['waiting_for'])}")

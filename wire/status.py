@@ -130,6 +130,19 @@ class LimitsInForce(Record):
     """Free length less the stopping distance at the speed sent."""
 
 
+class BrakingReport(Record):
+    """Tell what the gates count on when the robot brakes: robot.toml, or worse where learnt."""
+
+    lag_s: Annotated[float, Field(ge=0.0, le=2.0)]
+    decel_mps2: Annotated[float, Field(ge=0.0, le=10.0)]
+    learnt: bool
+    """False: both as robot.toml says."""
+    stops: Count
+    """How many stops have taught anything, since this robot.toml."""
+    trouble: Code | None
+    """Why what earlier runs learnt could not be read."""
+
+
 class TickStats(Record):
     """Summarise the loop since start, and its last second."""
 
@@ -191,6 +204,7 @@ class Status(Record):
     """What is left of the distance allowed since the last operator act."""
     operator_seconds: Seconds
     drive: DriveReport
+    braking: BrakingReport
     ticks: TickStats
 
 

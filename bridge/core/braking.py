@@ -10,6 +10,7 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from bridge.core.kinematics import fastest_rim
+from wire.value import value
 
 if TYPE_CHECKING:
     from bridge.core.freespace import FreeLength
@@ -23,6 +24,19 @@ TURNING_MPS = 1e-4
 """Slower than this is turning in place, which sweeps nothing but the disc itself."""
 
 
+@value
+class Braking:
+    """Say how much worse than robot.toml the robot brakes, as its own stops have shown."""
+
+    lag_more_s: float = 0.0
+    """Lag beyond ``drive.lag_s``."""
+    decel_share: float = 1.0
+    """Deceleration as a share of ``limits.max_decel_mps2``, in (0, 1]."""
+
+
+AS_CONFIGURED = Braking()
+
+
 def reaction_s(scan_age_s: float, scan_s: float, lag_s: float, limits: Limits) -> float:
     """Return how long the robot goes on before it slows as planned [s].
 
@@ -33,10 +47,18 @@ def reaction_s(scan_age_s: float, scan_s: float, lag_s: float, limits: Limits) -
     return scan_age_s + scan_s + lag_s + build_s
 
 
-def path_decel_mps2(twist: Twist2, base: Base, limits: Limits) -> float:
-    """Return the deceleration along the path of a twist: d holds at the faster wheel."""
+def path_decel_mps2(twist: Twist2, base: Base, limits: Limits, share: float = 1.0) -> float:
+    """Return the deceleration along the path of a twist: d holds at the faster wheel.
+
+    Args:
+        twist: the motion.
+        base: wheel geometry.
+        limits: robot.toml's bounds.
+        share: of its deceleration, what the robot has shown to reach.
+    """
     rim = fastest_rim(twist, base.wheel_separation_m)
-    return limits.max_decel_mps2 * abs(twist.v_mps) / rim if rim > 0.0 else limits.max_decel_mps2
+    decel = limits.max_decel_mps2 * share
+    return decel * abs(twist.v_mps) / rim if rim > 0.0 else decel
 
 
 def speed_within(s_m: float, decel_mps2: float, reaction: float) -> float:
@@ -50,7 +72,12 @@ def speed_within(s_m: float, decel_mps2: float, reaction: float) -> float:
 
 
 def speed_scale(
-    free: FreeLength, twist: Twist2, base: Base, limits: Limits, reaction: float
+    free: FreeLength,
+    twist: Twist2,
+    base: Base,
+    limits: Limits,
+    reaction: float,
+    share: float = 1.0,
 ) -> float:
     """Return the factor in [0, 1] that lets a motion stop within its free length.
 
@@ -60,17 +87,19 @@ def speed_scale(
     creep = min(_ratio(CREEP_MPS, v), _ratio(CREEP_RADPS, w))
     if v < TURNING_MPS:
         return creep if free.touching else 1.0
-    allowed = speed_within(free.s_m, path_decel_mps2(twist, base, limits), reaction)
+    allowed = speed_within(free.s_m, path_decel_mps2(twist, base, limits, share), reaction)
     scale = _ratio(allowed, v)
     if free.touching:
         return min(creep, scale)
     return 0.0 if scale < 1.0 and allowed < STANDING_MPS else scale
 
 
-def stop_length_m(twist: Twist2, base: Base, limits: Limits, reaction: float) -> float:
+def stop_length_m(
+    twist: Twist2, base: Base, limits: Limits, reaction: float, share: float = 1.0
+) -> float:
     """Return the path until standstill [m]: v t + v^2 / 2a."""
     speed = abs(twist.v_mps)
-    decel = path_decel_mps2(twist, base, limits)
+    decel = path_decel_mps2(twist, base, limits, share)
     return speed * reaction + (speed * speed / (2 * decel) if decel > 0.0 else 0.0)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bridge.core.fence import Fence
+from bridge.core.state_braking import UNLEARNT, Learnt
 from wire import RobotDescription
 
 
@@ -22,3 +23,7 @@ class CoreConfig:
     boot: str
     """This run's nonce, [A-Za-z0-9]{1,32}: prefix of epochs and nonces, and the odom_id."""
     period_s: float = 0.01
+    learnt: Learnt = UNLEARNT
+    """What earlier runs learnt of this robot's brakes: the state goes on from there."""
+    braking_trouble: str | None = None
+    """Why what earlier runs learnt could not be read: a code for the status."""

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bridge.core.hazards import HAZARDS, LAWS
+from bridge.core.learnt import ALIKE, BEGIN_MPS, BETTER_STOPS, WEAK_SHARE
 from bridge.core.modes import TRANSITIONS
 from bridge.core.rows import ALL, ROWS, Stage
 from wire import Action
@@ -87,6 +88,29 @@ name in this table to exist.
 """
 
 
+_BRAKING = f"""\
+## Braking
+
+Obstacle and fence gates let a speed pass that still stops within the free length:
+v t + v²/2a = s. Both t (with the drive's lag) and a are robot.toml's, or worse where the robot's
+own stops have shown it. Every ramp to standstill from {BEGIN_MPS:g} m/s on is judged by the
+encoders against what was sent: the path left unexplained is lag; a robot that falls behind ever
+more brakes weakly. What is worse counts from that stop on. What is better counts after
+{BETTER_STOPS} better stops in a row, each from at least {ALIKE:g} of the speed that taught it, and
+never beyond robot.toml. One worse stop begins the count anew.
+
+The status shows what counts (`braking`: configured or learnt). It is kept in
+`$PONS_HOME/braking/<robot>-<hash of robot.toml>.json`, read at start while nothing has torque; a
+file that can't be read is said in the log and in every status, and robot.toml counts. After a
+repair a person forgets it: `pons braking forget`, with the bridge down. Below {WEAK_SHARE:g} of
+robot.toml's deceleration all speeds are capped by the same share (`weak_brakes`), so that a stop
+still takes as long as its judge plans.
+
+Encoders see wheels, not the floor: slip teaches nothing. The first stop of a robot that brakes
+worse than robot.toml says is made by robot.toml's numbers.
+"""
+
+
 def safety_md() -> str:
     """Return the whole page."""
     actions = " < ".join(f"`{action.value}`" for action in Action)
@@ -94,7 +118,7 @@ def safety_md() -> str:
         f"| {mode.value} | {_cause(cause)} | {to.value} |\n"
         for (mode, cause), to in TRANSITIONS.items()
     )
-    parts = (_MODES + modes, "".join(_rows()), _GATES, "".join(_hazards()), _sentences())
+    parts = (_MODES + modes, "".join(_rows()), _GATES, _BRAKING, "".join(_hazards()), _sentences())
     return "\n".join((_HEAD.format(actions=actions), *parts))
 
 

@@ -31,6 +31,7 @@ def fence_scale(
     base: Base,
     limits: Limits,
     reaction: float,
+    share: float = 1.0,
 ) -> float:
     """Return the factor in [0, 1] on a motion so that it stops clear of the fence.
 
@@ -41,32 +42,31 @@ def fence_scale(
         base: wheel geometry.
         limits: robot.toml's bounds.
         reaction: how long the robot goes on before it slows [s]: age of the pose, lag, jerk.
+        share: of robot.toml's deceleration, what the robot has shown to reach.
     """
     speed = abs(twist.v_mps)
     if not (speed < inf and abs(twist.w_radps) < inf):
         return 0.0
     if speed < TURNING_MPS:
         return 1.0
-    length = stop_length_m(twist, base, limits, reaction)
+    length = stop_length_m(twist, base, limits, reaction, share)
     here = fence.margin_m(base_in_map.x_m, base_in_map.y_m)
     if here >= FENCE_MARGIN_M + length:
         return 1.0  # distance changes by no more than the way gone
     if here < FENCE_MARGIN_M and _inward(fence, base_in_map, twist, here):
         return min(1.0, INWARD_MPS / speed)
-    return _largest(fence, base_in_map, twist, base, limits, reaction)
+    return _largest(fence, base_in_map, twist, length, reaction)
 
 
 def _largest(
     fence: Fence,
     base_in_map: Pose2,
     twist: Twist2,
-    base: Base,
-    limits: Limits,
+    whole: float,
     reaction: float,
 ) -> float:
     """Find by halving the largest factor whose stop pose keeps the margin; 0 if it is no speed."""
     low, high = 0.0, 1.0
-    whole = stop_length_m(twist, base, limits, reaction)
     flow = twist.w_radps / abs(twist.v_mps)
     if _clear(fence, base_in_map, twist.v_mps, flow, whole):
         return 1.0

@@ -16,6 +16,7 @@ from bridge.core.contactgate import contact_gate, touched
 from bridge.core.fencegate import fence_scale
 from bridge.core.freespace import free_length
 from bridge.core.kinematics import scaled
+from bridge.core.learnt import in_force
 from bridge.core.obstaclegate import FREE_M, look_m, obstacle_gate
 from bridge.core.state import Gate
 from bridge.core.tick import STANDING_MPS, STANDING_RADPS
@@ -55,6 +56,7 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
         s.odometry.measured,
         scan_age_s(tick),
         tick.config.robot,
+        in_force(s.learnt),
     )
     motion.free_m, tick.room_m = way.free_m, way.room_m
     if way.scale < 1.0:
@@ -89,8 +91,11 @@ def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
     if fence is None or here is None:
         return twist  # without a pose waypoints hold by POSE_LOST, and the stick is capped by it
     robot = tick.config.robot
-    reaction = reaction_s(0.0, POSE_S, robot.drive.lag_s, robot.limits)
-    scale = fence_scale(fence, here, twist, robot.base, robot.limits, reaction)
+    learnt = tick.s.learnt
+    lag_s = robot.drive.lag_s + learnt.lag_more_s
+    reaction = reaction_s(0.0, POSE_S, lag_s, robot.limits)
+    share = learnt.decel_share
+    scale = fence_scale(fence, here, twist, robot.base, robot.limits, reaction, share)
     if scale >= 1.0:
         return twist
     tick.s.motion.bound_by = "fence"
@@ -114,7 +119,8 @@ def look(tick: Tick, twist: Twist2) -> FreeLength | None:
     if picture is None:
         return None
     here = tick.s.odometry.base_in_odom
-    return free_length(picture, here, twist, robot.base.radius_m, look_m(robot))
+    reach_m = look_m(robot, in_force(tick.s.learnt))
+    return free_length(picture, here, twist, robot.base.radius_m, reach_m)
 
 
 def reconsider(tick: Tick, asked: Twist2) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bridge.core.learnt import weak_share
 from bridge.core.rows import ALL, STAGES, Clears
 from bridge.core.state import RowUp
 from wire import SEVERITY, Action, Mode
@@ -86,8 +87,13 @@ def worst(tick: Tick) -> tuple[Action, str, bool]:
 
 
 def cap(tick: Tick) -> tuple[float, str]:
-    """Return the factor on robot.toml's limits that CAP rows leave, and the row that sets it."""
-    factor, by = 1.0, "robot"
+    """Return the factor on robot.toml's limits that CAP rows leave, and the row that sets it.
+
+    Brakes learnt to be weak cap as a row does; they are no row (docs/adr/0018-learned-braking.md).
+    """
+    factor, by = weak_share(tick.s.learnt), "robot"
+    if factor < 1.0:
+        by = "weak_brakes"
     if not tick.s.rows:
         return factor, by
     letters = sources(tick.s)

@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING, ClassVar
 from pydantic import ConfigDict
 
 from bridge.core.braking import (
+    AS_CONFIGURED,
     CREEP_RADPS,
     STANDING_MPS,
+    Braking,
     path_decel_mps2,
     reaction_s,
     speed_scale,
@@ -67,6 +69,7 @@ def obstacle_gate(
     measured: Twist2,
     scan_age_s: float,
     robot: RobotDescription,
+    braking: Braking = AS_CONFIGURED,
 ) -> ObstaclePass:
     """Judge a motion by the newest scan.
 
@@ -77,30 +80,40 @@ def obstacle_gate(
         measured: what the wheels do.
         scan_age_s: how old the scan is.
         robot: limits, lag and size; none of them is assumed better than it says.
+        braking: how much worse than that it has shown to brake.
     """
-    base, limits = robot.base, robot.limits
-    reaction = reaction_s(scan_age_s, robot.lidar.scan_s, robot.drive.lag_s, limits)
-    usual, speed = look_m(robot), abs(asked.v_mps)
-    reach = _reach_m(usual, speed, asked, robot, reaction)
+    base, limits, share = robot.base, robot.limits, braking.decel_share
+    lag_s = robot.drive.lag_s + braking.lag_more_s
+    reaction = reaction_s(scan_age_s, robot.lidar.scan_s, lag_s, limits)
+    usual, speed = look_m(robot, braking), abs(asked.v_mps)
+    reach = _reach_m(usual, speed, asked, robot, reaction, share)
     free = free_length(picture, base_in_odom_now, asked, base.radius_m, reach)
-    scale = speed_scale(free, asked, base, limits, reaction)
+    scale = speed_scale(free, asked, base, limits, reaction, share)
     room, known = free.s_m, free.known
     if abs(measured.v_mps) > STANDING_MPS and not _same_curve(asked, measured):
-        reach = _reach_m(usual, speed, measured, robot, reaction)
+        reach = _reach_m(usual, speed, measured, robot, reaction, share)
         really = free_length(picture, base_in_odom_now, measured, base.radius_m, reach)
         room, known = min(room, really.s_m), known and really.known
         if asked.v_mps * measured.v_mps > 0.0:
-            scale = min(scale, _carried_on(really, asked, measured, robot, reaction))
+            scale = min(scale, _carried_on(really, asked, measured, robot, reaction, share))
     return ObstaclePass(
         twist=_passes(asked, scale),
         scale=scale,
         free_m=free.s_m,
-        room_m=max(0.0, room - abs(measured.v_mps) * robot.drive.lag_s),
+        room_m=max(0.0, room - abs(measured.v_mps) * lag_s - weak_m(measured, robot, share)),
         known=known,
     )
 
 
-def look_m(robot: RobotDescription) -> float:
+def weak_m(measured: Twist2, robot: RobotDescription, share: float) -> float:
+    """Return how much longer weak brakes make the path until standstill [m]."""
+    if not share < 1.0:
+        return 0.0
+    decel = path_decel_mps2(measured, robot.base, robot.limits, share)
+    return measured.v_mps * measured.v_mps * (1.0 - share) / (2 * decel) if decel > 0.0 else 0.0
+
+
+def look_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
     """Return how far along an arc one looks as a rule: all that a robot in its limits can need [m].
 
     That is the path in which it stands still from its fastest, by the gate's law and by the
@@ -108,29 +121,35 @@ def look_m(robot: RobotDescription) -> float:
     """
     base, limits = robot.base, robot.limits
     v, d, j = limits.max_speed_mps, limits.max_decel_mps2, limits.stop_jerk_mps3
+    lag_s = robot.drive.lag_s + braking.lag_more_s
     turning = limits.max_turn_radps * base.wheel_separation_m / 2
     rim = min(v + turning, limits.max_wheel_radps * base.wheel_radius_m)
-    gate_s = _FRESH_S + robot.lidar.scan_s + robot.drive.lag_s
-    limiter_m = 2 * v * (PERIOD_S + robot.drive.lag_s) + d * d * d / (24 * j * j)
-    stop = v * d / (2 * j) + v * rim / (2 * d) + max(v * gate_s, limiter_m)
+    gate_s = _FRESH_S + robot.lidar.scan_s + lag_s
+    limiter_m = 2 * v * (PERIOD_S + lag_s) + d * d * d / (24 * j * j)
+    stop = v * d / (2 * j) + v * rim / (2 * d * braking.decel_share) + max(v * gate_s, limiter_m)
     return min(REACH_M, max(stop, FREE_M) + _ROUNDING_M)
 
 
-def sight_m(robot: RobotDescription) -> float:
+def sight_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
     """Return how far from the robot at the scan a point may be that a tick will need [m]."""
     moved_m = robot.limits.max_speed_mps * _FRESH_S
-    return look_m(robot) + robot.base.radius_m + MARGIN_M + moved_m + 2 * _ROUNDING_M
+    return look_m(robot, braking) + robot.base.radius_m + MARGIN_M + moved_m + 2 * _ROUNDING_M
 
 
 def _reach_m(
-    usual: float, speed: float, along: Twist2, robot: RobotDescription, reaction: float
+    usual: float,
+    speed: float,
+    along: Twist2,
+    robot: RobotDescription,
+    reaction: float,
+    share: float,
 ) -> float:
     """Return how far to look along a motion so that more could not change what passes.
 
     Free for longer than it takes to stop, a speed passes whole. Old scans, tight curves just left
     and robots faster than they may be look as far as anybody does.
     """
-    decel = path_decel_mps2(along, robot.base, robot.limits)
+    decel = path_decel_mps2(along, robot.base, robot.limits, share)
     if not (decel > 0.0 and abs(along.v_mps) <= 2 * robot.limits.max_speed_mps):
         return REACH_M
     stop = speed * reaction + speed * speed / (2 * decel)
@@ -145,12 +164,17 @@ def _same_curve(a: Twist2, b: Twist2) -> bool:
 
 
 def _carried_on(
-    really: FreeLength, asked: Twist2, measured: Twist2, robot: RobotDescription, reaction: float
+    really: FreeLength,
+    asked: Twist2,
+    measured: Twist2,
+    robot: RobotDescription,
+    reaction: float,
+    share: float,
 ) -> float:
     """Return the factor on what is asked that the arc the robot is still on allows."""
     if really.touching:
         return 1.0  # it loses no clearance; what is asked has been judged by itself
-    decel = path_decel_mps2(measured, robot.base, robot.limits)
+    decel = path_decel_mps2(measured, robot.base, robot.limits, share)
     allowed = speed_within(really.s_m, decel, reaction)
     return min(1.0, allowed / abs(asked.v_mps))
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.ages import sensor_age_s
 from bridge.core.epoch import shelved
+from bridge.core.learnt import in_force
 from bridge.core.obstaclegate import sight_m
 from bridge.core.odometry import advance
 from bridge.core.scanpicture import ScanPicture
@@ -117,7 +118,8 @@ def _hear_scan(tick: Tick, scan: Scan) -> None:
     equal = last is not None and last.ranges_m == scan.ranges_m
     taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
     robot = tick.config.robot
-    picture = ScanPicture.from_scan(scan, _where(tick, taken_s), robot.lidar, sight_m(robot))
+    seen_m = sight_m(robot, in_force(s.learnt))
+    picture = ScanPicture.from_scan(scan, _where(tick, taken_s), robot.lidar, seen_m)
     scans = min(lidar.baseline_scans + 1, BASELINE_SCANS)
     learnt = lidar.baseline_scans < BASELINE_SCANS
     mean = lidar.baseline_returns

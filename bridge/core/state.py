@@ -12,6 +12,7 @@ from bridge.core.draft import copier
 from bridge.core.limiter import LimiterState
 from bridge.core.odometry import OdometryState
 from bridge.core.pursuit import NEW, FollowState
+from bridge.core.state_braking import UNLEARNT, Learnt, Ramp
 from bridge.core.state_orders import External, Grants, Leg, Operator, Ownership, Stick
 from bridge.core.state_senses import (
     ButtonMemory,
@@ -153,6 +154,12 @@ class BridgeState:
     watch: Watch = field(default_factory=Watch)
     flood: Flood = field(default_factory=Flood)
     voice: Voice = field(default_factory=Voice)
+    learnt: Learnt = UNLEARNT
+    """How much worse than robot.toml this robot brakes; a run begins with what others learnt."""
+    braking_trouble: str | None = None
+    """Why what others learnt could not be read."""
+    ramp: Ramp | None = None
+    """The ramp towards standstill that it is learning from."""
 
 
 _copy_state = copier(BridgeState)

@@ -9,6 +9,7 @@ from bridge.core.arming import arm_lacks
 from bridge.core.latch import binds, sources, worst
 from bridge.core.legs import residual
 from bridge.core.limiter import stopping_m
+from bridge.core.obstaclegate import weak_m
 from bridge.core.operator import nonce_text
 from bridge.core.rows import STAGES
 from bridge.core.selftest import waits_for
@@ -16,6 +17,7 @@ from bridge.core.verdicts import shown
 from wire import (
     PROTOCOL,
     SEVERITY,
+    BrakingReport,
     DriveReport,
     GrantLeft,
     LegReport,
@@ -68,6 +70,7 @@ def build(tick: Tick) -> Status:
         operator_metres=s.grants.operator_metres,
         operator_seconds=s.grants.operator_seconds,
         drive=_drive(tick),
+        braking=_braking(tick),
         ticks=_ticks(tick),
     )
 
@@ -98,12 +101,14 @@ def _leg(tick: Tick) -> LegReport | None:
 
 
 def _limits(tick: Tick) -> LimitsInForce:
-    motion, robot = tick.s.motion, tick.config.robot
+    motion, robot, learnt = tick.s.motion, tick.config.robot, tick.s.learnt
     margin_m = None
     if motion.free_m is not None:
         sent = motion.limiter.sent
+        lag_s = robot.drive.lag_s + learnt.lag_more_s
         stop_m = stopping_m(sent, 0.0, robot.base, robot.limits, tick.config.period_s)
-        margin_m = motion.free_m - stop_m - abs(sent.v_mps) * robot.drive.lag_s
+        stop_m += weak_m(sent, robot, learnt.decel_share)
+        margin_m = motion.free_m - stop_m - abs(sent.v_mps) * lag_s
     return LimitsInForce(
         v_mps=robot.limits.max_speed_mps * motion.cap,
         w_radps=robot.limits.max_turn_radps * motion.cap,
@@ -161,6 +166,17 @@ def _drive(tick: Tick) -> DriveReport:
         boot_id=newest.boot_id if newest is not None else None,
         battery=newest.battery if newest is not None else None,
         real_time=s.loop.real_time,
+    )
+
+
+def _braking(tick: Tick) -> BrakingReport:
+    robot, learnt = tick.config.robot, tick.s.learnt
+    return BrakingReport(
+        lag_s=robot.drive.lag_s + learnt.lag_more_s,
+        decel_mps2=robot.limits.max_decel_mps2 * learnt.decel_share,
+        learnt=learnt.lag_more_s > 0.0 or learnt.decel_share < 1.0,
+        stops=learnt.stops,
+        trouble=tick.s.braking_trouble,
     )
 
 

@@ -12,6 +12,7 @@ from bridge.core import (
     drive_out,
     flood,
     gate,
+    learnt,
     manners,
     operator,
     ownership,
@@ -48,6 +49,8 @@ def initial(config: CoreConfig, now_s: float) -> BridgeState:
         started_s=now_s,
         mode_since_s=now_s,
         operator=Operator(nonce_no=1, nonce_made_s=now_s),
+        learnt=config.learnt,
+        braking_trouble=config.braking_trouble,
     )
 
 
@@ -132,6 +135,7 @@ def _move(tick: Tick) -> None:
         _reconsider(tick)
     motion.asked = asked if tick.moving else STILL
     motion.limiter = shaped(tick, motion.asked)
+    learnt.watch(tick)
 
 
 def _reconsider(tick: Tick) -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from bridge import shell as shell_file
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, LoopFacts, step
+from bridge.core.state_braking import Learnt
 from bridge.realtime import Pacer, Tick
 from bridge.shell import EXIT_BROKEN, EXIT_LEFT, Parts, Shell
 from tests.bridge.ground import FakeClock, core_config
@@ -66,6 +67,9 @@ class Diary:
     def rest(self, now_s: float) -> None:
         self.words.append("rest")
 
+    def note(self, learnt: Learnt) -> None:
+        assert learnt == CONFIG.learnt
+
     def use(self, slack_s: float) -> None:
         self.words.append("collect")
         self.slack_s.append(slack_s)
@@ -81,7 +85,7 @@ def diary() -> Diary:
 
 @pytest.fixture
 def shell(diary: Diary) -> Shell:
-    parts = Parts(diary, diary, diary, diary, diary)  # type: ignore[arg-type]  # a Diary is all of them
+    parts = Parts(diary, diary, diary, diary, diary, diary)  # type: ignore[arg-type]  # a Diary is all of them
     return Shell(CONFIG, parts, 100.0, real_time=True)
 
 

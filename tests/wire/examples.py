@@ -6,9 +6,11 @@ from typing import Any
 
 from wire import (
     IDENTITY,
+    PROTOCOL,
     STILL,
     Action,
     Answer,
+    BrakingReport,
     DriveCommand,
     DriveReport,
     DriveState,
@@ -50,7 +52,7 @@ EPOCH = "boot1-7"
 STAMP: dict[str, Any] = {"seq": 3, "stamp_s": 12.25}
 
 STATUS = Status(
-    protocol=1,
+    protocol=PROTOCOL,
     robot="r1",
     boot="boot1",
     seq=41,
@@ -99,6 +101,7 @@ STATUS = Status(
         battery=0.8,
         real_time=True,
     ),
+    braking=BrakingReport(lag_s=0.09, decel_mps2=0.8, learnt=True, stops=7, trouble=None),
     ticks=TickStats(
         ticks=10_000,
         missed=1,
@@ -115,7 +118,7 @@ _MESSAGES: tuple[Record, ...] = (
         planner_id="p1",
         kind="planner",
         seen=40,
-        protocol=1,
+        protocol=PROTOCOL,
         robot_hash=PRINT,
         fence_hash=PRINT,
         map_id=PRINT,

@@ -15,8 +15,10 @@ from planner.plan import Bilingual
 from planner.route import RoutePoint
 from wire import (
     IDENTITY,
+    PROTOCOL,
     Action,
     Answer,
+    BrakingReport,
     DriveReport,
     Event,
     Grant,
@@ -53,7 +55,7 @@ PERIOD_S = 0.05
 def status(**changes: Any) -> Status:
     """Return a status of an armed robot that stands at the origin, with changes."""
     fields: dict[str, Any] = {
-        "protocol": 1, "robot": "r1", "boot": "b1", "seq": 1, "at_s": 0.0, "mode": Mode.HOLD,
+        "protocol": PROTOCOL, "robot": "r1", "boot": "b1", "seq": 1, "at_s": 0.0, "mode": Mode.HOLD,
         "action": Action.NONE, "epoch": "b1-1", "nonce": "n1", "owner": None, "held": None,
         "grant": None, "leg": None, "base_in_odom": Pose2(0.0, 0.0, 0.0),
         "base_in_map": Pose2(0.0, 0.0, 0.0), "asked": Twist2(0.0, 0.0), "sent": Twist2(0.0, 0.0),
@@ -63,6 +65,7 @@ def status(**changes: Any) -> Status:
         "fence_hash": HASH, "map_id": HASH, "operator_metres": 500.0, "operator_seconds": 3600.0,
         "drive": DriveReport(kind="sim", virtual=True, enabled=True, timed_out=False,
                              boot_id="d1", battery=None, real_time=False),
+        "braking": BrakingReport(lag_s=0.06, decel_mps2=1.0, learnt=False, stops=0, trouble=None),
         "ticks": TickStats(ticks=0, missed=0, late_p50_us=0, late_max_us=0, step_max_us=0,
                            dropped=0, record_gaps=0),
     }  # fmt: skip
