@@ -6,8 +6,8 @@ what the encoder should show by now, and a PI law works on the difference alone.
 no mode, no limits of the body, no time but the tick's length.
 
 Laws: zero meant is zero told. A wheel is never told to turn against what is meant. The correction
-is bounded; without feedback there is none. While stopping it may only brake, nothing is integrated,
-and what is told never grows.
+is bounded; without feedback, or with one not to be believed, there is none. While stopping it may
+only brake, nothing is integrated, and what is told never grows.
 """
 
 from __future__ import annotations
@@ -24,6 +24,10 @@ CREEP_RADPS = 0.01
 CORRECTION_MPS = 0.10
 """At the rim; two thirds of the slack of row RUNAWAY. So much faster than meant, and no more, can a
 lying encoder make a wheel; and the correction of an honest one can never look like a runaway."""
+BEYOND_MPS, DOUBT_S = 0.03, 0.2
+"""A wheel that for so long is so far off, beyond what may be corrected, is blocked, pushed,
+reversed or misread: no motor like the one described. It is fed forward alone until it stands, and
+the detectors of such faults see it as if nobody controlled it."""
 
 
 @value
@@ -40,6 +44,8 @@ class Wheel:
     due_radps: float = 0.0
     """That of the tick before: what the newest reading should show."""
     told_radps: float = 0.0
+    doubt_s: float = 0.0
+    """How long readings have been further off than any motor explains; DOUBT_S stays."""
 
 
 AT_REST = Wheel()
@@ -82,22 +88,29 @@ def turned(
     meant, told_before = meant_radps * sign, wheel.told_radps * sign
     integral, push = wheel.integral, wheel.push
     expected, due = wheel.expected_radps, wheel.due_radps
+    doubt_s = wheel.doubt_s
     if not told_before > 0.0:  # it stood, or turned the other way: begin anew
-        integral = push = told_before = 0.0
+        integral = push = told_before = doubt_s = 0.0
         expected = due = reading_radps if trusted and reading_radps is not None else 0.0
     ahead = _held(meant + lag_s * by_mps2 * sign / radius_m, most_radps)
     bound = dead_zone + drive.max_correction * meant
     if not bound * radius_m <= CORRECTION_MPS:
         bound = CORRECTION_MPS / radius_m
-    if not (trusted and bound > 0.0):
+    if stopping:
+        integral = 0.0
+    off = 0.0
+    if trusted and reading_radps is not None:
+        off = (due - reading_radps) * sign
+        if doubt_s < DOUBT_S:
+            doubt_s = 0.0 if abs(off) <= bound + BEYOND_MPS / radius_m else doubt_s + dt_s
+    if not (trusted and bound > 0.0 and doubt_s < DOUBT_S):
         integral = push = 0.0
     elif reading_radps is not None:
-        off = (due - reading_radps) * sign / bound
-        integral, push = _corrected(integral, off, dt_s, drive)
-        if ahead + dead_zone + push * bound > most_radps:
-            integral = min(integral, wheel.integral)  # the wheel's limit: winds up no further
+        grown, push = _corrected(integral, off / bound, dt_s, drive)
+        if not stopping and (grown < integral or ahead + dead_zone + push * bound <= most_radps):
+            integral = grown  # at the wheel's limit it winds up no further
     if stopping:
-        integral, push = 0.0, min(0.0, push - integral)
+        push = min(0.0, push)
         told = min(_held(ahead + dead_zone + push * bound, meant + dead_zone), told_before)
     else:
         told = _held(ahead + dead_zone + push * bound, most_radps)
@@ -107,6 +120,7 @@ def turned(
         expected + (ahead * sign - expected) * dt_s / (lag_s + dt_s),
         expected,
         told * sign,
+        doubt_s,
     )
 
 

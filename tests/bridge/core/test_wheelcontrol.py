@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.wheelcontrol import AT_REST, CORRECTION_MPS, CREEP_RADPS, Wheel, turned
+from bridge.core.wheelcontrol import AT_REST, CORRECTION_MPS, CREEP_RADPS, DOUBT_S, Wheel, turned
 from wire import RobotDescription
 from wire.robot import DriveConfig, Limits
 
@@ -193,12 +193,27 @@ def test_the_lag_is_told_ahead_and_no_more_than_lag_s_counts() -> None:
 def test_it_winds_up_no_further_than_the_bound() -> None:
     wheel = AT_REST
     for _ in range(500):
-        wheel = step(wheel, 5.0, 0.0)  # the encoder says that nothing turns
+        wheel = step(wheel, 5.0, min(wheel.due_radps, 4.0))  # a motor 20 % too weak for it
     assert wheel.told_radps == pytest.approx(5.0 + 0.05 + bound_of(5.0, ROBOT))
     after = 0
     while step(wheel, 5.0, 5.0).told_radps > 5.3:
         wheel, after = step(wheel, 5.0, 5.2), after + 1
     assert after * DT_S < 1.0, "unwinds within a second of a wheel that is a little too fast"
+
+
+@pytest.mark.parametrize("reading", [0.0, -3.0, 9.0])
+def test_what_no_motor_explains_is_not_believed_until_the_wheel_stands(reading: float) -> None:
+    wheel, _ = run(3.0, 1.0)
+    told = [wheel.told_radps]
+    for _ in range(30):
+        wheel = step(wheel, 3.0, reading)
+        told.append(wheel.told_radps)
+    assert max(told) <= 3.05 + bound_of(3.0, ROBOT) + EPS
+    assert told[-1] == pytest.approx(3.05)
+    wheel = step(wheel, 3.0, 3.0)
+    assert (wheel.push, wheel.doubt_s) == (0.0, pytest.approx(DOUBT_S))
+    again = step(step(wheel, 0.0, 0.0), 1.0, 0.0)
+    assert step(again, 1.0, 0.9).push != 0.0
 
 
 def test_at_the_wheels_limit_nothing_winds_up() -> None:
