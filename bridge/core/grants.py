@@ -17,11 +17,14 @@ from bridge.core.verdicts import refuse_openly, settle_openly
 from wire import Mode
 
 if TYPE_CHECKING:
+    from bridge.core.state import BridgeState
     from bridge.core.tick import Tick
     from wire import Grant
 
 OPERATOR_METRES = 500.0
 OPERATOR_SECONDS = 3600.0
+METERED = frozenset({"W", "X"})
+"""Whose motion is metered; a hand on the stick is the operator's own."""
 
 
 def hear_grant(tick: Tick, grant: Grant) -> None:
@@ -58,18 +61,30 @@ def operator_acted(grants: Grants) -> Grants:
     return replace(grants, operator_metres=OPERATOR_METRES, operator_seconds=OPERATOR_SECONDS)
 
 
-def meter(tick: Tick, moved_m: float, before: Mode) -> None:
-    """Take one tick's way and time off what is left, if it was driven under a grant."""
-    grants = tick.s.grants
-    if before is not Mode.ACTIVE or grants.mission is None:
+def meter(tick: Tick, before: BridgeState) -> None:
+    """Take one tick's way and time off what is left, if a planner or another brain caused it.
+
+    The way of a stop counts too, or a planner that is stopped again and again would go further than
+    granted. Its time does not: a robot that must stop uses nothing up.
+    """
+    if before.mode is Mode.ACTIVE:
+        used_s = tick.dt_s
+    elif before.mode is Mode.STOPPING and before.stopping is not None:
+        if before.stopping.source not in METERED:
+            return
+        used_s = 0.0
+    else:
         return
+    grants = tick.s.grants
+    moved_m = tick.s.odometry.travelled_m - before.odometry.travelled_m
+    granted = grants.mission is not None  # a stop may have taken the grant with it
     tick.s.grants = Grants(  # every tick: a replace would take three times as long
         grants.mission,
-        max(0.0, grants.metres - moved_m),
-        max(0.0, grants.seconds - tick.dt_s),
+        max(0.0, grants.metres - moved_m) if granted else 0.0,
+        max(0.0, grants.seconds - used_s) if granted else 0.0,
         grants.book,
         max(0.0, grants.operator_metres - moved_m),
-        max(0.0, grants.operator_seconds - tick.dt_s),
+        max(0.0, grants.operator_seconds - used_s),
         grants.since_arm,
     )
 

@@ -74,7 +74,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     detect(tick)
     decide(tick)
     _move(tick)
-    meter(tick, s.odometry.travelled_m - state.odometry.travelled_m, state.mode)
+    meter(tick, state)
     sends = not selftest.withholds(tick)
     return Decision(
         state=s,
