@@ -11,6 +11,7 @@ from pons.settings import BadSetting, Settings, load, port_of
 
 EXIT_USAGE = 2
 MOCK_LLM = "mock-llm"
+CONFORMANCE = "conformance"
 LONGEST_FAULT_S = 3600.0
 
 
@@ -22,6 +23,7 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--site", type=Path, help="folder of a site (PONS_SITE)")
     started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
+    started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
     said = words.add_parser("say", help="give a goal, in English or Chinese, and follow it")
     said.add_argument("text", nargs="*", help="the sentence")
     said.add_argument("--wav", type=Path, metavar="FILE", help="a recording in its place (English)")
@@ -52,6 +54,9 @@ def parser() -> argparse.ArgumentParser:
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
     again = words.add_parser("replay", help="run a recording again and compare every command")
     again.add_argument("file")
+    words.add_parser(
+        CONFORMANCE, help="play broken brains at a simulated bridge: conformance --help"
+    )
     words.add_parser(MOCK_LLM, help="serve a model that is none, with faults: mock-llm --help")
     return top
 
@@ -88,6 +93,10 @@ def main(arguments: list[str] | None = None) -> int:
             from pons.mock_llm.command import main as mock_llm
 
             return mock_llm(words[1:])
+        if words[:1] == [CONFORMANCE]:  # likewise; it starts a robot of its own
+            from pons.conformance import main as conformance
+
+            return conformance(settings, words[1:])
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)
@@ -101,7 +110,7 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         port = port_of(said.port) if said.port is not None else None
         given = {"site": said.site, "robot": said.robot, "port": port}
         chosen = {name: value for name, value in given.items() if value is not None}
-        return up.run(replace(settings, **chosen))
+        return up.run(replace(settings, **chosen), planner=not said.no_planner)
     if said.word in _TOOLS:
         return _tool(settings, said)
     if said.word in _OPERATOR or said.word == "status":

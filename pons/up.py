@@ -40,11 +40,12 @@ class CannotStart(Exception):
 class Supervisor:
     """Own the children of one ``pons up``."""
 
-    def __init__(self, settings: Settings, robot: RobotDescription) -> None:
+    def __init__(self, settings: Settings, robot: RobotDescription, *, planner: bool) -> None:
         self._settings = settings
         self._robot = robot
+        self._planner = planner
         self._ending = threading.Event()
-        self._children = children(settings, robot)
+        self._children = children(settings, robot, planner=planner)
         self._said_ready = False
         self._armed = not robot.drive.virtual  # on metal a person arms
         self._next_arm_s = 0.0
@@ -86,15 +87,25 @@ class Supervisor:
             self._next_arm_s = now_s + ARM_RETRY_S
             if self._ready() and self._arm():
                 self._said_ready = True
-                say(f"ready after {now_s - began_s:.1f} s: {self._settings.url}")
-                say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
+                self._say_ready(now_s - began_s)
         if now_s - began_s > READY_LIMIT_S:
             raise CannotStart(
-                f"not_ready: the planner was not ready within {READY_LIMIT_S:.0f} s; logs are in "
-                f"{self._settings.home / 'logs'}"
+                f"not_ready: the {'planner' if self._planner else 'bridge'} was not ready within "
+                f"{READY_LIMIT_S:.0f} s; logs are in {self._settings.home / 'logs'}"
             )
 
+    def _say_ready(self, after_s: float) -> None:
+        if self._planner:
+            say(f"ready after {after_s:.1f} s: {self._settings.url}")
+            say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
+        else:
+            socket_path = self._settings.home / "run" / "bridge.sock"
+            say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
+            say(f"try: python examples/external_brain.py --home {self._settings.home}")
+
     def _ready(self) -> bool:
+        if not self._planner:
+            return True  # arming asks the bridge itself
         try:
             call(self._settings, "GET", "/readyz", timeout_s=1.0)
         except (PlannerDown, Refused):
@@ -104,6 +115,9 @@ class Supervisor:
     def _arm(self) -> bool:
         if self._armed:
             return True
+        if not self._planner:
+            self._armed = arm_direct(self._settings)
+            return self._armed
         try:
             answer = call(self._settings, "POST", "/v1/arm", {}, timeout_s=3.0)
         except (PlannerDown, Refused):
@@ -117,12 +131,24 @@ class Supervisor:
             child.stop(PATIENCE_S)
 
 
-def children(settings: Settings, robot: RobotDescription) -> list[Child]:
+def arm_direct(settings: Settings) -> bool:
+    """Arm at the bridge itself; tell whether it is armed."""
+    from pons.direct import NoBridge, ask_direct
+
+    try:
+        return ask_direct(settings, "arm").accepted
+    except NoBridge:
+        return False
+
+
+def children(settings: Settings, robot: RobotDescription, *, planner: bool = True) -> list[Child]:
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
     common = ["--home", str(settings.home), "--robot", str(settings.robot)]
     common += ["--site", str(settings.site)]
-    wanted = [("bridge", common), ("planner", [*common, *_address(settings)])]
+    wanted = [("bridge", common)]
+    if planner:
+        wanted.append(("planner", [*common, *_address(settings)]))
     if robot.drive.virtual:
         wanted = [("sim", common), ("localization", common), *wanted]
     return [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
@@ -183,20 +209,21 @@ def _check_port(settings: Settings) -> None:
             ) from None
 
 
-def run(settings: Settings) -> int:
-    """Be ``pons up``."""
+def run(settings: Settings, *, planner: bool = True) -> int:
+    """Be ``pons up``; without a planner the robot waits for another brain."""
     try:
         robot = check(settings)
         with HomeLock(settings.home):
-            _check_port(settings)
-            return _supervise(settings, robot)
+            if planner:
+                _check_port(settings)
+            return _supervise(settings, robot, planner=planner)
     except (CannotStart, HomeTaken) as why:
         print(f"pons up: {why}", file=sys.stderr)
         return REFUSED_TO_START
 
 
-def _supervise(settings: Settings, robot: RobotDescription) -> int:
-    supervisor = Supervisor(settings, robot)
+def _supervise(settings: Settings, robot: RobotDescription, *, planner: bool) -> int:
+    supervisor = Supervisor(settings, robot, planner=planner)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _handler(supervisor))
     say(f"starting {robot.id} in {settings.site.name} (state in {settings.home})")
