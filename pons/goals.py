@@ -78,7 +78,10 @@ def language_of(text: str) -> str:
 
 
 def act(settings: Settings, verb: str, goal_id: str | None) -> int:
-    """Cancel, pause or resume a goal: the named one, else the one that it must mean."""
+    """Cancel, pause or resume a goal: the named one, else the one that it must mean.
+
+    Without a planner there is no goal, but another brain, which a person may let go on.
+    """
     try:
         chosen = goal_id or _meant(settings, verb)
         if chosen is None:
@@ -86,6 +89,10 @@ def act(settings: Settings, verb: str, goal_id: str | None) -> int:
             return 1
         goal = call(settings, "POST", f"/v1/goals/{chosen}/{verb}", {})
     except (PlannerDown, Refused) as trouble:
+        if verb == "resume" and goal_id is None and isinstance(trouble, PlannerDown):
+            from pons import operator
+
+            return operator.ask(settings, "resume")
         return _trouble(trouble)
     print(goal_line(goal))
     return 0

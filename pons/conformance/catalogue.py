@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 from pons.conformance import faults_ages, faults_links, faults_rights, faults_values
 from pons.conformance.adapter import CannotTest
-from pons.conformance.fault import Fault
+from pons.conformance.fault import Fault, W, X
+
+if TYPE_CHECKING:
+    from wire import OwnerKind
 
 FAULTS: tuple[Fault, ...] = (
     *faults_values.FAULTS,
@@ -14,8 +20,10 @@ FAULTS: tuple[Fault, ...] = (
 )
 
 
-def chosen(names: list[str], *, quick: bool) -> tuple[Fault, ...]:
-    """Return the faults of these names, the short run's, or all.
+def chosen(
+    names: list[str], *, quick: bool, kinds: tuple[OwnerKind, ...] = (X, W)
+) -> tuple[Fault, ...]:
+    """Return the faults of these names, the short run's, or all, for these brains.
 
     Raises:
         CannotTest: a name is unknown.
@@ -25,6 +33,10 @@ def chosen(names: list[str], *, quick: bool) -> tuple[Fault, ...]:
     if unknown:
         listed = ", ".join(sorted(known))
         raise CannotTest(f"fault_unknown: {', '.join(unknown)}; there are: {listed}")
-    if names:
-        return tuple(fault for fault in FAULTS if fault.name in names)
-    return tuple(fault for fault in FAULTS if fault.quick) if quick else FAULTS
+    rows = []
+    for fault in FAULTS:
+        mine = fault.quick if quick and not names else fault.kinds
+        mine = tuple(kind for kind in mine if kind in kinds)
+        if mine and (not names or fault.name in names):
+            rows.append(replace(fault, kinds=mine))
+    return tuple(rows)

@@ -19,8 +19,9 @@ from bench.machine import commit, machine, today
 from pons.conformance import matrix
 from pons.conformance.adapter import CannotTest
 from pons.conformance.catalogue import FAULTS, chosen
+from pons.conformance.fault import W, X
 from pons.conformance.rig import OURS, Rig
-from pons.conformance.runner import play_all
+from pons.conformance.runner import NAMES, play_all
 from pons.conformance.site_track import find_track
 from pons.settings import CHECKOUT
 from wire import Misconfigured, load_robot
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from pons.settings import Settings
 
 EXIT_HELD, EXIT_BROKEN, EXIT_UNTESTED, EXIT_INTERRUPTED = 0, 1, 2, 130
+KINDS = {name: kind for kind, name in NAMES.items()}
 SITE = CHECKOUT / "sites" / "two_room"
 
 
@@ -44,6 +46,7 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("faults", nargs="*", metavar="FAULT", help="play these only; --list shows all")
     top.add_argument("--list", action="store_true", help="list the faults and end")
     top.add_argument("--quick", action="store_true", help="the short run, under 40 s")
+    top.add_argument("--brain", choices=sorted(KINDS), help="that brain's rows only")
     top.add_argument("--site", type=Path, default=SITE, help="folder of a site")
     top.add_argument("--json", type=Path, metavar="FILE", help="write all of it there")
     top.add_argument("--docs", type=Path, metavar="FILE", help="put the matrix into this page")
@@ -69,7 +72,8 @@ def main(settings: Settings, arguments: list[str]) -> int:
         return EXIT_HELD
     signal.signal(signal.SIGTERM, _as_interrupt)
     try:
-        faults = chosen(said.faults, quick=said.quick)
+        kinds = (KINDS[said.brain],) if said.brain else (X, W)
+        faults = chosen(said.faults, quick=said.quick, kinds=kinds)
         settings = replace(settings, site=said.site.absolute())
         track = find_track(settings.site, load_robot(settings.robot).base.radius_m)
         rig = Rig(settings, track, module=said.bridge, join=said.connect)

@@ -43,8 +43,8 @@ class Fault:
     kinds: tuple[OwnerKind, ...] = (X, W)
     rest: bool = False
     """It begins standing, and must not move at all."""
-    quick: bool = False
-    """Part of the short run."""
+    quick: tuple[OwnerKind, ...] = ()
+    """Part of the short run with these brains."""
 
 
 Message = dict[str, Any]

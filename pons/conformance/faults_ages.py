@@ -139,9 +139,8 @@ def _skewed(offset_s: float, rate: float) -> Callable[[Stage], None]:
 
 
 FAULTS = (
-    Fault("replayed", "all of the last 2 s again, byte for byte", broken(_replayed), SILENT,
-          quick=True),
-    Fault("renumbered", "old commands with fresh numbers", broken(_renumbered), SILENT, quick=True),
+    Fault("replayed", "all of the last 2 s again, byte for byte", broken(_replayed), SILENT),
+    Fault("renumbered", "old commands with fresh numbers", broken(_renumbered), SILENT, quick=(X,)),
     Fault("clock_ahead", "the sender's clock an hour ahead and 25 % fast", _skewed(HOUR_S, 1.25),
           DRIVES_ON),
     Fault("clock_behind", "the sender's clock an hour behind and 25 % slow",
@@ -150,7 +149,7 @@ FAULTS = (
           broken(lambda _stage: _seen(AHEAD)), SILENT),
     Fault("seen_behind", f"answers what was said {BEHIND} statuses ago",
           broken(lambda _stage: _seen(-BEHIND)), SILENT),
-    Fault("stale_seen", "one status named for ever", broken(_stale_seen), SILENT, quick=True),
+    Fault("stale_seen", "one status named for ever", broken(_stale_seen), SILENT),
     Fault("stale_used", "lives, but thinks on one status for ever", broken(_stale_used),
           {W: USED_S}, kinds=(W,)),
     Fault("no_heartbeat", "commands, but no heartbeats: velocities are a lease by themselves",

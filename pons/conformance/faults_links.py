@@ -99,12 +99,11 @@ def _silent(stage: Stage) -> None:
 _FLOOD = {X: VELOCITY_S + FLOODED_S, W: PATH_S + FLOODED_S}
 
 FAULTS = (
-    Fault("silent", "the brain says no more", _silent, SILENT, quick=True),
-    Fault("killed", "SIGKILL of the brain's process", _killed, SILENT, quick=True),
+    Fault("silent", "the brain says no more", _silent, SILENT, quick=(W,)),
+    Fault("killed", "SIGKILL of the brain's process", _killed, SILENT, quick=(X,)),
     Fault("frozen", "SIGSTOP of the brain's process", _frozen, SILENT),
-    Fault("half_open", "the link accepts and is never read", _half_open, SILENT, quick=True),
+    Fault("half_open", "the link accepts and is never read", _half_open, SILENT, quick=(W,)),
     Fault("buffered", "1 s of commands kept back, then delivered at once", _buffered, SILENT),
-    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD,
-          quick=True),
+    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD, quick=(X,)),
     Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flooded(_malformed), _FLOOD),
 )  # fmt: skip

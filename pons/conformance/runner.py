@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 AGAIN = "drives again"
 COLUMNS = ("speed", "acceleration", "stands", "unasked", "ticks", "contacts", AGAIN)
-AGAIN_S = 12.0
+AGAIN_S = 9.0
 ACT_S = 0.2
 PATIENCE_S = 3.0
 TRIES = 3

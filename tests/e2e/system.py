@@ -66,6 +66,7 @@ class System:
     def __init__(self, home: Path, site: Path = TWO_ROOM, **settings: str) -> None:
         self.home, self.site, self.port = home, site, free_port()
         self._settings = settings
+        self.arguments: tuple[str, ...] = ()
         self.up: subprocess.Popen[bytes] | None = None
 
     @property
@@ -103,6 +104,7 @@ class System:
                     str(os.getpid()),
                     "pons",
                     "up",
+                    *self.arguments,
                 ],  # dies with us
                 cwd=ROOT,
                 stdin=subprocess.DEVNULL,
