@@ -23,6 +23,7 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--site", type=Path, help="folder of a site (PONS_SITE)")
     started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
+    started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
     said = words.add_parser("say", help="give a goal, in English or Chinese, and follow it")
     said.add_argument("text", nargs="*", help="the sentence")
@@ -46,6 +47,7 @@ def parser() -> argparse.ArgumentParser:
     )
     seen.add_argument("--json", action="store_true")
     seen.add_argument("--jitter", action="store_true", help="measure a 100 Hz loop for 5 s")
+    _calibrate(words)
     words.add_parser("why", help="explain the last stop: row, evidence, what to do")
     brakes = words.add_parser("braking", help="show what stops have taught of the brakes")
     brakes.add_argument("act", nargs="?", choices=("forget",), help="after a repair, bridge down")
@@ -59,6 +61,20 @@ def parser() -> argparse.ArgumentParser:
     )
     words.add_parser(MOCK_LLM, help="serve a model that is none, with faults: mock-llm --help")
     return top
+
+
+def _calibrate(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    word = words.add_parser("calibrate", help="drive on a clear floor, measure, write robot.toml")
+    word.add_argument("--reference", choices=("truth", "lidar"), help="what distances compare with")
+    word.add_argument(
+        "--measured-m",
+        type=float,
+        nargs="*",
+        metavar="M",
+        help="a person measures each run by tape; without numbers it asks after each",
+    )
+    word.add_argument("--shuttles", type=int, default=3, choices=range(2, 11), metavar="N")
+    word.add_argument("--yes", action="store_true", help="write without asking")
 
 
 def _seconds(text: str) -> float:
@@ -108,7 +124,7 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         from pons import up
 
         port = port_of(said.port) if said.port is not None else None
-        given = {"site": said.site, "robot": said.robot, "port": port}
+        given = {"site": said.site, "robot": said.robot, "port": port, "metal": said.metal}
         chosen = {name: value for name, value in given.items() if value is not None}
         return up.run(replace(settings, **chosen), planner=not said.no_planner)
     if said.word in _TOOLS:
@@ -134,7 +150,7 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
     return goals.act(settings, said.word, said.goal)
 
 
-_TOOLS = frozenset({"doctor", "why", "braking", "fault", "replay"})
+_TOOLS = frozenset({"doctor", "why", "braking", "calibrate", "fault", "replay"})
 
 
 def _tool(settings: Settings, said: argparse.Namespace) -> int:
@@ -151,6 +167,16 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
         from pons import braking
 
         return braking.run(settings, forget=said.act == "forget")
+    if said.word == "calibrate":
+        from pons import calibrate
+
+        return calibrate.run(
+            settings,
+            reference=said.reference,
+            measured_m=said.measured_m,
+            shuttles=said.shuttles,
+            yes=said.yes,
+        )
     if said.word == "fault":
         from pons import fault
 

@@ -23,6 +23,8 @@ class Settings:
     site: Path
     host: str
     port: int
+    metal: Path | None = None
+    """What the simulated robot is really like, where robot.toml is to be wrong about it."""
 
     @property
     def url(self) -> str:
@@ -35,7 +37,7 @@ class BadSetting(Exception):
 
 
 def load() -> Settings:
-    """Read PONS_HOME, PONS_ROBOT, PONS_SITE, PONS_HOST and PONS_PORT.
+    """Read PONS_HOME, PONS_ROBOT, PONS_SITE, PONS_HOST, PONS_PORT and PONS_METAL.
 
     Raises:
         BadSetting: the port is no port.
@@ -47,6 +49,7 @@ def load() -> Settings:
         site=Path(given.get("PONS_SITE", CHECKOUT / "sites" / "home")).absolute(),
         host=given.get("PONS_HOST", DEFAULT_HOST),
         port=port_of(given.get("PONS_PORT", str(DEFAULT_PORT))),
+        metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,
     )
 
 

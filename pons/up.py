@@ -150,7 +150,8 @@ def children(settings: Settings, robot: RobotDescription, *, planner: bool = Tru
     if planner:
         wanted.append(("planner", [*common, *_address(settings)]))
     if robot.drive.virtual:
-        wanted = [("sim", common), ("localization", common), *wanted]
+        metal = ["--metal", str(settings.metal)] if settings.metal else []
+        wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
     return [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
 
 

@@ -9,6 +9,7 @@ from typing import Generic, TypeVar
 from wire.base import Record
 from wire.commands import (
     EstopLink,
+    FenceRequest,
     Grant,
     Heartbeat,
     Hello,
@@ -33,6 +34,8 @@ LATEST = 1
 """Ring size for state: only the newest counts."""
 SEQUENCED = 64
 """Ring size for what is numbered or must each be answered."""
+FEW = 4
+"""Ring size for what is long, rare and repeated."""
 
 SMALL = 4_096
 MEDIUM = 32_768
@@ -118,6 +121,9 @@ DISARM = _op("disarm", "ramp to zero, then torque off")
 ESTOP = _op("estop", "protective stop, latched until reset")
 RESET = _op("reset", "leave a latched state; never moves the robot")
 RESUME = _op("resume", "clear held; an operator act")
+FENCE = Key("op/fence", FenceRequest, frozenset({_O, _P}), frozenset({_B}),
+            "20 Hz until echoed or 2 s", FEW, MEDIUM,
+            "put another fence in force; only while DISARMED")  # fmt: skip
 ESTOP_LINK = Key("op/estop_link", EstopLink, frozenset({_O}), _TO_B, "10 Hz where configured",
                  LATEST, SMALL, "a wired stop button's state")  # fmt: skip
 
@@ -128,7 +134,7 @@ EVENT = _from(_B, "bridge/event", Event, _ALL, "on each event",
 ODOM = _from(_B, "bridge/odom", Odometry, _ALL, "50 Hz", "base in odom", ring=SEQUENCED)
 LOCALIZATION = _from(_L, "localization", Localization, frozenset({_B, _P, _J}), "10 Hz or more",
                      "odom in map")  # fmt: skip
-DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R}), "100 Hz",
+DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R, _J}), "100 Hz",
                       "wheel speeds, one per tick")  # fmt: skip
 DRIVE_STATE = _from(_R, "drive/state", DriveState, frozenset({_B, _J}), "100 Hz",
                     "what the drive does", ring=SEQUENCED)  # fmt: skip
@@ -148,6 +154,6 @@ SIM_CONTROL = Key("sim/control", SimControl, frozenset({_J}), frozenset({_R}), "
 OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
-    *COMMANDS, *OPS, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, DRIVE_COMMAND, DRIVE_STATE,
-    SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_CONTROL,
+    *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, DRIVE_COMMAND,
+    DRIVE_STATE, SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_CONTROL,
 )  # fmt: skip

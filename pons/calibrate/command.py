@@ -1,0 +1,113 @@
+"""Be ``pons calibrate``: open the sessions, drive, show what would change, ask, write.
+
+Nothing is written before the last yes, and on Ctrl-C the robot is let go: it stands.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from pons.calibrate.flow import Plan, calibrate
+from pons.calibrate.reference import MEASURED
+from pons.calibrate.refusals import CalibrationRefused
+from pons.calibrate.rig import Rig
+from pons.calibrate.robotfile import difference, edited, replace
+from wire import Misconfigured, load_robot
+from wire.keys import Party
+from wire.session import open_session
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import FrameType
+
+    from pons.calibrate.findings import Finding
+    from pons.settings import Settings
+
+EXIT_DONE, EXIT_REFUSED, EXIT_INTERRUPTED = 0, 3, 130
+PUMP_S = 0.004
+
+
+def run(
+    settings: Settings,
+    *,
+    reference: str | None,
+    measured_m: list[float] | None,
+    shuttles: int,
+    yes: bool,
+) -> int:
+    """Calibrate; 0 written or nothing to change, 3 refused, 130 interrupted."""
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        text = settings.robot.read_text("utf-8") if settings.robot.is_file() else ""
+        stamp = time.gmtime()
+        asked = Plan(MEASURED if measured_m is not None else reference, shuttles)
+        found = _measure(settings, asked, measured_m or [], time.strftime("%FT%TZ", stamp))
+        return _write(settings, text, found, time.strftime("%Y%m%dT%H%M%SZ", stamp), yes=yes)
+    except CalibrationRefused as refused:
+        print("\n".join(refused.lines()), file=sys.stderr)
+        return EXIT_REFUSED
+    except (Misconfigured, OSError) as trouble:
+        print(f"{trouble}\nnothing was written", file=sys.stderr)
+        return EXIT_REFUSED
+    except KeyboardInterrupt:
+        print("interrupted / 已中断: the robot stands, nothing was written", file=sys.stderr)
+        return EXIT_INTERRUPTED
+
+
+def _interrupt(_number: int, _frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+def _measure(settings: Settings, plan: Plan, typed: list[float], when: str) -> list[Finding]:
+    robot = load_robot(settings.robot)
+    metres = _metres(typed)
+    with (
+        open_session(Party.OPERATOR, robot.id, settings.home) as operator,
+        open_session(Party.JUDGE, robot.id, settings.home) as judge,
+    ):
+        rig = Rig(operator, judge, time.monotonic, lambda: time.sleep(PUMP_S))
+        return calibrate(rig, robot, plan, when, _say, lambda: next(metres))
+
+
+def _metres(typed: list[float]) -> Iterator[float]:
+    """Yield what a person measured: first what came with the command, then what is typed now.
+
+    Raises:
+        CalibrationRefused: ``no_measure``.
+    """
+    yield from typed
+    while True:
+        if not sys.stdin.isatty():
+            raise CalibrationRefused("no_measure", f"{len(typed)} were given; one for each run")
+        answer = input("how far did it go, by tape? [m] ")
+        try:
+            yield float(answer)
+        except ValueError:
+            raise CalibrationRefused("no_measure", f"{answer!r}") from None
+
+
+def _write(settings: Settings, before: str, found: list[Finding], stamp: str, *, yes: bool) -> int:
+    """Show the difference, ask, write."""
+    for one in found:
+        print(f"{one.name:<24} {one.was:g} -> {one.value:g}   ({one.evidence})")
+    after = edited(before, found)
+    print(difference(settings.robot, before, after), flush=True)
+    if not yes and not _agreed(settings):
+        raise CalibrationRefused("not_confirmed", "" if sys.stdin.isatty() else "--yes writes it")
+    kept = replace(settings.robot, before, after, stamp)
+    _say(f"wrote {settings.robot}; the old one is {kept.name}")
+    _say("start `pons up` anew for it to count; the robot is held: `pons resume` frees it")
+    return EXIT_DONE
+
+
+def _agreed(settings: Settings) -> bool:
+    if not sys.stdin.isatty():
+        return False
+    return input(f"write {settings.robot}? [y/N] ").strip().lower() in {"y", "yes", "是"}
+
+
+def _say(text: str) -> None:
+    print(f"calibrate: {text}", flush=True)

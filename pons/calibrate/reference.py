@@ -1,0 +1,167 @@
+"""Say from outside how far the robot moved: the simulator's truth, the lidar, or a person's tape.
+
+Each reference looks before a run and after it, standing both times. Which one it was stands in the
+evidence.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from statistics import fmean, median
+from typing import TYPE_CHECKING
+
+from pons.calibrate.refusals import CalibrationRefused, RunLost
+from pons.calibrate.room import points_of
+from wire import distance
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from pons.calibrate.room import Points
+    from pons.calibrate.track import Track
+    from wire import RobotDescription, Scan, SimTruth
+
+TRUTH, LIDAR, MEASURED = "truth", "lidar", "measured"
+SPOKEN = {
+    TRUTH: "the simulator's truth",
+    LIDAR: "the lidar",
+    MEASURED: "a person's measure",
+}
+SCANS = 5
+"""Taken standing and averaged beam by beam."""
+
+WALL_HALF_M, WALL_OFF_M, WALL_SHARE, WALL_POINTS = 0.35, 0.03, 0.9, 8
+SEARCH_RAD = 0.35
+FINE_RAD = 0.0005
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Hold what was seen while standing."""
+
+    truth: SimTruth | None
+    scans: tuple[Scan, ...]
+
+
+def went_m(
+    kind: str, before: Look, after: Look, robot: RobotDescription, ask: Callable[[], float]
+) -> float:
+    """Return how far the robot went along its heading, without sign [m].
+
+    Raises:
+        CalibrationRefused: the reference cannot say.
+        RunLost: this run's wall or truth got lost.
+    """
+    if kind == MEASURED:
+        return ask()
+    if kind == TRUTH:
+        if before.truth is None or after.truth is None:
+            raise CalibrationRefused("no_truth")
+        return distance(before.truth.base_in_map, after.truth.base_in_map)
+    return abs(wall_m(before.scans, robot) - wall_m(after.scans, robot))
+
+
+def turned_rad(
+    kind: str, track: Track, before: Look, after: Look, robot: RobotDescription, near_rad: float
+) -> float:
+    """Return how far the robot turned in a run, by truth or by matching scans.
+
+    Args:
+        kind: which reference; a person measures distances alone, so the lidar serves for turns.
+        track: the run.
+        before: a look before it.
+        after: a look after it.
+        robot: places the lidar.
+        near_rad: what the wheels say: a scan shows a turn but for whole ones.
+    """
+    if kind == TRUTH:
+        if track.truth is None:
+            raise CalibrationRefused("no_truth")
+        return track.true_turn_rad
+    return near_rad + matched_rad(before.scans, after.scans, near_rad)
+
+
+def wall_m(scans: Sequence[Scan], robot: RobotDescription) -> float:
+    """Return the distance along the heading to the flat wall ahead [m].
+
+    Raises:
+        CalibrationRefused: ``no_wall``: what is ahead is not flat, or nothing is.
+    """
+    points = [point for scan in scans for point in points_of(scan, robot)]
+    near = _ahead(points)
+    if len(near) < WALL_POINTS * len(scans):
+        raise CalibrationRefused("no_wall", f"{len(near)} points ahead")
+    # Least squares of x = d + m y: the wall stands across the heading, so x is the far side of it.
+    for _ in range(3):
+        d, m = _line(near)
+        flat = [(x, y) for x, y in near if abs(x - d - m * y) <= WALL_OFF_M]
+        if not len(flat) >= WALL_SHARE * len(near) or abs(m) > 1.0:
+            raise CalibrationRefused("no_wall", f"{len(flat)} of {len(near)} points on one line")
+        near = flat
+    return _line(near)[0]
+
+
+def _ahead(points: Points) -> Points:
+    """Return what lies before the robot, on the nearest surface there."""
+    ahead = [(x, y) for x, y in points if x > 0.0 and abs(y) <= WALL_HALF_M]
+    if not ahead:
+        return []
+    middle = median(x for x, _ in ahead)
+    return [(x, y) for x, y in ahead if abs(x - middle) <= WALL_HALF_M]
+
+
+def _line(points: Points) -> tuple[float, float]:
+    mean_x, mean_y = fmean(x for x, _ in points), fmean(y for _, y in points)
+    spread = sum((y - mean_y) ** 2 for _, y in points)
+    m = sum((x - mean_x) * (y - mean_y) for x, y in points) / spread if spread > 0.0 else 0.0
+    return mean_x - m * mean_y, m
+
+
+def matched_rad(before: Sequence[Scan], after: Sequence[Scan], near_rad: float) -> float:
+    """Return by how much the robot turned more than the wheels say [rad].
+
+    On the spot a turn only shifts the beams, so the shift at which both scans agree best is
+    searched, first coarsely, then finely; ranges between beams are interpolated.
+
+    Raises:
+        RunLost: no shift fits.
+    """
+    old, new = _averaged(before), _averaged(after)
+    step = before[0].angle_increment_rad
+
+    def worst(more_rad: float) -> float:
+        return _disagreement(old, new, (near_rad + more_rad) / step)
+
+    coarse = min(_steps(-SEARCH_RAD, SEARCH_RAD, step), key=worst)
+    fine = min(_steps(coarse - step, coarse + step, FINE_RAD), key=worst)
+    if not worst(fine) <= 0.1:
+        raise RunLost("run_lost", f"scans before and after differ by {worst(fine):.2f} m")
+    return fine
+
+
+def _steps(low: float, high: float, by: float) -> list[float]:
+    return [low + n * by for n in range(round((high - low) / by) + 1)]
+
+
+def _averaged(scans: Sequence[Scan]) -> list[float | None]:
+    """Return the median of each beam; None where it mostly did not come back."""
+    beams: list[float | None] = []
+    for ranges in zip(*(scan.ranges_m for scan in scans), strict=True):
+        came = [value for value in ranges if value is not None]
+        beams.append(median(came) if 2 * len(came) > len(ranges) else None)
+    return beams
+
+
+def _disagreement(old: list[float | None], new: list[float | None], shift: float) -> float:
+    """Return the mean distance between scans, edges left out, where a beam sees a turn by shift."""
+    count = len(old)
+    whole = int(shift // 1)
+    part = shift - whole
+    off: list[float] = []
+    for index, seen in enumerate(new):
+        low, high = old[(index + whole) % count], old[(index + whole + 1) % count]
+        if seen is not None and low is not None and high is not None and abs(low - high) < 0.1:
+            off.append(abs(low + part * (high - low) - seen))
+    off.sort()
+    kept = off[: max(1, int(0.8 * len(off)))]
+    return fmean(kept) if len(kept) > count // 4 else 100.0

@@ -1,0 +1,234 @@
+"""Hold the stick: speak as a hand does, hear what drive, lidar and simulator say, notice trouble.
+
+The bridge treats this like any stick: dead-man released and neutral first; limits, rows and gates
+in force; a hand that falls silent lets go. Sessions, clock and waiting are given, so that the same
+code drives real processes and a lockstep world.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING
+
+from pons.calibrate.reference import SCANS, Look
+from pons.calibrate.refusals import CalibrationRefused, RunLost
+from pons.calibrate.track import Track
+from wire import DriveCommand, DriveState, Mode, Scan, SimTruth, Status, Velocity
+from wire.keys import DRIVE_COMMAND, DRIVE_STATE, SCAN, SIM_TRUTH, STATUS, TELEOP
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from wire.session import Session
+
+SOURCE = "calibrate"
+PERIOD_S = 0.05
+SILENT_S = 1.0
+TAKE_OVER_S, STAND_S, FIRST_S = 3.0, 6.0, 3.0
+STANDS_S = 0.4
+STANDING_MPS, STANDING_RADPS = 0.02, 0.05
+DRIVE_ROWS = {
+    "ENC_STALE", "DRIVER_NACK", "DRIVE_REBOOT", "RUNAWAY", "STUCK", "YAW_DISAGREE", "OVERCURRENT",
+}  # fmt: skip
+WAY_GATES = {"obstacle", "contact", "fence"}
+
+
+class Rig:
+    """Drive by teleop and listen."""
+
+    def __init__(
+        self,
+        operator: Session,
+        judge: Session,
+        clock: Callable[[], float],
+        wait: Callable[[], None],
+    ) -> None:
+        self._clock, self._wait = clock, wait
+        self._mouth = operator.publisher(TELEOP)
+        self._status = operator.subscriber(STATUS)
+        self._commands = judge.subscriber(DRIVE_COMMAND)
+        self._states = judge.subscriber(DRIVE_STATE)
+        self._scan = judge.subscriber(SCAN)
+        self._truth = judge.subscriber(SIM_TRUTH)
+        self.status: Status | None = None
+        self.state: DriveState | None = None
+        self.truth: SimTruth | None = None
+        self.scans: deque[Scan] = deque(maxlen=SCANS)
+        self.track: Track | None = None
+        self._heard_s = clock()
+        self._said_s = 0.0
+        self._seq = 0
+        self._wish: tuple[float, float, bool] | None = None
+        """Speed, turn and dead-man as they are said now; None says nothing."""
+
+    @property
+    def now_s(self) -> float:
+        """Return the time."""
+        return self._clock()
+
+    def pump(self) -> None:
+        """Let a moment pass: hear everybody, say what is due."""
+        self._wait()
+        now_s = self._clock()
+        status = self._status.newest()
+        if status is not None:
+            self.status, self._heard_s = status, now_s
+        self._hear()
+        if self._wish is not None and now_s - self._said_s >= PERIOD_S - 1e-9:
+            self._said_s = now_s
+            self._say(*self._wish)
+
+    def _hear(self) -> None:
+        track = self.track
+        for state in self._states.drain().items:
+            if isinstance(state, DriveState):
+                self.state = state
+                if track is not None:
+                    track.hear_state(state)
+        for command in self._commands.drain().items:
+            if isinstance(command, DriveCommand) and track is not None:
+                track.told[command.seq] = command
+                if self.state is not None:
+                    track.behind.append(command.seq - self.state.echo_seq)
+        for scan in self._scan.drain().items:
+            if isinstance(scan, Scan):
+                self.scans.append(scan)
+        for truth in self._truth.drain().items:
+            if isinstance(truth, SimTruth):
+                self.truth = truth
+                if track is not None:
+                    track.hear_truth(truth)
+
+    def _say(self, v_mps: float, w_radps: float, dead_man: bool) -> None:
+        if self.status is None:
+            return
+        self._seq += 1
+        self._mouth.put(
+            Velocity(
+                source_id=SOURCE,
+                epoch=self.status.epoch,
+                seq=self._seq,
+                seen=self.status.seq,
+                v_mps=v_mps,
+                w_radps=w_radps,
+                dead_man=dead_man,
+            )
+        )
+
+    # What a person does with a stick --------------------------------------------------------------
+
+    def listen(self) -> Status:
+        """Wait for the first words of bridge, drive and lidar.
+
+        Raises:
+            CalibrationRefused: ``no_bridge``, ``no_drive`` or ``no_lidar``.
+        """
+        self._until(lambda: self.status is not None, FIRST_S)
+        if self.status is None:
+            raise CalibrationRefused("no_bridge")
+        self._until(lambda: self.state is not None and len(self.scans) > 0, FIRST_S)
+        if self.state is None:
+            raise CalibrationRefused("no_drive")
+        if not self.scans:
+            raise CalibrationRefused("no_lidar", "no scan arrived")
+        return self.status
+
+    def take(self) -> None:
+        """Take the stick over: released, neutral, then held.
+
+        Raises:
+            CalibrationRefused, RunLost: the bridge does not give it.
+        """
+        self._wish = (0.0, 0.0, False)
+        self._for(0.25)
+        self._wish = (0.0, 0.0, True)
+        self._until(self.held, TAKE_OVER_S)
+        if not self.held():
+            self._raise_why()
+            raise RunLost("run_lost", "the bridge did not give the stick over")
+
+    def held(self) -> bool:
+        """Tell whether this hand moves the robot."""
+        return self.status is not None and self.status.mode is Mode.TELEOP
+
+    def steer(
+        self, v_mps: float, w_radps: float, until: Callable[[], bool], limit_s: float
+    ) -> None:
+        """Ask for a velocity until something is true.
+
+        Raises:
+            CalibrationRefused, RunLost: the bridge or the way stopped it, or it took too long.
+        """
+        self._wish = (v_mps, w_radps, True)
+        end_s = self.now_s + limit_s
+        while not until():
+            self.pump()
+            self.look_out()
+            if self.now_s >= end_s:
+                self._raise_why()
+                raise RunLost("run_lost", f"not done within {limit_s:.0f} s")
+
+    def let_go(self) -> None:
+        """Release the dead-man and wait until the robot stands. Never raises for the robot."""
+        self._wish = (0.0, 0.0, False)
+        self._until(lambda: not self.held() and self.stands(), STAND_S)
+        self._for(STANDS_S)
+        self._wish = None
+
+    def stands(self) -> bool:
+        """Tell whether the wheels stand, as far as the bridge measures."""
+        measured = self.status.measured if self.status is not None else None
+        return (
+            measured is not None
+            and abs(measured.v_mps) < STANDING_MPS
+            and abs(measured.w_radps) < STANDING_RADPS
+        )
+
+    def look(self) -> Look:
+        """Stand and look: scans and truth that are new."""
+        self.scans.clear()
+        self._until(lambda: len(self.scans) == SCANS, FIRST_S)
+        if len(self.scans) < SCANS:
+            raise CalibrationRefused("no_lidar", "no scans arrive")
+        return Look(self.truth, tuple(self.scans))
+
+    # Trouble --------------------------------------------------------------------------------------
+
+    def look_out(self) -> None:
+        """See whether this hand still has the robot.
+
+        Raises:
+            CalibrationRefused, RunLost: it has not.
+        """
+        if self.now_s - self._heard_s > SILENT_S:
+            raise CalibrationRefused("no_bridge", "the bridge fell silent during a run")
+        if not self.held():
+            self._raise_why()
+
+    def _raise_why(self) -> None:
+        status = self.status
+        if status is None:
+            raise CalibrationRefused("no_bridge")
+        if status.mode is Mode.ESTOPPED:
+            raise CalibrationRefused("estopped")
+        rows = {row.row: row.evidence for row in status.rows}
+        names = [name for name in rows if name in DRIVE_ROWS]
+        if names:
+            raise RunLost("encoder_fault", f"{names[0]}: {rows[names[0]]}")
+        if status.mode is Mode.FAULT:
+            raise CalibrationRefused("fault", ", ".join(rows))
+        if status.mode is Mode.DISARMED:
+            raise CalibrationRefused("not_armed", "disarmed during a run")
+        if status.blocked or status.limits.by in WAY_GATES:
+            raise RunLost("blocked", f"by {status.limits.by}")
+        if not self.held():
+            why = ", ".join(f"{name}: {seen}" for name, seen in rows.items()) or status.mode.value
+            raise RunLost("run_lost", why)
+
+    def _until(self, done: Callable[[], bool], limit_s: float) -> None:
+        end_s = self.now_s + limit_s
+        while not done() and self.now_s < end_s:
+            self.pump()
+
+    def _for(self, seconds: float) -> None:
+        self._until(lambda: False, seconds)

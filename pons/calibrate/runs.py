@@ -1,0 +1,108 @@
+"""Drive the runs: back and forth in a line at two speeds, once round on the spot. Knows the rig.
+
+A run begins and ends standing. Its stop is the letting go of the dead-man, so the ordinary stop of
+the bridge is what is measured.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+from pons.calibrate.track import Track
+
+if TYPE_CHECKING:
+    from pons.calibrate.reference import Look
+    from pons.calibrate.rig import Rig
+    from wire import RobotDescription
+
+SLOW_MPS, SLOW_S = 0.06, 2.2
+SETTLES_S = 0.9
+"""After a change of speed; then wheel control has settled."""
+FAST_MPS, FAST_SHARE = 0.35, 0.7
+TURN_RADPS, TURN_SHARE = 0.8, 0.7
+EVEN_S = 0.5
+"""Of even fast speed before the stop is what the fit of the dead zone uses."""
+SETTLED_TICKS = round(SETTLES_S * 100)
+EVEN_TICKS = round(EVEN_S * 100)
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Hold what one run recorded, from standing to standing."""
+
+    track: Track
+    before: Look
+    after: Look
+
+
+def straight(rig: Rig, robot: RobotDescription, metres: float) -> Run:
+    """Drive so many believed metres, backwards if negative; slowly at first."""
+    sign = 1.0 if metres > 0.0 else -1.0
+    fast_mps = min(FAST_MPS, FAST_SHARE * robot.limits.max_speed_mps)
+    lag_m = fast_mps * 0.1
+    stop_m = lag_m + fast_mps * fast_mps / (2 * robot.limits.max_decel_mps2) + 0.02
+    before = rig.look()
+    track = rig.track = Track()
+    try:
+        rig.take()
+        began_s = rig.now_s
+        track.mark("slow")
+        rig.steer(sign * SLOW_MPS, 0.0, lambda: rig.now_s - began_s >= SLOW_S, 2 * SLOW_S)
+        track.mark("fast")
+        rolled = _Rolled(track, robot)
+        target_m = abs(metres) - stop_m
+        limit_s = 4.0 + 2.0 * abs(metres) / fast_mps
+        rig.steer(sign * fast_mps, 0.0, lambda: rolled.metres() >= target_m, limit_s)
+        track.mark("stop")
+    finally:
+        rig.let_go()
+        rig.track = None
+    return Run(track, before, rig.look())
+
+
+def turn(rig: Rig, robot: RobotDescription, angle_rad: float) -> Run:
+    """Turn on the spot by about so much, clockwise if negative."""
+    sign = 1.0 if angle_rad > 0.0 else -1.0
+    radps = min(TURN_RADPS, TURN_SHARE * robot.limits.max_turn_radps)
+    rim_mps = radps * robot.base.wheel_separation_m / 2
+    stop_rad = radps * (0.1 + rim_mps / (2 * robot.limits.max_decel_mps2))
+    before = rig.look()
+    track = rig.track = Track()
+    try:
+        rig.take()
+        rolled = _Rolled(track, robot)
+        target_rad = abs(angle_rad) - stop_rad
+        limit_s = 5.0 + 2.0 * abs(angle_rad) / radps
+        rig.steer(0.0, sign * radps, lambda: rolled.radians() >= target_rad, limit_s)
+        track.mark("stop")
+    finally:
+        rig.let_go()
+        rig.track = None
+    return Run(track, before, rig.look())
+
+
+ROUND_RAD = 2 * pi
+
+
+@dataclass(frozen=True, slots=True)
+class _Rolled:
+    """Tell how far the wheels say the robot came in a run, by robot.toml's geometry."""
+
+    track: Track
+    robot: RobotDescription
+
+    def metres(self) -> float:
+        """Return the path [m], without sign."""
+        left, right = self._wheels()
+        return abs(left + right) / 2 * self.robot.base.wheel_radius_m
+
+    def radians(self) -> float:
+        """Return the turn [rad], without sign."""
+        left, right = self._wheels()
+        base = self.robot.base
+        return abs(right - left) * base.wheel_radius_m / base.wheel_separation_m
+
+    def _wheels(self) -> tuple[float, float]:
+        return self.track.turned_rad() if len(self.track.states) > 1 else (0.0, 0.0)
