@@ -88,6 +88,7 @@ class Link:
         *,
         real_time: bool,
         recorder_ok: bool,
+        recorder_says: str = "",
     ) -> Inbox:
         """Take one tick's arrivals, in the order in which they count."""
         took = _Took()
@@ -112,6 +113,7 @@ class Link:
             loop=loop,
             real_time=real_time,
             recorder_ok=recorder_ok,
+            recorder_says=recorder_says,
         )
 
     def publish(self, decision: Decision) -> None:

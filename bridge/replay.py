@@ -1,7 +1,8 @@
-"""Run a recording again through the core and compare every command exactly.
+"""Run recordings again through the core and compare every command exactly.
 
-Knows the recorder's door and the core; no clock, no drive. A recorded state, where a segment
-begins, is compared with the one that the replay has reached: an error that moves no wheel shows.
+Knows the recorder's reading door and the core; no clock, no drive. A recorded state, where a
+segment or a file begins, is compared with the one that the replay has reached: an error that moves
+no wheel shows.
 """
 
 from __future__ import annotations
@@ -10,21 +11,22 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bridge.core import step
-from bridge.recorder import (
+from bridge.recorder.reading import (
     BadRecording,
-    Gap,
     Header,
     StateFrame,
     TickFrame,
     config_of,
     read_recording,
+    this_core,
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
 
     from bridge.core import BridgeState, CoreConfig
-    from bridge.recorder import Frame
+    from bridge.recorder.reading import Frame
 
 __all__ = ["BadRecording", "ReplayReport", "replay"]
 
@@ -37,22 +39,26 @@ class ReplayReport:
     differing: int
     """Ticks whose command or mode came out otherwise, and states that were not reached."""
     gaps: int
-    """Ticks that the recording says it lacks."""
+    """Ticks that were not recorded, between the first and the last that were."""
     first_difference: str | None
+    other_core: str | None
+    """The core that recorded, where its shape is not this one's: differences may come from that."""
 
 
-def replay(path: Path) -> ReplayReport:
-    """Run every recorded tick again.
+def replay(paths: Iterable[Path]) -> ReplayReport:
+    """Run every recorded tick again; files of one run, given in order, are one run.
 
     Raises:
-        BadRecording: the file is no recording.
+        BadRecording: a file is no recording.
     """
     run = _Replay()
-    for frame in read_recording(path):
-        run.take(frame)
-    if run.config is None:
-        raise BadRecording("recording_empty", f"{path} holds no whole line")
-    return ReplayReport(run.ticks, run.differing, run.gaps, run.first_difference)
+    for path in paths:
+        before = run.frames
+        for frame in read_recording(path):
+            run.take(frame)
+        if run.frames == before:
+            raise BadRecording("recording_empty", f"{path} holds no whole record")
+    return ReplayReport(run.ticks, run.differing, run.gaps, run.first_difference, run.other_core)
 
 
 class _Replay:
@@ -60,19 +66,19 @@ class _Replay:
 
     def __init__(self) -> None:
         self._header: Header | None = None
-        self.config: CoreConfig | None = None
-        self.state: BridgeState | None = None
-        self.ticks = self.differing = self.gaps = 0
+        self._config: CoreConfig | None = None
+        self._state: BridgeState | None = None
+        self._core = this_core()
+        self.frames = self.ticks = self.differing = self.gaps = 0
         self.first_difference: str | None = None
+        self.other_core: str | None = None
 
     def take(self, frame: Frame) -> None:
         """Go on by one frame."""
+        self.frames += 1
         match frame:
             case Header():
                 self._configure(frame)
-            case Gap():
-                self.gaps += frame.ticks
-                self.state = None
             case StateFrame():
                 self._arrive(frame.state)
             case TickFrame():
@@ -80,20 +86,27 @@ class _Replay:
 
     def _configure(self, header: Header) -> None:
         if header != self._header:  # another run's: nothing carries over
-            self._header, self.config, self.state = header, config_of(header), None
+            self._header, self._config, self._state = header, config_of(header), None
+        if header.core != self._core:
+            self.other_core = header.core
 
     def _arrive(self, recorded: BridgeState) -> None:
-        comparable = self._header is not None and self._header.version != 1  # its cores saw further
-        if comparable and self.state is not None and self.state != recorded:
+        reached = self._state
+        if reached is not None and reached.tick != recorded.tick:
+            self.gaps += max(0, recorded.tick - reached.tick)
+        elif reached is not None and reached != recorded:
             self._differs(f"tick {recorded.tick}: the state reached is not the recorded one")
-        self.state = recorded
+        self._state = recorded
 
     def _again(self, frame: TickFrame) -> None:
-        if self.config is None or self.state is None:
+        if self._config is None or self._state is None:
             raise BadRecording("recording_stateless", f"tick {frame.tick} comes before any state")
-        decision = step(self.config, self.state, frame.inbox, frame.now_s)
+        if self._state.tick != frame.tick:
+            text = f"tick {frame.tick} follows tick {self._state.tick - 1}, and no state between"
+            raise BadRecording("recording_stateless", text)
+        decision = step(self._config, self._state, frame.inbox, frame.now_s)
         self.ticks += 1
-        self.state = decision.state
+        self._state = decision.state
         # repr tells -0.0 from 0.0, so equal here means equal to the last bit
         if repr(decision.command) != repr(frame.command):
             self._differs(f"tick {frame.tick}: {decision.command!r}, recorded {frame.command!r}")

@@ -82,12 +82,11 @@ class Shell:
         parts.keeper.note(decision.state.learnt)
         self._stats.add(tick.late_s + tick.missed * period_s, step_ns)
         parts.service.feed(now_s)
-        if not decision.state.motion.powered:
-            parts.recorder.rest(now_s)
 
     def _inbox(self, tick: Tick) -> Inbox:
         """Drain everything that arrived."""
         parts, figures = self._parts, self._stats.summary
+        unrecorded = parts.recorder.trouble
         facts = LoopFacts(
             late_s=tick.late_s,
             missed_ticks=tick.missed,
@@ -100,5 +99,6 @@ class Shell:
             parts.drive.read(),
             facts,
             real_time=self._real_time,
-            recorder_ok=parts.recorder.ok,
+            recorder_ok=not unrecorded,
+            recorder_says=unrecorded,
         )

@@ -18,7 +18,7 @@ from bridge.core import (
     initial,
     step,
 )
-from bridge.recorder.format import TickFrame, segment_lines, tick_line
+from bridge.recorder import warm_frames
 from wire import (
     IDENTITY,
     VIRTUAL_KEY,
@@ -79,18 +79,11 @@ def warm_up(config: CoreConfig, now_s: float) -> int:
         now_s += config.period_s
         inbox = _inbox(config, count, now_s, state.command_seq)
         decision = step(config, state, inbox, now_s)
-        frame = TickFrame(
-            tick=state.tick,
-            now_s=now_s,
-            inbox=inbox,
-            command=decision.command,
-            mode=decision.state.mode,
-            reasons=decision.reasons,
-        )
+        frames = warm_frames(config, state, inbox, now_s, decision, whole=count % 100 == 99)
         said = (decision.command, decision.status, decision.odometry, *decision.events)
-        size += len(tick_line(frame)) + sum(len(encode(word)) for word in said if word is not None)
+        size += len(frames) + sum(len(encode(word)) for word in said if word is not None)
         state = decision.state
-    return size + len(segment_lines(config, 1, state))
+    return size
 
 
 def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox:

@@ -1,26 +1,29 @@
 """Find the last stop in the recordings and say what stopped the robot.
 
-Searches the newest recordings for the last tick that left ACTIVE, TELEOP or HOLD for a mode that
-drives nobody, runs that segment again through the core, and gathers what was up and what it led to.
-Needs no running bridge; knows the recorder's door and the core; prints nothing.
+Looks through the newest recordings' events for the last time that ACTIVE, TELEOP or HOLD was left
+for a mode that drives nobody, runs that segment again through the core, and gathers what was up and
+what it led to. Needs no running bridge; knows the recorder's reading door and the core; prints
+nothing.
 """
 
 from __future__ import annotations
 
+import json
+from contextlib import ExitStack
 from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
 from bridge.core import step
 from bridge.core.rows import STAGES
-from bridge.recorder import (
+from bridge.recorder.reading import (
     BadRecording,
+    BoxReader,
     Header,
     StateFrame,
     TickFrame,
     config_of,
-    parsed,
-    read_segments,
+    frames_of,
 )
 from wire import Held, Mode, Pose2
 
@@ -28,15 +31,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from bridge.core import BridgeState
+    from bridge.core import BridgeState, CoreConfig
     from bridge.core.rows import Stage
+    from bridge.recorder.reading import Frame, Raw
 
 __all__ = ["BadRecording", "Stop", "last_stop"]
 
-_READY = {b"ACTIVE", b"TELEOP", b"HOLD"}
-_STOPPED = {b"STOPPING", b"ESTOPPED", b"FAULT", b"DISARMED"}
-_MODE = b'"mode":"'
-_TICK = b'{"kind":"tick"'
+_READY = {"ACTIVE", "TELEOP", "HOLD"}
+_STOPPED = {"STOPPING", "ESTOPPED", "FAULT", "DISARMED"}
+_EVENT, _BOOT = "/pons/event", "/pons/boot"
 AFTER_TICKS = 1000
 """How far the aftermath is followed: ten seconds."""
 
@@ -46,8 +49,11 @@ class Stop:
     """Tell of one stop."""
 
     path: Path
+    at_unix_s: float
     ago_s: float
     """Before the end of the recording."""
+    whole: bool
+    """The recording was closed; false: its writer was killed, or the power failed."""
     before: Mode
     after: Mode
     cause: str
@@ -74,76 +80,108 @@ def last_stop(folder: Path) -> Stop | None:
     Raises:
         BadRecording: a recording can't be read.
     """
-    newest_first = sorted(folder.glob("*.jsonl.gz"), key=_written_s, reverse=True)
-    for path in newest_first:
-        lines = _search(path)
-        if lines is not None:
-            return _again(path, *lines)
+    newest_first = sorted(folder.glob("*.mcap"), key=_written_s, reverse=True)
+    for index, path in enumerate(newest_first):
+        with ExitStack() as open_files:
+            box = open_files.enter_context(BoxReader(path))
+            found = _search(box)
+            if found is not None:
+                rest = _same_run(path, newest_first[:index])
+                later = [open_files.enter_context(BoxReader(other)) for other in rest]
+                return _again([box, *later], *found)
     return None
 
 
-def _written_s(path: Path) -> float:
+def _written_s(path: Path) -> tuple[float, str]:
     try:
-        return path.stat().st_mtime
+        return path.stat().st_mtime, path.name
     except OSError:
-        return 0.0  # rotated away meanwhile
+        return 0.0, path.name  # rotated away meanwhile
 
 
-def _search(path: Path) -> tuple[list[bytes], int, list[bytes]] | None:
-    """Return the segment with the last stop, the line of that stop, and the recording's last line.
-
-    What follows the stop in the next segment is added to the lines.
-    """
-    found: tuple[list[bytes], int] | None = None
-    fresh, last, mode = False, b"", b""
-    for lines in read_segments(path):
-        if fresh and found is not None:
-            found[0].extend(line for line in lines if line.startswith(_TICK))
-            fresh = False
-        for index, line in enumerate(lines):
-            if not line.startswith(_TICK):
-                continue
-            at = line.rfind(_MODE) + len(_MODE)
-            before, mode = mode, line[at : line.find(b'"', at)]
-            if before in _READY and mode in _STOPPED:
-                found, fresh = (lines, index), True
-            last = line
-    return None if found is None else (*found, [last])
+def _same_run(path: Path, newer: list[Path]) -> list[Path]:
+    """Return the file that goes on where this one ends, if there is one."""
+    boot = path.stem.split("-")[1:2]
+    return [other for other in reversed(newer) if other.stem.split("-")[1:2] == boot][:1]
 
 
-def _again(path: Path, lines: list[bytes], index: int, last: list[bytes]) -> Stop:
+def _search(box: BoxReader) -> tuple[int, Raw] | None:
+    """Return the chunk and the event of the last stop. Chunks without events are not unpacked."""
+    for index in range(len(box.chunks) - 1, -1, -1):
+        chunk = box.chunks[index]
+        if chunk.topics and _EVENT not in chunk.topics:
+            continue  # one without any index may be the last of a file cut short
+        for raw in reversed(box.read(chunk)):
+            if raw.topic == _EVENT and _is_stop(raw.data):
+                return index, raw
+    return None
+
+
+def _is_stop(data: bytes) -> bool:
+    event = json.loads(data)
+    if event["code"] != "mode":
+        return False
+    words = str(event["detail"]).split(" ", 2)
+    return words[0] in _READY and words[1:2] != [] and words[1] in _STOPPED
+
+
+def _again(boxes: list[BoxReader], index: int, stop: Raw) -> Stop:
     """Run the segment again up to the stop and a little further."""
-    config, state = None, None
-    ticks: list[TickFrame] = []
-    header = lines[0]
-    for frame in parsed(path, lines[: index + 1 + AFTER_TICKS]):
+    story = _Story(stop)
+    config: CoreConfig | None = None
+    state: BridgeState | None = None
+    for frame in _frames(boxes, index, stop):
         match frame:
             case Header():
                 config = config_of(frame)
             case StateFrame():
                 state = frame.state
-            case TickFrame():
-                ticks.append(frame)
-    stop_tick = next(f for f in parsed(path, [header, lines[index]]) if isinstance(f, TickFrame))
-    end = next(f for f in parsed(path, [header, *last]) if isinstance(f, TickFrame))
-    if config is None or state is None:
-        raise BadRecording("recording_stateless", f"{path}: a segment without a state")
-    story = _Story(stop_tick)
-    for tick in ticks:
-        decision = step(config, state, tick.inbox, tick.now_s)
-        events = [(event.code, event.detail) for event in decision.events]
-        story.take(tick, state, decision.state, events)
-        state = decision.state
-        if story.over:
+            case TickFrame() if config is not None and state is not None:
+                if frame.tick > stop.sequence + AFTER_TICKS or frame.tick != state.tick:
+                    break
+                decision = step(config, state, frame.inbox, frame.now_s)
+                events = [(event.code, event.detail) for event in decision.events]
+                story.take(frame, state, decision.state, events)
+                state = decision.state
+                if story.over:
+                    break
+    box = boxes[0]
+    end = next((raw for chunk in reversed(box.chunks) for raw in reversed(box.read(chunk))), stop)
+    return story.told(box, (end.at_ns - stop.at_ns) / 1e9)
+
+
+def _frames(boxes: list[BoxReader], index: int, stop: Raw) -> Iterator[Frame]:
+    """Yield from the boot that begins the stop's segment; on into the next file."""
+    box = boxes[0]
+    first, start = 0, 0
+    for number in range(index, -1, -1):
+        at = _segment(box.read(box.chunks[number]), stop.sequence)
+        if at is not None:
+            first, start = number, at
             break
-    return story.told(path, end.now_s)
+
+    def messages() -> Iterator[Raw]:
+        yield from box.read(box.chunks[first])[start:]
+        for chunk in box.chunks[first + 1 :]:
+            yield from box.read(chunk)
+        for later in boxes[1:]:
+            yield from later.messages()
+
+    return frames_of(box.path, messages())
+
+
+def _segment(messages: list[Raw], tick: int) -> int | None:
+    """Return where the last segment begins that has this tick."""
+    places = (at for at, raw in enumerate(messages) if raw.topic == _BOOT and raw.sequence <= tick)
+    return max(places, default=None)
 
 
 class _Story:
     """Gather what happened from the stop on."""
 
-    def __init__(self, stop_tick: TickFrame) -> None:
-        self._number, self._began_s = stop_tick.tick, stop_tick.now_s
+    def __init__(self, stop: Raw) -> None:
+        self._number, self._at_unix_s = stop.sequence, stop.at_ns / 1e9
+        self._began_s = 0.0
         self._from: BridgeState | None = None
         self._at: BridgeState | None = None
         self._now: BridgeState | None = None
@@ -170,7 +208,7 @@ class _Story:
         if tick.tick < self._number:
             return
         if tick.tick == self._number:
-            self._from, self._at = before, after
+            self._from, self._at, self._began_s = before, after, tick.now_s
             self._by = tick.inbox.stops[0].source if tick.inbox.stops else None
         here = after.odometry.base_in_odom
         if self._last is not None and self._stood_s is None:
@@ -181,14 +219,16 @@ class _Story:
         if self._stood_s is None and after.drive.still_since_s is not None:
             self._stood_s = passed_s
 
-    def told(self, path: Path, end_s: float) -> Stop:
+    def told(self, box: BoxReader, ago_s: float) -> Stop:
         """Return the whole."""
         before, after, now = self._from, self._at, self._now
         if before is None or after is None or now is None:
-            raise BadRecording("recording_stateless", f"{path}: the stop can't be run again")
+            raise BadRecording("recording_stateless", f"{box.path}: the stop can't be run again")
         return Stop(
-            path=path,
-            ago_s=end_s - self._began_s,
+            path=box.path,
+            at_unix_s=self._at_unix_s,
+            ago_s=ago_s,
+            whole=box.complete,
             before=before.mode,
             after=after.mode,
             cause=next(self._causes(), "unknown"),

@@ -55,7 +55,7 @@ def parser() -> argparse.ArgumentParser:
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
     again = words.add_parser("replay", help="run a recording again and compare every command")
-    again.add_argument("file")
+    again.add_argument("files", nargs="+", metavar="FILE", help="in order, where they are one run")
     words.add_parser(
         CONFORMANCE, help="play broken brains at a simulated bridge: conformance --help"
     )
@@ -183,7 +183,7 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
         return fault.run(settings, said.names, seconds=said.seconds)
     from pons import replay
 
-    return replay.run(said.file)
+    return replay.run(said.files)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pons.settings import Settings
 
 EXIT_TOLD, EXIT_NO_STOP, EXIT_BAD = 0, 1, 2
-_SHOWN = 12
+_SHOWN = 8
 
 _ORDERS = {
     "stop": ("Somebody said stop.", "有人下达了停止指令。"),
@@ -31,10 +31,26 @@ _ORDERS = {
     "stop_too_long": ("The stop took longer than planned.", "停车用时超过计划。"),
 }
 _TO_DO = {
-    Mode.FAULT: "mend what the evidence names; then pons reset, pons arm, pons resume",
-    Mode.ESTOPPED: "let go of the button; then pons reset, pons arm, pons resume",
-    Mode.DISARMED: "pons arm, then pons resume",
+    Mode.FAULT: (
+        "mend what the evidence names; then pons reset, pons arm, pons resume",
+        "先排除证据所示的问题，然后依次运行 pons reset、pons arm、pons resume",
+    ),
+    Mode.ESTOPPED: (
+        "let go of the button; then pons reset, pons arm, pons resume",
+        "松开停止按钮，然后依次运行 pons reset、pons arm、pons resume",
+    ),
+    Mode.DISARMED: ("pons arm, then pons resume", "运行 pons arm，然后 pons resume"),
 }
+_RESUME = ("pons resume", "运行 pons resume")
+_WENT_ON = ("nothing: it went on by itself", "无需操作：机器人已自行继续")
+_GOES_ON = (
+    "nothing: it goes on by itself once the evidence is gone",
+    "无需操作：问题消失后机器人会自行继续",
+)
+_CUT = (
+    "its writer was killed or the power failed; read up to its last whole second",
+    "记录进程被终止或断电；已读到最后一个完整片段",
+)
 
 
 def run(settings: Settings) -> int:
@@ -54,13 +70,12 @@ def run(settings: Settings) -> int:
 
 
 def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
-    began_s = stop.path.stat().st_mtime - stop.ago_s
-    when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(began_s))
-    yield "when", f"about {when}, {stop.ago_s:.1f} s before the record ends"
+    when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(stop.at_unix_s))
+    yield "when", f"{when}, {stop.ago_s:.1f} s before the record ends"
     yield "stop", f"{stop.before.value} -> {stop.after.value}, by {stop.cause}"
-    en, zh = WORDS.get(stop.cause.upper()) or _ORDERS.get(stop.cause) or ("", "")
-    if en:
-        yield "why", f"{en} {zh}"
+    words = WORDS.get(stop.cause.upper()) or _ORDERS.get(stop.cause)
+    if words is not None:
+        yield from _both("why", words)
     if stop.ordered_by is not None:
         yield "who", stop.ordered_by
     for stage, evidence in stop.rows:
@@ -68,12 +83,20 @@ def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
     yield "motion", _motion(stop)
     held = f", held: {stop.held.reason.value} {stop.held.id}" if stop.held is not None else ""
     yield "then", f"{stop.ended.value}{held}"
-    yield "to do", _to_do(stop)
+    yield from _both("to do", _to_do(stop))
     for passed_s, code, detail in stop.events[:_SHOWN]:
         yield f"+{passed_s:.2f} s", f"{code} {detail}"
     if len(stop.events) > _SHOWN:
         yield "", f"and {len(stop.events) - _SHOWN} more"
     yield "record", str(stop.path)
+    if not stop.whole:
+        yield from _both("", _CUT)
+
+
+def _both(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:
+    """Yield English, and Chinese below it."""
+    yield name, words[0]
+    yield "", words[1]
 
 
 def _motion(stop: Stop) -> str:
@@ -83,11 +106,9 @@ def _motion(stop: Stop) -> str:
     return f"{stop.speed_mps:.2f} m/s when it began; {stood}"
 
 
-def _to_do(stop: Stop) -> str:
+def _to_do(stop: Stop) -> tuple[str, str]:
     if stop.ended in _TO_DO:
         return _TO_DO[stop.ended]
     if stop.held is not None:
-        return "pons resume"
-    if stop.ended in {Mode.ACTIVE, Mode.TELEOP}:
-        return "nothing: it went on by itself"
-    return "nothing: it goes on by itself once the evidence is gone"
+        return _RESUME
+    return _WENT_ON if stop.ended in {Mode.ACTIVE, Mode.TELEOP} else _GOES_ON

@@ -11,6 +11,7 @@ from wire import SEVERITY, Action, Mode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from bridge.core.inbox import Inbox
     from bridge.core.tick import Tick
 
 STANDING_S = 0.5
@@ -47,7 +48,13 @@ def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
     if pressed_s is not None and not tick.now_s - pressed_s > STICK_S:
         yield "stick_not_neutral", "somebody holds a dead-man"
     if not s.loop.recorder_ok:
-        yield "recorder_down", "the tick recorder takes no records"
+        yield recorder_lack(tick.inbox)
+
+
+def recorder_lack(inbox: Inbox) -> tuple[str, str]:
+    """Return code and sentence of why this run is not being recorded."""
+    code, _, detail = inbox.recorder_says.partition(": ")
+    return code or "recorder_down", detail or "the tick recorder takes no records"
 
 
 def reset_lacks(tick: Tick) -> Iterator[tuple[str, str]]:

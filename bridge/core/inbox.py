@@ -93,6 +93,8 @@ class Inbox:
     real_time: bool = False
     """Scheduling and memory rights were granted as asked."""
     recorder_ok: bool = False
+    recorder_says: str = ""
+    """Why it takes no records: code, colon, sentence."""
     sensors_same_host: bool = True
     """Drive, lidar and IMU stamp with this host's monotonic clock: stamps may age them further."""
     localization_same_host: bool = True

@@ -10,6 +10,7 @@ from math import hypot, radians
 from typing import TYPE_CHECKING
 
 from bridge.core.ages import sensor_age_s
+from bridge.core.arming import recorder_lack
 from bridge.core.epoch import shelved
 from bridge.core.learnt import in_force
 from bridge.core.obstaclegate import sight_m
@@ -49,6 +50,9 @@ def sense(tick: Tick) -> None:
         s.buttons = replace(
             s.buttons, link_pressed=inbox.estop_link.pressed, link_received_s=tick.now_s
         )
+    if s.loop.recorder_ok != inbox.recorder_ok and s.tick > 1:
+        code, detail = ("recorder_up", "") if inbox.recorder_ok else recorder_lack(inbox)
+        tick.say(code, detail)
     if s.loop.real_time != inbox.real_time or s.loop.recorder_ok != inbox.recorder_ok:
         s.loop = replace(s.loop, real_time=inbox.real_time, recorder_ok=inbox.recorder_ok)
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from bridge.core.arming import arm_lacks
+from bridge.core.arming import arm_lacks, recorder_lack
 from bridge.core.latch import binds, sources, worst
 from bridge.core.legs import residual
 from bridge.core.limiter import stopping_m
+from bridge.core.modes import POWERED
 from bridge.core.obstaclegate import weak_m
 from bridge.core.operator import nonce_text
 from bridge.core.rows import STAGES
@@ -152,6 +153,8 @@ def _waiting(tick: Tick) -> tuple[str, ...]:
         return tuple(dict.fromkeys(code for code, _ in arm_lacks(tick)))
     if s.mode is Mode.FAULT and s.fault is not None:
         return (s.fault,)
+    if s.mode in POWERED and not s.loop.recorder_ok:
+        return (recorder_lack(tick.inbox)[0],)  # it drives on; the next arming would be refused
     return ()
 
 

@@ -1,25 +1,28 @@
-"""Define what a recording holds: gzipped lines of JSON, one frame each (``zcat FILE | jq``).
+"""Define what a recording says of the bridge, message by message, and how exactly.
 
-header   all that is configured: enough to build the same core again
-state    the core's whole state before the tick that follows
-tick     what one step was given and the command it gave
-gap      ticks not recorded because the pipe was full; it lies between a header and a state
+boot      all that is configured: enough to build the same core again
+state     the core's whole state before the tick that follows
+inbox     what one step was given, and when
+command   what it sent to the drive; absent in the ticks that send none
+decision  the rest of what it decided, in short; last of its tick
 
-A segment begins with a header and a state, so a file may begin at any header. Floats are written in
-their shortest exact form and come back bit for bit.
+A segment begins with a boot and a state, so that a replay may begin at any. Floats are written in
+their shortest exact form and come back bit for bit; a scan's ranges go beside the inbox as doubles.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, ClassVar, Literal
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal
 
-from pydantic import ConfigDict, Field, TypeAdapter
+from pydantic import ConfigDict, TypeAdapter
 
 from bridge.core import BridgeState, CoreConfig, Inbox
 from bridge.core.fence import Fence, Zone, build_fence
 from bridge.core.outline import Polygon
-from wire import DriveCommand, Mode, RobotDescription
+from wire import DriveCommand, Event, Mode, Odometry, Status, Twist2
+from wire.fingerprint import fingerprint
+from wire.value import value
 
 _STRICT = ConfigDict(extra="forbid", allow_inf_nan=False)
 
@@ -37,17 +40,15 @@ class Outlines:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Header:
-    """Begin a segment. ``kind`` comes first in every frame: the writer looks for it there."""
+    """Begin a segment."""
 
-    kind: Literal["header"] = "header"
-    version: Literal[1, 2] = 2
-    robot: RobotDescription
-    robot_hash: str
+    version: Literal[3] = 3
+    """1 and 2 were gzipped lines of JSON."""
+    core: str
+    """Fingerprint of the shape of configuration, state and inbox: of which core this is."""
+    config: CoreConfig
+    """Without the fence, whose prepared cells are no JSON."""
     fence: Outlines | None
-    fence_hash: str
-    map_id: str
-    boot: str
-    period_s: float
     __pydantic_config__: ClassVar[ConfigDict] = _STRICT
 
 
@@ -55,74 +56,105 @@ class Header:
 class StateFrame:
     """Give the state before the next tick."""
 
-    kind: Literal["state"] = "state"
     state: BridgeState
+    __pydantic_config__: ClassVar[ConfigDict] = _STRICT
+
+
+@value
+class Given:
+    """Give one step's arguments: the number of the tick before it, the time, what arrived."""
+
+    tick: int
+    now_s: float
+    inbox: Inbox
+    __pydantic_config__: ClassVar[ConfigDict] = _STRICT
+
+
+@value
+class Digest:
+    """Give in short what one step decided, beside what it said."""
+
+    tick: int
+    mode: Mode
+    sent: Twist2
+    """Body velocity sent, before dead-zone feed-forward."""
+    cap: float
+    bound_by: str
+    free_m: float | None
+    reasons: tuple[str, ...]
     __pydantic_config__: ClassVar[ConfigDict] = _STRICT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TickFrame:
-    """Give one tick's arguments and what came of them."""
+    """Give one tick as it was recorded."""
 
-    kind: Literal["tick"] = "tick"
     tick: int
     now_s: float
     inbox: Inbox
     command: DriveCommand | None
     mode: Mode
     reasons: tuple[str, ...]
-    __pydantic_config__: ClassVar[ConfigDict] = _STRICT
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Gap:
-    """Say how many ticks are missing here."""
+Frame = Header | StateFrame | TickFrame
 
-    kind: Literal["gap"] = "gap"
-    ticks: int
-    __pydantic_config__: ClassVar[ConfigDict] = _STRICT
+HEADER = TypeAdapter(Header)
+STATE = TypeAdapter(StateFrame)
+GIVEN = TypeAdapter(Given)
+DIGEST = TypeAdapter(Digest)
+COMMAND = TypeAdapter(DriveCommand)
+STATUS = TypeAdapter(Status)
+ODOMETRY = TypeAdapter(Odometry)
+EVENT = TypeAdapter(Event)
+
+TOPICS: dict[str, tuple[str, TypeAdapter[Any]]] = {
+    "/pons/boot": ("pons.Boot", HEADER),
+    "/pons/state": ("pons.State", STATE),
+    "/pons/inbox": ("pons.Inbox", GIVEN),
+    "/pons/command": ("pons.DriveCommand", COMMAND),
+    "/pons/decision": ("pons.Decision", DIGEST),
+    "/pons/status": ("pons.Status", STATUS),
+    "/pons/odometry": ("pons.Odometry", ODOMETRY),
+    "/pons/event": ("pons.Event", EVENT),
+}
 
 
-Frame = Header | StateFrame | TickFrame | Gap
-
-FRAMES: TypeAdapter[Frame] = TypeAdapter(Annotated[Frame, Field(discriminator="kind")])
-_HEADER = TypeAdapter(Header)
-_STATE = TypeAdapter(StateFrame)
-_TICK = TypeAdapter(TickFrame)
-_GAP = TypeAdapter(Gap)
-
-
-def tick_line(frame: TickFrame) -> bytes:
-    """Return one tick's line; about 20 us, 70 us with a scan."""
-    return _TICK.dump_json(frame) + b"\n"
+def schemas() -> dict[str, dict[str, Any]]:
+    """Return name and JSON Schema of each topic; 0.2 s, so once and before the loop."""
+    return {
+        topic: {"name": name, "schema": adapter.json_schema(mode="serialization")}
+        for topic, (name, adapter) in TOPICS.items()
+    }
 
 
-def header_of(config: CoreConfig) -> Header:
+def core_of(said: dict[str, dict[str, Any]]) -> str:
+    """Return the fingerprint of what a replay must understand."""
+    told = [said[topic]["schema"] for topic in ("/pons/boot", "/pons/state", "/pons/inbox")]
+    return fingerprint(repr(_bare(told)).encode())
+
+
+def _bare(schema: Any) -> Any:
+    """Leave out the words: a better docstring makes no other core."""
+    if isinstance(schema, dict):
+        return {key: _bare(value) for key, value in schema.items() if key != "description"}
+    return [_bare(item) for item in schema] if isinstance(schema, list) else schema
+
+
+def header_of(config: CoreConfig, core: str) -> Header:
     """Write a configuration down."""
     fence = config.fence
     return Header(
-        robot=config.robot,
-        robot_hash=config.robot_hash,
+        core=core,
+        config=replace(config, fence=None),
         fence=None if fence is None else _outlines(fence),
-        fence_hash=config.fence_hash,
-        map_id=config.map_id,
-        boot=config.boot,
-        period_s=config.period_s,
     )
 
 
 def config_of(header: Header) -> CoreConfig:
     """Build the same configuration again."""
     fence = header.fence
-    return CoreConfig(
-        robot=header.robot,
-        robot_hash=header.robot_hash,
-        fence=None if fence is None else _fence(fence),
-        fence_hash=header.fence_hash,
-        map_id=header.map_id,
-        boot=header.boot,
-        period_s=header.period_s,
-    )
+    return header.config if fence is None else replace(header.config, fence=_fence(fence))
 
 
 def _outlines(fence: Fence) -> Outlines:
@@ -133,12 +165,3 @@ def _outlines(fence: Fence) -> Outlines:
 
 def _fence(kept: Outlines) -> Fence:
     return build_fence(kept.map_id, kept.allowed, kept.keep_outs, kept.zones)
-
-
-def segment_lines(config: CoreConfig, missing: int, state: BridgeState) -> bytes:
-    """Return what a segment begins with, told how many ticks are missing before it."""
-    lines = [_HEADER.dump_json(header_of(config))]
-    if missing:
-        lines.append(_GAP.dump_json(Gap(ticks=missing)))
-    lines.append(_STATE.dump_json(StateFrame(state=state)))
-    return b"\n".join(lines) + b"\n"

@@ -1,7 +1,7 @@
-"""Hand lines to another process without ever waiting. Owns one pipe; knows no line's meaning.
+"""Hand bytes to another process without ever waiting. Owns one pipe; knows no meaning.
 
-A write to a pipe larger than what is free is cut short (pipe(7)), so the rest of one line is kept
-and goes first next time. At most that one line waits: memory does not grow behind a slow reader.
+A write to a pipe larger than what is free is cut short (pipe(7)), so the rest of one piece is kept
+and goes first next time. At most that one piece waits: memory does not grow behind a slow reader.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ for an ordinary user (/proc/sys/fs/pipe-max-size)."""
 _F_SETPIPE_SZ = getattr(fcntl, "F_SETPIPE_SZ", None)
 
 
-class LinePipe:
-    """Be the writing end of a non-blocking pipe whose lines arrive whole or not at all."""
+class Pipe:
+    """Be the writing end of a non-blocking pipe whose pieces arrive whole or not at all."""
 
     def __init__(self, wanted_bytes: int = WANTED_BYTES) -> None:
         self._read_fd, self._write_fd = (
@@ -42,18 +42,18 @@ class LinePipe:
             os.close(self._read_fd)
             self._read_fd = -1
 
-    def send(self, line: bytes) -> bool:
-        """Take the line whole, or say that it could not be taken. Never blocks, never raises."""
+    def send(self, piece: bytes) -> bool:
+        """Take the piece whole, or say that it could not be taken. Never blocks, never raises."""
         if not self.flush():
             return False
-        sent = self._write(line)
+        sent = self._write(piece)
         if sent == 0:
             return False
-        self._rest = line[sent:]
+        self._rest = piece[sent:]
         return True
 
     def flush(self) -> bool:
-        """Push out what is left of the line before; say whether nothing of it is left."""
+        """Push out what is left of the piece before; say whether nothing of it is left."""
         if self._rest:
             self._rest = self._rest[self._write(self._rest) :]
         return not self._rest and not self.broken

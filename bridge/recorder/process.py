@@ -1,7 +1,7 @@
-"""Start the writer process and notice its death. Owns the child; knows nothing of lines.
+"""Start the writing process and notice its death. Owns the child; knows nothing of frames.
 
-posix_spawn takes about a millisecond and copies no memory, which fits a tick of a robot that has no
-torque; nobody starts a writer while the robot is powered.
+posix_spawn takes about a millisecond and copies no memory, which fits a tick; what a thread under
+SCHED_FIFO starts is not under it (realtime.rights resets it on fork).
 """
 
 from __future__ import annotations
@@ -10,37 +10,66 @@ import os
 import signal
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
-from bridge.recorder import writer
-
-ROTATE_BYTES = 64 << 20
-CAP_BYTES = 1 << 30
-"""All recordings together; the oldest go first."""
+_ROOT = Path(__file__).resolve().parents[2]
+_MAIN = (
+    "import sys; sys.path.insert(0, sys.argv.pop(1)); "
+    "from bridge.blackbox.__main__ import main; sys.exit(main(sys.argv[1:]))"
+)
 _ENDS_WITHIN_S = 3.0
 
 
-class WriterProcess:
-    """Be the handle of one running writer."""
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Bound what recordings take."""
 
-    def __init__(self, folder: Path, boot: str, read_fd: int, *, rotate_bytes: int = ROTATE_BYTES,
-                 cap_bytes: int = CAP_BYTES) -> None:  # fmt: skip
+    rotate_bytes: int = 64 << 20
+    """Of one file."""
+    cap_bytes: int = 1 << 30
+    """Of all together; the oldest go first."""
+
+
+class WriterProcess:
+    """Be the handle of one running writer, and the pipe of its words."""
+
+    def __init__(
+        self, folder: Path, boot: str, read_fd: int, sizes: Sizes, offset_s: float
+    ) -> None:
         """Start it on the reading end of a pipe.
 
         Raises:
             OSError: the system has no process left for us.
         """
-        script = str(Path(writer.__file__).resolve())
-        words = [str(folder), boot, str(rotate_bytes), str(cap_bytes)]
-        self.pid = os.posix_spawn(
-            sys.executable,
-            [sys.executable, "-I", "-S", script, *words],
-            dict(os.environ),
-            file_actions=[(os.POSIX_SPAWN_DUP2, read_fd, 0)],
-            # Blocked until it can ignore them itself: a Ctrl-C in its first moments is not its.
-            setsigmask=[signal.SIGINT, signal.SIGTERM],
-        )
+        words = [str(folder), boot, str(sizes.rotate_bytes), str(sizes.cap_bytes), repr(offset_s)]
+        self._words_fd, said_fd = os.pipe()
+        os.set_blocking(self._words_fd, False)
+        try:
+            self.pid = os.posix_spawn(
+                sys.executable,
+                [sys.executable, "-I", "-c", _MAIN, str(_ROOT), *words],
+                dict(os.environ),
+                file_actions=[
+                    (os.POSIX_SPAWN_DUP2, read_fd, 0),
+                    (os.POSIX_SPAWN_DUP2, said_fd, 1),
+                ],
+                # Blocked until it can ignore them itself: a Ctrl-C in its first moments is not its.
+                setsigmask=[signal.SIGINT, signal.SIGTERM],
+            )
+        except OSError:
+            os.close(self._words_fd)
+            raise
+        finally:
+            os.close(said_fd)
         self._alive = True
+
+    def words(self) -> bytes:
+        """Return what it has said since the last time; never waits."""
+        try:
+            return os.read(self._words_fd, 4096) if self._words_fd >= 0 else b""
+        except BlockingIOError:
+            return b""
 
     def alive(self) -> bool:
         """Say whether it still runs; costs one system call."""
@@ -53,7 +82,14 @@ class WriterProcess:
         end_s = time.monotonic() + limit_s
         while self.alive() and time.monotonic() < end_s:
             time.sleep(0.01)
+        self.forget()
         return not self._alive
+
+    def forget(self) -> None:
+        """Close the pipe of its words."""
+        if self._words_fd >= 0:
+            os.close(self._words_fd)
+            self._words_fd = -1
 
     def _reap(self) -> bool:
         try:

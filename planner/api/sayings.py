@@ -1,4 +1,4 @@
-"""Own what a person is told about a recording that can't be used, by the problem's code.
+"""Own what a person is told about what can't be used or armed, by the problem's code.
 
 ``detail`` beside it names what came and what was expected, for whoever wrote the client.
 """
@@ -40,6 +40,14 @@ SAYINGS = {
     "wav_malformed": _BROKEN,
     "recogniser_unavailable": _EARS,
     "voice_busy": _AGAIN,
+    "disk_full": Bilingual(
+        en="The disk is full, so nothing is recorded: make room, then arm.",
+        zh="磁盘已满，无法记录行驶数据：请清理磁盘后再解锁。",
+    ),
+    "recorder_down": Bilingual(
+        en="Nothing is being recorded, so the robot can't be armed. `pons status` says why.",
+        zh="目前没有记录行驶数据，因此不能解锁。运行 `pons status` 可查看原因。",
+    ),
     "voice_timed_out": _AGAIN,
     "body_too_large": Bilingual(
         en="What was sent is too large.", zh="发送的内容过大。"

@@ -1,8 +1,7 @@
-"""A recorded drive runs again through the core to the same commands, to the last bit."""
+"""A recording run again gives every command to the last bit; what differs is found."""
 
 from __future__ import annotations
 
-import gzip
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -10,37 +9,24 @@ from typing import Any
 
 import pytest
 
+from bridge.blackbox import frames
+from bridge.blackbox.file import BoxFile
+from bridge.blackbox.topics import topics
 from bridge.core import initial
-from bridge.recorder import BadRecording
-from bridge.recorder.format import TickFrame, segment_lines, tick_line
-from bridge.replay import replay
+from bridge.replay import BadRecording, replay
 from tests.bridge.core.scripted import World
+from tests.bridge.recorded import SCHEMAS, Taken, stream_of, written
 from wire import Mode
 
-Lines = list[bytes]
 
-
-def recorded(world: World, segment_at: int | None = None, missing: range = range(0)) -> Lines:
-    """Write down a world's ticks as the recorder does; a gap is followed by a new segment."""
+def taken(world: World) -> list[Taken]:
+    """Return what a recorder would have been given."""
     before = initial(world.core, 100.0)
-    lines = [segment_lines(world.core, 0, before)]
-    for number, ((inbox, now_s), decision) in enumerate(
-        zip(world.inboxes, world.decisions, strict=True)
-    ):
-        if number == segment_at or (missing and number == missing.stop):
-            lines.append(segment_lines(world.core, len(missing), before))
-        if number not in missing:
-            frame = TickFrame(
-                tick=before.tick,
-                now_s=now_s,
-                inbox=inbox,
-                command=decision.command,
-                mode=decision.state.mode,
-                reasons=decision.reasons,
-            )
-            lines.append(tick_line(frame))
+    ticks = []
+    for (inbox, now_s), decision in zip(world.inboxes, world.decisions, strict=True):
+        ticks.append((before, inbox, now_s, decision))
         before = decision.state
-    return b"".join(lines).splitlines(keepends=True)
+    return ticks
 
 
 @pytest.fixture(scope="module")
@@ -63,145 +49,167 @@ def drive() -> World:
     return world
 
 
+@pytest.fixture(scope="module")
+def ticks(drive: World) -> list[Taken]:
+    return taken(drive)
+
+
 @pytest.fixture
-def write(tmp_path: Path) -> Callable[[Lines], Path]:
-    def put(lines: Lines) -> Path:
-        path = tmp_path / "r.jsonl.gz"
-        path.write_bytes(gzip.compress(b"".join(lines)))
-        return path
+def write(drive: World, ticks: list[Taken], tmp_path: Path) -> Callable[..., list[Path]]:
+    def put(change: Callable[[bytes], bytes] | None = None, **how: Any) -> list[Path]:
+        rotate = {"rotate_bytes": how.pop("rotate_bytes")} if "rotate_bytes" in how else {}
+        stream = stream_of(drive.core, ticks, **how)
+        return written(tmp_path, change(stream) if change else stream, **rotate)
 
     return put
 
 
-def changed(lines: Lines, which: Callable[[dict[str, Any]], bool], how: str, value: Any) -> int:
-    """Change one field (a/b/c) of the first frame that fits; return its tick."""
-    for number, line in enumerate(lines):
-        frame = json.loads(line)
-        if which(frame):
+def edited(
+    stream: bytes, kind: bytes, which: Callable[[dict[str, Any]], bool], how: str, value: Any
+) -> bytes:
+    """Change one field (a/b/c) of the first frame of that kind that fits."""
+    out, done = [], False
+    for each, payload in frames.Splitter().feed(stream):
+        data = payload
+        if each == kind and not done and which(said := json.loads(payload)):
             *path, last = how.split("/")
-            inner = frame
+            inner = said
             for name in path:
                 inner = inner[name]
-            inner[last] = value(inner[last]) if callable(value) else value
-            lines[number] = json.dumps(frame).encode() + b"\n"
-            return int(frame.get("tick", -1))
-    raise AssertionError("no frame fits")
+            inner[last] = value(inner[last])
+            data, done = json.dumps(said).encode(), True
+        out.append(frames.frame(each, data))
+    assert done, "no frame fits"
+    return b"".join(out)
 
 
-def moving(frame: dict[str, Any]) -> bool:
-    return frame["kind"] == "tick" and frame["mode"] == "ACTIVE" and bool(frame["command"])
+def moving(command: dict[str, Any]) -> bool:
+    return bool(command["enable"]) and command["left_radps"] > 1.0
 
 
-def test_a_drive_replays_to_the_last_bit(drive: World, write: Callable[[Lines], Path]) -> None:
+def test_a_drive_replays_to_the_last_bit(
+    drive: World, write: Callable[..., list[Path]]
+) -> None:  # fmt: skip
     modes = {decision.state.mode for decision in drive.decisions}
     assert {Mode.SELFTEST, Mode.ACTIVE, Mode.STOPPING, Mode.TELEOP, Mode.ESTOPPED} <= modes
-    report = replay(write(recorded(drive)))
+    report = replay(write())
     assert report.first_difference is None
     assert (report.ticks, report.differing, report.gaps) == (len(drive.inboxes), 0, 0)
+    assert report.other_core is None
 
 
-def test_every_state_on_the_way_can_be_gone_on_from(
-    drive: World, write: Callable[[Lines], Path]
+def test_every_file_of_a_rotated_run_replays_alone_and_all_together(
+    drive: World, write: Callable[..., list[Path]]
 ) -> None:
-    for at in range(50, len(drive.inboxes), 331):
-        report = replay(write(recorded(drive, segment_at=at)))
-        assert (report.first_difference, report.differing) == (None, 0)
+    files = write(segments_at=range(0, len(drive.inboxes), 173), rotate_bytes=1)
+    assert len(files) > 5
+    alone = [replay([path]) for path in files]
+    assert sum(report.ticks for report in alone) == len(drive.inboxes)
+    assert {report.differing for report in alone} == {0}
+    together = replay(files)
+    assert (together.ticks, together.differing, together.gaps) == (len(drive.inboxes), 0, 0)
 
 
 def test_after_a_gap_the_replay_goes_on_from_the_recorded_state(
-    drive: World, write: Callable[[Lines], Path]
+    drive: World, write: Callable[..., list[Path]]
 ) -> None:
-    report = replay(write(recorded(drive, missing=range(200, 260))))
+    report = replay(write(missing=range(200, 260)))
     assert (report.differing, report.gaps) == (0, 60)
     assert report.ticks == len(drive.inboxes) - 60
 
 
-def test_one_bit_of_one_command_is_found(drive: World, write: Callable[[Lines], Path]) -> None:
-    lines = recorded(drive)
-    tick = changed(lines, moving, "command/left_radps", lambda v: v * (1 + 2**-52) + 5e-324)
-    report = replay(write(lines))
+def test_one_bit_of_one_command_is_found(write: Callable[..., list[Path]]) -> None:
+    def bent(stream: bytes) -> bytes:
+        return edited(stream, frames.COMMAND, moving, "left_radps", lambda v: v * (1 + 2**-52))
+
+    report = replay(write(bent))
     assert report.differing == 1
-    assert report.first_difference is not None
-    assert report.first_difference.startswith(f"tick {tick}: ")
+    assert "left_radps" in str(report.first_difference)
 
 
-def test_the_sign_of_a_zero_is_found(drive: World, write: Callable[[Lines], Path]) -> None:
-    lines = recorded(drive)
+def test_the_sign_of_a_zero_is_found(write: Callable[..., list[Path]]) -> None:
+    def standing(command: dict[str, Any]) -> bool:
+        return bool(command["left_radps"] == 0.0)
 
-    def standing(frame: dict[str, Any]) -> bool:
-        return frame["kind"] == "tick" and (frame["command"] or {}).get("left_radps") == 0.0
-
-    changed(lines, standing, "command/left_radps", lambda v: -v)
-    assert replay(write(lines)).differing == 1
-
-
-def test_another_input_gives_another_drive(drive: World, write: Callable[[Lines], Path]) -> None:
-    lines = recorded(drive)
-    changed(lines, moving, "now_s", lambda v: v + 0.004)
-    assert replay(write(lines)).differing > 0
+    report = replay(
+        write(lambda s: edited(s, frames.COMMAND, standing, "left_radps", lambda v: -v))
+    )
+    assert report.differing == 1
 
 
-def test_a_state_that_is_not_the_one_reached_is_found(
-    drive: World, write: Callable[[Lines], Path]
-) -> None:
-    lines = recorded(drive, segment_at=300)
+def test_another_input_gives_another_drive(write: Callable[..., list[Path]]) -> None:
+    def late(given: dict[str, Any]) -> bool:
+        return bool(given["tick"] == 400)
 
+    report = replay(write(lambda s: edited(s, frames.INBOX, late, "now_s", lambda v: v + 0.004)))
+    assert report.differing > 0
+
+
+def test_a_state_that_is_not_the_one_reached_is_found(write: Callable[..., list[Path]]) -> None:
     def second(frame: dict[str, Any]) -> bool:
-        return bool(frame["kind"] == "state" and frame["state"]["tick"] > 0)
+        return bool(frame["state"]["tick"] > 0)
 
-    changed(lines, second, "state/voice/dropped", lambda v: v + 1)
-    report = replay(write(lines))
+    report = replay(
+        write(
+            lambda s: edited(s, frames.STATE, second, "state/voice/dropped", lambda v: v + 1),
+            segments_at=[300],
+        )
+    )
     assert report.differing >= 1
     assert "state reached" in str(report.first_difference)
 
 
-def of_version_1(line: bytes) -> bytes:
-    """Write a frame as version 1 did: a scan's picture held all points, and beams by count."""
-    frame = json.loads(line)
-    if frame["kind"] == "header":
-        frame["version"] = 1
-    picture = frame["state"]["lidar"]["picture"] if frame["kind"] == "state" else None
-    if picture is not None:
-        came = [r is not None for r in picture.pop("ranges_m")]
-        for gone in ("range_min_m", "range_max_m", "returns", "sight_m"):
-            del picture[gone]
-        picture["before"] = [sum(came[:i]) for i in range(len(came) + 1)]
-    return json.dumps(frame, separators=(",", ":")).encode() + b"\n"
-
-
-def test_a_recording_of_version_1_replays_too(drive: World, write: Callable[[Lines], Path]) -> None:
-    old = [of_version_1(line) for line in recorded(drive, segment_at=300)]
-    assert b'"before"' in b"".join(old)
-    report = replay(write(old))
-    assert (report.ticks, report.differing) == (len(drive.inboxes), 0)
-    later = [of_version_1(line) for line in recorded(drive, missing=range(5, 290))]
-    report = replay(write(later))
-    assert (report.gaps, report.differing) == (285, 0)
-
-
-@pytest.mark.parametrize("what", ["newest", "picture"])
-def test_a_broken_state_of_version_1_is_refused(
-    drive: World, write: Callable[[Lines], Path], what: str
+def test_another_core_is_said_where_this_one_can_still_run_it(
+    write: Callable[..., list[Path]],
 ) -> None:
-    old = [of_version_1(line) for line in recorded(drive, segment_at=300)]
-
-    def second(frame: dict[str, Any]) -> bool:
-        return bool(frame["kind"] == "state" and frame["state"]["tick"] > 0)
-
-    changed(old, second, f"state/lidar/{what}", {} if what == "picture" else None)
-    old = [line.replace(b'"kind": "state"', b'"kind":"state"') for line in old]
-    with pytest.raises(BadRecording, match="recording_invalid"):
-        replay(write(old))
+    report = replay(
+        write(
+            lambda s: edited(s, frames.BOOT, lambda _: True, "core", lambda _: "0123456789abcdef")
+        )
+    )
+    assert (report.differing, report.other_core) == (0, "0123456789abcdef")
 
 
-def test_nothing_whole_is_no_recording(write: Callable[[Lines], Path]) -> None:
-    with pytest.raises(BadRecording, match="recording_empty"):
-        replay(write([b'{"kind":"header"']))
-
-
-def test_a_tick_without_a_state_is_no_recording(
-    drive: World, write: Callable[[Lines], Path]
+def test_another_core_is_named_where_this_one_cannot_run_it(
+    write: Callable[..., list[Path]],
 ) -> None:
-    lines = [line for line in recorded(drive) if b'"kind":"state"' not in line]
+    def foreign(stream: bytes) -> bytes:
+        stream = edited(stream, frames.BOOT, lambda _: True, "core", lambda _: "0123456789abcdef")
+        return edited(
+            stream, frames.STATE, lambda _: True, "state", lambda s: {**s, "legs": 4}
+        )  # fmt: skip
+
+    with pytest.raises(BadRecording, match=r"recording_of_other_core: .*legs.*0123456789abcdef"):
+        replay(write(foreign))
+
+
+def test_a_tick_without_a_state_is_no_recording(write: Callable[..., list[Path]]) -> None:
+    def headless(stream: bytes) -> bytes:
+        parts = frames.Splitter().feed(stream)
+        return b"".join(frames.frame(k, p) for k, p in parts if k != frames.STATE)
+
     with pytest.raises(BadRecording, match="recording_stateless"):
-        replay(write(lines))
+        replay(write(headless))
+
+
+def test_a_missing_tick_without_a_state_after_it_is_no_recording(
+    write: Callable[..., list[Path]],
+) -> None:
+    def holed(stream: bytes) -> bytes:
+        out, number = [], 0
+        for kind, payload in frames.Splitter().feed(stream):
+            if kind == frames.TICK:
+                number, _ = frames.TICK_OF.unpack(payload)
+            if number != 250:
+                out.append(frames.frame(kind, payload))
+        return b"".join(out)
+
+    with pytest.raises(BadRecording, match=r"recording_stateless: tick 251 follows tick 249"):
+        replay(write(holed))
+
+
+def test_a_file_without_one_record_is_no_recording(tmp_path: Path) -> None:
+    box = BoxFile(tmp_path / "empty.mcap", topics(SCHEMAS))
+    box.close()
+    with pytest.raises(BadRecording, match="recording_empty"):
+        replay([box.path])

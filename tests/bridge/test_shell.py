@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from bridge import shell as shell_file
-from bridge.core import BridgeState, CoreConfig, Decision, Inbox, LoopFacts, step
+from bridge.core import BridgeState, CoreConfig, Decision, Inbox, LoopFacts
 from bridge.core.state_braking import Learnt
 from bridge.realtime import Pacer, Tick
 from bridge.shell import EXIT_BROKEN, EXIT_LEFT, Parts, Shell
@@ -29,7 +29,7 @@ class Diary:
         self.commands: list[DriveCommand | None] = []
         self.slack_s: list[float] = []
         self.gaps = 3
-        self.ok = True
+        self.trouble = ""
 
     def read(self) -> tuple[DriveState | Rejected, ...]:
         self.words.append("read")
@@ -49,9 +49,17 @@ class Diary:
         *,
         real_time: bool,
         recorder_ok: bool,
+        recorder_says: str,
     ) -> Inbox:
         self.words.append("drain")
-        self.inboxes.append(Inbox(loop=loop, real_time=real_time, recorder_ok=recorder_ok))
+        self.inboxes.append(
+            Inbox(
+                loop=loop,
+                real_time=real_time,
+                recorder_ok=recorder_ok,
+                recorder_says=recorder_says,
+            )
+        )
         assert drive == ()
         return self.inboxes[-1]
 
@@ -63,9 +71,6 @@ class Diary:
         assert inbox is self.inboxes[-1]
         assert decision.command is self.commands[-1]
         assert state is not decision.state
-
-    def rest(self, now_s: float) -> None:
-        self.words.append("rest")
 
     def note(self, learnt: Learnt) -> None:
         assert learnt == CONFIG.learnt
@@ -98,7 +103,7 @@ def countdown(turns: int) -> Iterator[bool]:
 def test_one_tick_is_drain_step_drive_tell_record(shell: Shell, diary: Diary) -> None:
     before = shell.state
     shell.tick(Tick(100.01, 0.0, 0), CONFIG.period_s)
-    assert diary.words == ["read", "drain", "write", "publish", "record", "feed", "rest"]
+    assert diary.words == ["read", "drain", "write", "publish", "record", "feed"]
     assert shell.state is not before
 
 
@@ -107,7 +112,11 @@ def test_the_core_is_told_how_the_loop_goes(shell: Shell, diary: Diary) -> None:
     (inbox,) = diary.inboxes
     assert inbox.loop == LoopFacts(late_s=0.004, missed_ticks=2, record_gaps=3)
     assert inbox.real_time
-    assert inbox.recorder_ok
+    assert (inbox.recorder_ok, inbox.recorder_says) == (True, "")
+    diary.trouble = "disk_full: no space left"
+    shell.tick(Tick(100.044, 0.0, 0), CONFIG.period_s)
+    inbox = diary.inboxes[-1]
+    assert (inbox.recorder_ok, inbox.recorder_says) == (False, "disk_full: no space left")
 
 
 def test_lateness_of_a_second_counts_skipped_periods(shell: Shell, diary: Diary) -> None:
@@ -153,22 +162,6 @@ def test_a_drive_that_raises_is_halted_too(
     turns = countdown(5)
     assert shell.run(Pacer(FakeClock(), CONFIG.period_s), lambda: next(turns)) == EXIT_BROKEN
     assert diary.words[-1] == "halt"
-
-
-def test_a_powered_robot_gets_no_new_recorder(shell: Shell, diary: Diary) -> None:
-    shell.tick(Tick(100.01, 0.0, 0), CONFIG.period_s)
-    assert "rest" in diary.words
-    diary.words.clear()
-
-    def powered(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
-        decision = step(config, state, inbox, now_s)
-        decision.state.motion.powered = True
-        return decision
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(shell_file, "step", powered)
-        shell.tick(Tick(100.02, 0.0, 0), CONFIG.period_s)
-    assert "rest" not in diary.words
 
 
 def test_nothing_of_the_shell_depends_on_the_mode(repository: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import itertools
 import os
 import signal
 import subprocess
@@ -12,19 +13,18 @@ from pathlib import Path
 
 import pytest
 
-from bridge.core import Inbox, LoopFacts, initial, step
-from bridge.recorder import (
+from bridge.core import BridgeState, Decision, Inbox, LoopFacts, initial, step
+from bridge.recorder import Recorder, Sizes
+from bridge.recorder.process import WriterProcess
+from bridge.recorder.reading import (
     BadRecording,
     Frame,
-    Gap,
     Header,
-    Recorder,
     StateFrame,
     TickFrame,
     config_of,
     read_recording,
 )
-from bridge.recorder.process import WriterProcess
 from bridge.replay import replay
 from tests.bridge.ground import ROOT, core_config, run_core, until
 from tests.wire.examples import EXAMPLES
@@ -47,27 +47,58 @@ def inboxes(count: int) -> list[Inbox]:
     ]
 
 
+class Driver:
+    """Turn the core and record it, ten ticks a turn, as long as a test likes."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self.recorder = recorder
+        self.state: BridgeState = initial(CONFIG, 100.0)
+        self.ticks = 0
+
+    def turn(self, count: int = 10) -> None:
+        for _ in range(count):
+            now_s = self.state.now_s + CONFIG.period_s
+            decision = step(CONFIG, self.state, Inbox(), now_s)
+            self.recorder.tick(self.state, Inbox(), now_s, decision)
+            self.state = decision.state
+            self.ticks += 1
+
+    def until(self, done: Callable[[], bool]) -> bool:
+        """Turn at about real pace: health is judged by the loop's own time."""
+
+        def once() -> bool:
+            self.turn(1)
+            return done()
+
+        return until(once)
+
+
 @pytest.fixture
 def make(tmp_path: Path) -> Iterator[Callable[..., Recorder]]:
     made: list[Recorder] = []
 
-    def start(**sizes: int) -> Recorder:
-        made.append(Recorder(tmp_path, CONFIG, **sizes))
+    def start(sizes: Sizes | None = None, **more: int) -> Recorder:
+        made.append(Recorder(tmp_path, CONFIG, sizes, **more))
         return made[-1]
 
     yield start
     for recorder in made:
-        if recorder.writer_pid is not None and recorder.ok:
+        if recorder.writer_pid is not None and "died" not in recorder.trouble:
             os.kill(recorder.writer_pid, signal.SIGCONT)
         recorder.close()
 
 
 def recordings(folder: Path) -> list[Path]:
-    return sorted(folder.glob("*.jsonl.gz"))
+    return sorted(folder.glob("*.mcap"), key=lambda path: path.name.rsplit("-", 1)[1])
 
 
 def frames(folder: Path) -> list[Frame]:
     return [frame for path in recordings(folder) for frame in read_recording(path)]
+
+
+def pid_of(recorder: Recorder) -> int:
+    assert recorder.writer_pid is not None
+    return recorder.writer_pid
 
 
 def test_what_was_recorded_is_read_back_exactly(
@@ -76,8 +107,8 @@ def test_what_was_recorded_is_read_back_exactly(
     recorder = make()
     given: list[tuple[Inbox, float]] = []
 
-    def take(state: object, inbox: Inbox, now_s: float, decision: object) -> None:
-        recorder.tick(state, inbox, now_s, decision)  # type: ignore[arg-type]  # run_core's own
+    def take(state: BridgeState, inbox: Inbox, now_s: float, decision: Decision) -> None:
+        recorder.tick(state, inbox, now_s, decision)
         given.append((inbox, now_s))
 
     run_core(CONFIG, inboxes(50), take)
@@ -90,104 +121,125 @@ def test_what_was_recorded_is_read_back_exactly(
     assert [(t.inbox, t.now_s) for t in ticks if isinstance(t, TickFrame)] == given
 
 
-def test_long_runs_have_segments_and_files(
-    make: Callable[..., Recorder], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_it_is_down_until_the_writer_has_spoken_and_then_fine(
+    make: Callable[..., Recorder],
 ) -> None:
-    monkeypatch.setattr("bridge.recorder.recorder.SEGMENT_TICKS", 10)
-    recorder = make(rotate_bytes=1)
-    run_core(CONFIG, inboxes(35), recorder.tick)
+    recorder = make()
+    assert recorder.trouble == "recorder_down: the writing process begins a file"
+    driver = Driver(recorder)
+    assert driver.until(lambda: recorder.trouble == "")
+
+
+def test_a_full_file_is_followed_by_another_that_replays_alone(
+    make: Callable[..., Recorder], tmp_path: Path
+) -> None:
+    recorder = make(Sizes(rotate_bytes=20_000))
+    driver = Driver(recorder)
+    assert driver.until(lambda: len(recordings(tmp_path)) >= 3)
     assert recorder.close()
-    assert len(recordings(tmp_path)) == 4
-    reports = [replay(path) for path in recordings(tmp_path)]
-    assert [report.ticks for report in reports] == [10, 10, 10, 5]
-    assert [report.differing for report in reports] == [0, 0, 0, 0]
+    files = recordings(tmp_path)
+    assert [replay([path]).differing for path in files] == [0] * len(files)
+    whole = replay(files)
+    assert (whole.ticks, whole.differing, whole.gaps) == (driver.ticks, 0, 0)
 
 
 def test_a_frozen_writer_costs_counted_ticks_and_the_record_goes_on(
     make: Callable[..., Recorder], tmp_path: Path
 ) -> None:
     recorder = make(pipe_bytes=65_536)
-    assert until(lambda: recorder.ok)
-    assert recorder.writer_pid is not None
-    os.kill(recorder.writer_pid, signal.SIGSTOP)
-    state = run_core(CONFIG, inboxes(400), recorder.tick)
+    driver = Driver(recorder)
+    assert driver.until(lambda: not recorder.trouble)
+    os.kill(pid_of(recorder), signal.SIGSTOP)
+    driver.turn(400)
     lost = recorder.gaps
     assert 0 < lost < 400
-    assert not recorder.ok
-    os.kill(recorder.writer_pid, signal.SIGCONT)
-    now_s = state.now_s
-
-    def taken() -> bool:
-        nonlocal state, now_s
-        now_s += CONFIG.period_s
-        decision = step(CONFIG, state, Inbox(), now_s)
-        recorder.tick(state, Inbox(), now_s, decision)
-        state = decision.state
-        return recorder.ok
-
-    assert until(taken)
+    assert "ticks are missing" in recorder.trouble
+    driver.turn(300)
+    assert "silent" in recorder.trouble
+    os.kill(pid_of(recorder), signal.SIGCONT)
+    assert driver.until(lambda: not recorder.trouble)
     assert recorder.close()
-    (path,) = recordings(tmp_path)
-    gaps = [frame for frame in read_recording(path) if isinstance(frame, Gap)]
-    assert sum(gap.ticks for gap in gaps) == recorder.gaps >= lost
-    report = replay(path)
+    report = replay(recordings(tmp_path))
     assert report.differing == 0
-    assert report.gaps == recorder.gaps
-    assert report.ticks >= 400 - lost
+    assert report.gaps == recorder.gaps >= lost
+    assert report.ticks + report.gaps == driver.ticks
 
 
-def test_a_killed_writer_is_seen_and_replaced_only_when_asked(
+def test_a_killed_writer_is_said_and_replaced_also_while_driving(
     make: Callable[..., Recorder], tmp_path: Path
 ) -> None:
     recorder = make()
-    run_core(CONFIG, inboxes(20), recorder.tick)
-    first = recorder.writer_pid
-    assert first is not None
-    assert until(lambda: bool(recordings(tmp_path)))
+    driver = Driver(recorder)
+    assert driver.until(lambda: not recorder.trouble)
+    first = pid_of(recorder)
     os.kill(first, signal.SIGKILL)
-    assert until(lambda: not recorder.ok)
-    run_core(CONFIG, inboxes(20), recorder.tick)
-    assert recorder.gaps == 20
-    assert recorder.writer_pid == first
-    recorder.rest(now_s=1.0)
-    assert recorder.writer_pid != first
-    run_core(CONFIG, inboxes(5), recorder.tick)
-    assert recorder.ok
+    assert until(lambda: bool(recorder.trouble))
+    assert recorder.trouble == "recorder_down: the writing process has died"
+    assert driver.until(lambda: not recorder.trouble)
+    assert pid_of(recorder) != first
+    assert recorder.gaps > 0
+    driver.turn(10)
     assert recorder.close()
-    assert replay(recordings(tmp_path)[-1]).ticks == 5
-    assert replay(recordings(tmp_path)[-1]).gaps == 20
+    report = replay(recordings(tmp_path))
+    assert report.differing == 0
+    assert report.gaps >= recorder.gaps, "what the dead one had taken and not written counts too"
 
 
-def test_a_writer_that_cannot_start_is_tried_once_a_second(
+def test_a_writer_that_dies_at_once_is_replaced_ever_more_slowly(
     make: Callable[..., Recorder], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    tries = []
+    tries: list[int] = []
 
     def fail(*_: object, **__: object) -> WriterProcess:
-        tries.append(1)
+        tries.append(driver.ticks)
         raise BlockingIOError(11, "Resource temporarily unavailable")
 
+    recorder = make()
+    driver = Driver(recorder)
+    os.kill(pid_of(recorder), signal.SIGKILL)
+    assert until(lambda: "died" in recorder.trouble)
     monkeypatch.setattr("bridge.recorder.recorder.WriterProcess", fail)
-    recorder = make()
-    for tick in range(250):
-        recorder.rest(10.0 + tick * 0.01)
-    assert not recorder.ok
+    driver.turn(10_000)
     assert recorder.writer_pid is None
-    assert len(tries) == 1 + 3
-    assert not recorder.close()
+    apart_s = [(b - a) / 100 for a, b in itertools.pairwise(tries)]
+    assert apart_s == pytest.approx([2.0, 4.0, 8.0, 16.0, 30.0, 30.0][: len(apart_s)], abs=0.3)
+    assert len(apart_s) >= 5
+    assert recorder.gaps == 10_000
 
 
-def test_memory_stays_flat_behind_a_dead_writer(make: Callable[..., Recorder]) -> None:
+def test_memory_stays_flat_behind_a_dead_writer(
+    make: Callable[..., Recorder], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("bridge.recorder.recorder.REVIVE_FIRST_S", 1e6)
     recorder = make()
-    assert recorder.writer_pid is not None
-    os.kill(recorder.writer_pid, signal.SIGKILL)
-    assert until(lambda: not recorder.ok)
+    os.kill(pid_of(recorder), signal.SIGKILL)
+    assert until(lambda: "died" in recorder.trouble)
     run_core(CONFIG, inboxes(50), recorder.tick)
     gc.collect()
     before = len(gc.get_objects())
     run_core(CONFIG, inboxes(500), recorder.tick)
     gc.collect()
     assert len(gc.get_objects()) - before < 100
+
+
+def test_what_is_not_yet_handed_over_goes_out_at_the_end(
+    make: Callable[..., Recorder], tmp_path: Path
+) -> None:
+    recorder = make()
+    run_core(CONFIG, inboxes(3), recorder.tick)
+    assert recorder.close()
+    assert replay(recordings(tmp_path)).ticks == 3
+
+
+def test_what_a_dead_writer_did_not_take_is_counted_to_the_last_tick(
+    make: Callable[..., Recorder],
+) -> None:
+    recorder = make()
+    os.kill(pid_of(recorder), signal.SIGKILL)
+    assert until(lambda: "died" in recorder.trouble)
+    run_core(CONFIG, inboxes(13), recorder.tick)
+    recorder.close()
+    assert recorder.gaps == 13
 
 
 DYING = """
@@ -203,36 +255,43 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
-def test_what_is_not_yet_handed_over_goes_out_at_the_end(
-    make: Callable[..., Recorder], tmp_path: Path
-) -> None:
-    recorder = make()
-    run_core(CONFIG, inboxes(3), recorder.tick)
-    assert recorder.close()
-    assert replay(recordings(tmp_path)[0]).ticks == 3
-
-
-def test_what_a_dead_writer_did_not_take_is_counted_to_the_last_tick(
-    make: Callable[..., Recorder],
-) -> None:
-    recorder = make()
-    assert recorder.writer_pid is not None
-    os.kill(recorder.writer_pid, signal.SIGKILL)
-    assert until(lambda: not recorder.ok)
-    run_core(CONFIG, inboxes(13), recorder.tick)
-    recorder.close()
-    assert recorder.gaps == 13
-
-
 def test_a_killed_bridge_leaves_everything_it_handed_over(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-c", DYING, str(tmp_path)], cwd=ROOT, check=False)
     assert done.returncode == -signal.SIGKILL
 
     def whole() -> bool:
-        """Four of 304 were not handed over: five go at a time."""
+        """Four of 304 were not handed over: ten go at a time."""
         try:
             return sum(isinstance(frame, TickFrame) for frame in frames(tmp_path)) == 300
         except BadRecording:
             return False
 
     assert until(whole)
+
+
+ALL_KILLED = """
+import os, signal, sys, time
+from pathlib import Path
+from tests.bridge.recorder.test_recorder import CONFIG, Driver
+from bridge.recorder import Recorder
+recorder = Recorder(Path(sys.argv[1]), CONFIG)
+driver = Driver(recorder)
+driver.until(lambda: not recorder.trouble)
+for _ in range(150):
+    driver.turn(1)
+    time.sleep(0.01)
+print(driver.ticks, flush=True)
+os.kill(recorder.writer_pid, signal.SIGKILL)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_with_all_killed_at_once_all_but_the_last_second_is_there(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", ALL_KILLED, str(tmp_path)],
+        cwd=ROOT, check=False, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == -signal.SIGKILL, done.stderr
+    report = replay(recordings(tmp_path))
+    assert (report.differing, report.gaps) == (0, 0)
+    assert int(done.stdout) - 100 <= report.ticks <= int(done.stdout)

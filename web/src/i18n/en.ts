@@ -74,6 +74,11 @@ export const en = {
   "want.not_standing": "the robot to stand still",
   "want.stick_not_neutral": "the joystick to be let go",
   "want.recorder_down": "the recorder",
+  "want.disk_full": "room on the disk",
+  "notice.recorder_down":
+    "Nothing is being recorded. The robot may drive on, but can't be armed until it is.",
+  "notice.disk_full":
+    "The disk is full, so nothing is recorded. The robot may drive on, but can't be armed: make room.",
   "want.estop_pressed": "the stop button to be released",
   "want.estop_just_released": "the stop button to stay released",
 

@@ -76,6 +76,9 @@ export const zh: Record<Key, string> = {
   "want.not_standing": "机器人静止",
   "want.stick_not_neutral": "松开手柄",
   "want.recorder_down": "记录器",
+  "want.disk_full": "磁盘空间",
+  "notice.recorder_down": "目前没有记录行驶数据。机器人可以继续行驶，但在恢复记录之前不能解锁。",
+  "notice.disk_full": "磁盘已满，无法记录。机器人可以继续行驶，但不能解锁：请清理磁盘。",
   "want.estop_pressed": "松开停止按钮",
   "want.estop_just_released": "停止按钮保持松开",
 

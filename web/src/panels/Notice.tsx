@@ -6,6 +6,9 @@ import type { Status } from "../wire/types";
 import { Deliberate } from "./Deliberate";
 import { seconds } from "./format";
 
+/** Why the black box takes nothing: said while driving too, for it keeps nobody from driving on. */
+const UNRECORDED = new Set(["recorder_down", "disk_full"]);
+
 export function Notice() {
   const said = status.value;
   if (said === null) return null;
@@ -36,13 +39,17 @@ export function Notice() {
 function reasons(said: Status): string[] {
   const rows = said.rows.filter((row) => row.binding).map((row) => rowWords(row.row));
   const up = new Set(said.rows.map((row) => row.row.toLowerCase()));
-  const waiting = said.waiting_for.filter((code) => !up.has(code)).map((code) => wanted(code));
+  const unrecorded = said.waiting_for.filter((code) => UNRECORDED.has(code));
+  const waiting = said.waiting_for
+    .filter((code) => !up.has(code) && !UNRECORDED.has(code))
+    .map((code) => wanted(code));
+  const untold = unrecorded.map((code) => word("notice", code));
   const held = said.held ? [word("held", said.held.reason)] : [];
   const latched = ["ESTOPPED", "FAULT"].includes(said.mode) ? [t("notice.latched")] : [];
   const disarmed = said.mode === "DISARMED" ? [t("notice.disarmed")] : [];
   const blocked = said.blocked ? [t("notice.blocked")] : [];
   const lacks = waiting.length > 0 ? [t("notice.waiting", { what: waiting.join(", ") })] : [];
-  return [...new Set([...rows, ...blocked, ...held, ...latched, ...disarmed, ...lacks])];
+  return [...new Set([...rows, ...blocked, ...held, ...latched, ...untold, ...disarmed, ...lacks])];
 }
 
 /** Name what is waited for; some wants bear a row's name in lower case. */
