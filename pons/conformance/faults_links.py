@@ -104,6 +104,7 @@ FAULTS = (
     Fault("frozen", "SIGSTOP of the brain's process", _frozen, SILENT),
     Fault("half_open", "the link accepts and is never read", _half_open, SILENT, quick=(W,)),
     Fault("buffered", "1 s of commands kept back, then delivered at once", _buffered, SILENT),
-    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD, quick=(X,)),
+    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD,
+          quick=(X,)),
     Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flooded(_malformed), _FLOOD),
 )  # fmt: skip
