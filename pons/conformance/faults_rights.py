@@ -21,6 +21,7 @@ from pons.conformance.fault import (
     commands,
     everything,
 )
+from wire import PROTOCOL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -237,7 +238,7 @@ FAULTS = (
     Fault("wrong_map", "a hello for another map",
           pushing(_believing(map_id="0123456789abcdef"), hello=True), {}, rest=True),
     Fault("wrong_protocol", "a hello of another protocol",
-          pushing(_believing(protocol=2), hello=True), {}, rest=True),
+          pushing(_believing(protocol=PROTOCOL + 1), hello=True), {}, rest=True),
     Fault("grant_for_ever", "a grant of 1e9 m, or s",
           pushing(_budget((1e9, 600.0), (60.0, 1e9), (inf, inf))), {}, rest=True, quick=(X,)),
     Fault("grant_negative", "a grant below zero, or of nothing",
