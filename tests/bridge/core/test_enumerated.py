@@ -3,7 +3,8 @@
 Modes are reached by real runs of the scripted world. Rows are then forced into the latch's memory
 as if their detectors saw trouble in this tick, all but ESTOP, which is the drive's real input, and
 SPEED_ZONE, which also needs a zone to be in. What must follow comes from a table written by hand.
-Of the 7 770 sets of three each mode takes every eighth; ``make enumerate`` takes them all.
+Of the 7 770 sets of three each mode takes every sixteenth, of the 666 pairs every fourth;
+``make enumerate`` takes them all.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ Stages = tuple[str, ...]
 ALL = tuple(oracle.TABLE)
 SQUARE = ((-5.5, -5.5), (5.5, -5.5), (5.5, 5.5), (-5.5, 5.5))
 ZONED = build_fence(MAP_ID, (SQUARE,), zones=(Zone(SQUARE, 0.3),))
-EVERY = 1 if os.environ.get("ENUMERATE") == "all" else 8
+WHOLE = os.environ.get("ENUMERATE") == "all"
+EVERY = 1 if WHOLE else 16
 LATCHED = {Mode.ESTOPPED, Mode.FAULT}
 
 
@@ -111,10 +113,17 @@ def sets_of(count: int) -> Iterator[Stages]:
 
 
 @pytest.mark.parametrize("start", STARTS)
-def test_every_mode_by_every_row_and_pair(start: str) -> None:
-    for count in (0, 1, 2):
-        for stages in sets_of(count):
-            judge(start, stages)
+def test_every_mode_by_every_row(start: str) -> None:
+    for stages in (*sets_of(0), *sets_of(1)):
+        judge(start, stages)
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_every_mode_by_every_pair_of_rows(start: str) -> None:
+    first = list(STARTS).index(start) % 4
+    pairs = islice(sets_of(2), 0 if WHOLE else first, None, 1 if WHOLE else 4)
+    for stages in pairs:
+        judge(start, stages)
 
 
 @pytest.mark.slow
@@ -153,6 +162,7 @@ def test_a_stop_wins_in_every_mode_over_every_pair_of_rows(start: str) -> None:
 
 
 FOLLOWED = [one for one in sorted(MOVES) if STARTS[one][1] in oracle.MOVING]
+FOLLOWED = FOLLOWED if WHOLE else ["active", "teleop"]
 
 
 @pytest.mark.parametrize("start", FOLLOWED)

@@ -1,0 +1,31 @@
+"""Mark the core's quick suite: all that needs no hypothesis and no long drive, about 2 s in all."""
+
+from __future__ import annotations
+
+import pytest
+
+QUICK = frozenset(
+    """
+    test_ages_and_docs test_drive_out test_enumerated test_fence test_freespace
+    test_horizon test_kinematics test_limiter test_modes test_odometry test_path
+    test_quick_core test_scanpicture test_stopcurve test_wheelcontrol
+    """.split()  # noqa: SIM905  # one name a word reads better
+)
+LONG = (
+    "never_exceeds",
+    "harder_row",
+    "three_rows",
+    "every_pair",
+    "stop_wins",
+    "wall",
+    "drives_along",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what belongs to ``-m core_quick``."""
+    for item in items:
+        test = getattr(item, "obj", None)
+        plain = not getattr(test, "is_hypothesis_test", False)
+        if item.path.stem in QUICK and plain and not any(part in item.name for part in LONG):
+            item.add_marker("core_quick")
