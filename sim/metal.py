@@ -6,6 +6,7 @@ it: it stands for the workshop that built the robot, and calibration has to find
 
 from __future__ import annotations
 
+import json
 import tomllib
 from dataclasses import fields
 from typing import TYPE_CHECKING
@@ -42,7 +43,9 @@ def load_metal(path: Path) -> Hardware:
         text = f"{path}: unknown key {', '.join(map(repr, unknown))}, known: {', '.join(KNOWN)}"
         raise Misconfigured("metal_invalid", text)
     try:
-        return _FILE.validate_python(told)
+        return _FILE.validate_json(json.dumps(told))  # strict, but for a dataclass of a mapping
+    except TypeError as error:
+        raise Misconfigured("metal_invalid", f"{path}: {error}") from None
     except ValidationError as error:
         raise Misconfigured("metal_invalid", f"{path}: {explain(error)}") from None
 

@@ -66,12 +66,12 @@ class DriveConfig(Record):
     """The drive's own dead-man: without a command for this long it stops by itself."""
     dead_zone_radps: float = Field(default=0.05, ge=0.0, le=2.0)
     """The motor turns so much slower than told; the bridge adds it to every command but zero."""
-    response_s: float = Field(default=0.05, ge=0.0, le=0.5)
+    response_s: float = Field(default=0.049, ge=0.0, le=0.5)
     """First-order lag of motor and wheel, fed forward. The shortest measured: more would make the
     wheels change speed faster than meant. What exceeds lag_s does not count."""
-    kp: float = Field(default=0.5, ge=0.0, le=2.0)
+    kp: float = Field(default=0.71, ge=0.0, le=2.0)
     """Wheel control, rad/s told per rad/s missing; 0 with ki_per_s 0 is feed-forward alone."""
-    ki_per_s: float = Field(default=8.0, ge=0.0, le=40.0)
+    ki_per_s: float = Field(default=14.4, ge=0.0, le=40.0)
     max_correction: float = Field(default=0.2, ge=0.0, le=0.3)
     """Most that wheel control may add or take, as a share of the speed meant, beside the dead zone:
     a motor 15 % weak needs 0.18."""
@@ -115,6 +115,24 @@ class RealTime(Record):
     """None: the highest-numbered CPU that this process may use."""
 
 
+class Recording(Record):
+    """Bound what the black box takes of the disk. There is no value that switches it off."""
+
+    file_mb: int = Field(default=64, ge=4, le=1024)
+    """A file that is larger ends, and the next begins."""
+    total_mb: int = Field(default=2048, ge=256, le=1_000_000)
+    """All files together; the oldest go first."""
+
+    @model_validator(mode="after")
+    def _several_files_fit(self) -> Recording:
+        if not 4 * self.file_mb <= self.total_mb:
+            raise ValueError(
+                f"recording.total_mb {self.total_mb} must hold four files of "
+                f"file_mb {self.file_mb}: the newest must survive when the oldest goes"
+            )
+        return self
+
+
 class Inputs(Record):
     """Name the safety inputs that are wired up."""
 
@@ -133,6 +151,7 @@ class RobotDescription(Record):
     lidar: LidarConfig = LidarConfig()
     realtime: RealTime = RealTime()
     inputs: Inputs = Inputs()
+    recording: Recording = Recording()
 
     @model_validator(mode="after")
     def _wheels_reach_the_speed(self) -> RobotDescription:

@@ -20,6 +20,7 @@ from bench.measure import (
     tick_stress,
     unexplained_stops,
     voice,
+    wheel_tracking,
 )
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ ALL: tuple[Measure, ...] = cast(
         fault_times,
         tick_stress,
         unexplained_stops,
+        wheel_tracking,
         clone_to_url,
         suite_time,
     ),

@@ -41,6 +41,8 @@ _MODES = {
     Mode.STOPPING: "busy",
 }
 
+_AFTERMATH = {"not_armed", "fault"}
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -156,14 +158,18 @@ def _again(say: Callable[[str], None], take: Callable[[], R]) -> R:
     Raises:
         CalibrationRefused: it was lost each time, or cannot be taken.
     """
-    for count in range(1, TRIES + 1):
+    before = RunLost("run_lost", "")
+    for _ in range(TRIES):
         try:
             return take()
         except RunLost as lost:
-            if count == TRIES:
-                raise CalibrationRefused(lost.code, lost.detail) from None
-            say(f"lost a run ({lost}); again")
-    raise CalibrationRefused("run_lost")
+            say(f"lost a run ({lost})")
+            before = lost
+        except CalibrationRefused as refused:
+            if refused.code in _AFTERMATH and before.detail:  # what the lost run led to
+                raise CalibrationRefused(before.code, before.detail) from None
+            raise
+    raise CalibrationRefused(before.code, before.detail)
 
 
 def _told(run: Straight) -> str:
