@@ -12,6 +12,10 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from wire.robot import Recording
 
 _ROOT = Path(__file__).resolve().parents[2]
 _MAIN = (
@@ -25,10 +29,15 @@ _ENDS_WITHIN_S = 3.0
 class Sizes:
     """Bound what recordings take."""
 
-    rotate_bytes: int = 64 << 20
+    rotate_bytes: int
     """Of one file."""
-    cap_bytes: int = 1 << 30
+    cap_bytes: int
     """Of all together; the oldest go first."""
+
+    @classmethod
+    def of(cls, owner: Recording) -> Sizes:
+        """Return what the owner of the robot has chosen."""
+        return cls(owner.file_mb << 20, owner.total_mb << 20)
 
 
 class WriterProcess:

@@ -49,7 +49,7 @@ class Recorder:
     ) -> None:
         self._folder = folder
         self._config = config
-        self._sizes = sizes or Sizes()
+        self._sizes = sizes or Sizes.of(config.robot.recording)
         self._pipe_bytes = pipe_bytes
         said = schemas()
         self._core = core_of(said)

@@ -77,6 +77,7 @@ class World:
     odom_in_map: Pose2 = IDENTITY
     quality: float = 1.0
     recorder_ok: bool = True
+    recorder_says: str = ""
     real_time: bool = True
     extra: Inbox = field(default_factory=Inbox)
     """Added to the next tick's inbox: stops, ops, teleop, rejected, loop."""
@@ -215,7 +216,12 @@ class World:
         return self
 
     def _inbox(self) -> Inbox:
-        inbox = replace(self.extra, recorder_ok=self.recorder_ok, real_time=self.real_time)
+        inbox = replace(
+            self.extra,
+            recorder_ok=self.recorder_ok,
+            recorder_says=self.recorder_says,
+            real_time=self.real_time,
+        )
         self.extra = Inbox()
         state = self.drive.tick(self.now_s)
         if not self.drive_silent:

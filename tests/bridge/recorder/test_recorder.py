@@ -133,7 +133,7 @@ def test_it_is_down_until_the_writer_has_spoken_and_then_fine(
 def test_a_full_file_is_followed_by_another_that_replays_alone(
     make: Callable[..., Recorder], tmp_path: Path
 ) -> None:
-    recorder = make(Sizes(rotate_bytes=20_000))
+    recorder = make(Sizes(rotate_bytes=20_000, cap_bytes=1 << 30))
     driver = Driver(recorder)
     assert driver.until(lambda: len(recordings(tmp_path)) >= 3)
     assert recorder.close()
