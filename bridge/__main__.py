@@ -1,7 +1,8 @@
 """Start the bridge: ``python -m bridge --home DIR --robot robot.toml --site sites/home``.
 
 Chooses the concrete classes and the order of the real-time recipe; decides nothing about driving.
-Exit status: 0 left when asked, 2 refused to start, 70 the loop broke.
+Exit status: 0 left when asked, 2 refused to start, 3 to be started anew with the fence that an
+operator put in force, 70 the loop broke.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import TYPE_CHECKING
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
 from bridge.drive import SimDrive
+from bridge.fence_desk import FenceDesk, Ground
 from bridge.fence_file import load_fence
 from bridge.link import Link
 from bridge.operator_key import load_operator_key
@@ -33,7 +35,7 @@ from bridge.realtime import (
     take_fifo,
 )
 from bridge.recorder import Recorder
-from bridge.shell import Parts, Shell
+from bridge.shell import EXIT_LEFT, Parts, Shell
 from bridge.warmup import warm_up
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
@@ -47,6 +49,7 @@ if TYPE_CHECKING:
 log = logging.getLogger("bridge")
 
 EXIT_REFUSED = 2
+EXIT_AGAIN = 3
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -79,12 +82,14 @@ def _serve(options: argparse.Namespace) -> int:
         link = Link(session, robot.id, key)
         recorder = Recorder(home.absolute() / "recordings", config)
         keeper = BrakingKeeper(path_of(home, robot), robot, config.learnt)
-        parts = Parts(link, drive, recorder, Collector(), Service(), keeper)
+        desk = FenceDesk(Ground(options.site, home, config.map_id, config.fence_hash))
+        parts = Parts(link, drive, recorder, Collector(), Service(), keeper, desk)
         try:
             return _loop(config, parts, asked)
         finally:
             parts.service.stopping()
             keeper.close()
+            desk.close()
             recorder.close()
 
 
@@ -119,7 +124,14 @@ def _loop(config: CoreConfig, parts: Parts, asked: _Asked) -> int:
     log.info("run %s, %s drive, %s", config.boot, parts.drive.kind, config.robot.id)
     shell = Shell(config, parts, clock.now_s(), real_time=all_granted(rights))
     parts.service.ready()
-    return shell.run(Pacer(clock, config.period_s), asked.to_leave)
+    desk = parts.desk
+    status = shell.run(
+        Pacer(clock, config.period_s), lambda: asked.to_leave() or desk.over(clock.now_s())
+    )
+    if status == EXIT_LEFT and not asked.to_leave():
+        log.warning("fence_changed: leaving, so that the next start loads the fence put in force")
+        return EXIT_AGAIN
+    return status
 
 
 def _rights(wanted: RealTime, collector: Collector) -> tuple[Right, ...]:

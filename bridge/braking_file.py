@@ -7,9 +7,7 @@ whole or not at all. The file's name holds robot.toml's hash: another robot.toml
 
 from __future__ import annotations
 
-import contextlib
 import logging
-import os
 import threading
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Literal
@@ -17,6 +15,7 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import ValidationError
 
 from bridge.core.state_braking import UNLEARNT, Learnt
+from bridge.files import replace_file
 from wire.base import Record
 from wire.robot import RobotId, explain
 from wire.scalars import Fingerprint
@@ -126,28 +125,3 @@ def write_learnt(path: Path, robot: RobotDescription, learnt: Learnt) -> None:
         learnt=learnt,
     )
     replace_file(path, kept.model_dump_json(indent=1).encode() + b"\n")
-
-
-def replace_file(path: Path, data: bytes) -> None:
-    """Put bytes in a file's place so that a reader, or a crash, sees the old or the new.
-
-    Raises:
-        OSError: the disk refuses; what was there stays.
-    """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.new")
-    try:
-        with beside.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        beside.replace(path)
-    except OSError:
-        with contextlib.suppress(OSError):
-            beside.unlink()
-        raise
-    folder = os.open(path.parent, os.O_RDONLY)
-    try:
-        os.fsync(folder)
-    finally:
-        os.close(folder)

@@ -10,7 +10,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from bridge.core.inbox import ArrivedAt, Inbox, LoopFacts, OpArrived, RejectedAt
-from wire import DriveState, OpRequest, Rejected, Stop, authentic, decode
+from bridge.core.state_fence import FenceArrived
+from wire import DriveState, OpRequest, Rejected, Stop, authentic, authentic_fence, decode
 from wire.base import Record
 from wire.keys import (
     ARM,
@@ -20,6 +21,7 @@ from wire.keys import (
     ESTOP_LINK,
     EVENT,
     EXTERNAL,
+    FENCE,
     GRANT,
     HEARTBEAT,
     HELLO,
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bridge.core.decision import Decision
+    from bridge.core.state_fence import FenceDone
     from wire import OpKind
     from wire.keys import Key
     from wire.session import Session, Subscriber
@@ -67,6 +70,7 @@ class Link:
         self._operator_key = operator_key
         self._stop = session.subscriber(STOP)
         self._ops = tuple((kind, key, session.subscriber(key)) for kind, key in _OPS)
+        self._fence = session.subscriber(FENCE)
         self._hello = session.subscriber(HELLO)
         self._grant = session.subscriber(GRANT)
         self._heartbeat = session.subscriber(HEARTBEAT)
@@ -88,6 +92,7 @@ class Link:
         *,
         real_time: bool,
         recorder_ok: bool,
+        fence_done: FenceDone | None = None,
         recorder_says: str = "",
     ) -> Inbox:
         """Take one tick's arrivals, in the order in which they count."""
@@ -108,6 +113,8 @@ class Link:
             scan=took.newest(SCAN, self._scan),
             imu=took.newest(IMU, self._imu),
             estop_link=took.newest(ESTOP_LINK, self._estop_link),
+            fences=self._fences(took),
+            fence_done=fence_done,
             rejected=tuple(took.rejected),
             arrived=tuple(took.arrived),
             loop=loop,
@@ -150,6 +157,16 @@ class Link:
             for kind, key, subscriber in self._ops
             for request in took.all(key, subscriber)
         )
+
+    def _fences(self, took: _Took) -> tuple[FenceArrived, ...]:
+        """Take requests for another fence; the text of one that nobody proved goes no further."""
+        arrived = []
+        for request in took.all(FENCE, self._fence):
+            fits = authentic_fence(self._operator_key, self._robot_id, request)
+            nonce = request.proof.nonce if request.proof is not None else None
+            text = request.fence if fits else ""
+            arrived.append(FenceArrived(request.id, request.source, nonce, fits, text))
+        return tuple(arrived)
 
     def _authentic(self, kind: OpKind, request: OpRequest) -> bool:
         return authentic(self._operator_key, kind, self._robot_id, request.proof, request.id)

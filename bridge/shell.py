@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from bridge.braking_file import BrakingKeeper
     from bridge.core import CoreConfig, Inbox
     from bridge.drive import Drive
+    from bridge.fence_desk import FenceDesk
     from bridge.link import Link
     from bridge.realtime import Collector, Pacer, Service, Tick
     from bridge.recorder import Recorder
@@ -41,6 +42,7 @@ class Parts:
     collector: Collector
     service: Service
     keeper: BrakingKeeper
+    desk: FenceDesk
 
 
 class Shell:
@@ -80,6 +82,7 @@ class Shell:
         parts.recorder.tick(state, inbox, now_s, decision)
         self.state = decision.state
         parts.keeper.note(decision.state.learnt)
+        parts.desk.note(decision.state.fence_asked, now_s)
         self._stats.add(tick.late_s + tick.missed * period_s, step_ns)
         parts.service.feed(now_s)
 
@@ -98,6 +101,7 @@ class Shell:
         return parts.link.drain(
             parts.drive.read(),
             facts,
+            fence_done=parts.desk.take(),
             real_time=self._real_time,
             recorder_ok=not unrecorded,
             recorder_says=unrecorded,

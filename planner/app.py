@@ -18,8 +18,8 @@ from planner.robot import LinkedRobot
 from planner.route import RouteLimits, RouteWorker
 from planner.settings import load_settings
 from planner.voice import VoiceWorker
-from planner.world import Site
-from wire import RobotDescription, load_robot
+from planner.world import FenceProposals, Site
+from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
 
@@ -61,6 +61,7 @@ class Planner:
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
         self.brain = _brain(self._model, self.settings)
+        self.fences = FenceProposals(where.home / "fence" / "proposals")
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
         self._journal = MissionJournal.in_home(where.home)
         limits = RouteLimits.of(self.description)
@@ -78,6 +79,17 @@ class Planner:
             brain=self.brain,
             journal=self._journal,
         )
+
+    def fence_is_old(self) -> bool:
+        """Say whether the bridge holds what the site's fence.json has become since our start."""
+        status, mine = self.robot.status, self.site.fence.fence_hash
+        if status is None or status.fence_hash == mine:
+            return False
+        try:
+            data = (self.site.folder / "fence.json").read_bytes()
+        except OSError:
+            return False
+        return fingerprint(data) == status.fence_hash
 
     async def start(self) -> None:
         """Start the route process, then the missions."""
@@ -121,7 +133,7 @@ def application(planner: Planner, access: Access) -> FastAPI:
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await planner.start()
-        watch = asyncio.create_task(_end_with(planner.goals))
+        watch = asyncio.create_task(_end_with(planner))
         try:
             yield
         finally:
@@ -131,9 +143,17 @@ def application(planner: Planner, access: Access) -> FastAPI:
     return build(planner, access, lifespan)
 
 
-async def _end_with(goals: Missions) -> None:
-    """End the process when the mission loop has: a planner that can't drive must not look alive."""
-    while (failure := goals.failed) is None:  # noqa: ASYNC110  # a property is all there is to read
+async def _end_with(planner: Planner) -> None:
+    """End the process when the mission loop has: a planner that can't drive must not look alive.
+
+    And when the bridge holds the fence that now lies on the disk, and this planner an older one:
+    whoever supervises it starts it anew, with the map's costs worked out for that fence.
+    """
+    while (failure := planner.goals.failed) is None:
+        if await asyncio.to_thread(planner.fence_is_old):
+            log.warning("fence_changed: leaving, so that the next start routes by the new fence")
+            break
         await asyncio.sleep(WATCH_S)
-    log.critical("the mission loop ended", exc_info=failure)
+    else:
+        log.critical("the mission loop ended", exc_info=failure)
     signal.raise_signal(signal.SIGTERM)

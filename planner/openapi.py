@@ -23,6 +23,7 @@ class _Unserved:
     goals = None
     robot = None
     ears = None
+    fences = None
 
     def __init__(self) -> None:
         self.site = Site.load(ROOT / "sites" / "two_room")

@@ -6,7 +6,7 @@ import logging
 from typing import TYPE_CHECKING, Any
 
 from planner.link import BridgeSilent, Link
-from wire import Answer, OpKind, OpRequest, RobotDescription, Status, Velocity
+from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status, Velocity
 
 if TYPE_CHECKING:
     from planner.link import Aged
@@ -46,6 +46,14 @@ class LinkedRobot:
             return await self._link.operate(kind, request)
         except BridgeSilent as silence:
             log.warning("%s: %s", kind, silence)
+            return None
+
+    async def offer_fence(self, request: FenceRequest) -> Answer | None:
+        """Return the bridge's verdict on an operator's fence, or None where it stayed silent."""
+        try:
+            return await self._link.offer_fence(request)
+        except BridgeSilent as silence:
+            log.warning("fence: %s", silence)
             return None
 
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:

@@ -51,6 +51,9 @@ def parser() -> argparse.ArgumentParser:
     words.add_parser("why", help="explain the last stop: row, evidence, what to do")
     brakes = words.add_parser("braking", help="show what stops have taught of the brakes")
     brakes.add_argument("act", nargs="?", choices=("forget",), help="after a repair, bridge down")
+    fenced = words.add_parser("fence", help="show, propose, accept or reject a fence")
+    fenced.add_argument("act", choices=("show", "propose", "accept", "reject"))
+    fenced.add_argument("what", nargs="?", help="a file to propose, or a proposal's id")
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
@@ -150,7 +153,7 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
     return goals.act(settings, said.word, said.goal)
 
 
-_TOOLS = frozenset({"doctor", "why", "braking", "calibrate", "fault", "replay"})
+_TOOLS = frozenset({"doctor", "why", "braking", "fence", "calibrate", "fault", "replay"})
 
 
 def _tool(settings: Settings, said: argparse.Namespace) -> int:
@@ -177,6 +180,10 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
             shuttles=said.shuttles,
             yes=said.yes,
         )
+    if said.word == "fence":
+        from pons import fence
+
+        return fence.run(settings, said.act, said.what)
     if said.word == "fault":
         from pons import fault
 

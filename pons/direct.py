@@ -6,8 +6,20 @@ import secrets
 import time
 from typing import TYPE_CHECKING
 
-from wire import VIRTUAL_KEY, Answer, OpKind, OpRequest, Proof, Status, Stop, load_robot, sign
-from wire.keys import OPS, STATUS, STOP, Party
+from wire import (
+    VIRTUAL_KEY,
+    Answer,
+    FenceRequest,
+    OpKind,
+    OpRequest,
+    Proof,
+    Status,
+    Stop,
+    load_robot,
+    sign,
+    sign_fence,
+)
+from wire.keys import FENCE, OPS, STATUS, STOP, Party
 from wire.session import Publisher, Session, Subscriber, open_session
 
 if TYPE_CHECKING:
@@ -49,6 +61,26 @@ def ask_direct(settings: Settings, kind: OpKind) -> Answer:
         answer = _until_answered(lambda: mouth.put(request), ears, request_id)
         if answer is None:
             raise NoBridge(f"no_answer: the bridge speaks but did not answer {kind} within 2 s")
+        return answer
+
+
+def fence_direct(settings: Settings, text: str) -> Answer:
+    """Ask the bridge itself to put a fence in force, with a proof that binds this text.
+
+    Raises:
+        NoBridge: no status or no verdict came.
+    """
+    robot = load_robot(settings.robot)
+    request_id = f"cli-{secrets.token_hex(6)}"
+    with open_session(Party.OPERATOR, robot.id, settings.home) as session:
+        mouth, ears = session.publisher(FENCE), session.subscriber(STATUS)
+        status = _first_status(ears)
+        key = operator_key(settings, virtual=status.drive.virtual)
+        proof = sign_fence(key, status.robot, status.nonce, request_id, text) if key else None
+        request = FenceRequest(id=request_id, source="cli", fence=text, proof=proof)
+        answer = _until_answered(lambda: mouth.put(request), ears, request_id)
+        if answer is None:
+            raise NoBridge("no_answer: the bridge speaks but did not answer fence within 2 s")
         return answer
 
 

@@ -8,6 +8,7 @@ from wire.base import Record
 from wire.codec import decode, encode
 from wire.commands import (
     EstopLink,
+    FenceRequest,
     Grant,
     Heartbeat,
     Hello,
@@ -21,6 +22,7 @@ from wire.commands import (
     Waypoints,
 )
 from wire.errors import Misconfigured, Rejected
+from wire.fence import FenceFile
 from wire.fingerprint import fingerprint, map_id
 from wire.geometry import (
     IDENTITY,
@@ -34,7 +36,7 @@ from wire.geometry import (
     transform,
     wrap,
 )
-from wire.proof import VIRTUAL_KEY, authentic, sign
+from wire.proof import VIRTUAL_KEY, authentic, authentic_fence, sign, sign_fence
 from wire.robot import RobotDescription, load_robot
 from wire.scalars import MAX_POINTS, PROTOCOL, STATUS_RING
 from wire.sensors import (
@@ -82,6 +84,8 @@ __all__ = [
     "DriveState",
     "EstopLink",
     "Event",
+    "FenceFile",
+    "FenceRequest",
     "Grant",
     "GrantLeft",
     "Heartbeat",
@@ -118,6 +122,7 @@ __all__ = [
     "Waypoint",
     "Waypoints",
     "authentic",
+    "authentic_fence",
     "between",
     "compose",
     "decode",
@@ -128,6 +133,7 @@ __all__ = [
     "load_robot",
     "map_id",
     "sign",
+    "sign_fence",
     "transform",
     "wrap",
 ]

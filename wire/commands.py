@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wire.base import Record
+from wire.fence import MAX_TEXT
 from wire.geometry import Metres, Mps, Radps, Yaw
 from wire.scalars import MAX_POINTS, MAX_TTL_S, Count, Epoch, Fingerprint, Name
 
@@ -108,6 +109,16 @@ class OpRequest(Record):
 
     id: Name
     source: Name
+    proof: Proof | None = None
+
+
+class FenceRequest(Record):
+    """Ask as the operator for another fence. The proof binds the fence's text by its SHA-256."""
+
+    id: Name
+    source: Name
+    fence: Annotated[str, Field(min_length=2, max_length=MAX_TEXT)]
+    """The whole text that is to be fence.json."""
     proof: Proof | None = None
 
 

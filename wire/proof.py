@@ -1,8 +1,8 @@
 """Prove and check that an operator meant a request, by HMAC-SHA-256 over what it is for.
 
-The bytes signed are kind, robot, nonce and id, each preceded by its length, so that no two
-different requests share them. The key stays with the operator (CLI, page) and the bridge; a planner
-relays proofs that it can't make.
+The bytes signed are kind, robot, nonce and id, and for a fence the SHA-256 of its text, each
+preceded by its length, so that no two different requests share them. The key stays with the
+operator (CLI, page) and the bridge; a planner relays proofs that it can't make.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ from __future__ import annotations
 import hashlib
 import hmac
 
-from wire.commands import OpKind, Proof
+from wire.commands import FenceRequest, OpKind, Proof
+from wire.fence import text_sha256
 
 VIRTUAL_KEY = b"pons-virtual-drive-operator-key"
 """The key of every drive that declares itself virtual. Published on purpose: it guards no metal."""
@@ -28,6 +29,21 @@ def authentic(key: bytes, kind: OpKind, robot: str, proof: Proof | None, request
     if proof is None:
         return False
     return hmac.compare_digest(_mac(key, kind, robot, proof.nonce, request_id), proof.mac)
+
+
+def sign_fence(key: bytes, robot: str, nonce: str, request_id: str, text: str) -> Proof:
+    """Make the proof for one text of a fence, and no other, under one nonce."""
+    return Proof(nonce=nonce, mac=_mac(key, "fence", robot, nonce, request_id, text_sha256(text)))
+
+
+def authentic_fence(key: bytes, robot: str, request: FenceRequest) -> bool:
+    """Say whether the proof fits the request and the very text that came with it."""
+    proof = request.proof
+    if proof is None:
+        return False
+    digest = text_sha256(request.fence)
+    expected = _mac(key, "fence", robot, proof.nonce, request.id, digest)
+    return hmac.compare_digest(expected, proof.mac)
 
 
 def _mac(key: bytes, *parts: str) -> str:

@@ -31,6 +31,11 @@ def arm_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
 def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
     """Yield the conditions of arming that do not depend on the mode."""
     s = tick.s
+    if s.fence_asked is not None:
+        yield (
+            "fence_changing",
+            "another fence is being put in force; the bridge starts anew with it",
+        )
     for name, up in s.rows.items():
         stage = STAGES[name]
         everyones = stage.binds == ALL or stage.row.startswith("LIDAR_")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bridge.core.state_fence import FenceArrived, FenceDone
 from wire import (
     DriveState,
     EstopLink,
@@ -87,6 +88,9 @@ class Inbox:
     scan: Scan | None = None
     imu: Imu | None = None
     estop_link: EstopLink | None = None
+    fences: tuple[FenceArrived, ...] = ()
+    fence_done: FenceDone | None = None
+    """What became of the fence that the core asked for."""
     rejected: tuple[RejectedAt, ...] = ()
     arrived: tuple[ArrivedAt, ...] = ()
     loop: LoopFacts = ON_TIME

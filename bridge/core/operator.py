@@ -79,35 +79,39 @@ def _against(tick: Tick, op: OpArrived) -> Iterator[tuple[str, str]]:
     if op.kind in _PROVEN:
         if tick.stopped:
             yield "stopped", "a stop came in the same tick; ask again"
-        yield from _bad_proof(tick, op)
+        proof = op.request.proof
+        nonce = proof.nonce if proof is not None else None
+        yield from bad_proof(tick, op.kind, op.request.id, nonce, authentic=op.authentic)
     if op.kind == "arm":
         yield from arm_lacks(tick)
     elif op.kind == "reset":
         yield from reset_lacks(tick)
 
 
-def _bad_proof(tick: Tick, op: OpArrived) -> Iterator[tuple[str, str]]:
-    proof = op.request.proof
-    if proof is None or not op.authentic:
+def bad_proof(
+    tick: Tick, kind: str, request_id: str, nonce: str | None, *, authentic: bool
+) -> Iterator[tuple[str, str]]:
+    """Yield code and detail of what is wrong with a proof: its HMAC, its nonce, or a second use."""
+    if nonce is None or not authentic:
         yield "bad_proof", "the proof is missing or not made with this robot's operator key"
         return
     operator = tick.s.operator
-    if proof.nonce == nonce_text(tick, operator.nonce_no):
+    if nonce == nonce_text(tick, operator.nonce_no):
         number = operator.nonce_no
     elif (
         operator.old_nonce_no is not None
         and tick.now_s <= operator.old_until_s
-        and proof.nonce == nonce_text(tick, operator.old_nonce_no)
+        and nonce == nonce_text(tick, operator.old_nonce_no)
     ):
         number = operator.old_nonce_no
     else:
         yield "old_nonce", "the proof was made for a nonce that no longer counts; sign anew"
         return
-    if f"{number} {op.kind} {op.request.id}" in operator.accepted:
+    if f"{number} {kind} {request_id}" in operator.accepted:
         yield "repeated", "this proof was already used"
 
 
-def _use_nonce(tick: Tick, kind: str, request_id: str) -> None:
+def use_nonce(tick: Tick, kind: str, request_id: str) -> None:
     """Spend the nonce: the one now shown stays valid for a moment, for what is already signed."""
     operator = tick.s.operator
     used = tuple(
@@ -140,7 +144,7 @@ def _next_nonce(tick: Tick) -> None:
 
 
 def _arm(tick: Tick, request_id: str) -> None:
-    _use_nonce(tick, "arm", request_id)
+    use_nonce(tick, "arm", request_id)
     tick.s.held = None
     clear_on_arm(tick)
     turn(tick, "armed")
@@ -158,14 +162,14 @@ def _estop(tick: Tick, _request_id: str) -> None:
 
 
 def _reset(tick: Tick, request_id: str) -> None:
-    _use_nonce(tick, "reset", request_id)
+    use_nonce(tick, "reset", request_id)
     tick.s.buttons = replace(tick.s.buttons, ordered=False)
     clear_on_reset(tick)
     go(tick, Request.RESET if tick.s.selftest.passed else Fact.UNPROVEN_RESET, "reset")
 
 
 def _resume(tick: Tick, request_id: str) -> None:
-    _use_nonce(tick, "resume", request_id)
+    use_nonce(tick, "resume", request_id)
     tick.s.held = None
     tick.s.grants = operator_acted(tick.s.grants)
 

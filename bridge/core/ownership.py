@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 LIVE_S = 0.3
 
 
+_ANEW = "its {0} is not this bridge's; start the bridge and its owner anew with the same {0}"
+
+
 def alive(tick: Tick) -> bool:
     """Tell whether there is an owner who has shown to live."""
     ownership = tick.s.ownership
@@ -104,14 +107,14 @@ def _echo(tick: Tick, sent_s: float) -> None:
 def _against(tick: Tick, hello: Hello) -> Iterator[tuple[str, str]]:
     """Yield code and detail of everything that speaks against this owner-to-be."""
     config = tick.config
-    for code, came, expected in (
-        ("protocol_mismatch", hello.protocol, PROTOCOL),
-        ("robot_mismatch", hello.robot_hash, config.robot_hash),
-        ("fence_mismatch", hello.fence_hash, config.fence_hash),
-        ("map_mismatch", hello.map_id, config.map_id),
+    for code, came, expected, to_do in (
+        ("protocol_mismatch", hello.protocol, PROTOCOL, "run both of one version"),
+        ("robot_mismatch", hello.robot_hash, config.robot_hash, _ANEW.format("robot.toml")),
+        ("fence_mismatch", hello.fence_hash, config.fence_hash, _ANEW.format("fence.json")),
+        ("map_mismatch", hello.map_id, config.map_id, _ANEW.format("map")),
     ):
         if came != expected:
-            yield code, f"came {came}, expected {expected}"
+            yield code, f"came {came}, expected {expected}: {to_do}"
     if alive(tick):
         owner = tick.s.ownership.owner
         yield "owner_alive", f"owner is {owner.planner_id if owner else 'nobody'}"

@@ -13,6 +13,7 @@ from bridge.core.limiter import LimiterState
 from bridge.core.odometry import OdometryState
 from bridge.core.pursuit import NEW, FollowState
 from bridge.core.state_braking import UNLEARNT, Learnt, Ramp
+from bridge.core.state_fence import FenceAsked
 from bridge.core.state_orders import External, Grants, Leg, Operator, Ownership, Stick
 from bridge.core.state_senses import (
     ButtonMemory,
@@ -156,6 +157,7 @@ class BridgeState:
     voice: Voice = field(default_factory=Voice)
     learnt: Learnt = UNLEARNT
     """How much worse than robot.toml this robot brakes; a run begins with what others learnt."""
+    fence_asked: FenceAsked | None = None
     braking_trouble: str | None = None
     """Why what others learnt could not be read."""
     ramp: Ramp | None = None

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core import (
     drive_out,
+    fenceop,
     flood,
     gate,
     learnt,
@@ -112,6 +113,10 @@ def _listen(tick: Tick) -> None:
             hear_external(tick, velocity)
         for waypoints in inbox.waypoints:
             hear_waypoints(tick, waypoints)
+    for fence in inbox.fences:
+        fenceop.hear_fence(tick, fence)
+    if inbox.fence_done is not None:
+        fenceop.hear_done(tick, inbox.fence_done)
     if inbox.rejected:
         manners.hear_rejected(tick)
     stick.watch(tick)

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from planner.mission import Leg
     from planner.plan import Goal, Language
     from planner.voice import Recogniser
-    from planner.world import Site
-    from wire import Answer, OpKind, OpRequest, RobotDescription, Status
+    from planner.world import FenceProposals, Site
+    from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
 
 
 class Stopped(Protocol):
@@ -79,6 +79,8 @@ class Robot(Protocol):
 
     async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None: ...
 
+    async def offer_fence(self, request: FenceRequest) -> Answer | None: ...
+
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
 
 
@@ -93,6 +95,9 @@ class Services(Protocol):
 
     @property
     def site(self) -> Site: ...
+
+    @property
+    def fences(self) -> FenceProposals: ...
 
     @property
     def brain(self) -> Brain: ...

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from wire import (
     Event,
+    FenceRequest,
     Grant,
     Heartbeat,
     Hello,
@@ -72,6 +73,7 @@ class WireBus:
         self._heartbeat = session.publisher(k.HEARTBEAT)
         self._waypoints = session.publisher(k.WAYPOINTS)
         self._stop = session.publisher(k.STOP)
+        self._fence = session.publisher(k.FENCE)
         self._teleop = session.publisher(k.TELEOP)
         self._ops = {key.path.removeprefix("op/"): session.publisher(key) for key in k.OPS}
 
@@ -102,6 +104,8 @@ class WireBus:
                 self._hello.put(message)
             case Stop():
                 self._stop.put(message)
+            case FenceRequest():
+                self._fence.put(message)
             case _:
                 raise TypeError(f"{type(message).__name__} is no command of an owner")
 

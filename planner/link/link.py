@@ -20,6 +20,7 @@ from planner.link.lidar import points_in_map
 from wire import (
     Answer,
     Event,
+    FenceRequest,
     Localization,
     Odometry,
     OpKind,
@@ -156,6 +157,17 @@ class Link:
         answer = await self._until_echoed(request.id, lambda: self._bus.ask(kind, request))
         if answer is None:
             raise BridgeSilent(kind, ECHO_S)
+        return answer
+
+    async def offer_fence(self, request: FenceRequest) -> Answer:
+        """Bring an operator's fence to the bridge and return its verdict.
+
+        Raises:
+            BridgeSilent: it was not echoed within 2 s.
+        """
+        answer = await self._until_echoed(request.id, lambda: self._bus.send(request))
+        if answer is None:
+            raise BridgeSilent("fence", ECHO_S)
         return answer
 
     def _resolve(self, status: Status) -> None:

@@ -2,6 +2,9 @@
 
 from planner.world.errors import SiteError
 from planner.world.fence import Fence, SpeedZone
+from planner.world.fence_check import FenceRefused, check_fence
+from planner.world.fence_diff import FenceDiff, fence_diff
+from planner.world.fence_store import FenceProposal, FenceProposals
 from planner.world.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from planner.world.map_file import LoadedMap, load_map
 from planner.world.places import Place, normalised
@@ -12,12 +15,18 @@ __all__ = [
     "OCCUPIED",
     "UNKNOWN",
     "Fence",
+    "FenceDiff",
+    "FenceProposal",
+    "FenceProposals",
+    "FenceRefused",
     "GridMap",
     "LoadedMap",
     "Place",
     "Site",
     "SiteError",
     "SpeedZone",
+    "check_fence",
+    "fence_diff",
     "load_map",
     "normalised",
 ]

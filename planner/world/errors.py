@@ -19,6 +19,7 @@ REASONS = MappingProxyType(
         "map_thresholds_crossed": "地图阈值顺序错误",
         "fence_map_mismatch": "围栏属于另一张地图",
         "polygon_degenerate": "多边形面积为零",
+        "polygon_crosses_itself": "多边形自相交",
         "place_duplicate_id": "地点编号重复",
         "place_alias_clash": "两个地点使用同一名称",
         "place_outside_map": "地点在地图之外",

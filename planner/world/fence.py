@@ -5,41 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
-from typing import Annotated
-
-from pydantic import Field
 
 from planner.world.errors import SiteError
-from planner.world.polygon import Polygon, area_m2, border_distance_m, contains
-from planner.world.records import Record, parse_json, read_bytes
+from planner.world.polygon import Polygon, border_distance_m, contains
+from planner.world.records import parse_json, read_bytes
+from wire.fence import FenceFile, Outline, SpeedZone, flaw
 from wire.fingerprint import fingerprint
 
-Ordinate = Annotated[float, Field(ge=-10_000.0, le=10_000.0)]
-Outline = Annotated[tuple[tuple[Ordinate, Ordinate], ...], Field(min_length=3, max_length=1000)]
+__all__ = ["Fence", "Outline", "SpeedZone", "load_fence"]
 
-
-class SpeedZone(Record):
-    """Bound the speed inside an outline."""
-
-    polygon: Outline
-    max_speed_mps: Annotated[float, Field(ge=0.05, le=10.0)]
-
-
-class FenceRecord(Record):
-    """Mirror fence.json. All outlines are in ``map`` [m] and speak of the robot's centre."""
-
-    version: Annotated[int, Field(ge=1, le=1)]
-    map_id: str
-    allowed: Annotated[tuple[Outline, ...], Field(min_length=1, max_length=1000)]
-    keep_outs: Annotated[tuple[Outline, ...], Field(max_length=1000)] = ()
-    speed_zones: Annotated[tuple[SpeedZone, ...], Field(max_length=1000)] = ()
+_FLAWS = {
+    "fence_degenerate": "polygon_degenerate",
+    "fence_crosses_itself": "polygon_crosses_itself",
+}
 
 
 @dataclass(frozen=True, slots=True)
 class Fence:
     """Bound the robot's centre: inside an allowed outline and inside no keep-out."""
 
-    record: FenceRecord
+    record: FenceFile
     fence_hash: str
 
     @property
@@ -68,12 +53,12 @@ def load_fence(path: Path) -> Fence:
     """Load fence.json.
 
     Raises:
-        SiteError: ``polygon_degenerate`` and the codes of :mod:`planner.world.records`.
+        SiteError: ``polygon_degenerate``, ``polygon_crosses_itself`` and the codes of
+            :mod:`planner.world.records`.
     """
     data = read_bytes(path)
-    fence = Fence(parse_json(data, FenceRecord, path), fingerprint(data))
-    zones = tuple(zone.polygon for zone in fence.record.speed_zones)
-    for outline in fence.outlines + zones:
-        if not area_m2(outline) > 0.0:
-            raise SiteError("polygon_degenerate", f"{path}: the outline {outline} has no area")
-    return fence
+    record = parse_json(data, FenceFile, path)
+    wrong = flaw(record)
+    if wrong is not None:
+        raise SiteError(_FLAWS[wrong[0]], f"{path}: {wrong[1]}")
+    return Fence(record, fingerprint(data))

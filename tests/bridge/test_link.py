@@ -13,12 +13,14 @@ from typing import Any
 import pytest
 
 from bridge.core import ON_TIME, ArrivedAt, Decision, Inbox, OpArrived, initial
+from bridge.core.state_fence import FenceArrived
 from bridge.link import STOPS_KEPT, Link
 from tests.bridge.ground import core_config, until
 from tests.wire.examples import EXAMPLES, STATUS
 from wire import (
     VIRTUAL_KEY,
     Event,
+    FenceRequest,
     Odometry,
     OpKind,
     OpRequest,
@@ -29,8 +31,9 @@ from wire import (
     decode,
     encode,
     sign,
+    sign_fence,
 )
-from wire.keys import EVENT, KEYS, ODOM, OPS, STOP, WAYPOINTS, Key, Party
+from wire.keys import EVENT, FENCE, KEYS, ODOM, OPS, STOP, WAYPOINTS, Key, Party
 from wire.keys import STATUS as STATUS_KEY
 from wire.session import Session, open_session
 
@@ -107,12 +110,35 @@ def arrived(inbox: Inbox, key: Key[Any]) -> int:
 def test_every_key_is_heard(ends: Ends, key: Key[Record]) -> None:
     message = EXAMPLES[key.message]
     mouth = ends.other.publisher(key)
+    handed_on = "FenceArrived(id='fence-1'" if key is FENCE else repr(message)
 
     def there() -> bool:
         mouth.put(message)
-        return repr(message) in repr(ends.drain())
+        return handed_on in repr(ends.drain())
 
     assert until(there)
+
+
+def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends) -> None:
+    mouth = ends.other.publisher(FENCE)
+    robot_id = core_config().robot.id
+
+    def arrives(proof_of: str) -> FenceArrived:
+        proof = sign_fence(VIRTUAL_KEY, robot_id, "n", "f1", proof_of)
+        request = FenceRequest(id="f1", source="cli", fence="{} ", proof=proof)
+        came: list[FenceArrived] = []
+
+        def there() -> bool:
+            mouth.put(request)
+            came.extend(ends.drain().fences)
+            return bool(came)
+
+        assert until(there)
+        return came[0]
+
+    assert arrives("{} ") == FenceArrived("f1", "cli", "n", True, "{} ")
+    until(lambda: not ends.drain().fences)
+    assert arrives("{}") == FenceArrived("f1", "cli", "n", False, "")
 
 
 @pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)

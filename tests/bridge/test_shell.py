@@ -47,6 +47,7 @@ class Diary:
         drive: tuple[DriveState | Rejected, ...],
         loop: LoopFacts,
         *,
+        fence_done: None,
         real_time: bool,
         recorder_ok: bool,
         recorder_says: str,
@@ -83,6 +84,16 @@ class Diary:
         self.words.append("feed")
 
 
+class Desk:
+    """Have no fence to put in force."""
+
+    def note(self, asked: None, now_s: float) -> None:
+        assert asked is None
+
+    def take(self) -> None:
+        return None
+
+
 @pytest.fixture
 def diary() -> Diary:
     return Diary()
@@ -90,7 +101,7 @@ def diary() -> Diary:
 
 @pytest.fixture
 def shell(diary: Diary) -> Shell:
-    parts = Parts(diary, diary, diary, diary, diary, diary)  # type: ignore[arg-type]  # a Diary is all of them
+    parts = Parts(diary, diary, diary, diary, diary, diary, Desk())  # type: ignore[arg-type]  # a Diary is all of them
     return Shell(CONFIG, parts, 100.0, real_time=True)
 
 

@@ -16,6 +16,7 @@ from wire import (
     DriveState,
     EstopLink,
     Event,
+    FenceRequest,
     Grant,
     GrantLeft,
     Heartbeat,
@@ -145,6 +146,12 @@ _MESSAGES: tuple[Record, ...] = (
         source_id="stick", epoch=EPOCH, seq=1, seen=40, v_mps=0.2, w_radps=-0.3, dead_man=True
     ),
     OpRequest(id="op-1", source="cli", proof=Proof(nonce="boot1.2", mac="a" * 64)),
+    FenceRequest(
+        id="fence-1",
+        source="cli",
+        fence='{"version":1,"map_id":"0123456789abcdef","allowed":[[[0,0],[1,0],[0,1]]]}\n',
+        proof=Proof(nonce="boot1.2", mac="b" * 64),
+    ),
     EstopLink(seq=1, pressed=False),
     STATUS,
     Event(

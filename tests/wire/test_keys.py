@@ -7,7 +7,7 @@ import re
 import pytest
 
 from wire import Record
-from wire.keys import KEYS, LATEST, SEQUENCED, Key, Party
+from wire.keys import FEW, KEYS, LATEST, SEQUENCED, Key, Party
 from wire.sockets import DIALS, LISTENERS
 
 
@@ -29,7 +29,7 @@ def test_every_pair_of_a_key_has_a_link_of_its_own(key: Key[Record]) -> None:
 
 @pytest.mark.parametrize("key", KEYS, ids=lambda key: key.path)
 def test_rings_and_expressions_are_sane(key: Key[Record]) -> None:
-    assert key.ring in (LATEST, SEQUENCED)
+    assert key.ring in (LATEST, FEW, SEQUENCED)
     assert re.fullmatch(r"[a-z_]+(/[a-z_]+)?", key.path)
     assert key.expression("r1") == f"pons/r1/{key.path}"
 

@@ -14,9 +14,9 @@ from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
 from planner.voice import Heard, Sound, VoiceFailure
-from planner.world import Site
+from planner.world import FenceProposals, Site
 from tests.wire.examples import STATUS
-from wire import Answer, OpKind, OpRequest, RobotDescription, Status
+from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -110,6 +110,7 @@ class FakeRobot:
     def __init__(self, status: Status | None = STATUS) -> None:
         self._status = status
         self.asked: list[tuple[OpKind, OpRequest]] = []
+        self.offered: list[FenceRequest] = []
         self.steers: list[tuple[str, float, float, bool]] = []
         self.points: list[tuple[float, float]] = []
         self.verdict: Answer | None = Answer(
@@ -132,6 +133,10 @@ class FakeRobot:
 
     async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None:
         self.asked.append((kind, request))
+        return self.verdict
+
+    async def offer_fence(self, request: FenceRequest) -> Answer | None:
+        self.offered.append(request)
         return self.verdict
 
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:
@@ -161,3 +166,4 @@ class FakeServices:
         self.ears = FakeEars()
         self.brain: Brain = OfflineBrain()
         self.site = Site.load(ROOT / "sites" / "two_room")
+        self.fences = FenceProposals(Path("/nowhere"))

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from planner.world import FREE, OCCUPIED, GridMap, Site
-from planner.world.fence import Fence, FenceRecord
+from planner.world.fence import Fence
 from planner.world.places import Names, Place
-from wire import Pose2
+from wire import FenceFile, Pose2
+from wire.fence import SpeedZone
 
 CELL_M = 0.05
 FAR = ((-100.0, -100.0), (100.0, -100.0), (100.0, 100.0), (-100.0, 100.0))
@@ -30,12 +31,12 @@ def drawn(
         for row in reversed(rows)
     )
     grid = GridMap(len(rows[0]) * per, len(rows) * per, CELL_M, 0.0, 0.0, cells)
-    record = FenceRecord(
+    record = FenceFile(
         version=1,
         map_id="0" * 16,
         allowed=allowed,
         keep_outs=keep_outs,
-        speed_zones=tuple({"polygon": p, "max_speed_mps": v} for p, v in zones),
+        speed_zones=tuple(SpeedZone(polygon=p, max_speed_mps=v) for p, v in zones),
     )
     home = Place(id="home", kind="place", name=Names(en="home", zh="家"), pose=Pose2(1, 1, 0))
     places = [
