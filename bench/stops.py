@@ -1,4 +1,8 @@
-"""Say stop as people do, and note the moment at which it was handed over."""
+"""Say stop as people do, and note the moment at which it was handed over.
+
+Each way is made ready before the robot drives, as a page or a client that is already open is; what
+it yields says stop, returns when it did, and waits for the answer.
+"""
 
 from __future__ import annotations
 
@@ -6,43 +10,90 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from http.client import HTTPConnection
 from typing import TYPE_CHECKING
+
+from websockets.sync.client import connect
 
 if TYPE_CHECKING:
     from bench.robot import Robot
 
+Stop = Callable[[], float]
+"""Stops; returns the moment on the monotonic clock."""
 LIMIT_S = 10.0
 _CLI = (
     "import sys, time; from pons import settings, stop; known = settings.load(); "
-    "print(time.monotonic(), flush=True); sys.exit(stop.run(known))"
+    "print('ready', flush=True); input(); print(time.monotonic(), flush=True); "
+    "sys.exit(stop.run(known))"
 )
-"""``pons stop`` itself, noting the time when all is loaded and nothing is sent."""
+"""``pons stop`` itself, waiting for a word when all is loaded and nothing is sent."""
 
 
-def by_api(robot: Robot) -> float:
-    """POST a stop on a connection that stands; return when its bytes were handed over."""
-    connection = HTTPConnection(robot.settings.host, robot.settings.port, timeout=LIMIT_S)
-    try:
-        connection.connect()
-        sent_s = time.monotonic()
-        sort = {"Content-Type": "application/json"}
-        connection.request("POST", "/v1/stop", b'{"source": "bench"}', sort)
-        connection.getresponse().read()
-        return sent_s
-    finally:
-        connection.close()
+@contextmanager
+def by_api(robot: Robot) -> Iterator[Stop]:
+    """POST on a connection of its own, made on the spot: the planner closes idle ones."""
+
+    def stop() -> float:
+        connection = HTTPConnection(robot.settings.host, robot.settings.port, timeout=LIMIT_S)
+        try:
+            connection.connect()
+            sent_s = time.monotonic()
+            sort = {"Content-Type": "application/json"}
+            connection.request("POST", "/v1/stop", b'{"source": "bench"}', sort)
+            connection.getresponse().read()
+            return sent_s
+        finally:
+            connection.close()
+
+    yield stop
 
 
-def by_cli(robot: Robot) -> float:
-    """Run ``pons stop``; return when its process, loaded, was about to speak."""
+@contextmanager
+def by_cli(robot: Robot) -> Iterator[Stop]:
+    """Run ``pons stop``; the moment is when its process, loaded, is about to speak."""
     ours = {"PONS_HOME": str(robot.settings.home), "PONS_PORT": str(robot.settings.port)}
-    done = subprocess.run(
+    process = subprocess.Popen(
         [sys.executable, "-c", _CLI],
         env={**os.environ, **ours},
-        capture_output=True,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
         text=True,
-        check=True,
-        timeout=LIMIT_S,
     )
-    return float(done.stdout.splitlines()[0])
+
+    def stop() -> float:
+        said, _ = process.communicate("now\n", LIMIT_S)
+        return float(said.splitlines()[0])  # what stood before was read
+
+    try:
+        if process.stdout is None or process.stdout.readline() != "ready\n":
+            raise OSError("pons stop did not load")
+        yield stop
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@contextmanager
+def by_socket(robot: Robot) -> Iterator[Stop]:
+    """Say it over an open event socket, as the page does first."""
+    url = f"ws://{robot.settings.host}:{robot.settings.port}/v1/events"
+    with connect(url, max_queue=None) as socket:  # all that comes meanwhile is kept, none read
+
+        def stop() -> float:
+            sent_s = time.monotonic()
+            socket.send('{"stop": true}')
+            while time.monotonic() < sent_s + LIMIT_S:
+                if '"stopped"' in str(socket.recv(LIMIT_S)):
+                    break
+            return sent_s
+
+        yield stop
+
+
+WAYS: dict[str, Callable[[Robot], AbstractContextManager[Stop]]] = {
+    "API": by_api,
+    "CLI": by_cli,
+    "WebSocket": by_socket,
+}

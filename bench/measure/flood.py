@@ -19,14 +19,14 @@ from bench.lab import until
 from bench.lateness import cyclictest_late_us
 from bench.report import Row, row_of
 from bench.robot import Robot
-from bench.stops import by_api, by_cli
+from bench.stops import WAYS
 from pons.conformance.helpers import FLOODER, Helper
 from wire import Event
 from wire.keys import EVENT, Party
 from wire.session import open_session
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     from bench.lab import Lab
     from wire import Status
@@ -55,12 +55,13 @@ def measure(lab: Lab) -> list[Row]:
         goal = f"all <= {theirs} or {poisson_upper_95(theirs):.0f}" if name == "bridge" else ""
         note = f"{sum(counts):.0f} in {len(pairs)} slices, {seconds:.0f} s"
         rows.append(row_of(f"{name}: gaps over 3.5 periods a slice", "", goal, counts, note))
-    for way in ("api", "cli"):
+    for way in WAYS:
         took_ms = [value for run in runs for value in run["stops"][way]]
         lost = sum(run["lost"][way] for run in runs)
         note = f"{lost} of {len(took_ms) + lost} not held; load {_loads(runs)}"
-        what = "request sent" if way == "api" else "process ready to send"
-        rows.append(row_of(f"{way}: {what} -> held", "ms", "works", took_ms, note, valid=not lost))
+        rows.append(
+            row_of(f"{way}: handed over -> held", "ms", "works", took_ms, note, valid=not lost)
+        )
     rates = [run["rates"] for run in runs]
     rows.append(Row("really sent", "messages/s", "", value="; ".join(map(str, rates))))
     return rows
@@ -154,17 +155,17 @@ def _tick(robot: Robot) -> int:
 
 def _stops(lab: Lab, robot: Robot) -> tuple[dict[str, list[float]], dict[str, int]]:
     """Stop over and over under the flood; return what each took [ms] and how many were lost."""
-    took: dict[str, list[float]] = {"api": [], "cli": []}
-    lost = {"api": 0, "cli": 0}
-    ways: dict[str, Callable[[Robot], float]] = {"api": by_api, "cli": by_cli}
+    took: dict[str, list[float]] = {way: [] for way in WAYS}
+    lost = dict.fromkeys(WAYS, 0)
     with open_session(Party.JUDGE, _heard(robot).robot, robot.settings.home) as session:
         events = session.subscriber(EVENT)
         for number in range(lab.count(STOPS, 2 * STOPS)):
-            for way, stop in ways.items():
+            for way, way_of in WAYS.items():
                 lab.say(f"stop {number + 1} by {way}")
                 robot.operate("resume")
                 events.drain()
-                sent_s = stop(robot)
+                with way_of(robot) as stop:
+                    sent_s = stop()
                 held_s = _held_at(events, time.monotonic() + STOP_S)
                 if held_s is None:
                     lost[way] += 1

@@ -18,19 +18,17 @@ from contextlib import contextmanager
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from websockets.sync.client import connect
-
 from bench.figures import none_in
 from bench.lab import Missed, until
 from bench.lateness import stressed
 from bench.report import Row, row_of
 from bench.robot import PATIENCE_S, SLOW, Robot
-from bench.stops import by_api, by_cli
+from bench.stops import WAYS
 from pons.http import PlannerDown, Refused, call
 from wire import Mode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
     from pathlib import Path
 
     from bench.lab import Lab
@@ -52,12 +50,9 @@ Note = tuple[float, float, str]
 
 def measure(lab: Lab) -> list[Row]:
     """Take 60 of each in a long run."""
-    ways = {"API": by_api, "CLI": by_cli, "WebSocket": by_socket}
     rows = []
-    for way, stop in ways.items():
-        runs = list(
-            lab.slices(way, lab.count(1, 3), lambda i, way=way, stop=stop: _run(lab, way, stop, i))  # type: ignore[misc]  # the defaults bind the loop's way
-        )
+    for way in WAYS:
+        runs = list(lab.slices(way, lab.count(1, 3), lambda index, way=way: _run(lab, way, index)))  # type: ignore[misc]  # the default binds the loop's way
         took_ms = [value for run in runs for value in run["took_ms"]]
         lost, moot = (sum(run[name] for run in runs) for name in ("lost", "moot"))
         late = sum(value > GOAL_MS for value in took_ms)
@@ -73,8 +68,8 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _run(lab: Lab, way: str, stop: Callable[[Robot], float], index: int) -> dict[str, Any]:
-    chance = Random(index)
+def _run(lab: Lab, way: str, index: int) -> dict[str, Any]:
+    chance, way_of = Random(index), WAYS[way]
     sent: list[float] = []
     with lab.folder() as home, _noting(home) as robot:
         robot.make_ready()
@@ -82,9 +77,9 @@ def _run(lab: Lab, way: str, stop: Callable[[Robot], float], index: int) -> dict
         for number in range(PER_SLICE):
             with loaded():  # it ends by itself after 120 s, so not for the whole run
                 lab.say(f"{way} {number + 1}/{PER_SLICE}")
-                _drive(robot)
-                time.sleep(chance.uniform(0.0, 0.3))
-                sent.append(stop(robot))
+                with way_of(robot) as stop:
+                    _drive(robot, chance)
+                    sent.append(stop())
                 until(lambda: _held(robot), WITHIN_S, "held")
         load = os.getloadavg()[0]
         speed = robot.speed
@@ -142,21 +137,8 @@ def loaded() -> Iterator[None]:
             process.wait()
 
 
-def by_socket(robot: Robot) -> float:
-    """Stop as the page does first; return when it was sent."""
-    settings = robot.settings
-    with connect(f"ws://{settings.host}:{settings.port}/v1/events") as socket:
-        socket.recv()
-        sent_s = time.monotonic()
-        socket.send('{"stop": true}')
-        end_s = sent_s + WITHIN_S
-        while time.monotonic() < end_s and '"stopped"' not in str(socket.recv(WITHIN_S)):
-            pass
-    return sent_s
-
-
-def _drive(robot: Robot) -> None:
-    """Give a goal, or resume the one that was stopped, until the robot drives."""
+def _drive(robot: Robot, chance: Random) -> None:
+    """Give a goal, or resume the one that was stopped, until the robot drives at some moment."""
     end_s = time.monotonic() + DRIVE_S
     while not _moves(robot):
         if time.monotonic() > end_s:
@@ -168,12 +150,15 @@ def _drive(robot: Robot) -> None:
         until_s = time.monotonic() + 1.0
         while time.monotonic() < until_s and not _moves(robot):
             time.sleep(0.01)
+        time.sleep(chance.uniform(0.0, 0.3))
 
 
 def _ask(robot: Robot) -> None:
     status = robot.status
-    if status is not None and status.mode is Mode.DISARMED:
-        robot.operate("arm")
+    if status is not None and status.mode in (Mode.ESTOPPED, Mode.FAULT):
+        robot.operate("reset")
+    if status is not None and status.mode is not Mode.ACTIVE:
+        robot.operate("arm")  # refused where it is armed
     goals = call(robot.settings, "GET", "/v1/goals")["goals"]
     waiting = [goal for goal in goals if goal["state"] in OPEN]
     if not waiting:
