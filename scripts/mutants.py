@@ -1,10 +1,11 @@
 """Change one thing at a time in bridge/core and see whether a test notices (docs/adr/0019).
 
 ``make mutants ARGS="--sample 20 limiter latch"``: at most 20 mutants a file, chosen evenly; without
-names all files. One process: pytest collects once, each mutant is a fork in which one function's
+names all files. Tests are the quick suite; ``--all --again`` tries its survivors on all that need
+no hypothesis. One process: pytest collects once, each mutant is a fork in which one function's
 code is replaced and the tests that call it run, quickest first. A change outside functions (tables,
 windows) imports the core anew. Results are kept in .mutants/results.jsonl, so a run may be broken
-off and gone on with; ``--again`` tries survivors once more. Nothing on disk is ever changed.
+off and gone on with. Nothing on disk is ever changed.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from scripts.mutation import Mutant, changed, mutants_of
 ROOT = Path(__file__).resolve().parents[1]
 CORE = ROOT / "bridge" / "core"
 KEPT = ROOT / ".mutants" / "results.jsonl"
-PYTEST = ["-q", "-x", "-p", "no:randomly", "-p", "no:cacheprovider", "-m", "not slow"]
+PYTEST = ["-q", "-x", "-p", "no:randomly", "-p", "no:cacheprovider"]
 FIRST = ("limiter", "latch", "transition", "modes", "decide", "stops", "operator", "grants",
          "ownership", "gate", "contactgate", "fencegate", "obstaclegate")  # fmt: skip
 LIMIT_S = 60
@@ -99,7 +100,7 @@ class Loop:
 
     def _baseline(self, items: list[pytest.Item]) -> dict[str, list[pytest.Item]]:
         """Run all tests once, unchanged; return which call each function, quickest first."""
-        file = KEPT.parent / "baseline.pickle"
+        file = KEPT.parent / f"baseline-{'all' if self.wanted.all else 'quick'}.pickle"
         KEPT.parent.mkdir(exist_ok=True)
         if not file.exists() or self.wanted.afresh:
             if os.fork() == 0:
@@ -155,7 +156,8 @@ class Loop:
             quiet = os.open(os.devnull, os.O_WRONLY)
             os.dup2(quiet, 1)
             os.dup2(quiet, 2)
-            os._exit(in_child(name, mutant, calls.get(f"{name}:{mutant.where}", [])))
+            tests = calls.get(f"{name}:{mutant.where}", [])
+            os._exit(in_child(name, mutant, tests, marks(self.wanted)))
         status = os.waitpid(child, 0)[1]
         if os.WIFSIGNALED(status):
             return "timeout" if os.WTERMSIG(status) == signal.SIGALRM else "killed"
@@ -171,21 +173,26 @@ def run_item(items: list[pytest.Item], index: int) -> bool:
     return session.testsfailed > before
 
 
-def in_child(name: str, mutant: Mutant, items: list[pytest.Item]) -> int:
+def marks(wanted: argparse.Namespace) -> list[str]:
+    """Return pytest's choice of tests."""
+    return ["-m", "not slow" if wanted.all else "core_quick"]
+
+
+def in_child(name: str, mutant: Mutant, items: list[pytest.Item], chosen: list[str]) -> int:
     """Replace the code and run the tests; 0: none noticed, 1: one did, 3: none calls it."""
     module = sys.modules[f"bridge.core.{name}"]
     function = function_at(module, mutant.where) if mutant.where else None
     file = CORE / f"{name}.py"
     code = compile(changed(file.read_text("utf-8"), mutant), str(file), "exec")
     if function is None:
-        return imported_anew(f"bridge.core.{name}", code)
+        return imported_anew(f"bridge.core.{name}", code, chosen)
     function.__code__ = code_at(code, mutant.where)
     if not items:
         return 3
     return int(any(run_item(items, index) for index in range(len(items))))
 
 
-def imported_anew(module: str, code: CodeType) -> int:
+def imported_anew(module: str, code: CodeType, chosen: list[str]) -> int:
     """Import core and tests again with one module changed, and run the tests."""
     for loaded in [one for one in sys.modules if one.startswith(("bridge.", "tests", "lockstep"))]:
         del sys.modules[loaded]
@@ -202,7 +209,7 @@ def imported_anew(module: str, code: CodeType) -> int:
             exec(code, made.__dict__)  # the mutant, compiled here
 
     sys.meta_path.insert(0, Changed())  # type: ignore[arg-type]  # a finder by its method
-    return int(pytest.main([*PYTEST, *TESTS]) != 0)
+    return int(pytest.main([*PYTEST, *chosen, *TESTS]) != 0)
 
 
 TESTS = [str(ROOT / "tests" / "bridge" / "core")]
@@ -214,12 +221,14 @@ def main() -> int:
     parser.add_argument("names", nargs="*", help="modules of bridge/core; none: all")
     parser.add_argument("--sample", type=int, default=0, help="at most so many mutants a file")
     parser.add_argument("--again", action="store_true", help="try survivors once more")
+    parser.add_argument("--all", action="store_true", help="all tests without hypothesis")
     parser.add_argument("--afresh", action="store_true", help="measure the tests anew")
     wanted = parser.parse_args()
     rest = sorted(p.stem for p in CORE.glob("*.py") if p.stem not in UNTESTED | set(FIRST))
     wanted.names = wanted.names or [*FIRST, *rest]
     os.chdir(ROOT)
-    return int(pytest.main([*PYTEST, "-s", *TESTS], plugins=[Loop(wanted)]))
+    arguments = [*PYTEST, "-s", *marks(wanted), *TESTS]
+    return int(pytest.main(arguments, plugins=[Loop(wanted)]))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ QUICK = frozenset(
     """
     test_ages_and_docs test_drive_out test_enumerated test_fence test_freespace
     test_horizon test_kinematics test_limiter test_modes test_odometry test_path
-    test_quick_core test_scanpicture test_stopcurve test_wheelcontrol
+    test_quick_core test_scanpicture test_stopcurve test_wheelcontrol test_window_edges
     """.split()  # noqa: SIM905  # one name a word reads better
 )
 LONG = (
@@ -16,6 +16,14 @@ LONG = (
     "harder_row",
     "three_rows",
     "every_pair",
+    "BRAIN_GONE",
+    "LIDAR_STALE.1",
+    "NO_RANGE",
+    "LIDAR_BLIND.1",
+    "BATTERY",
+    "LOOP_LATE.2",
+    "YAW",
+    "STUCK",
     "stop_wins",
     "wall",
     "drives_along",

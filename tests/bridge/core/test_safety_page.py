@@ -1,0 +1,22 @@
+"""The page of tables prints itself, and says where the committed one is stale."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from bridge.core import docs
+
+
+def test_it_is_printed_written_and_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = tmp_path / "safety.md"
+    monkeypatch.setattr(docs, "PATH", page)
+    assert docs.main(["--check"]) == 1
+    assert "run python -m bridge.core.docs --write" in capsys.readouterr().out
+    assert docs.main(["--write"]) == 0
+    assert docs.main(["--check"]) == 0
+    assert docs.main([]) == 0
+    assert capsys.readouterr().out == page.read_text("utf-8")
