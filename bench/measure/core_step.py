@@ -1,75 +1,76 @@
 """Measure what one core step costs its thread, with scans coming in, while really driving.
 
-Lockstep feeds the step exactly what the bridge process would get; the garbage collector is kept out
-as there. Thread CPU time, so that other work on the machine does not count.
+Lockstep feeds the step exactly what the bridge process would get. The compiled core and the plain
+source are timed in turns, each in a process of its own (bench/steps.py).
 """
 
 from __future__ import annotations
 
-import gc
-import time
-from typing import TYPE_CHECKING
+import json
+import os
+import subprocess
+import sys
+from typing import TYPE_CHECKING, Any
 
+from bench.lab import Missed
 from bench.report import Row, row_of
-from bridge.core import step
-from lockstep import Together
-from wire import Mode
+from bridge.compiled import find
 
 if TYPE_CHECKING:
     from bench.lab import Lab
-    from bridge.core import BridgeState, CoreConfig, Decision, Inbox
 
 NAME = "core_step"
 TITLE = "bridge core: CPU time of one step"
 LONG_ONLY = False
 GOAL = "p50 <= 100, p99 <= 250"
-WARM_TICKS = 200
 ROUNDS = 5
-
-
-class Timed:
-    """Be the core's step and note what each call costs while the robot drives."""
-
-    def __init__(self) -> None:
-        self.scan_us: list[float] = []
-        self.other_us: list[float] = []
-
-    def __call__(
-        self, config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float
-    ) -> Decision:
-        began_ns = time.thread_time_ns()
-        decision = step(config, state, inbox, now_s)
-        took_us = (time.thread_time_ns() - began_ns) / 1e3
-        if state.mode is Mode.ACTIVE and state.tick > WARM_TICKS:
-            (self.other_us if inbox.scan is None else self.scan_us).append(took_us)
-        return decision
+LIMIT_S = 120.0
 
 
 def measure(lab: Lab) -> list[Row]:
-    """Drive between rooms and time each step."""
-    scan_us: list[float] = []
-    other_us: list[float] = []
-    for data in lab.slices("drive", lab.count(ROUNDS, 4 * ROUNDS), _drive):
-        scan_us += data["scan_us"]
-        other_us += data["other_us"]
-    driving = "driving in sites/home, lockstep"
+    """Drive between rooms and time each step, on each core that there is."""
+    compiled = find()
+    kinds = ["compiled", "plain"] if compiled.compiled else ["plain"]
+    taken: dict[str, list[dict[str, Any]]] = {kind: [] for kind in kinds}
+    named = f"both.{compiled.folder.name}" if compiled.folder is not None else "plain"
+    for slice_ in lab.slices(named, lab.count(ROUNDS, 4 * ROUNDS), lambda i: _both(i, kinds)):
+        for kind in kinds:
+            taken[kind].append(slice_[kind])
+    rows = [row for kind in kinds for row in _rows(kind, taken[kind])]
+    if not compiled.compiled:
+        rows.append(Row("core step, compiled", "", GOAL, value="not measured", note=compiled.text))
+    return rows
+
+
+def _rows(kind: str, slices: list[dict[str, Any]]) -> list[Row]:
+    scan_us = [us for one in slices for us in one["scan_us"]]
+    other_us = [us for one in slices for us in one["other_us"]]
+    said = slices[0]["core"] if slices else kind
     return [
-        row_of("core step, all ticks", "us", GOAL, scan_us + other_us, driving),
-        row_of("core step, ticks that bring a scan", "us", "", scan_us, driving),
+        row_of(f"core step, {kind}, all ticks", "us", GOAL, scan_us + other_us, said),
+        row_of(f"core step, {kind}, ticks with a scan", "us", "", scan_us, "sites/home, lockstep"),
     ]
 
 
-def _drive(index: int) -> dict[str, list[float]]:
-    timed = Timed()
-    world = Together(site="home", seed=index + 1, step=timed)
-    gc.collect()
-    gc.freeze()
-    gc.disable()
-    try:
-        goal = world.say("go to the kitchen, then the bedroom" if index % 2 else "go to the sofa")
-        while not goal.ended and world.tick_count < 4_000:
-            world.tick()
-    finally:
-        gc.unfreeze()
-        gc.enable()
-    return {"scan_us": timed.scan_us, "other_us": timed.other_us}
+def _both(index: int, kinds: list[str]) -> dict[str, Any]:
+    """Take one drive on each core, the order changing from drive to drive."""
+    order = kinds if index % 2 == 0 else kinds[::-1]
+    return {kind: _drive(index, kind) for kind in order}
+
+
+def _drive(index: int, kind: str) -> dict[str, Any]:
+    wish = "plain" if kind == "plain" else ""
+    done = subprocess.run(
+        [sys.executable, "-m", "bench.steps", str(index)],
+        env={**os.environ, "PONS_CORE": wish},
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+    )
+    if done.returncode != 0:
+        raise Missed(f"bench.steps: {(done.stderr.strip().splitlines() or ['no word'])[-1]}")
+    found: dict[str, Any] = json.loads(done.stdout)
+    if found["core"].startswith("compiled") is not (kind == "compiled"):
+        raise Missed(f"wanted the {kind} core, ran: {found['core']}")
+    return found

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bench.processes import cpu_s, rss_mb
 from bench.report import Row, row_of
 from bench.robot import SLOW, Robot
+from bridge.compiled import find
 from wire import Mode
 
 if TYPE_CHECKING:
@@ -36,6 +37,8 @@ def measure(lab: Lab) -> list[Row]:
             samples = [value for run in runs for value in run[name][kind]]
             goal = GOALS.get((name, kind), "")
             note = f"without its workers; slowest run's simulator {slowest:.2f} x"
+            if name == "bridge":
+                note = f"core: {find().text}; {note}"
             rows.append(row_of(f"{name} {kind}", unit, goal, samples, note, valid=slowest >= SLOW))
     return rows
 

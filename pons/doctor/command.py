@@ -51,6 +51,7 @@ def findings(settings: Settings) -> list[Finding]:
     priority, virtual = robot.realtime.priority, robot.drive.virtual
     return [
         machine.python(),
+        checked("core", machine.core),
         machine.page_size(),
         checked("real_time", lambda: machine.real_time(priority, virtual=virtual)),
         checked("locked_memory", machine.locked_memory),

@@ -47,7 +47,7 @@ def assert_says(found: Finding, verdict: Verdict, *parts: str) -> None:
 def test_every_check_reports_once_and_nothing_is_made(settings: Settings) -> None:
     found = command.findings(settings)
     names = [one.name for one in found]
-    assert len(set(names)) == len(names) == 13
+    assert len(set(names)) == len(names) == 14
     for one in found:
         assert_says(one, one.verdict)
     assert not settings.home.exists(), "the doctor makes nothing"
@@ -88,7 +88,7 @@ def test_a_check_that_is_cut_short_hides_no_other(
 
     monkeypatch.setattr(machine, "locked_memory", broken)
     found = {one.name: one for one in command.findings(settings)}
-    assert len(found) == 13
+    assert len(found) == 14
     assert_says(found["locked_memory"], Verdict.FAIL, "could not be checked", str(error))
 
 
