@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bridge.begin import CORE  # first: it chooses which core the others import
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
 from bridge.drive import SimDrive
@@ -122,6 +123,7 @@ def _loop(config: CoreConfig, parts: Parts, asked: _Asked) -> int:
         log.log(level, "%s %s: %s", right.name, "granted" if right.granted else "refused",
                 right.detail)  # fmt: skip
     log.info("run %s, %s drive, %s", config.boot, parts.drive.kind, config.robot.id)
+    log.info("core: %s", CORE.text)
     shell = Shell(config, parts, clock.now_s(), real_time=all_granted(rights))
     parts.service.ready()
     desk = parts.desk
