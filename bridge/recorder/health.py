@@ -40,13 +40,12 @@ class Health:
         """Say whether it is no use to send anything."""
         return self._word == frames.FAILING
 
-    def trouble(self, now_s: float | None) -> str:
+    def trouble(self, now_s: float) -> str:
         """Say why nothing may be on the disk; empty where all is well."""
         if self.failing:
             return self._text
-        if now_s is not None:
-            self._heard_s = now_s if self._heard_s is None else self._heard_s
-            silent_s = now_s - self._heard_s
-            if not silent_s <= SILENT_S:
-                return f"{DOWN}: the writing process has been silent for {silent_s:.0f} s"
+        self._heard_s = now_s if self._heard_s is None else self._heard_s
+        silent_s = now_s - self._heard_s
+        if not silent_s <= SILENT_S:
+            return f"{DOWN}: the writing process has been silent for {silent_s:.0f} s"
         return "" if self._word in _WRITES else f"{DOWN}: the writing process begins a file"

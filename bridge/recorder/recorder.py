@@ -67,24 +67,12 @@ class Recorder:
         """When the writer was started; the first one's is before the first tick."""
         self.gaps = 0
         """Ticks lost since start, as far as this end knows."""
+        self.trouble = f"{DOWN}: the writing process begins a file"
+        """Why no ticks are being written, by code and sentence; empty where they are. Looked at
+        when ticks are handed over: each look costs a system call."""
         self._schemas_due = True
         self._health = Health(None)
         self._pipe, self._writer = self._started()
-
-    @property
-    def ok(self) -> bool:
-        """Say whether ticks are being written now."""
-        return not self.trouble
-
-    @property
-    def trouble(self) -> str:
-        """Say why no ticks are being written, by code and sentence; empty where they are."""
-        if self._writer is None or not self._writer.alive() or self._pipe.broken:
-            return f"{DOWN}: the writing process has died"
-        said = self._health.trouble(self._now_s)
-        if not said and self._missing:
-            return f"{DOWN}: the writing process lags, {self._missing} ticks are missing"
-        return said
 
     @property
     def writer_pid(self) -> int | None:
@@ -96,8 +84,9 @@ class Recorder:
         self._kept.append((state, inbox, now_s, decision))
         self._now_s = now_s
         if len(self._kept) >= TOGETHER:
-            self._look_after(now_s)
+            alive = self._look_after(now_s)
             self._hand_over()
+            self.trouble = self._judged(now_s, alive=alive)
 
     def close(self) -> bool:
         """Let the writer finish; say whether it did. After the loop only: it waits."""
@@ -106,8 +95,16 @@ class Recorder:
         self._pipe.close()
         return self._writer is not None and self._writer.join()
 
-    def _look_after(self, now_s: float) -> None:
-        """Hear the writer, and replace a dead one.
+    def _judged(self, now_s: float, *, alive: bool) -> str:
+        if not alive or self._pipe.broken:
+            return f"{DOWN}: the writing process has died"
+        said = self._health.trouble(now_s)
+        if not said and self._missing:
+            return f"{DOWN}: the writing process lags, {self._missing} ticks are missing"
+        return said
+
+    def _look_after(self, now_s: float) -> bool:
+        """Hear the writer, and replace a dead one; say whether it lives.
 
         Dead means reaped: one that hangs over a failing disk would hang again.
         """
@@ -118,7 +115,7 @@ class Recorder:
             if writer.alive() and not self._pipe.broken:
                 if now_s - self._born_s >= REVIVE_MOST_S:
                     self._wait_s = REVIVE_FIRST_S
-                return
+                return True
         if self._revive_s is None:
             self._revive_s = now_s + self._wait_s
             log.warning("recorder_died: the next is started in %.0f s", self._wait_s)
@@ -126,6 +123,8 @@ class Recorder:
             self._wait_s = min(2 * self._wait_s, REVIVE_MOST_S)
             self._born_s = now_s
             self._restart()
+            return self._writer is not None
+        return False
 
     def _room(self) -> bool:
         """After a gap, wait until half the pipe is free: a segment is long, gaps come in rows."""
