@@ -6,7 +6,7 @@ import signal
 import time
 from typing import TYPE_CHECKING, Any
 
-from pons.conformance.driver import mute
+from pons.conformance.driver import mute, pack
 from pons.conformance.fault import PATH_S, SILENT, VELOCITY_S, Fault, W, X
 from pons.conformance.helpers import FLOODER
 from pons.conformance.proxy import Proxy, Way
@@ -19,6 +19,12 @@ if TYPE_CHECKING:
 FLOOD_HZ, JUNK_HZ = 10_000, 1_000
 FLOODED_S = 0.1
 """A flood fills its window a moment after it began, and its first messages may be the good ones."""
+AFTER_FLOOD_S = 0.2
+WINDOWS_S = 1.0
+"""Four windows of a flood hold even where the command's own key is quiet."""
+STOP_AGAIN_S = 0.25
+"""A stop is said 20 times a second until it is echoed: a flood pushes some out."""
+PULSE_S = 0.05
 KEPT_S = 1.0
 AFTER_S = 0.6
 
@@ -73,9 +79,23 @@ def _flooded(task: Callable[[Stage], dict[str, Any]]) -> Callable[[Stage], None]
         stage.begin()
         flooder.go({"be": FLOODER, **task(stage)})
         stage.until_standing()
-        stage.wait(0.5)
+        stage.wait(AFTER_FLOOD_S)
 
     return play
+
+
+def _stop_in_flood(stage: Stage) -> None:
+    """Say stop, as one does until it is echoed, on a key that is full of junk."""
+    flooder = stage.borrow()
+    flooder.go({"be": FLOODER, "key": "cmd/stop", "text": '{"id": [[[', "hertz": FLOOD_HZ})
+    stage.until(stage.drives_fast, "driving in the flood")
+    stop = pack({"id": f"kit-{stage.chance.getrandbits(48):x}", "source": "kit"})
+    stage.begin()
+    end_s = time.monotonic() + 2.0
+    while time.monotonic() < end_s and stage.status.held is None:
+        stage.adapter.say("cmd/stop", stop)
+        stage.wait(PULSE_S)
+    stage.until_standing()
 
 
 def _valid(stage: Stage) -> dict[str, Any]:
@@ -85,6 +105,11 @@ def _valid(stage: Stage) -> dict[str, Any]:
         brain.velocity(status, 0, 0.5, 0.0) if stage.external else brain.waypoints(status, 0, [])
     )
     return {"key": stage.command_key, "template": message, "hertz": FLOOD_HZ}
+
+
+def _heartbeats(stage: Stage) -> dict[str, Any]:
+    key, message = stage.brain.heartbeat(stage.status)
+    return {"key": key, "template": message, "hertz": FLOOD_HZ, "numbered": "used"}
 
 
 def _malformed(stage: Stage) -> dict[str, Any]:
@@ -106,5 +131,9 @@ FAULTS = (
     Fault("buffered", "1 s of commands kept back, then delivered at once", _buffered, SILENT),
     Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD,
           quick=(X,)),
+    Fault("heartbeat_flood", f"{FLOOD_HZ} heartbeats a second in the owner's name",
+          _flooded(_heartbeats), {X: WINDOWS_S + FLOODED_S, W: WINDOWS_S + FLOODED_S}),
+    Fault("stop_in_flood", f"a stop among {FLOOD_HZ} pieces of junk a second on its own key",
+          _stop_in_flood, {X: STOP_AGAIN_S, W: STOP_AGAIN_S}),
     Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flooded(_malformed), _FLOOD),
 )  # fmt: skip

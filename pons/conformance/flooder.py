@@ -25,9 +25,11 @@ MARK = 0.123456789
 """Stands for the number in a template: replacing text is ten times quicker than writing JSON."""
 
 
-def halves(template: dict[str, Any], status: Status | None) -> tuple[bytes, bytes]:
+def halves(
+    template: dict[str, Any], status: Status | None, numbered: str = "seq"
+) -> tuple[bytes, bytes]:
     """Return a message's bytes before and after its number."""
-    message = {**template, "seq": MARK}
+    message = {**template, numbered: MARK}
     if status is not None:
         message |= {"seen": status.seq, "epoch": status.epoch}
     first, last = json.dumps(message).encode().split(str(MARK).encode())
@@ -45,7 +47,7 @@ def flood(session: Session, task: dict[str, Any]) -> None:
     while not ended.wait(PULSE_S):
         status = ears.newest()
         if template is not None and (status is not None or not first):
-            first, last = halves(template, status)
+            first, last = halves(template, status, task.get("numbered", "seq"))
         now_s = time.monotonic()
         seq = number(now_s)
         for index in range(int((now_s - began_s) * task["hertz"]) - count):

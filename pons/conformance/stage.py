@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from wire import Status
 
 POLL_S = 0.005
-STOOD_S = 0.25
+STOOD_S = 0.2
 """Watched on for so long, once it stands."""
 LIMIT_S = 5.0
-WATCH_S = 0.9
+WATCH_S = 0.8
 GONE_S = 0.4
 """What a brain that fell silent has said is stale by then."""
 MOVING_MPS, FAST_MPS = 0.15, 0.38
