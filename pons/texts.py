@@ -96,5 +96,10 @@ def robot_lines(robot: Json) -> list[str]:
     ]
     if status["waiting_for"]:
         lines.append(f"waiting for: {', '.join(status['waiting_for'])}")
+    lines += [
+        f"refused {answer['kind']} of {answer['id']}: {answer['code']}: {answer['detail']}"
+        for answer in status["answers"]
+        if answer["kind"] in {"hello", "grant"} and not answer["accepted"]
+    ]
     lines += [f"row {row['row']} {row['action']}: {row['evidence']}" for row in status["rows"]]
     return lines

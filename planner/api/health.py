@@ -57,7 +57,8 @@ def missing(services: Services) -> list[str]:
     if status is not None:
         lacking += [f"bridge:{code}" for code in status.waiting_for]
         if status.owner is None:
-            lacking.append("owner")
+            refusals = (a.code for a in status.answers if a.kind == "hello" and not a.accepted)
+            lacking.append(":".join(["owner", *refusals]))
     return lacking
 
 

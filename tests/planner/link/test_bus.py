@@ -14,6 +14,7 @@ from tests.planner.mission.fakes import HASH, status
 from wire import (
     PROTOCOL,
     Event,
+    FenceRequest,
     Grant,
     Heartbeat,
     Hello,
@@ -42,6 +43,7 @@ SAID: tuple[Record, ...] = (
     Waypoints(planner_id="p1", epoch="b-1", seq=1, seen=1, mission="g", leg=1, map_id=HASH,
               ttl_s=0.5, points=(), final=False),
     Stop(id="s1", source="test"),
+    FenceRequest(id="f1", source="test", fence="{}"),
 )  # fmt: skip
 HEARD: tuple[tuple[k.Key[Record], Record], ...] = (
     (k.STATUS, status()),
