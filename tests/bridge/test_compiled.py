@@ -111,6 +111,8 @@ def test_every_module_of_the_core_is_compiled_or_known_to_stay() -> None:
     assert names >= INTERPRETED
 
 
+@pytest.mark.slow
+@pytest.mark.timeout(300)
 def test_compiled_and_plain_decide_the_same() -> None:
     """Step the same ordinary and hostile ticks on both and compare each decision, bit for bit."""
     core = find()
@@ -133,7 +135,7 @@ def python(code: str, **environment: str) -> list[str]:
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=140,
         check=False,
     )
     assert done.returncode == 0, done.stderr
