@@ -14,6 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Self
 
+from localization.site_map import read_map_id
 from pons.conformance.adapter import CannotTest
 from pons.conformance.bounds import Bounds
 from pons.conformance.mouth import Mouth
@@ -149,7 +150,8 @@ class Rig:
                     raise CannotTest(f"{child.name} ended:\n{child.last_words()}")
             time.sleep(0.05)
         status = self.status()
-        why = unfit(status) if status is not None else None
+        known = (self._robot.hash, read_map_id(self._settings.site))
+        why = unfit(status, *known) if status is not None else None
         if why is not None:
             raise CannotTest(why)
 
@@ -173,13 +175,28 @@ class Rig:
         time.sleep(PUT_S)
 
 
-def unfit(status: Status) -> str | None:
-    """Say why a running bridge must not be tested; None where it may."""
+def unfit(status: Status, robot_hash: str, map_id: str) -> str | None:
+    """Say why a running bridge must not be tested; None where it may.
+
+    Args:
+        status: its word.
+        robot_hash: of the robot whose limits it will be held to.
+        map_id: of the site on which the robot will be driven.
+    """
     if not status.drive.virtual:
         return (
             f"metal: the bridge drives {status.drive.kind}, and this kit plays brains that are "
             "broken on purpose; it tests simulated robots only"
         )
+    for what, came, expected in (
+        ("robot", status.robot_hash, robot_hash),
+        ("site", status.map_id, map_id),
+    ):
+        if came != expected:
+            return (
+                f"other_{what}: the bridge serves {came}, given was {expected}; name its own with "
+                + ("PONS_ROBOT" if what == "robot" else "--site")
+            )
     if status.owner is not None:
         return (
             f"owned: {status.owner.kind} {status.owner.planner_id} owns the robot; end it first "
