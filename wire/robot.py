@@ -71,7 +71,7 @@ class DriveConfig(Record):
     wheels change speed faster than meant. What exceeds lag_s does not count."""
     kp: float = Field(default=0.71, ge=0.0, le=2.0)
     """Wheel control, rad/s told per rad/s missing; 0 with ki_per_s 0 is feed-forward alone."""
-    ki_per_s: float = Field(default=14.4, ge=0.0, le=40.0)
+    ki_per_s: float = Field(default=14.5, ge=0.0, le=40.0)
     max_correction: float = Field(default=0.2, ge=0.0, le=0.3)
     """Most that wheel control may add or take, as a share of the speed meant, beside the dead zone:
     a motor 15 % weak needs 0.18."""

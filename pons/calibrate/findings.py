@@ -7,7 +7,7 @@ raised and not above the weakest stop. Knows no sessions and no files.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, floor
+from math import ceil, floor, isfinite
 from statistics import fmean, median
 from typing import TYPE_CHECKING
 
@@ -121,12 +121,13 @@ def findings(
         CalibrationRefused: ``spread_too_wide`` or ``out_of_bounds``.
     """
     base, limits, drive = robot.base, robot.limits, robot.drive
-    radius_m = _close("wheel_radius_m", [run.radius_m for run in straights], RADIUS_SPREAD)
+    radius_m = radius_of(straights, robot)
     apart_m = _close("wheel_separation_m", separations_m, SEPARATION_SPREAD)
     dead = [run.dead_zone_radps for run in straights]
     dead_zone = _near("dead_zone_radps", dead, DEAD_ZONE_SPREAD_RADPS)
     response = [run.response_s for run in straights]
-    response_s = _near("response_s", response, LAG_SPREAD_S)
+    _near("response_s", response, LAG_SPREAD_S)
+    response_s = _down(min(response), 3)
     lags = [run.lag_s for run in straights]
     _near("lag_s", lags, LAG_SPREAD_S)
     braking = [run.braking_radps2 * radius_m for run in straights]
@@ -150,15 +151,25 @@ def findings(
                 seen.of(lags, 3, "the longest counts: way to the drive, delay and motor")),
         Finding("drive", "dead_zone_radps", drive.dead_zone_radps, round(dead_zone, 3),
                 seen.of(dead, 3, inside)),
-        Finding("drive", "response_s", drive.response_s, _down(min(response), 3),
+        Finding("drive", "response_s", drive.response_s, response_s,
                 seen.of(response, 3, "the shortest counts")),
         Finding("drive", "kp", drive.kp, kp, seen.by_rule(response_s)),
         Finding("drive", "ki_per_s", drive.ki_per_s, ki_per_s, seen.by_rule(response_s)),
     ]  # fmt: skip
-    _plausible(found[0])
-    _plausible(found[1])
+    _plausible("base.wheel_separation_m", apart_m, base.wheel_separation_m)
     _allowed(robot, found)
     return found
+
+
+def radius_of(straights: Sequence[Straight], robot: RobotDescription) -> float:
+    """Return the wheel radius that the runs in a line agree on [m].
+
+    Raises:
+        CalibrationRefused: ``spread_too_wide`` or ``out_of_bounds``.
+    """
+    radius_m = _close("base.wheel_radius_m", [run.radius_m for run in straights], RADIUS_SPREAD)
+    _plausible("base.wheel_radius_m", radius_m, robot.base.wheel_radius_m)
+    return radius_m
 
 
 def gains(response_s: float, transport_s: float) -> tuple[float, float]:
@@ -196,7 +207,7 @@ class _Evidence:
 def _close(name: str, values: Sequence[float], share: float) -> float:
     """Return the median of values that lie together, by share of it."""
     middle = median(values)
-    if not (middle > 0.0 and max(values) - min(values) <= share * middle):
+    if not (all(isfinite(one) for one in values) and _apart(values) <= share * middle):
         text = f"{name}: {min(values):.4f} to {max(values):.4f}, allowed {100 * share:.1f} % apart"
         raise CalibrationRefused("spread_too_wide", text)
     return middle
@@ -204,10 +215,14 @@ def _close(name: str, values: Sequence[float], share: float) -> float:
 
 def _near(name: str, values: Sequence[float], apart: float) -> float:
     """Return the median of values that lie together, by distance."""
-    if not max(values) - min(values) <= apart:
+    if not (all(isfinite(one) for one in values) and _apart(values) <= apart):
         text = f"{name}: {min(values):.3f} to {max(values):.3f}, allowed {apart:.3f} apart"
         raise CalibrationRefused("spread_too_wide", text)
     return median(values)
+
+
+def _apart(values: Sequence[float]) -> float:
+    return max(values) - min(values)
 
 
 def _up(value: float, digits: int) -> float:
@@ -218,10 +233,10 @@ def _down(value: float, digits: int) -> float:
     return float(floor(value * 10**digits + 1e-9)) / float(10**digits)
 
 
-def _plausible(found: Finding) -> None:
+def _plausible(name: str, value: float, was: float) -> None:
     low, high = PLAUSIBLE
-    if not low * found.was <= found.value <= high * found.was:
-        text = f"{found.name}: {found.value:g}, {found.was:g} in robot.toml; was the measure right?"
+    if not low * was <= value <= high * was:
+        text = f"{name}: {value:.4g}, {was:.4g} in robot.toml; was the measure right?"
         raise CalibrationRefused("out_of_bounds", text)
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, TypeVar
 
-from pons.calibrate.findings import Straight, findings, of_straight, separation_m
+from pons.calibrate.findings import Straight, findings, of_straight, radius_of, separation_m
 from pons.calibrate.reference import LIDAR, MEASURED, SPOKEN, TRUTH, turned_rad, went_m
 from pons.calibrate.refusals import CalibrationRefused, RunLost
 from pons.calibrate.room import best_way, clear_to_turn, free_m, needed_m, points_of
@@ -41,7 +41,8 @@ _MODES = {
     Mode.STOPPING: "busy",
 }
 
-_AFTERMATH = {"not_armed", "fault"}
+_AFTERMATH = {"not_armed", "fault", "no_room"}
+"""What a lost run may lead to; the run's own trouble is what a person must hear."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +82,7 @@ def calibrate(
             _again(say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
         )
         say(f"run {count + 1}/{2 * plan.shuttles}: {_told(straights[-1])}")
-    radius_m = sorted(run.radius_m for run in straights)[len(straights) // 2]
+    radius_m = radius_of(straights, robot)  # before the turns, which a wrong one would spoil
     separations: list[float] = []
     for count in range(plan.turns):
         angle = ROUND_RAD if count % 2 == 0 else -ROUND_RAD
@@ -129,13 +130,19 @@ def _straight(
     rig: Rig, robot: RobotDescription, metres: float, reference: str, ask_m: Callable[[], float]
 ) -> Straight:
     points = points_of(rig.look().scans[-1], robot)
-    free = free_m(points, robot.base.radius_m, 0.0 if metres > 0.0 else pi)
-    if metres > 0.0 and not free >= needed_m(metres):
-        text = f"{free:.2f} m are free, the run needs {needed_m(metres):.2f} m"
-        raise CalibrationRefused("no_room", text)
-    if not free >= abs(metres):
-        text = f"{free:.2f} m are free behind, the way back needs {abs(metres):.2f} m"
-        raise CalibrationRefused("no_room", text)
+    ahead, behind = (free_m(points, robot.base.radius_m, heading) for heading in (0.0, pi))
+    run_m, needs_m = abs(metres), needed_m(abs(metres))
+    if metres > 0.0 and not ahead >= needs_m:
+        # After a run that was cut short the robot is somewhere on its way: drive it back.
+        if not behind >= run_m:
+            text = f"{ahead:.2f} m are free, the run needs {needs_m:.2f} m"
+            raise CalibrationRefused("no_room", text)
+        metres = -run_m
+    elif metres < 0.0 and not behind >= run_m:
+        if not ahead >= needs_m:
+            text = f"{behind:.2f} m are free behind, the way back needs {run_m:.2f} m"
+            raise CalibrationRefused("no_room", text)
+        metres = run_m
     run = straight(rig, robot, metres)
     return of_straight(run, went_m(reference, run.before, run.after, robot, ask_m))
 

@@ -27,6 +27,8 @@ SILENT_S = 1.0
 TAKE_OVER_S, STAND_S, FIRST_S = 3.0, 6.0, 3.0
 STANDS_S = 0.4
 STANDING_MPS, STANDING_RADPS = 0.02, 0.05
+TURNS_S, TURNS_RAD = 0.5, 0.02
+"""A wheel that is asked to turn does so much in so long, or nobody sees it turn."""
 DRIVE_ROWS = {
     "ENC_STALE", "DRIVER_NACK", "DRIVE_REBOOT", "RUNAWAY", "STUCK", "YAW_DISAGREE", "OVERCURRENT",
 }  # fmt: skip
@@ -161,12 +163,31 @@ class Rig:
         """
         self._wish = (v_mps, w_radps, True)
         end_s = self.now_s + limit_s
+        next_s, angles = self.now_s + 2 * TURNS_S, self._angles()
         while not until():
             self.pump()
             self.look_out()
             if self.now_s >= end_s:
                 self._raise_why()
                 raise RunLost("run_lost", f"not done within {limit_s:.0f} s")
+            if self.now_s >= next_s:
+                seen = self._angles()
+                if self._stopped():
+                    self._raise_why()
+                elif not max(abs(seen[0] - angles[0]), abs(seen[1] - angles[1])) >= TURNS_RAD:
+                    raise RunLost("encoder_fault", f"the wheels' angles stay at {seen}")
+                next_s, angles = self.now_s + TURNS_S, seen
+
+    def _stopped(self) -> bool:
+        """Tell whether the bridge lets the robot stand: a gate, a row."""
+        sent = self.status.sent if self.status is not None else None
+        return sent is None or (
+            abs(sent.v_mps) < STANDING_MPS and abs(sent.w_radps) < STANDING_RADPS
+        )
+
+    def _angles(self) -> tuple[float, float]:
+        state = self.state
+        return (state.left_rad, state.right_rad) if state is not None else (0.0, 0.0)
 
     def let_go(self) -> None:
         """Release the dead-man and wait until the robot stands. Never raises for the robot."""
@@ -219,7 +240,7 @@ class Rig:
             raise CalibrationRefused("fault", ", ".join(rows))
         if status.mode is Mode.DISARMED:
             raise CalibrationRefused("not_armed", "disarmed during a run")
-        if status.blocked or status.limits.by in WAY_GATES:
+        if status.blocked or (status.limits.by in WAY_GATES and self._stopped()):
             raise RunLost("blocked", f"by {status.limits.by}")
         if not self.held():
             why = ", ".join(f"{name}: {seen}" for name, seen in rows.items()) or status.mode.value

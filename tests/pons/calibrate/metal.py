@@ -1,0 +1,55 @@
+"""Hold a lockstep world and a rig on it for tests of calibration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from lockstep import Together
+from pons.calibrate.findings import Finding
+from pons.calibrate.flow import Plan, calibrate
+from pons.calibrate.rig import Rig
+from sim import Hardware
+from wire import RobotDescription
+from wire.keys import Party
+from wire.session import Session
+
+TRUE = Hardware(wheel_radius_m=0.1, wheel_separation_m=0.5)
+
+
+def believed(**drive: float) -> RobotDescription:
+    """Describe the robot wrongly: radius 5 % and separation 4 % off, no dead zone, half the lag."""
+    robot = RobotDescription()
+    base = {"wheel_radius_m": 0.105, "wheel_separation_m": 0.48}
+    wrong = {"dead_zone_radps": 0.0, "lag_s": 0.03, **drive}
+    return robot.model_copy(
+        update={
+            "base": robot.base.model_copy(update=base),
+            "drive": robot.drive.model_copy(update=wrong),
+        }
+    )
+
+
+@dataclass
+class Bench:
+    """Join a world, a rig and what was said."""
+
+    robot: RobotDescription = field(default_factory=believed)
+    hardware: Hardware = TRUE
+    world_parts: dict[str, Any] = field(default_factory=dict)
+    said: list[str] = field(default_factory=list)
+    tape_m: list[float] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.world = Together(robot=self.robot, hardware=self.hardware, **self.world_parts)
+        operator = cast("Session", self.world.bus.port(Party.OPERATOR))
+        judge = cast("Session", self.world.bus.port(Party.JUDGE))
+        self.rig = Rig(operator, judge, lambda: self.world.now_s, self.world.tick)
+
+    def calibrate(self, plan: Plan | None = None) -> dict[str, Finding]:
+        """Go through it, briefly."""
+        wanted = plan or Plan(None, shuttles=1, turns=2)
+        found = calibrate(
+            self.rig, self.robot, wanted, "now", self.said.append, lambda: self.tape_m.pop(0)
+        )
+        return {one.name: one for one in found}

@@ -1,0 +1,183 @@
+"""Calibration finds the simulated metal that robot.toml is wrong about, and leaves it standing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import cos, sin
+
+import pytest
+
+from lockstep import Together
+from pons.calibrate.flow import Plan
+from pons.calibrate.refusals import CalibrationRefused
+from tests.pons.calibrate.metal import TRUE, Bench
+from wire import Mode, Pose2, SimFault, distance
+
+TIGHT = Pose2(0.38, 1.8, 1.5708)
+"""Beside a wall: the disc fits, the margin for turning does not."""
+
+
+@pytest.mark.parametrize("reference", [None, "lidar"])
+def test_a_wrong_description_is_found_out(reference: str | None) -> None:
+    bench = Bench()
+    found = bench.calibrate(Plan(reference, shuttles=1, turns=2))
+    values = {name: one.value for name, one in found.items()}
+    assert values["base.wheel_radius_m"] == pytest.approx(0.1, rel=0.005)
+    assert values["base.wheel_separation_m"] == pytest.approx(0.5, rel=0.005)
+    assert values["drive.dead_zone_radps"] == pytest.approx(0.05, abs=0.005)
+    assert 0.06 <= values["drive.lag_s"] <= 0.09
+    assert 0.04 <= values["drive.response_s"] <= 0.06
+    assert 0.9 <= values["limits.max_decel_mps2"] <= 1.0
+    spoken = "the lidar" if reference else "the simulator's truth"
+    assert spoken in found["base.wheel_radius_m"].evidence
+    assert bench.world.standing
+    assert bench.world.contacts == 0
+    assert bench.world.status.mode is Mode.HOLD
+    assert any("m ahead of the robot's edge" in line for line in bench.said)
+
+
+def test_unequal_motors_are_told_of() -> None:
+    bench = Bench(hardware=replace(TRUE, left_gain=0.95, right_gain=1.08, dead_zone_radps=0.1))
+    found = bench.calibrate()
+    assert found["drive.dead_zone_radps"].value == pytest.approx(0.1, abs=0.01)
+    assert "left 0.95" in found["drive.dead_zone_radps"].evidence
+    assert "right 1.08" in found["drive.dead_zone_radps"].evidence
+
+
+def test_a_person_measures_with_a_tape() -> None:
+    bench = Bench()
+    began = bench.world.truth
+    at: list[Pose2] = [began]
+
+    def tape() -> float:
+        here = bench.world.truth
+        apart_m = distance(here, at[-1])
+        at.append(here)
+        return round(apart_m, 2)  # as a tape is read
+
+    bench.tape_m = _Tape(tape)
+    found = bench.calibrate(Plan("measured", shuttles=1, turns=2))
+    assert found["base.wheel_radius_m"].value == pytest.approx(0.1, rel=0.015)
+    assert "a person's measure of distances and the lidar in turns" in (
+        found["base.wheel_radius_m"].evidence
+    )
+
+
+class _Tape(list[float]):
+    """Measure when asked."""
+
+    def __init__(self, measure: Callable[[], float]) -> None:
+        super().__init__()
+        self._measure = measure
+
+    def pop(self, index: object = -1) -> float:
+        return self._measure()
+
+
+# Refusals ---------------------------------------------------------------------------------------
+
+
+def refusal(bench: Bench) -> str:
+    with pytest.raises(CalibrationRefused) as refused:
+        bench.calibrate()
+    assert bench.world.standing
+    assert any("一" <= character <= "鿿" for character in refused.value.lines()[-1])
+    return refused.value.code
+
+
+def test_a_robot_that_is_not_armed_is_left_alone() -> None:
+    bench = Bench()
+    bench.world.operate("disarm")
+    bench.world.run(1.0)
+    assert refusal(bench) == "not_armed"
+
+
+def test_a_planner_that_drives_is_left_alone() -> None:
+    bench = Bench()
+    bench.world.say("go to the living room")
+    bench.world.run_until(lambda w: w.status.mode is Mode.ACTIVE, 20.0)
+    with pytest.raises(CalibrationRefused, match="is driving") as refused:
+        bench.calibrate()
+    assert refused.value.code == "busy"
+    bench.world.run(0.5)
+    assert bench.world.status.mode is Mode.ACTIVE
+
+
+def test_a_pressed_stop_is_left_alone() -> None:
+    bench = Bench()
+    bench.world.operate("estop")
+    assert refusal(bench) == "estopped"
+
+
+def test_too_little_room_is_said_with_figures() -> None:
+    bench = Bench(world_parts={"start": TIGHT})
+    with pytest.raises(CalibrationRefused, match=r"turning needs 0\.35 m") as refused:
+        bench.calibrate()
+    assert refused.value.code == "no_room"
+    assert bench.world.standing
+
+
+def test_another_robot_toml_is_refused() -> None:
+    bench = Bench()
+    bench.robot = bench.robot.model_copy(update={"id": "r2"})
+    assert refusal(bench) == "other_robot_toml"
+
+
+def test_a_lidar_that_sees_nothing_is_refused() -> None:
+    bench = Bench()
+    bench.world.sim.break_down(SimFault.LIDAR_BLIND)
+    assert refusal(bench) == "no_lidar"
+
+
+def under_way(bench: Bench, act: Callable[[Together], None]) -> None:
+    """Do something as soon as the first run is fast."""
+
+    def later(world: Together) -> None:
+        if world.status.mode is Mode.TELEOP and world.twist.v_mps > 0.2:
+            act(world)
+        else:
+            world.at(world.tick_count + 1, later)
+
+    bench.world.at(bench.world.tick_count + 1, later)
+
+
+@pytest.mark.parametrize("fault", [SimFault.DRIVE_OFF, SimFault.ENCODER_STUCK])
+def test_encoders_that_fail_during_a_run_end_it(fault: SimFault) -> None:
+    bench = Bench()
+    under_way(bench, lambda world: world.sim.break_down(fault))
+    assert refusal(bench) == "encoder_fault"
+    assert bench.world.contacts == 0
+
+
+def test_a_stop_pressed_during_a_run_ends_it() -> None:
+    bench = Bench()
+    under_way(bench, lambda world: world.sim.break_down(SimFault.ESTOP_PRESSED))
+    assert refusal(bench) == "estopped"
+
+
+def test_somebody_in_the_way_ends_it() -> None:
+    bench = Bench()
+
+    def step_in(world: Together) -> None:
+        here, ahead = world.truth, 1.0
+        world.sim.place_obstacle(
+            here.x_m + ahead * cos(here.yaw_rad), here.y_m + ahead * sin(here.yaw_rad)
+        )
+
+    under_way(bench, step_in)
+    assert refusal(bench) in {"blocked", "no_room", "run_lost"}
+    assert bench.world.contacts == 0
+
+
+def test_ctrl_c_during_a_run_leaves_it_standing() -> None:
+    bench = Bench()
+
+    def interrupt(world: Together) -> None:
+        raise KeyboardInterrupt
+
+    under_way(bench, interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        bench.calibrate()
+    assert bench.world.standing
+    assert bench.world.status.mode is Mode.HOLD
