@@ -16,6 +16,7 @@ import importlib.util
 import json
 import os
 import pickle
+import resource
 import signal
 import sys
 import time
@@ -34,7 +35,8 @@ KEPT = ROOT / ".mutants" / "results.jsonl"
 PYTEST = ["-q", "-x", "-p", "no:randomly", "-p", "no:cacheprovider"]
 FIRST = ("limiter", "latch", "transition", "modes", "decide", "stops", "operator", "grants",
          "ownership", "gate", "contactgate", "fencegate", "obstaclegate")  # fmt: skip
-LIMIT_S = 60
+LIMIT_S = 90
+"""Of processor time."""
 UNTESTED = {"docs", "hazards", "row_words", "__init__", "codec", "config", "decision"}
 """Words, pages and records without a decision in them."""
 
@@ -152,7 +154,7 @@ class Loop:
     ) -> str:
         child = os.fork()
         if child == 0:
-            signal.alarm(LIMIT_S)
+            resource.setrlimit(resource.RLIMIT_CPU, (LIMIT_S, LIMIT_S + 5))
             quiet = os.open(os.devnull, os.O_WRONLY)
             os.dup2(quiet, 1)
             os.dup2(quiet, 2)
@@ -160,7 +162,7 @@ class Loop:
             os._exit(in_child(name, mutant, tests, marks(self.wanted)))
         status = os.waitpid(child, 0)[1]
         if os.WIFSIGNALED(status):
-            return "timeout" if os.WTERMSIG(status) == signal.SIGALRM else "killed"
+            return "timeout" if os.WTERMSIG(status) == signal.SIGXCPU else "killed"
         return {0: "survived", 3: "uncalled"}.get(os.WEXITSTATUS(status), "killed")
 
 
