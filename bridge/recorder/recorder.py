@@ -79,6 +79,11 @@ class Recorder:
         """Return the writer's process id, if one was ever started."""
         return None if self._writer is None else self._writer.pid
 
+    @property
+    def backlog_bytes(self) -> int:
+        """Return what the writer has not taken yet."""
+        return self._pipe.waiting_bytes()
+
     def tick(self, state: BridgeState, inbox: Inbox, now_s: float, decision: Decision) -> None:
         """Take one tick: what the step was given and what it decided."""
         self._kept.append((state, inbox, now_s, decision))
