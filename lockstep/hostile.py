@@ -66,6 +66,8 @@ class HostilePlanner:
         self.status: Status | None = None
         self.old: list[tuple[str, Record]] = []
         self.lives = 0
+        self.metres = 0.0
+        """What each grant asks for; 0 lets chance choose, and lie at times."""
         self._begin()
 
     def _begin(self) -> None:
@@ -138,7 +140,7 @@ class HostilePlanner:
             )
             self._say("cmd/hello", hello)
             return
-        used = status.seq if r.random() < 0.97 else 0
+        used = status.seq if self.metres or r.random() < 0.97 else 0
         beat = Heartbeat(planner_id=self.id, epoch=status.epoch, seen=status.seq, used=used)
         self._say("cmd/heartbeat", beat)
         if status.grant is None or status.grant.mission != self.mission or r.random() < 0.02:
@@ -147,8 +149,8 @@ class HostilePlanner:
                 epoch=status.epoch,
                 seen=status.seq,
                 mission=self.mission,
-                metres=r.choice((0.3, 1.0, 3.0, 60.0)),
-                seconds=r.choice((1.0, 5.0, 600.0)),
+                metres=self.metres or r.choice((0.3, 1.0, 3.0, 60.0)),
+                seconds=600.0 if self.metres else r.choice((1.0, 5.0, 600.0)),
             )
             self._say("cmd/grant", grant)
 
