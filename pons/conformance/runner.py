@@ -87,12 +87,25 @@ class Runner:
         lost = 0
         for fault in faults:
             if lost < GIVE_UP:
-                cells = self._play(fault, time.monotonic(), TRIES, drives=drives.ok is True)
+                cells = self._play_fairly(fault, drives=drives.ok is True)
             else:
                 cells = dict.fromkeys(COLUMNS, NOT_ASKED) | {AGAIN: Cell(False, "not played")}
             drives = cells[AGAIN]
             lost = 0 if drives.ok else lost + 1
             yield Line(fault.name, fault.what, NAMES[self.driver.brain.kind], cells)
+
+    def _play_fairly(self, fault: Fault, *, drives: bool) -> dict[str, Cell]:
+        """Play it; where it failed while the machine held the simulator up, play it again."""
+        cells: dict[str, Cell] = {}
+        for _ in range(TRIES):
+            from_s = time.monotonic()
+            cells = self._play(fault, from_s, TRIES, drives=drives)
+            failed = any(cell.ok is False for cell in cells.values())
+            record, bounds = self._adapter.record, self._adapter.bounds
+            if not (failed and verdict.held_up(record, bounds, from_s, time.monotonic())):
+                break
+            drives = self.again().ok is True
+        return cells
 
     def _play(self, fault: Fault, from_s: float, tries: int, *, drives: bool) -> dict[str, Cell]:
         """Play it; what could not begin, for the machine held something up, is begun again."""

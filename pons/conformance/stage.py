@@ -30,7 +30,7 @@ LIMIT_S = 5.0
 WATCH_S = 0.8
 GONE_S = 0.4
 """What a brain that fell silent has said is stale by then."""
-MOVING_MPS, FAST_MPS = 0.15, 0.38
+MOVING_MPS, FAST_MPS = 0.15, 0.33
 
 
 class NotBegun(Exception):

@@ -28,9 +28,13 @@ UNASKED_RADPS = 0.1
 """A wheel may grow by so much between two words that name no motion: a change of mode and back, too
 quick to be told, moves a wheel by less."""
 CLOSE_TICKS = 12
+NEWEST_S = 0.5
 STANDING_MPS = 0.03
 STANDING_RADPS = 0.06
 TICKS_OFF = 3
+QUIET_S = 0.5
+"""Ten of its words; besides what it tells as missed."""
+HELD_UP_S = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +155,7 @@ def stands(
     if turning and turning[-1] is commands[-1]:
         return Cell(False, f"still moves after {commands[-1].number - start.number} ticks")
     took = turning[-1].number + 1 - start.number if turning else 0
-    newest = between(record.truths, to_s - 0.1, to_s)[-1:]
+    newest = between(record.truths, to_s - NEWEST_S, to_s)[-1:]
     rests = all(
         abs(one.v_mps) <= STANDING_MPS and abs(one.w_radps) <= STANDING_RADPS for one in newest
     )
@@ -221,10 +225,10 @@ def alive(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
     ]
     once = len(set(numbers)) == len(numbers)
     known = abs(ticks + missed - due) <= TICKS_OFF
-    quiet_s = max(b.at_s - a.at_s for a, b in pairwise(words))
-    heard = to_s - last.at_s <= 1.0 and quiet_s <= 1.0
+    quiet_s = max(to_s - last.at_s, *(b.at_s - a.at_s for a, b in pairwise(words)))
+    heard = quiet_s <= QUIET_S + missed * bounds.period_s
     said = "" if once else ", two commands of one number"
-    said += "" if heard else f", silent for {max(quiet_s, to_s - last.at_s):.1f} s"
+    said += "" if heard else f", silent for {quiet_s:.1f} s"
     text = f"{ticks}" + (f" + {missed} missed" if missed else "") + f" of {due:.0f}{said}"
     return Cell(known and once and heard, text)
 
@@ -236,3 +240,12 @@ def contacts(record: Record, from_s: float, to_s: float) -> Cell:
         return Cell(False, "no truth was heard")
     count = seen[-1].contacts - seen[0].contacts
     return Cell(count == 0, str(count))
+
+
+def held_up(record: Record, bounds: Bounds, from_s: float, to_s: float) -> bool:
+    """Tell whether the machine held the simulator up: what came of that, no bridge has done."""
+    wheels = between(record.wheels, from_s, to_s)
+    lost_s = (
+        (b.made_s - a.made_s) - (b.number - a.number) * bounds.period_s for a, b in pairwise(wheels)
+    )
+    return max(lost_s, default=0.0) > HELD_UP_S

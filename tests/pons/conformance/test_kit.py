@@ -20,7 +20,7 @@ from pons.conformance.fault import W, X
 from pons.conformance.flooder import halves
 from pons.conformance.proxy import Proxy, Way
 from pons.conformance.rig import unfit
-from pons.conformance.runner import COLUMNS, Line
+from pons.conformance.runner import COLUMNS, NAMES, Line
 from pons.conformance.site_track import find_track
 from pons.conformance.verdict import NOT_ASKED, Cell
 from tests.wire.examples import STATUS
@@ -111,14 +111,17 @@ def test_a_robot_too_wide_is_told_so() -> None:
         find_track(SITES / "two_room", 1.3)
 
 
-def test_metal_is_refused_and_so_is_a_robot_that_somebody_owns() -> None:
+def test_metal_is_refused_and_so_is_another_robot_or_one_that_somebody_owns() -> None:
     virtual = status(owner=None)
-    assert unfit(virtual) is None
+    known = (virtual.robot_hash, virtual.map_id or "")
+    assert unfit(virtual, *known) is None
     metal = virtual.model_copy(
         update={"drive": virtual.drive.model_copy(update={"virtual": False})}
     )
-    assert (unfit(metal) or "").startswith("metal: ")
-    assert (unfit(owned(W)) or "").startswith("owned: planner kit")
+    assert (unfit(metal, *known) or "").startswith("metal: ")
+    assert (unfit(owned(W), *known) or "").startswith("owned: planner kit")
+    assert (unfit(virtual, "f" * 16, known[1]) or "").startswith("other_robot: ")
+    assert (unfit(virtual, known[0], "f" * 16) or "").startswith("other_site: ")
 
 
 class Door:
@@ -202,6 +205,14 @@ def test_the_matrix_says_what_failed_in_every_form() -> None:
     assert "| waypoints | `flood` | much | FAIL 3.00 m/s |" in page
     with pytest.raises(ValueError, match="no <!-- matrix"):
         matrix.into_page("a page", "x")
+
+
+def test_the_matrix_in_the_docs_has_every_row_and_none_failed() -> None:
+    page = (SITES.parent / "docs" / "conformance.md").read_text("utf-8")
+    rows = [line for line in page.splitlines() if line.startswith(("| velocity", "| waypoints"))]
+    told = {(line.split("|")[1].strip(), line.split("`")[1]) for line in rows}
+    assert told == {(NAMES[kind], fault.name) for fault in FAULTS for kind in fault.kinds}
+    assert not [line for line in rows if "FAIL" in line]
 
 
 def test_chance_is_seeded() -> None:

@@ -136,3 +136,13 @@ def test_a_contact_fails() -> None:
     assert verdict.contacts(made, 0.0, END_S).ok is True
     made.truths[-1] = replace(made.truths[-1], contacts=1)
     assert verdict.contacts(made, 0.0, END_S).ok is False
+
+
+def test_a_simulator_that_the_machine_held_up_is_noticed() -> None:
+    made = steady(0.4)
+    assert not verdict.held_up(made, BOUNDS, 0.0, END_S)
+    late = [
+        replace(one, made_s=one.made_s + (0.3 if one.at_s > 1.0 else 0.0)) for one in made.wheels
+    ]
+    made.wheels = late
+    assert verdict.held_up(made, BOUNDS, 0.0, END_S)
