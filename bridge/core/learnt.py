@@ -23,11 +23,10 @@ from typing import TYPE_CHECKING
 
 from bridge.core.braking import Braking
 from bridge.core.kinematics import fastest_rim
-from bridge.core.modes import POWERED
 from bridge.core.state_braking import LEAST_SHARE, MOST_LAG_S, MOST_STOPS, Learnt, Ramp
-from wire import Mode
 
 if TYPE_CHECKING:
+    from bridge.core.state import BridgeState
     from bridge.core.tick import Tick
     from wire import RobotDescription
 
@@ -72,19 +71,24 @@ def weak_share(learnt: Learnt) -> float:
     return 1.0 if learnt.decel_share >= WEAK_SHARE else learnt.decel_share
 
 
-def watch(tick: Tick) -> None:
+def watch(tick: Tick, before: BridgeState) -> None:
     """Follow the ramp under way by one tick; called once what is sent is decided."""
     s = tick.s
-    ramp = s.ramp
-    sent = fastest_rim(s.motion.limiter.sent, tick.config.robot.base.wheel_separation_m)
+    ramp, now = s.ramp, s.motion.limiter.sent
+    if ramp is None and now == before.motion.limiter.sent:
+        return  # nearly always: it stands, or keeps its speed
+    separation_m = tick.config.robot.base.wheel_separation_m
+    sent = fastest_rim(now, separation_m)
     if ramp is None:
-        if sent > 0.0:
-            s.ramp = _begin(tick, sent)
-        return
-    if s.mode not in POWERED and s.mode is not Mode.ESTOPPED:
+        was = fastest_rim(before.motion.limiter.sent, separation_m)
+        if sent >= was or was < BEGIN_MPS or not before.motion.powered or not _measures(tick):
+            return
+        real = fastest_rim(before.odometry.measured, separation_m)
+        ramp = Ramp(before.now_s, was, real, was, real)
+    if not s.motion.powered:
         _take(tick, ramp, after_cut(s.learnt, ramp, tick.config.robot, tick.now_s))
     elif sent >= ramp.from_mps or not _measures(tick):
-        s.ramp = _begin(tick, sent) if sent > 0.0 else None
+        s.ramp = None
     else:
         _follow(tick, ramp, sent)
 
@@ -94,26 +98,17 @@ def _measures(tick: Tick) -> bool:
     return received_s is not None and tick.now_s - received_s <= OLD_S and tick.dt_s <= OLD_S
 
 
-def _begin(tick: Tick, sent: float) -> Ramp | None:
-    """Mark where a ramp may begin: it does so with the next tick that sends less."""
-    if sent < BEGIN_MPS or not _measures(tick):
-        return None
-    base = tick.config.robot.base
-    real = fastest_rim(tick.s.odometry.measured, base.wheel_separation_m)
-    return Ramp(tick.now_s, sent, real, sent, real)
-
-
 def _follow(tick: Tick, ramp: Ramp, sent: float) -> None:
     """Add one tick: what is measured now is what the command of the last tick did."""
     s = tick.s
-    real = fastest_rim(s.odometry.measured, tick.config.robot.base.wheel_separation_m)
-    dt_s = tick.dt_s
+    robot, dt_s = tick.config.robot, tick.dt_s
+    real = fastest_rim(s.odometry.measured, robot.base.wheel_separation_m)
     if real > ramp.from_mps + WILD_MPS or tick.now_s - ramp.since_s > LONGEST_S:
         s.ramp = None
         return
     high, low = HIGH * ramp.from_mps, LOW * ramp.from_mps
     now_s = tick.now_s
-    s.ramp = Ramp(
+    followed = Ramp(
         ramp.since_s,
         ramp.from_mps,
         ramp.real_from_mps,
@@ -128,7 +123,9 @@ def _follow(tick: Tick, ramp: Ramp, sent: float) -> None:
         _crossed(ramp.real_low_s, ramp.real_mps, real, low, now_s, dt_s),
     )
     if sent == 0.0 and s.drive.still_since_s is not None:
-        _take(tick, s.ramp, after_stop(s.learnt, s.ramp, tick.config.robot))
+        _take(tick, followed, after_stop(s.learnt, followed, robot))
+    else:
+        s.ramp = followed
 
 
 def _crossed(

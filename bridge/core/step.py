@@ -75,6 +75,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     detect(tick)
     decide(tick)
     _move(tick)
+    learnt.watch(tick, state)
     meter(tick, state)
     sends = not selftest.withholds(tick)
     return Decision(
@@ -140,7 +141,6 @@ def _move(tick: Tick) -> None:
         _reconsider(tick)
     motion.asked = asked if tick.moving else STILL
     motion.limiter = shaped(tick, motion.asked)
-    learnt.watch(tick)
 
 
 def _reconsider(tick: Tick) -> None:

@@ -102,6 +102,28 @@ def test_a_folder_that_can_not_be_written_is_said(ground: Ground) -> None:
     assert put_in_force(ground, asked(text())).code == "fence_unwritable"
 
 
+def test_an_audit_that_can_not_be_written_is_said_and_the_fence_counts(
+    ground: Ground, caplog: pytest.LogCaptureFixture
+) -> None:
+    ground.home.write_text("no folder")
+    assert put_in_force(ground, asked(text())).code == "ok"
+    assert "fence_audit_unwritable" in caplog.text
+
+
+def test_a_disk_that_refuses_half_way_leaves_the_old_fence(
+    ground: Ground, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    before = (ground.site / "fence.json").read_bytes()
+    monkeypatch.setattr("bridge.files.os.fsync", full)
+    done = put_in_force(ground, asked(text()))
+    assert (done.code, "No space left" in done.detail) == ("fence_unwritable", True)
+    assert (ground.site / "fence.json").read_bytes() == before
+    assert [path.name for path in ground.site.iterdir()] == ["fence.json"]
+
+
 def answered(desk: FenceDesk) -> FenceDone:
     end_s = time.monotonic() + 10.0
     while time.monotonic() < end_s:

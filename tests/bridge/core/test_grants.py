@@ -225,3 +225,42 @@ def test_a_person_who_resumes_fills_it_up_again() -> None:
     world.op("resume", authentic=False)
     world.tick()
     assert left(world).operator_metres <= 2.0, "nobody else can"
+
+
+def test_a_grant_from_before_a_jump_of_the_pose_is_dropped() -> None:
+    world = World().armed()
+    world.run(0.3)
+    world.state.pose = replace(world.state.pose, jumped_s=world.now_s)
+    ask(world, "late")
+    decision = world.tick()
+    assert "grant_before_jump" in decision.reasons
+    assert left(world).mission is None
+
+
+@pytest.mark.parametrize("spent", range(4))
+def test_each_budget_ends_the_mission_by_itself(spent: int) -> None:
+    world = World().driving()
+    grants = left(world)
+    world.state.grants = (
+        replace(grants, metres=1e-6),
+        replace(grants, seconds=1e-6),
+        replace(grants, operator_metres=1e-6),
+        replace(grants, operator_seconds=1e-6),
+    )[spent]
+    world.run(0.1)
+    assert "BUDGET.0" in world.rows()
+    assert world.is_in(Mode.STOPPING)
+
+
+def test_a_stop_of_the_stick_s_own_motion_is_not_metered() -> None:
+    world = World().armed()
+    world.teleop(held=False)
+    world.run(0.1)
+    for _ in range(30):
+        world.teleop(0.0 if world.is_in(Mode.HOLD) else 0.3, held=True)
+        world.run(0.05)
+    assert world.is_in(Mode.TELEOP)
+    before = left(world)
+    world.stop()
+    world.run(1.0)
+    assert left(world).operator_metres == before.operator_metres

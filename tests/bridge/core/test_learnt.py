@@ -226,3 +226,26 @@ def test_nothing_makes_it_better_than_configured_or_worse_than_believable(
         known = after_cut(known, replace(one, real_low_s=None), ROBOT, 2.0)
         assert 0.0 <= known.lag_more_s <= MOST_LAG_S
         assert LEAST_SHARE <= known.decel_share <= 1.0
+
+
+def test_a_ramp_too_short_to_pass_both_marks_tells_no_slope() -> None:
+    whole = ramp(0.1, share=0.5)
+    for cut in (replace(whole, sent_low_s=None), replace(whole, real_high_s=None)):
+        assert after_stop(UNLEARNT, cut, ROBOT).decel_share == 1.0
+
+
+def test_the_same_weakness_again_keeps_what_is_known_and_ends_the_count() -> None:
+    known = after(UNLEARNT, ramp(0.06, share=0.5), *[ramp(0.06)] * 3)
+    assert known.share_better == 3
+    again = after(known, ramp(0.06, share=0.48))
+    assert (again.decel_share, again.share_better) == (known.decel_share, 0)
+
+
+def test_a_wheel_that_runs_away_while_it_should_stop_teaches_nothing() -> None:
+    world = World(config(ROBOT), drive=Metal()).driving()
+    world.stop()
+    world.run(0.1)
+    world.drive.runs_on, world.drive.speeds = True, (9.0, 9.0)
+    world.run(0.06)
+    assert world.state.ramp is None
+    assert world.state.learnt == UNLEARNT
