@@ -85,13 +85,11 @@ def turned(
     if lag_s > drive.lag_s:
         lag_s = drive.lag_s
     sign = 1.0 if meant_radps > 0.0 else -1.0
+    if not wheel.told_radps * sign > 0.0:
+        wheel = _begun(reading_radps if trusted else None, most_radps)
     meant, told_before = meant_radps * sign, wheel.told_radps * sign
-    integral, push = wheel.integral, wheel.push
+    integral, push, doubt_s = wheel.integral, wheel.push, wheel.doubt_s
     expected, due = wheel.expected_radps, wheel.due_radps
-    doubt_s = wheel.doubt_s
-    if not told_before > 0.0:  # it stood, or turned the other way: begin anew
-        integral = push = told_before = doubt_s = 0.0
-        expected = due = reading_radps if trusted and reading_radps is not None else 0.0
     ahead = _held(meant + lag_s * by_mps2 * sign / radius_m, most_radps)
     bound = dead_zone + drive.max_correction * meant
     if not bound * radius_m <= CORRECTION_MPS:
@@ -122,6 +120,13 @@ def turned(
         told * sign,
         doubt_s,
     )
+
+
+def _begun(reading_radps: float | None, most_radps: float) -> Wheel:
+    """Begin anew with a wheel that stood, or turned the other way: from what it turns, if known."""
+    if reading_radps is not None and -most_radps <= reading_radps <= most_radps:
+        return Wheel(expected_radps=reading_radps, due_radps=reading_radps)
+    return AT_REST
 
 
 def _corrected(integral: float, off: float, dt_s: float, drive: DriveConfig) -> tuple[float, float]:

@@ -241,6 +241,13 @@ def test_the_other_way_begins_with_nothing_learnt() -> None:
     assert back.told_radps == -0.55
 
 
+@pytest.mark.parametrize("reading", [float("inf"), float("-inf"), float("nan"), 1e300])
+def test_it_begins_with_no_impossible_reading(reading: float) -> None:
+    after = step(step(AT_REST, 1.0, reading), 1.0, reading)
+    assert isfinite(after.expected_radps)
+    assert isfinite(after.told_radps)
+
+
 def test_a_wheel_that_rolls_already_begins_with_what_it_turns() -> None:
     after = step(AT_REST, 2.0, 2.0)
     assert after.push == 0.0
