@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 HUGE_BYTES = (7_000_000, 10_000_000)
 """One that the transport still takes, and one that it does not."""
+WALL_S = 10.0
+"""In which the farthest wall is reached."""
 JUNK = (
     b"", b"null", b"[]", b"{}", b"{", b'{"v_mps":', b"\x00" * 64, b"\xff\xfe" * 32, b"[" * 3000,
     b'{"a":' * 600, b"1e400", b'"\\ud800"', b"9" * 4000,
@@ -127,14 +129,15 @@ def _huge(stage: Stage) -> None:
 
 
 def _into_the_wall(stage: Stage) -> None:
-    """Drive on at full speed where the line turns back."""
+    """Drive on at full speed where the line turns back, until something keeps it from there."""
     way = 1.0 if stage.brain.heading > 0 else -1.0
 
     def change(message: Message, _status: Status) -> object:
         return message | {"v_mps": 0.5 * way, "w_radps": 0.0}
 
+    stage.patience_s = WALL_S
     stage.begin(commands(change))
-    stage.wait(4.0)
+    stage.until_standing()
 
 
 FAULTS = (
@@ -146,7 +149,8 @@ FAULTS = (
     Fault("path_too_fast", "a horizon at 9 m/s", broken(_too_fast), STALE, kinds=(W,)),
     Fault("jerky", "full speed and turn, to and fro at 20 Hz", broken(_jerky, stand=False),
           DRIVES_ON, kinds=(X,), quick=(X,)),
-    Fault("into_the_wall", "full speed at a wall", _into_the_wall, DRIVES_ON, kinds=(X,)),
+    Fault("into_the_wall", "full speed at a wall: the lidar must stop it", _into_the_wall,
+          {X: WALL_S}, kinds=(X,)),
     Fault("wrong_types", "strings, lists, truth values for numbers", broken(_wrong_types), STALE),
     Fault("junk", "empty, not JSON, nested 3000 deep, not text", broken(_junk), STALE),
     Fault("truncated", "each message cut at a random byte", broken(_truncated), STALE),
