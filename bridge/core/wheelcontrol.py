@@ -76,40 +76,30 @@ def turned(
     """
     if not (meant_radps >= CREEP_RADPS or meant_radps <= -CREEP_RADPS):
         return AT_REST  # all it had learnt is forgotten with it
-    drive, radius_m, most_radps = (
-        robot.drive,
-        robot.base.wheel_radius_m,
-        robot.limits.max_wheel_radps,
-    )
-    dead_zone, lag_s = drive.dead_zone_radps, drive.response_s
-    if lag_s > drive.lag_s:
-        lag_s = drive.lag_s
+    drive, radius_m = robot.drive, robot.base.wheel_radius_m
+    most_radps = robot.limits.max_wheel_radps
+    dead_zone, lag_s = drive.dead_zone_radps, min(drive.response_s, drive.lag_s)
     sign = 1.0 if meant_radps > 0.0 else -1.0
     if not wheel.told_radps * sign > 0.0:
         wheel = _begun(reading_radps if trusted else None, most_radps)
-    meant, told_before = meant_radps * sign, wheel.told_radps * sign
-    integral, push, doubt_s = wheel.integral, wheel.push, wheel.doubt_s
-    expected, due = wheel.expected_radps, wheel.due_radps
+    meant, expected = meant_radps * sign, wheel.expected_radps
     ahead = _held(meant + lag_s * by_mps2 * sign / radius_m, most_radps)
-    bound = dead_zone + drive.max_correction * meant
-    if not bound * radius_m <= CORRECTION_MPS:
-        bound = CORRECTION_MPS / radius_m
-    if stopping:
-        integral = 0.0
-    off = 0.0
-    if trusted and reading_radps is not None:
-        off = (due - reading_radps) * sign
-        if doubt_s < DOUBT_S:
-            doubt_s = 0.0 if abs(off) <= bound + BEYOND_MPS / radius_m else doubt_s + dt_s
-    if not (trusted and bound > 0.0 and doubt_s < DOUBT_S):
+    bound = min(dead_zone + drive.max_correction * meant, CORRECTION_MPS / radius_m)
+    integral, push, doubt_s = wheel.integral, wheel.push, wheel.doubt_s
+    if not trusted:
         integral = push = 0.0
     elif reading_radps is not None:
-        grown, push = _corrected(integral, off / bound, dt_s, drive)
-        if not stopping and (grown < integral or ahead + dead_zone + push * bound <= most_radps):
-            integral = grown  # at the wheel's limit it winds up no further
+        off = (wheel.due_radps - reading_radps) * sign
+        doubt_s = _doubt_s(doubt_s, off, bound + BEYOND_MPS / radius_m, dt_s)
+        spare = most_radps - ahead - dead_zone
+        had = 0.0 if stopping else integral
+        integral = push = 0.0
+        if doubt_s < DOUBT_S and bound > 0.0:
+            integral, push = _corrected(had, off / bound, spare / bound, dt_s, drive)
     if stopping:
-        push = min(0.0, push)
-        told = min(_held(ahead + dead_zone + push * bound, meant + dead_zone), told_before)
+        integral, push = 0.0, min(0.0, push)
+        told = _held(ahead + dead_zone + push * bound, meant + dead_zone)
+        told = min(told, wheel.told_radps * sign)
     else:
         told = _held(ahead + dead_zone + push * bound, most_radps)
     return Wheel(
@@ -129,21 +119,32 @@ def _begun(reading_radps: float | None, most_radps: float) -> Wheel:
     return AT_REST
 
 
-def _corrected(integral: float, off: float, dt_s: float, drive: DriveConfig) -> tuple[float, float]:
+def _doubt_s(doubt_s: float, off: float, most: float, dt_s: float) -> float:
+    """Return how long a wheel has been further off than any motor explains; DOUBT_S stays."""
+    if doubt_s >= DOUBT_S:
+        return doubt_s
+    return 0.0 if abs(off) <= most else doubt_s + dt_s
+
+
+def _corrected(
+    integral: float, off: float, spare: float, dt_s: float, drive: DriveConfig
+) -> tuple[float, float]:
     """Return integral and whole correction after a reading that is ``off``, as shares of the bound.
 
-    Where both together reach the bound, the integral goes no further that way. What is no number
-    brakes.
+    Where both together reach the bound, or the wheel's limit by using up what is ``spare``, the
+    integral goes no further that way. What is no number brakes.
     """
     grown = integral + drive.ki_per_s * dt_s * off
     if not -1.0 <= grown <= 1.0:
         grown = 1.0 if grown > 1.0 else -1.0
     whole = drive.kp * off + grown
-    if -1.0 <= whole <= 1.0:
-        return grown, whole
-    if (grown - integral) * whole > 0.0:
+    if not -1.0 <= whole <= 1.0:
+        whole = 1.0 if whole > 1.0 else -1.0
+        if (grown - integral) * whole > 0.0:
+            grown = integral
+    if whole > spare and grown > integral:
         grown = integral
-    return grown, 1.0 if whole > 1.0 else -1.0
+    return grown, whole
 
 
 def _held(speed: float, most: float) -> float:
