@@ -7,6 +7,7 @@ second it is tried again. A new file begins with a segment only, so one is asked
 from __future__ import annotations
 
 import json
+import logging
 from errno import EDQUOT, ENOSPC
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from bridge.blackbox.topics import Topic
+
+log = logging.getLogger("bridge.blackbox")
 
 MIN_FREE_BYTES = 4 << 20
 """Less is a full disk: what fits into it would be written and fail within seconds."""
@@ -42,6 +45,7 @@ class Writer:
         self._tick, self._now_s, self._at_ns = 0, 0.0, 0
         self._ranges: bytes | None = None
         self._lidar = (0.0, 0.0, 0.0)
+        self._unsaid: set[str] = set()
 
     def take(self, kind: bytes, payload: bytes, unix_s: float) -> None:
         """Take one frame. Never raises for what a disk does."""
@@ -55,7 +59,6 @@ class Writer:
             self._topics = topics(json.loads(payload))
         else:
             if kind == frames.BOOT:
-                self._lidar = known.from_boot(payload)
                 self._begin(unix_s)
             if self._file is not None:
                 for topic, data in self._worth(kind, payload):
@@ -95,18 +98,33 @@ class Writer:
                 file.abandon()
                 self._failing = _said(error, self._folder)
 
-    def _worth(self, kind: bytes, payload: bytes) -> Iterable[tuple[str, bytes]]:
-        """Yield what a frame puts into the file: the well-known first, then itself."""
+    def _worth(self, kind: bytes, payload: bytes) -> list[tuple[str, bytes]]:
+        """Return what a frame puts into the file: the well-known first, then itself.
+
+        The record matters more than its looks: what can't be said again is left out, and said once.
+        """
+        try:
+            made = list(self._known(kind, payload))
+        except (KeyError, TypeError, ValueError) as error:
+            made = []
+            if OF_KIND[kind] not in self._unsaid:
+                self._unsaid.add(OF_KIND[kind])
+                log.warning("recorder_unsaid: %s is not shown to viewers: %r", OF_KIND[kind], error)
+        return [*made, (OF_KIND[kind], payload)]
+
+    def _known(self, kind: bytes, payload: bytes) -> Iterable[tuple[str, bytes]]:
         clock, now_s = self._clock, self._now_s
         if kind == frames.INBOX:
-            yield from known.from_inbox(payload, self._ranges, self._lidar, clock, now_s)
-        elif kind == frames.ODOMETRY:
-            yield known.from_odometry(payload, clock, now_s)
-        elif kind == frames.STATUS:
-            yield from known.from_status(payload, clock, now_s)
-        elif kind == frames.EVENT:
-            yield known.from_event(payload, clock, now_s)
-        yield OF_KIND[kind], payload
+            return known.from_inbox(payload, self._ranges, self._lidar, clock, now_s)
+        if kind == frames.ODOMETRY:
+            return [known.from_odometry(payload, clock, now_s)]
+        if kind == frames.STATUS:
+            return known.from_status(payload, clock, now_s)
+        if kind == frames.EVENT:
+            return [known.from_event(payload, clock, now_s)]
+        if kind == frames.BOOT:
+            self._lidar = known.from_boot(payload)
+        return ()
 
     def _begin(self, unix_s: float) -> None:
         """Go on in the open file, or begin one where there is none or it is full."""

@@ -32,6 +32,7 @@ SEGMENT_TICKS = 6_000
 """A minute: how much of a file is lost to replay at most when its beginning is damaged."""
 TOGETHER = 10
 """Ticks handed over at once."""
+CLOSES_WITHIN_S = 1.0
 REVIVE_FIRST_S, REVIVE_MOST_S = 1.0, 30.0
 """A writer that dies is replaced after so long, twice as long each time it dies young."""
 
@@ -96,7 +97,9 @@ class Recorder:
     def close(self) -> bool:
         """Let the writer finish; say whether it did. After the loop only: it waits."""
         self._hand_over()
-        self._pipe.flush()
+        end_s = time.monotonic() + CLOSES_WITHIN_S
+        while not (self._pipe.flush() or self._pipe.broken) and time.monotonic() < end_s:
+            time.sleep(0.01)
         self._pipe.close()
         return self._writer is not None and self._writer.join()
 

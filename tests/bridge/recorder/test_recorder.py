@@ -300,3 +300,17 @@ def test_with_all_killed_at_once_all_but_the_last_second_is_there(tmp_path: Path
     report = replay(recordings(tmp_path))
     assert (report.differing, report.gaps) == (0, 0)
     assert int(done.stdout) - 100 <= report.ticks <= int(done.stdout)
+
+
+@pytest.mark.parametrize(
+    ("module", "foreign"),
+    [
+        ("bridge.__main__", ("mcap", "zstandard", "lz4")),
+        ("bridge.blackbox.__main__", ("pydantic", "wire", "bridge.core", "zenoh")),
+    ],
+)
+def test_loop_and_writing_process_load_nothing_of_each_other(
+    module: str, foreign: tuple[str, ...]
+) -> None:
+    code = f"import sys, {module}; sys.exit(any(name in sys.modules for name in {foreign!r}))"
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0

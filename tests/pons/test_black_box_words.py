@@ -1,0 +1,77 @@
+"""``pons why`` and ``pons replay`` say in one screen, in both languages, what a recording shows."""
+
+from __future__ import annotations
+
+import gzip
+from pathlib import Path
+
+import pytest
+
+from pons import replay, why
+from pons.__main__ import main
+from pons.settings import load
+from tests.bridge.core.scripted import World
+from tests.bridge.recorded import stream_of, written
+from tests.bridge.test_replay import taken
+
+SCREEN_LINES = 24
+
+
+@pytest.fixture
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    (tmp_path / "recordings").mkdir()
+    return tmp_path
+
+
+def recorded(home: Path, world: World, *, closed: bool = True) -> list[Path]:
+    return written(home / "recordings", stream_of(world.core, taken(world)), closed=closed)
+
+
+def test_a_row_is_told_with_evidence_and_what_to_do(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    world = World(keep=True).driving((5.0, 0.0))
+    world.lidar_silent = True
+    world.run(7.0)
+    recorded(home, world, closed=False)
+    assert why.run(load()) == why.EXIT_TOLD
+    said = capsys.readouterr().out
+    assert len(said.splitlines()) <= SCREEN_LINES
+    assert "by lidar_stale" in said
+    assert "evidence  LIDAR_STALE.0 (HOLD2): " in said
+    assert "激光雷达没有新数据" in said
+    assert "运行 pons arm，然后 pons resume" in said
+    assert "to do     pons arm, then pons resume" in said
+    assert "power failed" in said
+    assert "断电" in said
+
+
+def test_no_stop_and_no_recording_are_told_apart(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert why.run(load()) == why.EXIT_NO_STOP
+    assert "no_stop" in capsys.readouterr().out
+    (home / "recordings" / "x.mcap").write_bytes(b"nothing of the kind")
+    assert why.run(load()) == why.EXIT_BAD
+    assert "recording_not_mcap" in capsys.readouterr().err
+
+
+def test_replay_takes_several_files_and_counts(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    world = World(keep=True).armed()
+    (path,) = recorded(home, world)
+    assert main(["replay", str(path)]) == replay.EXIT_SAME
+    assert f"{len(world.inboxes)} ticks replayed, 0 differing, 0 gaps" in capsys.readouterr().out
+
+
+def test_a_recording_of_before_is_refused_with_what_to_do(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    old = home / "recordings" / "b-000.jsonl.gz"
+    old.write_bytes(gzip.compress(b'{"kind":"header"}\n'))
+    assert main(["replay", str(old)]) == replay.EXIT_BAD
+    said = capsys.readouterr().err
+    assert "recording_of_old_format" in said
+    assert "the version of Pons that recorded it" in said
