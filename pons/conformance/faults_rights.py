@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from math import inf, nan
+from math import cos, inf, nan, sin
 from typing import TYPE_CHECKING
 
 from pons.conformance.brain import Brain, number
@@ -21,7 +21,7 @@ from pons.conformance.fault import (
     commands,
     everything,
 )
-from wire import PROTOCOL
+from wire import MAX_POINTS, PROTOCOL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,6 +39,7 @@ SMALL_M = 0.3
 SPENT_S = 1.4
 """In which 0.3 m are driven even from rest."""
 WANTED = (0.4, 0.0)
+WALL_STEP_M = 0.2
 HAND = "kit-hand"
 
 
@@ -226,6 +227,24 @@ def _off_the_path(shift: Callable[[Message, int], Message]) -> Callable[[Stage],
     return make
 
 
+def _through_walls(stage: Stage) -> Breaker:
+    """Lead straight off to the left, farther than any site is wide."""
+    heading_rad = stage.brain.track.heading_rad
+    dx, dy = -sin(heading_rad) * WALL_STEP_M, cos(heading_rad) * WALL_STEP_M
+
+    def change(message: Message, status: Status) -> object:
+        at = status.base_in_map
+        if at is None:
+            return message
+        points = [
+            {"x_m": at.x_m + dx * n, "y_m": at.y_m + dy * n, "speed_mps": WANTED[0]}
+            for n in range(1, MAX_POINTS + 1)
+        ]
+        return message | {"points": points}
+
+    return commands(change)
+
+
 def _wrong_map(_stage: Stage) -> Breaker:
     return commands(lambda message, _status: message | {"map_id": "0123456789abcdef"})
 
@@ -264,9 +283,7 @@ FAULTS = (
     Fault("path_elsewhere", "horizons that begin 1 m beside the robot",
           broken(_off_the_path(lambda p, _n: p | {"x_m": p["x_m"] + 1.0, "y_m": p["y_m"] + 1.0})),
           STALE, kinds=(W,)),
-    Fault("path_through_walls", "horizons straight out of the fence",
-          broken(_off_the_path(lambda p, n: p | {"x_m": p["x_m"] + 0.2 * n,
-                                                 "y_m": p["y_m"] + 0.1 * n})),
+    Fault("path_through_walls", "horizons straight out of the fence", broken(_through_walls),
           STALE, kinds=(W,)),
     Fault("path_both_ways", "horizons of both directions",
           broken(_off_the_path(lambda p, n: p | {"speed_mps": p["speed_mps"] * (-1) ** n})),
