@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import settings
+
+# Coverage asks for lines, not for luck: few examples of each law, the same ones each time.
+settings.register_profile("coverage", deadline=None, derandomize=True, max_examples=4)
 
 QUICK = frozenset(
     """
