@@ -269,7 +269,7 @@ class World:
         beams = 72
         noise = 1e-6 * self.scans
         ranges = tuple(
-            self._range(here, here.yaw_rad - pi + index * tau / beams) + noise
+            max(0.0, self._range(here, here.yaw_rad - pi + index * tau / beams)) + noise
             for index in range(beams)
         )
         return Scan(
