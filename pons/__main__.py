@@ -77,6 +77,13 @@ def _calibrate(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
         help="a person measures each run by tape; without numbers it asks after each",
     )
     word.add_argument("--shuttles", type=int, default=3, choices=range(2, 11), metavar="N")
+    word.add_argument(
+        "--patience",
+        type=_seconds,
+        default=30.0,
+        metavar="S",
+        help="wait so long to be armed again",
+    )
     word.add_argument("--yes", action="store_true", help="write without asking")
 
 
@@ -178,6 +185,7 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
             reference=said.reference,
             measured_m=said.measured_m,
             shuttles=said.shuttles,
+            patience_s=said.patience,
             yes=said.yes,
         )
     if said.word == "fence":

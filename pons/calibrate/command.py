@@ -36,6 +36,7 @@ def run(
     reference: str | None,
     measured_m: list[float] | None,
     shuttles: int,
+    patience_s: float,
     yes: bool,
 ) -> int:
     """Calibrate; 0 written or nothing to change, 3 refused, 130 interrupted."""
@@ -43,7 +44,8 @@ def run(
     try:
         text = settings.robot.read_text("utf-8") if settings.robot.is_file() else ""
         stamp = time.gmtime()
-        asked = Plan(MEASURED if measured_m is not None else reference, shuttles)
+        kind = MEASURED if measured_m is not None else reference
+        asked = Plan(kind, shuttles, patience_s=patience_s)
         found = _measure(settings, asked, measured_m or [], time.strftime("%FT%TZ", stamp))
         return _write(settings, text, found, time.strftime("%Y%m%dT%H%M%SZ", stamp), yes=yes)
     except CalibrationRefused as refused:

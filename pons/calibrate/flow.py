@@ -53,6 +53,8 @@ class Plan:
     """None: truth where a simulator tells it, else the lidar."""
     shuttles: int = 3
     turns: int = 4
+    patience_s: float = 0.0
+    """How long to wait for a person to arm again where a lost run disarmed the robot."""
 
 
 def calibrate(
@@ -73,13 +75,13 @@ def calibrate(
     reference = plan.reference or (TRUTH if rig.truth is not None else LIDAR)
     if reference == TRUTH and not (status.drive.virtual and rig.truth is not None):
         raise CalibrationRefused("no_truth")
-    run_m = _face_the_way(rig, robot, say)
+    run_m = _face_the_way(rig, robot, plan, say)
     say(f"runs of {run_m:.2f} m; distances by {SPOKEN[reference]}")
     straights: list[Straight] = []
     for count in range(2 * plan.shuttles):
         metres = run_m if count % 2 == 0 else -run_m
         straights.append(
-            _again(say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
+            _again(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
         )
         say(f"run {count + 1}/{2 * plan.shuttles}: {_told(straights[-1])}")
     radius_m = radius_of(straights, robot)  # before the turns, which a wrong one would spoil
@@ -87,7 +89,7 @@ def calibrate(
     for count in range(plan.turns):
         angle = ROUND_RAD if count % 2 == 0 else -ROUND_RAD
         separations.append(
-            _again(say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
+            _again(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
         )
         say(f"turn {count + 1}/{plan.turns}: separation {separations[-1]:.4f} m")
     by = SPOKEN[reference]
@@ -112,7 +114,9 @@ def ready(status: Status, robot: RobotDescription) -> None:
         raise CalibrationRefused("other_robot_toml", text)
 
 
-def _face_the_way(rig: Rig, robot: RobotDescription, say: Callable[[str], None]) -> float:
+def _face_the_way(
+    rig: Rig, robot: RobotDescription, plan: Plan, say: Callable[[str], None]
+) -> float:
     """Turn to where there is most room; return how long a run may be."""
     points = points_of(rig.look().scans[-1], robot)
     way = best_way(points, robot.base.radius_m)
@@ -121,7 +125,7 @@ def _face_the_way(rig: Rig, robot: RobotDescription, say: Callable[[str], None])
         f"{way.heading_rad * 180 / pi:.0f} degrees to face it"
     )
     if abs(way.heading_rad) > ALIGNED_RAD:
-        _again(say, lambda: turn(rig, robot, way.heading_rad))
+        _again(rig, plan, say, lambda: turn(rig, robot, way.heading_rad))
     points = points_of(rig.look().scans[-1], robot)
     return best_way(points, robot.base.radius_m, (0.0,)).run_m
 
@@ -159,7 +163,7 @@ def _turn(
     return separation_m(run, turned, radius_m)
 
 
-def _again(say: Callable[[str], None], take: Callable[[], R]) -> R:
+def _again(rig: Rig, plan: Plan, say: Callable[[str], None], take: Callable[[], R]) -> R:
     """Take a run; one that was lost is taken again, a few times.
 
     Raises:
@@ -170,8 +174,10 @@ def _again(say: Callable[[str], None], take: Callable[[], R]) -> R:
         try:
             return take()
         except RunLost as lost:
-            say(f"lost a run ({lost})")
+            say(f"lost a run ({lost}); pons arm, if that disarmed it")
             before = lost
+            if not rig.settle(plan.patience_s):
+                break
         except CalibrationRefused as refused:
             if refused.code in _AFTERMATH and before.detail:  # what the lost run led to
                 raise CalibrationRefused(before.code, before.detail) from None

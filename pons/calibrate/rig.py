@@ -26,6 +26,8 @@ PERIOD_S = 0.05
 SILENT_S = 1.0
 TAKE_OVER_S, STAND_S, FIRST_S = 3.0, 6.0, 3.0
 STANDS_S = 0.4
+QUIET_S = 3.0
+"""Rows of the drive clear by themselves within a second, once it is well."""
 STANDING_MPS, STANDING_RADPS = 0.02, 0.05
 TURNS_S, TURNS_RAD = 0.5, 0.02
 """A wheel that is asked to turn does so much in so long, or nobody sees it turn."""
@@ -195,6 +197,16 @@ class Rig:
         self._until(lambda: not self.held() and self.stands(), STAND_S)
         self._for(STANDS_S)
         self._wish = None
+
+    def settle(self, patience_s: float) -> bool:
+        """Wait for the drive's rows to clear, then for a person to arm; tell whether one did."""
+        self._until(self._quiet, QUIET_S)
+        self._until(lambda: self.status is not None and self.status.mode is Mode.HOLD, patience_s)
+        return self.status is not None and self.status.mode is Mode.HOLD
+
+    def _quiet(self) -> bool:
+        status = self.status
+        return status is not None and not any(row.row in DRIVE_ROWS for row in status.rows)
 
     def stands(self) -> bool:
         """Tell whether the wheels stand, as far as the bridge measures."""

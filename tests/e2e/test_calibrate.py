@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -53,7 +54,21 @@ def wrong(home: Path) -> Iterator[Robot]:
 
 
 def calibrated(robot: Robot) -> subprocess.CompletedProcess[str]:
-    return robot.system.pons("calibrate", "--yes", "--shuttles", "2", timeout_s=CALIBRATION_S)
+    """Calibrate while a person arms again whenever a stalling machine has disarmed the robot."""
+    ended = threading.Event()
+
+    def arm() -> None:
+        while not ended.wait(1.0):
+            if robot.judge.status.mode is Mode.DISARMED:
+                robot.system.pons("arm")
+
+    person = threading.Thread(target=arm)
+    person.start()
+    try:
+        return robot.system.pons("calibrate", "--yes", "--shuttles", "2", timeout_s=CALIBRATION_S)
+    finally:
+        ended.set()
+        person.join()
 
 
 def written(robot: Robot) -> RobotDescription:
