@@ -6,6 +6,7 @@ it yields says stop, returns when it did, and waits for the answer.
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -17,9 +18,13 @@ from typing import TYPE_CHECKING
 
 from websockets.sync.client import connect
 
-if TYPE_CHECKING:
-    from bench.robot import Robot
+from bench.robot import PATIENCE_S, Robot
 
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Note = tuple[float, float, str]
+"""When a command had left [s, monotonic], the speed that it means [m/s], the mode."""
 Stop = Callable[[], float]
 """Stops; returns the moment on the monotonic clock."""
 LIMIT_S = 10.0
@@ -29,6 +34,20 @@ _CLI = (
     "sys.exit(stop.run(known))"
 )
 """``pons stop`` itself, waiting for a word when all is loaded and nothing is sent."""
+
+
+def noting(home: Path) -> Robot:
+    """Return a robot whose bridge notes its commands."""
+    robot = Robot(home, "two_room")
+    robot.children["bridge"].arguments[0] = "bench.commandlog"
+    return robot
+
+
+def notes_of(robot: Robot) -> list[Note]:
+    """End the bridge of such a robot and return what it noted."""
+    robot.children["bridge"].stop(PATIENCE_S)
+    text = (robot.settings.home / "commands.json").read_text("utf-8")
+    return [(at_s, v_mps, mode) for at_s, v_mps, mode in json.loads(text)]
 
 
 @contextmanager

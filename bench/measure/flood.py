@@ -1,7 +1,7 @@
 """Flood the real bridge and count its gaps beside cyclictest's; see whether a stop still works.
 
 10 000 messages a second that each look like the owner's newest horizon and 1000 that are no message
-at all, for as long as it is measured. A gap is a time of over 3.5 periods between two wake-ups.
+at all, for as long as it is measured. A gap is a time of over 3.5 periods between two commands.
 Slices of the bridge and of cyclictest alternate under the same flood, on the same processor.
 """
 
@@ -12,14 +12,14 @@ import os
 import sys
 import time
 from contextlib import contextmanager
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from bench.figures import poisson_upper_95
 from bench.lab import until
 from bench.lateness import cyclictest_late_us
 from bench.report import Row, row_of
-from bench.robot import Robot
-from bench.stops import WAYS
+from bench.stops import WAYS, notes_of, noting
 from pons.conformance.helpers import FLOODER, Helper
 from wire import Event
 from wire.keys import EVENT, Party
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bench.lab import Lab
+    from bench.robot import Robot
     from wire import Status
 
 NAME = "flood"
@@ -72,37 +73,29 @@ def _loads(runs: list[dict[str, Any]]) -> str:
 
 
 def _run(lab: Lab) -> dict[str, Any]:
-    with lab.folder() as home, Robot(home, "two_room", tapped=True) as robot:
+    with lab.folder() as home, noting(home) as robot:
         robot.make_ready()
-        spans: list[tuple[int, int]] = []
+        spans: list[tuple[float, float]] = []
         theirs: list[int] = []
         with _flooded(robot) as rates:
             for number in range(PAIRS):
                 lab.say(f"flooded pair {number + 1}/{PAIRS}")
-                began = _tick(robot)
+                began_s = time.monotonic()
                 time.sleep(SLICE_S)
-                spans.append((began, _tick(robot)))
+                spans.append((began_s, time.monotonic()))
                 late_us = cyclictest_late_us(SLICE_S, PERIOD_US)
                 theirs.append(sum(late > (GAP_PERIODS - 1) * PERIOD_US for late in late_us))
             stops, lost = _stops(lab, robot)
-        late_us = robot.end_bridge()["late_us"]
-        ours = [gaps(late_us[first:last]) for first, last in spans]
+        at_s = [note[0] for note in notes_of(robot)]
+        ours = [gaps([at for at in at_s if first <= at <= last]) for first, last in spans]
         pairs = [{"bridge": a, "cyclictest": b} for a, b in zip(ours, theirs, strict=True)]
         return {"pairs": pairs, "stops": stops, "lost": lost, "rates": rates,
                 "load": os.getloadavg()[0]}  # fmt: skip
 
 
-def gaps(late_us: list[float]) -> int:
-    """Count the times of over 3.5 periods between two wake-ups.
-
-    Args:
-        late_us: of each tick, the periods that it missed included.
-    """
-    count, before_us = 0, 0.0
-    for late in late_us:
-        count += PERIOD_US + late - before_us > GAP_PERIODS * PERIOD_US
-        before_us = late % PERIOD_US  # what was missed is skipped: the schedule goes on from there
-    return count
+def gaps(at_s: list[float]) -> int:
+    """Count the times of over 3.5 periods between two commands."""
+    return sum(b - a > GAP_PERIODS * PERIOD_US * 1e-6 for a, b in pairwise(at_s))
 
 
 @contextmanager
@@ -147,10 +140,6 @@ def _heard(robot: Robot) -> Status:
     if status is None:
         raise OSError("the bridge fell silent")
     return status
-
-
-def _tick(robot: Robot) -> int:
-    return _heard(robot).ticks.ticks
 
 
 def _stops(lab: Lab, robot: Robot) -> tuple[dict[str, list[float]], dict[str, int]]:

@@ -7,7 +7,6 @@ itself up meanwhile is in the figures.
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import subprocess
@@ -22,14 +21,13 @@ from bench.figures import none_in
 from bench.lab import Missed, until
 from bench.lateness import stressed
 from bench.report import Row, row_of
-from bench.robot import PATIENCE_S, SLOW, Robot
-from bench.stops import WAYS
+from bench.robot import SLOW, Robot
+from bench.stops import WAYS, Note, notes_of, noting
 from pons.http import PlannerDown, Refused, call
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
     from bench.lab import Lab
 
@@ -44,8 +42,6 @@ MOVING_MPS = 0.2
 DRIVE_S = 20.0
 WITHIN_S = 3.0
 SLOWER_MPS = 1e-4
-Note = tuple[float, float, str]
-"""When a command had left [s, monotonic], the speed that it means [m/s], the mode."""
 
 
 def measure(lab: Lab) -> list[Row]:
@@ -71,7 +67,7 @@ def measure(lab: Lab) -> list[Row]:
 def _run(lab: Lab, way: str, index: int) -> dict[str, Any]:
     chance, way_of = Random(index), WAYS[way]
     sent: list[float] = []
-    with lab.folder() as home, _noting(home) as robot:
+    with lab.folder() as home, noting(home) as robot:
         robot.make_ready()
         robot.forget()
         for number in range(PER_SLICE):
@@ -83,8 +79,7 @@ def _run(lab: Lab, way: str, index: int) -> dict[str, Any]:
                 until(lambda: _held(robot), WITHIN_S, "held")
         load = os.getloadavg()[0]
         speed = robot.speed
-        robot.children["bridge"].stop(PATIENCE_S)
-        notes: list[Note] = json.loads((home / "commands.json").read_text("utf-8"))
+        notes = notes_of(robot)
     took = [slower(notes, sent_s) for sent_s in sent]
     return {
         "took_ms": [value for value in took if isinstance(value, float)],
@@ -93,13 +88,6 @@ def _run(lab: Lab, way: str, index: int) -> dict[str, Any]:
         "speed": speed,
         "load": load,
     }
-
-
-def _noting(home: Path) -> Robot:
-    """Return a robot whose bridge notes its commands."""
-    robot = Robot(home, "two_room")
-    robot.children["bridge"].arguments[0] = "bench.commandlog"
-    return robot
 
 
 def slower(notes: list[Note], sent_s: float) -> float | str:

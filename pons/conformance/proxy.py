@@ -96,7 +96,7 @@ class Proxy:
                     return
                 if not data:  # the sender is gone; what it said still waits to be delivered
                     self._ending.wait(POLL_S)
-                elif to_bridge and way is Way.KEPT:
-                    kept.append(data)
-                else:
+                elif self.way is Way.OPEN or (self.way is Way.KEPT and not to_bridge):
                     sink.sendall(data)
+                else:  # asked again: the way may have changed while we read
+                    kept.append(data)

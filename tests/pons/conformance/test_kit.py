@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import socket
-import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any, cast
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from wire import OwnerKind
     from wire.keys import Key
 
+LONG_S = 20.0
 SITES = Path(__file__).resolve().parents[3] / "sites"
 KEYS: dict[str, Key[Record]] = {key.path: cast("Key[Record]", key) for key in COMMANDS}
 
@@ -124,62 +126,53 @@ def test_metal_is_refused_and_so_is_another_robot_or_one_that_somebody_owns() ->
     assert (unfit(virtual, known[0], "f" * 16) or "").startswith("other_site: ")
 
 
-class Door:
-    """Listen as a bridge would, and read what comes."""
+@contextmanager
+def link(path: Path) -> Iterator[tuple[Proxy, socket.socket, socket.socket]]:
+    """Yield a proxy, the brain's end of a link through it, and the bridge's."""
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(str(path))
+        listener.listen()
+        listener.settimeout(LONG_S)
+        proxy = Proxy(str(path))
+        try:
+            host, port = proxy.address.split(":")
+            with socket.create_connection((host, int(port))) as near, listener.accept()[0] as far:
+                near.settimeout(LONG_S)
+                far.settimeout(LONG_S)
+                yield proxy, near, far
+        finally:
+            proxy.close()
 
-    def __init__(self, path: Path) -> None:
-        self.listener = socket.socket(socket.AF_UNIX)
-        self.listener.bind(str(path))
-        self.listener.listen()
-        self.listener.settimeout(2.0)
 
-    def accept(self) -> socket.socket:
-        link, _ = self.listener.accept()
-        link.settimeout(2.0)
-        return link
+def nothing_comes(hearer: socket.socket) -> None:
+    hearer.settimeout(0.1)
+    with pytest.raises(TimeoutError):
+        hearer.recv(9)
+    hearer.settimeout(LONG_S)
 
 
-def test_a_proxy_delivers_keeps_back_and_reads_no_more(tmp_path: Path) -> None:
-    door = Door(tmp_path / "s")
-    proxy = Proxy(str(tmp_path / "s"))
-    host, port = proxy.address.split(":")
-    with socket.create_connection((host, int(port))) as near, door.accept() as far:
-        near.settimeout(2.0)
+def test_a_proxy_delivers_keeps_back_and_delivers_late(tmp_path: Path) -> None:
+    with link(tmp_path / "s") as (proxy, near, far):
         near.sendall(b"one")
         assert far.recv(9) == b"one"
         far.sendall(b"two")
         assert near.recv(9) == b"two"
         proxy.way = Way.KEPT
-        time.sleep(0.05)
         near.sendall(b"three")
-        far.settimeout(0.1)
-        with pytest.raises(TimeoutError):
-            far.recv(9)
+        nothing_comes(far)
         far.sendall(b"heard")
         assert near.recv(9) == b"heard", "the other way stays open"
         near.shutdown(socket.SHUT_WR)
         proxy.way = Way.OPEN
-        far.settimeout(2.0)
         assert far.recv(9) == b"three", "delivered though its sender is gone"
-    proxy.close()
-    door.listener.close()
 
 
 def test_a_stalled_proxy_holds_both_ways(tmp_path: Path) -> None:
-    door = Door(tmp_path / "s")
-    proxy = Proxy(str(tmp_path / "s"))
-    host, port = proxy.address.split(":")
-    with socket.create_connection((host, int(port))) as near, door.accept() as far:
-        near.settimeout(0.1)
-        far.settimeout(0.1)
+    with link(tmp_path / "s") as (proxy, near, far):
         proxy.way = Way.STALLED
-        time.sleep(0.05)
         for sender, hearer in ((near, far), (far, near)):
             sender.sendall(b"x")
-            with pytest.raises(TimeoutError):
-                hearer.recv(9)
-    proxy.close()
-    door.listener.close()
+            nothing_comes(hearer)
 
 
 def lines() -> list[Line]:
