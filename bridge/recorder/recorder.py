@@ -4,9 +4,9 @@ Owns the order of frames and the count of what is missing. Never waits and never
 pipe, a full disk or a dead writer costs ticks of the record, never of the robot. The robot drives
 on without a record, says so, and is armed only with one.
 
-Ticks are handed over ten at a time: turning one into bytes costs a quarter of what it does where
+Ticks are handed over twenty at a time: turning one into bytes costs a quarter of what it does where
 ten milliseconds of other work lie between, the writer's waking included. A bridge that is killed
-loses at most the last 90 ms of its record, one that raises loses nothing.
+loses at most the last 190 ms of its record, one that raises loses nothing.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ log = logging.getLogger("bridge.recorder")
 
 SEGMENT_TICKS = 6_000
 """A minute: how much of a file is lost to replay at most when its beginning is damaged."""
-TOGETHER = 10
+TOGETHER = 20
 """Ticks handed over at once."""
 CLOSES_WITHIN_S = 1.0
 REVIVE_FIRST_S, REVIVE_MOST_S = 1.0, 30.0

@@ -209,7 +209,7 @@ def test_a_writer_that_dies_at_once_is_replaced_ever_more_slowly(
     driver.turn(10_000)
     assert recorder.writer_pid is None
     apart_s = [(b - a) / 100 for a, b in itertools.pairwise(tries)]
-    assert apart_s == pytest.approx([2.0, 4.0, 8.0, 16.0, 30.0, 30.0][: len(apart_s)], abs=0.3)
+    assert apart_s == pytest.approx([2.0, 4.0, 8.0, 16.0, 30.0, 30.0][: len(apart_s)], abs=0.5)
     assert len(apart_s) >= 5
     assert recorder.gaps == 10_000
 
@@ -265,7 +265,7 @@ def test_a_killed_bridge_leaves_everything_it_handed_over(tmp_path: Path) -> Non
     assert done.returncode == -signal.SIGKILL
 
     def whole() -> bool:
-        """Four of 304 were not handed over: ten go at a time."""
+        """Four of 304 were not handed over: twenty go at a time."""
         try:
             return sum(isinstance(frame, TickFrame) for frame in frames(tmp_path)) == 300
         except BadRecording:
