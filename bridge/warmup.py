@@ -18,12 +18,14 @@ from bridge.core import (
     initial,
     step,
 )
+from bridge.core.state_fence import FenceArrived, FenceDone
 from bridge.recorder import warm_frames
 from wire import (
     IDENTITY,
     VIRTUAL_KEY,
     DriveState,
     EstopLink,
+    FenceRequest,
     Grant,
     Heartbeat,
     Hello,
@@ -37,14 +39,17 @@ from wire import (
     Waypoint,
     Waypoints,
     authentic,
+    authentic_fence,
     decode,
     encode,
     sign,
+    sign_fence,
 )
 from wire.keys import (
     ARM,
     DRIVE_STATE,
     ESTOP_LINK,
+    FENCE,
     GRANT,
     HEARTBEAT,
     HELLO,
@@ -137,8 +142,20 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
         estop_link=_over(ESTOP_LINK, EstopLink(seq=count, pressed=False)),
         rejected=(RejectedAt(WAYPOINTS.path, bad),) if isinstance(bad, Rejected) else (),
         arrived=(ArrivedAt(WAYPOINTS.path, 1),),
+        fences=(_fence(config),),
+        fence_done=FenceDone(_NAME, _NAME, ""),
         recorder_ok=True,
+        recorder_says=_NAME,
     )  # fmt: skip
+
+
+def _fence(config: CoreConfig) -> FenceArrived:
+    """Return an operator's fence as the link hands it over; nothing is asked to write it."""
+    robot = config.robot.id
+    proof = sign_fence(VIRTUAL_KEY, robot, _NAME, _NAME, "{}")
+    request = _over(FENCE, FenceRequest(id=_NAME, source=_NAME, fence="{}", proof=proof))
+    fits = authentic_fence(VIRTUAL_KEY, robot, request)
+    return FenceArrived(_NAME, _NAME, _NAME, fits, request.fence)
 
 
 def _ordered(config: CoreConfig, count: int) -> Inbox:
