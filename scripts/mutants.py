@@ -81,7 +81,7 @@ class Loop:
             step = max(1, len(mutants) // self.wanted.sample) if self.wanted.sample else 1
             chosen = mutants[::step][: self.wanted.sample or None]
             counts: dict[str, int] = defaultdict(int)
-            for mutant in chosen:
+            for mutant in sorted(chosen, key=lambda one: not one.where):  # imports anew come last
                 key = f"{name}:{mutant.key}"
                 result = self.done.get(key)
                 if result is None or (self.wanted.again and result == "survived"):
