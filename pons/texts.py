@@ -64,6 +64,14 @@ def stand_in(goal: Json, language: str) -> str:
     return f"{brain['name']} planned in place of {brain['fallback_from']}: {why}"
 
 
+WEAK_BRAKES = (
+    "The brakes reach less than half of what robot.toml says, so every speed is capped. Mend them, "
+    "then end `pons up` and run `pons braking forget`, or measure anew with `pons calibrate`. / "
+    "制动力不足设定的一半，速度已受限。修好后请结束 `pons up` 并运行 "
+    "`pons braking forget`，或用 `pons calibrate` 重新标定。"
+)
+
+
 def braking_line(braking: Json) -> str:
     """Say what the gates count on when the robot brakes."""
     source = f"learnt from {braking['stops']} stops" if braking["learnt"] else "configured"
@@ -94,6 +102,8 @@ def robot_lines(robot: Json) -> list[str]:
         f"limit {limits['v_mps']:.2f} m/s by {limits['by']}",
         braking_line(status["braking"]),
     ]
+    if limits["by"] == "weak_brakes":
+        lines.append(WEAK_BRAKES)
     if status["waiting_for"]:
         lines.append(f"waiting for: {', '.join(status['waiting_for'])}")
     lines += [

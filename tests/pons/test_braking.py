@@ -10,7 +10,8 @@ from bridge.braking_file import path_of, write_learnt
 from bridge.core.state_braking import Learnt
 from pons import braking
 from pons.settings import Settings
-from pons.texts import braking_line
+from pons.texts import braking_line, robot_lines
+from tests.wire.examples import STATUS
 from wire import load_robot
 from wire.keys import Party
 from wire.sockets import Claim
@@ -82,3 +83,22 @@ def test_the_status_line_tells_configured_from_learnt() -> None:
     told |= {"learnt": True, "trouble": "braking_file_unreadable"}
     assert "learnt from 2 stops" in braking_line(told)
     assert "braking_file_unreadable" in braking_line(told)
+
+
+def test_weak_brakes_are_told_in_both_languages_with_what_to_do() -> None:
+    said = STATUS.model_dump(mode="json")
+    said["limits"]["by"] = "weak_brakes"
+    shown = "\n".join(robot_lines({"status": said, "room": None}))
+    assert "pons braking forget" in shown
+    assert "制动力" in shown
+    said["limits"]["by"] = "obstacle"
+    assert "制动力" not in "\n".join(robot_lines({"status": said, "room": None}))
+
+
+def test_a_hello_that_is_refused_is_shown_with_its_remedy() -> None:
+    said = STATUS.model_dump(mode="json")
+    said["answers"] = [
+        {"id": "p2", "kind": "hello", "accepted": False, "code": "robot_mismatch", "detail": "so"}
+    ]
+    shown = "\n".join(robot_lines({"status": said, "room": None}))
+    assert "refused hello of p2: robot_mismatch: so" in shown

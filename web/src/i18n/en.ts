@@ -240,6 +240,7 @@ export const en = {
   "by.fence": "fence",
   "by.no_scan": "no lidar scan",
   "by.unpowered": "no power",
+  "by.weak_brakes": "brakes under half of what is configured",
 
   "rows.title": "What the bridge watches",
   "rows.none": "Nothing is up.",

@@ -239,6 +239,7 @@ export const zh: Record<Key, string> = {
   "by.fence": "围栏",
   "by.no_scan": "没有激光雷达数据",
   "by.unpowered": "未上电",
+  "by.weak_brakes": "制动力不足设定的一半",
 
   "rows.title": "安全桥的监视项",
   "rows.none": "没有异常。",
