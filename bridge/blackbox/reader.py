@@ -121,6 +121,8 @@ class BoxReader:
                 f"{self.path} was written before recordings were MCAP; replay it with the version "
                 "of Pons that recorded it (git log -- bridge/recorder)",
             )
+        if magic != MAGIC and MAGIC.startswith(magic):
+            return  # its writer was killed in its first moment
         if magic != MAGIC:
             raise BadRecording("recording_not_mcap", f"{self.path} does not begin as MCAP does")
         for opcode, at, length in _records(file, size):

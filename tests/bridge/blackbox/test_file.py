@@ -91,7 +91,6 @@ def test_damage_inside_a_closed_file_is_said(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "code"),
     [
-        (b"", "recording_not_mcap"),
         (b"plain text, and more of it", "recording_not_mcap"),
         (b"\x1f\x8b\x08 as gzip begins", "recording_of_old_format"),
     ],
@@ -103,6 +102,12 @@ def test_what_is_no_recording_is_refused(content: bytes, code: str, tmp_path: Pa
         numbers(path)
     assert refused.value.code == code
     assert str(path) in refused.value.detail
+
+
+def test_a_file_cut_in_its_first_bytes_is_empty_and_no_error(tmp_path: Path) -> None:
+    for size in range(8):
+        (tmp_path / "a.mcap").write_bytes(b"\x89MCAP0\r\n"[:size])
+        assert numbers(tmp_path / "a.mcap") == []
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
