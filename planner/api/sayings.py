@@ -45,8 +45,8 @@ SAYINGS = {
         zh="磁盘已满，无法记录行驶数据：请清理磁盘后再解锁。",
     ),
     "recorder_down": Bilingual(
-        en="Nothing is being recorded, so the robot can't be armed. `pons status` says why.",
-        zh="目前没有记录行驶数据，因此不能解锁。运行 `pons status` 可查看原因。",
+        en="Nothing is being recorded, so the robot can't be armed. `pons arm` says why.",
+        zh="目前没有记录行驶数据，因此不能解锁。运行 `pons arm` 可查看原因。",
     ),
     "voice_timed_out": _AGAIN,
     "body_too_large": Bilingual(
