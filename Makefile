@@ -37,7 +37,7 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 
 # Stories run real processes in real time; what needs minutes or a browser is not for `test`. Only
 # the files that tell some are read, for reading all tests costs seconds.
-WHOLE := tests/e2e/test_model.py tests/e2e/test_calibrate.py
+WHOLE := tests/e2e/test_model.py tests/e2e/test_calibrate.py tests/e2e/test_conformance.py
 STORIES = $(filter-out $(WHOLE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
@@ -45,7 +45,7 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 	@$(BIN)/python -m pytest -n logical --maxprocesses 4 -m "not e2e and not home" $(ARGS)
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
-e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, and the page in Chromium
+e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, broken brains, and the page in Chromium
 	@scripts/stories.sh -m "e2e or home" tests/e2e/test_home_tour.py $(WHOLE) $(ARGS)
 	@exec scripts/stories.sh -n 0 -m e2e tests/web $(ARGS) # a browser beside a robot fills two cores
 
