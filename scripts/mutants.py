@@ -70,9 +70,10 @@ class Loop:
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Measure the tests once, then try the mutants."""
-        reached = importlib.import_module("tests.bridge.core.reached")
-        for start in reached.STARTS:
-            reached.reached(start)  # once, unchanged, for all children
+        if not self.wanted.tests:
+            reached = importlib.import_module("tests.bridge.core.reached")
+            for start in reached.STARTS:
+                reached.reached(start)  # once, unchanged, for all children
         items = [i for i in session.items if not getattr(i.obj, "is_hypothesis_test", False)]  # type: ignore[attr-defined]  # functions only
         calls = self._baseline(items)
         for name in self.wanted.names:
@@ -102,7 +103,8 @@ class Loop:
 
     def _baseline(self, items: list[pytest.Item]) -> dict[str, list[pytest.Item]]:
         """Run all tests once, unchanged; return which call each function, quickest first."""
-        file = KEPT.parent / f"baseline-{'all' if self.wanted.all else 'quick'}.pickle"
+        kind = "-".join(self.wanted.tests) or ("all" if self.wanted.all else "quick")
+        file = KEPT.parent / f"baseline-{kind}.pickle"
         KEPT.parent.mkdir(exist_ok=True)
         if not file.exists() or self.wanted.afresh:
             if os.fork() == 0:
@@ -154,7 +156,8 @@ class Loop:
     ) -> str:
         child = os.fork()
         if child == 0:
-            resource.setrlimit(resource.RLIMIT_CPU, (LIMIT_S, LIMIT_S + 5))
+            limit_s = self.wanted.seconds
+            resource.setrlimit(resource.RLIMIT_CPU, (limit_s, limit_s + 5))
             quiet = os.open(os.devnull, os.O_WRONLY)
             os.dup2(quiet, 1)
             os.dup2(quiet, 2)
@@ -177,7 +180,7 @@ def run_item(items: list[pytest.Item], index: int) -> bool:
 
 def marks(wanted: argparse.Namespace) -> list[str]:
     """Return pytest's choice of tests."""
-    return ["-m", "not slow" if wanted.all else "core_quick"]
+    return ["-m", "not slow" if wanted.all or wanted.tests else "core_quick"]
 
 
 def in_child(name: str, mutant: Mutant, items: list[pytest.Item], chosen: list[str]) -> int:
@@ -224,12 +227,15 @@ def main() -> int:
     parser.add_argument("--sample", type=int, default=0, help="at most so many mutants a file")
     parser.add_argument("--again", action="store_true", help="try survivors once more")
     parser.add_argument("--all", action="store_true", help="all tests without hypothesis")
+    parser.add_argument("--tests", nargs="*", default=[], help="only these files of tests")
+    parser.add_argument("--seconds", type=int, default=LIMIT_S, help="of processor time a mutant")
     parser.add_argument("--afresh", action="store_true", help="measure the tests anew")
     wanted = parser.parse_args()
     rest = sorted(p.stem for p in CORE.glob("*.py") if p.stem not in UNTESTED | set(FIRST))
     wanted.names = wanted.names or [*FIRST, *rest]
     os.chdir(ROOT)
-    arguments = [*PYTEST, "-s", *marks(wanted), *TESTS]
+    chosen = [f"{TESTS[0]}/{name}.py" for name in wanted.tests]
+    arguments = [*PYTEST, "-s", *marks(wanted), *(chosen or TESTS)]
     return int(pytest.main(arguments, plugins=[Loop(wanted)]))
 
 
