@@ -154,5 +154,5 @@ def _call(tick: Tick) -> None:
         source = "X"
     else:
         return
-    if go(tick, fact, s.grants.mission):
-        s.source = source
+    go(tick, fact, s.grants.mission)  # the table has both
+    s.source = source

@@ -11,8 +11,9 @@ settings.register_profile("coverage", deadline=None, derandomize=True, max_examp
 QUICK = frozenset(
     """
     test_ages_and_docs test_drive_out test_enumerated test_fence test_freespace
-    test_horizon test_kinematics test_limiter test_limiter_exact test_modes test_numbers test_odometry test_path
-    test_quick_core test_scanpicture test_stopcurve test_wheelcontrol test_window_edges
+    test_horizon test_kinematics test_limiter test_limiter_exact test_modes test_numbers
+    test_odometry test_path test_quick_core test_scanpicture test_stopcurve test_wheelcontrol
+    test_window_edges
     """.split()  # noqa: SIM905  # one name a word reads better
 )
 LONG = (
