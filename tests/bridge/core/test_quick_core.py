@@ -9,7 +9,7 @@ import pytest
 
 from bridge.core import Inbox, LoopFacts, initial, step
 from bridge.core.arming import arm_lacks, reset_lacks
-from bridge.core.contactgate import touched
+from bridge.core.contactgate import contact_gate, touched
 from bridge.core.detect_motion import _wheel_held
 from bridge.core.fence import Fence, build_fence
 from bridge.core.fencegate import fence_scale
@@ -341,3 +341,31 @@ def test_no_hand_on_the_stick_unblocks_a_way() -> None:
 def test_wheels_and_arcs_that_are_no_numbers_move_nothing() -> None:
     assert twist_of(nan, 1.0, ROBOT.base) == STILL
     assert arc_end(IDENTITY, 1.0, inf) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("pressed", "v_mps", "name"),
+    [
+        ("bumper_front", 0.3, "bumper_front"),
+        ("bumper_front", -0.3, None),
+        ("bumper_rear", -0.3, "bumper_rear"),
+        ("bumper_rear", 0.3, None),
+        ("cliff", 0.3, "cliff"),
+        ("cliff", -0.3, None),
+        ("cliff", 0.0, None),
+        ("bumper_rear", 0.0, None),
+    ],
+)
+def test_a_contact_shuts_the_way_it_faces(pressed: str, v_mps: float, name: str | None) -> None:
+    state = reached("active").state.drive.newest
+    assert state is not None
+    state = state.model_copy(update={pressed: True})
+    assert touched(state, v_mps) == name
+    passed = contact_gate(state, Twist2(v_mps, 1.0))
+    if name is not None:
+        assert passed == Twist2(0.0, 0.3)
+    elif v_mps:
+        assert passed.v_mps == pytest.approx(v_mps / abs(v_mps) * 0.09)
+        assert passed.w_radps == pytest.approx(0.3)
+    else:
+        assert passed == Twist2(0.0, 0.3)
