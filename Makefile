@@ -37,8 +37,9 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 
 # Stories run real processes in real time; what needs minutes or a browser is not for `test`. Only
 # the files that tell some are read, for reading all tests costs seconds.
-WHOLE := tests/e2e/test_model.py tests/e2e/test_calibrate.py tests/e2e/test_conformance.py
-STORIES = $(filter-out $(WHOLE) tests/web/%,\
+WHOLE := tests/e2e/test_model.py tests/e2e/test_calibrate.py
+ALONE := tests/e2e/test_conformance.py tests/web
+STORIES = $(filter-out $(WHOLE) $(ALONE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 5 min on 2 cores)
@@ -47,7 +48,7 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, broken brains, and the page in Chromium
 	@scripts/stories.sh -m "e2e or home" tests/e2e/test_home_tour.py $(WHOLE) $(ARGS)
-	@exec scripts/stories.sh -n 0 -m e2e tests/web $(ARGS) # a browser beside a robot fills two cores
+	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a browser or a flood takes what a second robot needs
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
 # that the others don't.
