@@ -19,6 +19,7 @@ class ThinkRequest(Frozen):
     vocabulary: Vocabulary
     room: str | None = None  # the id of the room the robot is in, where known
     language: Language | None = None  # as the client said; else told from the text
+    goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
 
 
 class Thought(Frozen):
@@ -27,7 +28,9 @@ class Thought(Frozen):
     plan: Plan
     brain: BrainTag
     calls: int = Field(default=0, ge=0)  # to a model
-    tokens: int = Field(default=0, ge=0)
+    tokens: int = Field(default=0, ge=0)  # all that was billed
+    prompt_tokens: int = Field(default=0, ge=0)  # of these, what was sent
+    reply_tokens: int = Field(default=0, ge=0)  # and what was written
 
 
 class Brain(Protocol):
