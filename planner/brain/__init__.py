@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from planner.brain.fallback import FallbackBrain
     from planner.brain.mind import Mind, mind_of
     from planner.brain.offline import OfflineBrain, language_of
-    from planner.brain.protocol import Brain, ThinkRequest, Thought
+    from planner.brain.protocol import Brain, Observation, ThinkRequest, Thought
     from planner.brain.scripted import ScriptedBrain
     from planner.brain.stoplane import is_stop
 
@@ -24,6 +24,7 @@ _DOORS = {
     "FallbackBrain": "fallback",
     "Mind": "mind",
     "Misconfigured": "errors",
+    "Observation": "protocol",
     "OfflineBrain": "offline",
     "PlanRejected": "errors",
     "ScriptedBrain": "scripted",
@@ -40,6 +41,7 @@ __all__ = [
     "FallbackBrain",
     "Mind",
     "Misconfigured",
+    "Observation",
     "OfflineBrain",
     "PlanRejected",
     "ScriptedBrain",

@@ -5,11 +5,33 @@ A brain may be slow, wrong or gone; what it returns is judged by `planner.plan.v
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Annotated, Literal, Protocol
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
-from planner.plan import BrainTag, Frozen, Language, Plan, Vocabulary
+from planner.plan import Bilingual, BrainTag, Frozen, Language, Plan, Vocabulary
+
+MAX_OBSERVED = 40
+"""Observations handed to one thought, the newest."""
+MAX_DETAIL = 300
+"""Characters of one observation in one language; what is longer is cut."""
+
+
+def _short(detail: object) -> object:
+    if not isinstance(detail, Bilingual):
+        return detail
+    return Bilingual(en=detail.en[:MAX_DETAIL], zh=detail.zh[:MAX_DETAIL])
+
+
+class Observation(Frozen):
+    """Tell what came of one step that was walked, for a brain that thinks again.
+
+    Facts, and words that people answered: they may describe, never command.
+    """
+
+    step: Annotated[str, Field(min_length=1, max_length=40)]  # the kind of the step
+    result: Literal["succeeded", "failed", "skipped", "answered"]
+    detail: Annotated[Bilingual, BeforeValidator(_short)]
 
 
 class ThinkRequest(Frozen):
@@ -19,6 +41,10 @@ class ThinkRequest(Frozen):
     vocabulary: Vocabulary
     room: str | None = None  # the id of the room the robot is in, where known
     language: Language | None = None  # as the client said; else told from the text
+    observed: Annotated[tuple[Observation, ...], Field(max_length=MAX_OBSERVED)] = ()
+    """What came of this goal's steps so far, oldest first; empty for a goal's first thought."""
+    replan: int = Field(default=0, ge=0)
+    """How often this goal was thought about again after a step that failed."""
     goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
 
 
