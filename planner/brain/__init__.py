@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from planner.brain.draft import Draft, Hear
     from planner.brain.errors import BrainDown, Misconfigured, PlanRejected
     from planner.brain.fallback import FallbackBrain
     from planner.brain.mind import Mind, mind_of
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
 _DOORS = {
     "Brain": "protocol",
     "BrainDown": "errors",
+    "Draft": "draft",
     "FallbackBrain": "fallback",
+    "Hear": "draft",
     "Mind": "mind",
     "Misconfigured": "errors",
     "Observation": "protocol",
@@ -38,7 +41,9 @@ _DOORS = {
 __all__ = [
     "Brain",
     "BrainDown",
+    "Draft",
     "FallbackBrain",
+    "Hear",
     "Mind",
     "Misconfigured",
     "Observation",

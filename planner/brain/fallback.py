@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 
 from planner.brain.breaker import FIRST_REST_S, Breaker
+from planner.brain.draft import Hear
 from planner.brain.errors import BrainDown, PlanRejected
 from planner.brain.offline.guard import refuse_bad_text
 from planner.brain.protocol import Brain, ThinkRequest, Thought
@@ -47,7 +48,7 @@ class FallbackBrain:
         """Return how much longer the model rests [s]; 0 where it may be asked."""
         return self.breaker.rests_s(self._clock())
 
-    async def think(self, request: ThinkRequest) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
         """Return the model's thought, else the offline brain's.
 
         Raises:
@@ -60,7 +61,7 @@ class FallbackBrain:
             rests_s = self.breaker.rests_s(self._clock())
             return await self._instead(request, BrainDown(f"{rests_s:.0f} s more", why="resting"))
         try:
-            thought = await self._model.think(request)
+            thought = await self._model.think(request, hear)
         except BrainDown as down:
             self.last_failure = down.why
             self.breaker.failed(self._clock(), hopeless=down.why in HOPELESS)

@@ -9,6 +9,7 @@ from typing import Annotated, Literal, Protocol
 
 from pydantic import BeforeValidator, Field
 
+from planner.brain.draft import Hear
 from planner.plan import Bilingual, BrainTag, Frozen, Language, Plan, Vocabulary
 
 MAX_OBSERVED = 40
@@ -67,8 +68,13 @@ class Brain(Protocol):
         """Return the brain's name and version, for the goal's record."""
         ...
 
-    async def think(self, request: ThinkRequest) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
         """Return the plan of a sentence; nothing has moved when it returns.
+
+        Args:
+            request: what was said, and the closed world.
+            hear: listens to the plan as it is written; a brain that answers at once needs not
+                tell.
 
         Raises:
             PlanRejected: what the model wrote is no plan, and its repairs are used up.

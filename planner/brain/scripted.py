@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from pydantic import ValidationError
 
+from planner.brain.draft import Draft, Hear
 from planner.brain.errors import Misconfigured, PlanRejected
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.plan import PLAN, Answer, BrainTag, Clarify, Refuse, StepPlan
@@ -23,12 +24,14 @@ Reply = StepPlan | Answer | Clarify | Refuse | str | Exception
 class ScriptedBrain:
     """Give the next reply of a script: a plan, a model's text, or an error to raise.
 
-    `delay_s` passes before each reply; `hangs` never replies at all.
+    `delay_s` passes before each reply; `hangs` never replies at all. `drafts` are told to who
+    listens, before anything else.
     """
 
     replies: Sequence[Reply]
     delay_s: float = 0.0
     hangs: bool = False
+    drafts: Sequence[Draft] = ()
     asked: list[ThinkRequest] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -40,7 +43,7 @@ class ScriptedBrain:
         """Return the double's name."""
         return BrainTag(name="scripted", version="1")
 
-    async def think(self, request: ThinkRequest) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
         """Return the next reply of the script.
 
         Raises:
@@ -48,6 +51,9 @@ class ScriptedBrain:
             BrainDown: the script says so.
         """
         self.asked.append(request)
+        if hear is not None:
+            for draft in self.drafts:
+                hear(draft)
         if self.hangs:
             await asyncio.Event().wait()
         await asyncio.sleep(self.delay_s)

@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from planner.brain.draft import Hear
 from planner.brain.endpoint.address import Address
 from planner.brain.endpoint.client import BadRequest, Client
 from planner.brain.endpoint.dialect import Body, Dialects, body_of
@@ -85,7 +86,7 @@ class EndpointBrain:
         """Give the connections back."""
         await self._client.close()
 
-    async def think(self, request: ThinkRequest) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
         """Return the model's plan of a sentence.
 
         Raises:

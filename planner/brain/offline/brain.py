@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from planner.brain.draft import Hear
 from planner.brain.offline.reader import Context, plan
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.plan import BrainTag
@@ -18,7 +19,7 @@ class OfflineBrain:
         """Return the brain's name and version."""
         return TAG
 
-    async def think(self, request: ThinkRequest) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
         """Return the plan of a sentence. Pure beneath, and bounded by the length of the text."""
         context = Context(room=request.room, language=request.language)
         return Thought(plan=plan(request.text, request.vocabulary, context), brain=TAG)
