@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from planner.brain.draft import Draft, Hear
-    from planner.brain.errors import BrainDown, Misconfigured, PlanRejected
+    from planner.brain.errors import BrainDown, Misconfigured, OutOfBudget, PlanRejected
     from planner.brain.fallback import FallbackBrain
     from planner.brain.mind import Mind, mind_of
     from planner.brain.offline import OfflineBrain, language_of
@@ -29,6 +29,7 @@ _DOORS = {
     "Misconfigured": "errors",
     "Observation": "protocol",
     "OfflineBrain": "offline",
+    "OutOfBudget": "errors",
     "PlanRejected": "errors",
     "ScriptedBrain": "scripted",
     "ThinkRequest": "protocol",
@@ -48,6 +49,7 @@ __all__ = [
     "Misconfigured",
     "Observation",
     "OfflineBrain",
+    "OutOfBudget",
     "PlanRejected",
     "ScriptedBrain",
     "ThinkRequest",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from planner.plan import BrainTag
+    from planner.plan import Bilingual, BrainTag
 
 
 class PlanRejected(Exception):
@@ -33,6 +33,17 @@ class BrainDown(Exception):
         super().__init__(detail)
         self.brain = brain
         self.why = why
+
+
+class OutOfBudget(BrainDown):
+    """Nobody's fault: what the owner allows to be spent is spent, so no call went out."""
+
+    code = "out_of_budget"
+
+    def __init__(self, detail: str, said: Bilingual, brain: BrainTag | None = None) -> None:
+        super().__init__(detail, brain, why="out_of_budget")
+        self.said = said
+        """Which budget, how much, and when it comes back, for a person."""
 
 
 class Misconfigured(Exception):

@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from planner.brain.breaker import FIRST_REST_S, Breaker
 from planner.brain.draft import Hear
-from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.offline.guard import refuse_bad_text
 from planner.brain.protocol import Brain, ThinkRequest, Thought
 from planner.brain.reasons import reason
@@ -53,6 +53,7 @@ class FallbackBrain:
 
         Raises:
             BrainDown: the model is down and the offline brain does not understand the sentence.
+            OutOfBudget: the same, but the model was not asked.
             PlanRejected: the model wrote no plan and neither does the offline brain.
         """
         if refuse_bad_text(request.text) is not None:  # no model is paid to read what is no text
@@ -62,6 +63,10 @@ class FallbackBrain:
             return await self._instead(request, BrainDown(f"{rests_s:.0f} s more", why="resting"))
         try:
             thought = await self._model.think(request, hear)
+        except OutOfBudget as spent:  # no call went out: no word about the model
+            self.last_failure = spent.why
+            self.breaker.dropped()
+            return await self._instead(request, spent)
         except BrainDown as down:
             self.last_failure = down.why
             self.breaker.failed(self._clock(), hopeless=down.why in HOPELESS)
@@ -86,9 +91,13 @@ class FallbackBrain:
             update={
                 "fallback_from": self.tag.name,
                 "fallback_reason": why,
-                "fallback_message": reason(why),
+                "fallback_message": failure.said
+                if isinstance(failure, OutOfBudget)
+                else reason(why),
             }
         )
+        if _lost(thought) and isinstance(failure, OutOfBudget):
+            raise OutOfBudget(str(failure), failure.said, tag) from failure
         if _lost(thought) and isinstance(failure, BrainDown):
             raise BrainDown(str(failure), tag, why=why) from failure
         if _lost(thought):

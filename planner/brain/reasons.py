@@ -35,6 +35,7 @@ REASONS: dict[str, Bilingual] = {
             "模型多次失败，暂停使用。",
         ),
         "bad_plan": ("The model wrote no usable plan.", "模型没有写出可用的计划。"),
+        "out_of_budget": ("The model's budget is used up.", "模型预算已用完。"),
         "unavailable": ("The model is not available.", "模型不可用。"),
     }.items()
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 
-from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.protocol import Brain, ThinkRequest
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
@@ -19,13 +19,21 @@ def thinker(brain: Brain, vocabulary: Vocabulary) -> Think:
 
     async def think(ask: AskBrain) -> Planned:
         request = ThinkRequest(
-            text=ask.text, vocabulary=vocabulary, room=ask.room, language=ask.language
+            text=ask.text,
+            vocabulary=vocabulary,
+            room=ask.room,
+            language=ask.language,
+            goal=ask.id,
         )
         try:
             thought = await brain.think(request)
         except PlanRejected as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
             said = _outcome(Code.BAD_PLAN, why=str(error)[:200])
+            return Planned(ask.id, None, said, error.brain or brain.tag)
+        except OutOfBudget as error:
+            log.warning("goal %s: no call went out: %s", ask.id, error)
+            said = Outcome(code=Code.OUT_OF_BUDGET, message=error.said)
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except BrainDown as error:
             log.warning("goal %s: the brain is down: %s", ask.id, error)

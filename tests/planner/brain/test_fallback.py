@@ -12,6 +12,7 @@ from planner.brain import (
     BrainDown,
     FallbackBrain,
     OfflineBrain,
+    OutOfBudget,
     PlanRejected,
     ScriptedBrain,
     ThinkRequest,
@@ -20,7 +21,7 @@ from planner.brain import (
 )
 from planner.brain.breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
 from planner.brain.reasons import REASONS, reason
-from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, message
+from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, message, same
 
 BY_MODEL = StepPlan(steps=(Wait(seconds=1.0),))
 BY_GRAMMAR = StepPlan(steps=(GoTo(place="kitchen"),))
@@ -118,6 +119,22 @@ def test_a_wrong_key_rests_at_once(home: Vocabulary) -> None:
     assert ask(brain, home).brain.fallback_reason == "bad_key"
     assert ask(brain, home).brain.fallback_reason == "resting"
     assert len(model.asked) == 1
+
+
+def test_a_spent_budget_is_told_in_its_own_words_and_is_no_failure(home: Vocabulary) -> None:
+    said = same("400 of 400 calls")
+    model = ScriptedBrain([OutOfBudget("calls", said)] * (2 * TRIPS) + [BY_MODEL])
+    brain = FallbackBrain(model, OfflineBrain(), Clock())
+    for _ in range(2 * TRIPS - 1):
+        thought = ask(brain, home)
+        assert thought.plan == BY_GRAMMAR
+        assert thought.brain.fallback_reason == "out_of_budget"
+        assert thought.brain.fallback_message == said
+    with pytest.raises(OutOfBudget) as spent:
+        ask(brain, home, "colourless green ideas")
+    assert (spent.value.said, brain.breaker.closed) == (said, True)
+    assert spent.value.brain is not None
+    assert ask(brain, home).plan == BY_MODEL
 
 
 def test_bad_plans_rest_nobody(home: Vocabulary) -> None:

@@ -6,11 +6,11 @@ import asyncio
 
 import pytest
 
-from planner.brain import BrainDown, FallbackBrain, OfflineBrain, ScriptedBrain
+from planner.brain import BrainDown, FallbackBrain, OfflineBrain, OutOfBudget, ScriptedBrain
 from planner.brain.scripted import Reply
 from planner.mission import AskBrain, Planned
 from planner.mission.thinking import thinker
-from planner.plan import Code, GoTo, Language, StepPlan
+from planner.plan import Code, GoTo, Language, StepPlan, same
 from tests.planner.brain.conftest import HOME
 
 NOWHERE = StepPlan(steps=(GoTo(place="wine_cellar"),))
@@ -32,6 +32,7 @@ async def _think(brain: ScriptedBrain | FallbackBrain, ask: AskBrain) -> Planned
         (NOWHERE, Code.UNKNOWN_PLACE),
         ("no json", Code.BAD_PLAN),
         (DOWN, Code.MODEL_UNAVAILABLE),
+        (OutOfBudget("spent", same("8 of 8 calls")), Code.OUT_OF_BUDGET),
     ],
 )
 def test_a_brain_that_fails_gives_an_outcome_and_no_plan(reply: Reply, code: Code) -> None:

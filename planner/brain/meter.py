@@ -1,0 +1,48 @@
+"""Own what a brain must tell whoever keeps the budget: each call before it is made, and its end.
+
+A call goes out inside a goal's thinking or not at all: ``THINKING_ABOUT`` says whose. Knows no
+limit, no price and no network.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Protocol
+
+THINKING_ABOUT: ContextVar[str | None] = ContextVar("THINKING_ABOUT", default=None)
+"""The goal whose thinking this task does; None: nobody asked, so no call may go out."""
+
+
+class Bill(Protocol):
+    """Be one open call. Closed exactly once, whatever became of it."""
+
+    def close(self, prompt_tokens: int, reply_tokens: int) -> None:
+        """Say what the server billed, or may have billed where it did not say."""
+        ...
+
+
+class Meter(Protocol):
+    """Count what is spent, and refuse what may not be."""
+
+    def open(self, prompt_tokens: int) -> Bill:
+        """Count a call that is about to go out.
+
+        Args:
+            prompt_tokens: an estimate of what is sent.
+
+        Raises:
+            OutOfBudget: it may not go out.
+        """
+        ...
+
+
+@contextmanager
+def thinking_about(goal: str) -> Iterator[None]:
+    """Say whose thinking the calls within are."""
+    token = THINKING_ABOUT.set(goal)
+    try:
+        yield
+    finally:
+        THINKING_ABOUT.reset(token)
