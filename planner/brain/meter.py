@@ -16,7 +16,12 @@ THINKING_ABOUT: ContextVar[str | None] = ContextVar("THINKING_ABOUT", default=No
 
 
 class Bill(Protocol):
-    """Be one open call. Closed exactly once, whatever became of it."""
+    """Be one open call. Closed once, whatever became of it."""
+
+    @property
+    def most(self) -> int:
+        """Return the tokens that the reply may have at most."""
+        ...
 
     def close(self, prompt_tokens: int, reply_tokens: int) -> None:
         """Say what the server billed, or may have billed where it did not say."""

@@ -20,6 +20,7 @@ from planner.brain.endpoint.dialect import Body, Dialects, body_of
 from planner.brain.endpoint.judge import Planned, Unusable, clean, judge
 from planner.brain.endpoint.reply import Reply, read_reply
 from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.meter import Meter, thinking_about
 from planner.brain.prompt import Prompt
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.brain.schema import Message, schema_of
@@ -46,6 +47,7 @@ class EndpointBrain:
         *,
         prompt: Prompt | None = None,
         transport: httpx.AsyncBaseTransport | None = None,
+        meter: Meter | None = None,
     ) -> None:
         """Judge the address and read the prompt; nothing is asked yet.
 
@@ -54,6 +56,7 @@ class EndpointBrain:
             home: where the dialect is remembered.
             prompt: another than prompts/plan.md.
             transport: another than the network, for tests.
+            meter: counts every call and may refuse it; None: nobody keeps a budget.
 
         Raises:
             Misconfigured: ``model_url``, ``model_offhost``, ``prompt_missing``,
@@ -69,7 +72,7 @@ class EndpointBrain:
         self._settings = settings
         self._prompt = prompt or Prompt.load()
         self._dialects = Dialects(home, settings, self.address.url)
-        self._client = Client(self.address, settings, transport)
+        self._client = Client(self.address, settings, transport, meter)
         self._turns = asyncio.Semaphore(settings.parallel)
         self._tag = BrainTag(
             name=clean(settings.name),
@@ -92,11 +95,13 @@ class EndpointBrain:
         Raises:
             PlanRejected: neither reply is a plan.
             BrainDown: the model does not answer, or not within the deadline.
+            OutOfBudget: a call was refused by the meter.
         """
         end_s = time.monotonic() + self._settings.timeout_s
         try:
-            async with asyncio.timeout(self._settings.timeout_s), self._turns:
-                return await self._talk(request, end_s)
+            with thinking_about(request.goal):
+                async with asyncio.timeout(self._settings.timeout_s), self._turns:
+                    return await self._talk(request, end_s)
         except TimeoutError:
             told = f"no plan within {self._settings.timeout_s:g} s"
             raise BrainDown(told, why="timeout") from None

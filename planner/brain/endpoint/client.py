@@ -17,8 +17,10 @@ from typing import Any
 import httpx
 
 from planner.brain.endpoint.address import Address, refused_among
+from planner.brain.endpoint.metered import Metered
 from planner.brain.endpoint.reply import complaint_of, generated_by, read_json
 from planner.brain.errors import BrainDown
+from planner.brain.meter import Meter
 from planner.settings import ModelSettings
 
 log = logging.getLogger(__name__)
@@ -54,6 +56,7 @@ class Client:
         address: Address,
         settings: ModelSettings,
         transport: httpx.AsyncBaseTransport | None = None,
+        meter: Meter | None = None,
     ) -> None:
         self._address = address
         self._key = settings.key.get_secret_value() if settings.key is not None else ""
@@ -66,18 +69,21 @@ class Client:
         }
         if self._key:
             headers["Authorization"] = f"Bearer {self._key}"
-        self._http = httpx.AsyncClient(
-            headers=headers,
-            follow_redirects=False,
+        inner = transport or httpx.AsyncHTTPTransport(
             trust_env=False,
-            transport=transport,
             verify=address.url.startswith("https:"),  # certificates cost 0.1 s and 10 MB to load
-            timeout=httpx.Timeout(settings.timeout_s, connect=settings.connect_timeout_s),
             limits=httpx.Limits(
                 max_connections=settings.parallel + 2,
                 max_keepalive_connections=settings.parallel,
                 keepalive_expiry=KEEPALIVE_S,
             ),
+        )
+        self._http = httpx.AsyncClient(
+            headers=headers,
+            follow_redirects=False,
+            trust_env=False,
+            transport=inner if meter is None else Metered(inner, meter),
+            timeout=httpx.Timeout(settings.timeout_s, connect=settings.connect_timeout_s),
         )
 
     async def close(self) -> None:
