@@ -31,6 +31,11 @@ class Code(StrEnum):
     MODEL_UNAVAILABLE = "model_unavailable"
     NOT_ARMED = "not_armed"
     # On the way.
+    CONFIRM = "confirm"
+    ASKED = "asked"
+    NO_ANSWER = "no_answer"
+    NO_ROOM = "no_room"
+    NOT_REACHED = "not_reached"
     NO_ROUTE = "no_route"
     BLOCKED = "blocked"
     STOPPED = "stopped"
@@ -103,6 +108,26 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
     Code.NOT_ARMED: (
         "The robot is not armed. Arm it, then resume the goal.",
         "机器人未解锁。请先解锁，再继续任务。",
+    ),
+    Code.CONFIRM: (
+        "The plan has changed: {why}. Say yes, or cancel.",
+        "计划有变：{why}。请确认或取消。",
+    ),
+    Code.ASKED: (
+        "{text}",
+        "{text}",
+    ),
+    Code.NO_ANSWER: (
+        "Nobody answered “{text}” within {seconds} s, so I stay where I am.",
+        "“{text}”在 {seconds} 秒内没有得到回答，所以不动。",
+    ),
+    Code.NO_ROOM: (
+        "There is room for {room} m in a straight line, not for {asked} m.",
+        "直线方向只有 {room} 米的空间，不够 {asked} 米。",
+    ),
+    Code.NOT_REACHED: (
+        "Asked for {asked}, but odometry says {reached}.",
+        "要求{asked}，但里程计显示{reached}。",
     ),
     Code.NO_ROUTE: (
         "I found no way to {place}.",

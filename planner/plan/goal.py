@@ -75,6 +75,14 @@ class StepRecord(Frozen):
     state: StepState = StepState.PENDING
     reached: Spot | None = None
     residual_m: float | None = None  # distance left to the goal when the bridge said "reached"
+    residual_rad: float | None = None  # angle left, likewise; by odometry for a turn
+    moved_m: float | None = None  # by odometry, along the heading at the beginning of a move
+    turned_rad: float | None = None  # by odometry, counter-clockwise positive
+    visited: int | None = None  # places of a patrol reached so far
+    answer: str | None = None  # what a person answered to this step's question
+    left_m: float | None = None  # way left while the step runs
+    left_rad: float | None = None  # angle left while it runs
+    left_s: float | None = None  # time left while it runs
     reason: str | None = None
 
 
