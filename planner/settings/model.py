@@ -5,17 +5,31 @@ Data only. A key never shows: not in a repr, not in a dump, not in an error.
 
 from __future__ import annotations
 
-from enum import StrEnum
-from typing import Annotated
+import json
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, SecretStr, StringConstraints
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    SecretStr,
+    StringConstraints,
+    field_validator,
+    model_validator,
+)
 
+from planner.settings.presets import PRESETS, Mode, Preset, PresetName
 
-class Mode(StrEnum):
-    """The ways to ask an endpoint for JSON, strictest first: the rungs of the ladder."""
-
-    JSON_SCHEMA = "json_schema"
-    PROMPT = "prompt"
+MAX_EXTRA_BYTES = 8_000
+MAX_EXTRA_DEPTH = 8
+OWN_FIELDS = frozenset(
+    {
+        *("model", "messages", "stream", "stream_options", "response_format", "n"),
+        *("tools", "tool_choice", "functions", "function_call", "parallel_tool_calls"),
+        *("temperature", "max_tokens", "max_completion_tokens"),
+    }
+)
+"""Fields of a body that Pons writes itself; `extra_body` may not."""
 
 
 class ModelSettings(BaseModel):
@@ -25,6 +39,8 @@ class ModelSettings(BaseModel):
         frozen=True, extra="forbid", allow_inf_nan=False, hide_input_in_errors=True
     )
 
+    preset: PresetName | None = None
+    """A server known by name; fills in ``url`` and ``max_tokens`` where they are not set."""
     url: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=2000)]
     """The base of an OpenAI-compatible API, for example ``http://127.0.0.1:11434/v1``."""
     name: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=200)]
@@ -38,9 +54,49 @@ class ModelSettings(BaseModel):
     max_tokens: int = Field(default=1000, ge=100, le=100_000)
     mode: Mode | None = None
     """None: found out at the first call and remembered."""
+    stream: bool = True
+    """Ask for the plan while it is written, so that it shows early."""
+    thinking: bool = False
+    """Let the model think before it writes: better plans for hard orders, seconds later."""
+    extra_body: dict[str, Any] = Field(default_factory=dict, repr=False)
+    """Fields for the server beside those that Pons writes, as they are."""
     parallel: int = Field(default=2, ge=1, le=16)
     """Goals that may be thought about at the same time."""
     rest_s: float = Field(default=20.0, ge=0.5, le=300.0)
     """How long a model that failed three times in a row is not asked; doubles up to 300 s."""
     allow_offhost: bool = False
     """Let people's sentences leave this machine: needed for every host but loopback."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_preset(cls, given: Any) -> Any:
+        """Fill in what the preset knows; a name that is none is told by the field itself."""
+        if not isinstance(given, dict) or given.get("preset") not in set(PresetName):
+            return given
+        preset = PRESETS[PresetName(given["preset"])]
+        return {"url": preset.url, "max_tokens": preset.max_tokens, **given}
+
+    @field_validator("extra_body")
+    @classmethod
+    def _bounded(cls, extra: dict[str, Any]) -> dict[str, Any]:
+        own = sorted(extra.keys() & OWN_FIELDS)
+        if own:
+            raise ValueError(f"Pons writes {', '.join(own)} itself")
+        try:
+            size = len(json.dumps(extra, allow_nan=False).encode())
+        except (TypeError, ValueError, RecursionError):
+            raise ValueError("must be what JSON can hold: no dates, no NaN") from None
+        if size > MAX_EXTRA_BYTES or _depth(extra) > MAX_EXTRA_DEPTH:
+            most = f"{MAX_EXTRA_BYTES} bytes, {MAX_EXTRA_DEPTH} levels"
+            raise ValueError(f"is too large or too deep; at most {most}")
+        return extra
+
+    @property
+    def known(self) -> Preset | None:
+        """Return what is known of the server, where a preset is named."""
+        return PRESETS[self.preset] if self.preset is not None else None
+
+
+def _depth(value: object) -> int:
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return 1 + max(map(_depth, inner), default=0)

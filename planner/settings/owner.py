@@ -1,7 +1,7 @@
 """Load the owner's settings once, at the start. What is unknown or contradictory refuses to start.
 
-Nothing but a model setting switches a model on: `[model]` in settings.toml, or PONS_MODEL_URL. Keys
-that other programs use (OPENAI_API_KEY and the like) are never looked at.
+Nothing but a model setting switches a model on: `[model]` in settings.toml, PONS_MODEL_URL or
+PONS_MODEL_PRESET. Keys that other programs use (OPENAI_API_KEY and the like) are never looked at.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from planner.settings.model import ModelSettings
+from planner.settings.presets import PRESETS, PresetName
 from wire import Misconfigured
 
 log = logging.getLogger(__name__)
@@ -48,7 +49,9 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
     if model is not None and not isinstance(model, dict):
         raise Misconfigured("settings_malformed", f"{FILE}: [model] must be a table")
     chosen = _with_environment(_with_key(model, home, environment), environment)
-    return _checked({**tables, "model": chosen})
+    settings = _checked({**tables, "model": chosen})
+    _need_key(settings.model)
+    return settings
 
 
 def _tables(path: Path) -> dict[str, Any]:
@@ -110,21 +113,17 @@ def _clean_key(key: str, where: str) -> str:
 def _with_environment(
     model: dict[str, Any] | None, environment: Mapping[str, str]
 ) -> dict[str, Any] | None:
-    """Let PONS_MODEL_URL, PONS_MODEL, PONS_MODEL_KEY and PONS_MODEL_ALLOW_OFFHOST win."""
-    url, name = environment.get("PONS_MODEL_URL", ""), environment.get("PONS_MODEL", "")
-    key, offhost = (environment.get(f"PONS_MODEL_{n}", "") for n in ("KEY", "ALLOW_OFFHOST"))
-    if model is None and not url:
+    """Let PONS_MODEL_PRESET, _URL, _KEY, _ALLOW_OFFHOST and PONS_MODEL, the name, win."""
+    preset, url, key, offhost = (
+        environment.get(f"PONS_MODEL_{n}", "") for n in ("PRESET", "URL", "KEY", "ALLOW_OFFHOST")
+    )
+    name = environment.get("PONS_MODEL", "")
+    if model is None and not (url or preset):
         if name or key:
             detail = "PONS_MODEL or PONS_MODEL_KEY is set, but no PONS_MODEL_URL and no [model]"
             raise Misconfigured("model_incomplete", detail)
         return None
-    chosen = dict(model or {})
-    if url:
-        if "key" in chosen and not _same_place(str(chosen.get("url", "")), url):
-            # The key belongs to the host that it was written down for.
-            log.warning("the key in %s is not used: PONS_MODEL_URL is another host", FILE)
-            del chosen["key"]
-        chosen["url"] = url
+    chosen = _at_another_place(dict(model or {}), preset, url)
     if name:
         chosen["name"] = name
     if key:
@@ -136,6 +135,28 @@ def _with_environment(
             )
         chosen["allow_offhost"] = _YES[offhost.lower()]
     return chosen
+
+
+def _at_another_place(model: dict[str, Any], preset: str, url: str) -> dict[str, Any]:
+    """Put the environment's server in place of the file's, and leave the file's key behind."""
+    moved = dict(model)
+    if preset:
+        moved["preset"] = preset
+        moved.pop("url", None)  # it was the file's server; the preset brings its own
+    if url:
+        moved["url"] = url
+    if "key" in moved and not _same_place(_place(model), _place(moved)):
+        # The key belongs to the host that it was written down for.
+        log.warning("the key in %s is not used: the environment names another host", FILE)
+        del moved["key"]
+    return moved
+
+
+def _place(model: dict[str, Any]) -> str:
+    """Return the URL of a model's table: its own, else its preset's."""
+    preset = model.get("preset")
+    known = PRESETS[PresetName(preset)].url if preset in set(PresetName) else ""
+    return str(model.get("url", known))
 
 
 def _same_place(one: str, other: str) -> bool:
@@ -153,6 +174,19 @@ def _checked(tables: dict[str, Any]) -> Settings:
         problems = [_told(error["loc"], error["type"], error["msg"]) for error in wrong.errors()]
         code = "model_incomplete" if all("missing" in p for p in problems) else "settings_malformed"
         raise Misconfigured(code, f"{FILE}: {'; '.join(problems)}") from None
+
+
+def _need_key(model: ModelSettings | None) -> None:
+    """Refuse a server that is known to want a key where the owner gave none."""
+    known = model.known if model is not None else None
+    if model is None or known is None or not known.key_name or model.key is not None:
+        return
+    if _same_place(model.url, known.url):
+        raise Misconfigured(
+            "model_key",
+            f"{model.preset} wants a key: put key_file, or key_env = {known.key_name!r}, into "
+            f"[model] of {FILE}, or set PONS_MODEL_KEY",
+        )
 
 
 def _told(where: tuple[int | str, ...], kind: str, text: str) -> str:
