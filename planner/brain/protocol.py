@@ -10,7 +10,7 @@ from typing import Annotated, Literal, Protocol
 from pydantic import BeforeValidator, Field
 
 from planner.brain.draft import Hear
-from planner.plan import Bilingual, BrainTag, Frozen, Language, Plan, Vocabulary
+from planner.plan import RUNNABLE, Bilingual, BrainTag, Frozen, Language, Plan, Vocabulary
 
 MAX_OBSERVED = 40
 """Observations handed to one thought, the newest."""
@@ -42,6 +42,7 @@ class ThinkRequest(Frozen):
     vocabulary: Vocabulary
     room: str | None = None  # the id of the room the robot is in, where known
     language: Language | None = None  # as the client said; else told from the text
+    runnable: frozenset[str] = RUNNABLE  # kinds of steps this robot can do now
     observed: Annotated[tuple[Observation, ...], Field(max_length=MAX_OBSERVED)] = ()
     """What came of this goal's steps so far, oldest first; empty for a goal's first thought."""
     replan: int = Field(default=0, ge=0)

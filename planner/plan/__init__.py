@@ -18,6 +18,7 @@ from planner.plan.outcome import Outcome, Spot
 from planner.plan.plans import MAX_STEPS, PLAN, Answer, Clarify, Option, Plan, Refuse, StepPlan
 from planner.plan.steps import (
     DRIVES,
+    EVERY_KIND,
     NEEDS_CAMERA,
     RUNNABLE,
     Ask,
@@ -45,6 +46,7 @@ from planner.plan.vocabulary import Entry, PlaceId, Vocabulary
 __all__ = [
     "DRIVES",
     "ENDED",
+    "EVERY_KIND",
     "MAX_STEPS",
     "NEEDS_CAMERA",
     "PLAN",

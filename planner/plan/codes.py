@@ -21,6 +21,7 @@ class Code(StrEnum):
     NOT_UNDERSTOOD = "not_understood"
     UNKNOWN_PLACE = "unknown_place"
     AMBIGUOUS = "ambiguous"
+    INCOMPLETE = "incomplete"
     NEGATED = "negated"
     CONDITIONAL = "conditional"
     OUT_OF_SCOPE = "out_of_scope"
@@ -72,6 +73,10 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
     Code.AMBIGUOUS: (
         "“{part}” can mean more than one thing. Which one?",
         "“{part}”可能有不止一个意思，您指的是哪一个？",
+    ),
+    Code.INCOMPLETE: (
+        "Something is missing in “{part}”: {what} So I stay where I am.",
+        "“{part}”里缺少信息：{what}所以先不动。",
     ),
     Code.NEGATED: (
         "You said “{part}”: I take that as an order not to do it, and stay where I am.",

@@ -7,7 +7,7 @@ angles radians (counter-clockwise positive), times seconds.
 from __future__ import annotations
 
 from math import pi
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field, StringConstraints
 
@@ -152,11 +152,14 @@ Step = Annotated[
     | Follow,
     Field(discriminator="kind"),
 ]
+_MODELS: tuple[type[Frozen], ...] = get_args(get_args(Step)[0])
 
 RUNNABLE = frozenset(
     {"go_to", "come_back", "return_home", "wait", "say"}
 )  # what a mission can walk
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
+EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
+"""What a plan may hold at all; a robot's own `runnable` is a part of it."""
 DRIVES = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
     | {"go_to_object", "go_to_point", "find", "follow"}
