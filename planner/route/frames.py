@@ -67,7 +67,8 @@ def read_request(message: dict[str, Any]) -> tuple[int, RouteRequest]:
     """Return the number and the request of a message."""
     start, goal = Pose2(**message["start"]), Pose2(**message["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in message["obstacles"])
-    return int(message["number"]), RouteRequest(start, goal, obstacles)
+    straight = bool(message["straight"])
+    return int(message["number"]), RouteRequest(start, goal, obstacles, straight)
 
 
 def pack_result(number: int, result: RouteResult) -> bytes:

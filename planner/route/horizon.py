@@ -1,9 +1,10 @@
 """Cut the rolling horizon out of a leg's path. Pure: told the pose and the progress, no time.
 
 Laws of every message: the first point is the robot's projection on the path, within 0.3 m of it;
-points are 0.05 to 0.25 m apart, the first and the last gap 0.01 to 0.25; all speeds are forward;
-only the leg's last point may carry a heading. Progress never falls, and is sought only a little
-ahead, so a path that crosses itself is followed in its order.
+points are 0.05 to 0.25 m apart, the first and the last gap 0.01 to 0.25; all speeds are of one
+direction (a straight way may go backwards); only the leg's last point may carry a heading. Progress
+never falls, and is sought only a little ahead, so a path that crosses itself is followed in its
+order.
 """
 
 from __future__ import annotations
@@ -116,7 +117,7 @@ def _at(path: LegPath, at_m: float) -> tuple[float, float, float]:
     return (
         a.x_m + share * (b.x_m - a.x_m),
         a.y_m + share * (b.y_m - a.y_m),
-        min(a.speed_mps, b.speed_mps),
+        min(a.speed_mps, b.speed_mps, key=abs),
     )
 
 
@@ -125,7 +126,7 @@ def _points_from(path: LegPath, start_m: float) -> tuple[tuple[Waypoint, ...], b
     follow = bisect_right(path.along_m, start_m + MIN_GAP_M)
     points = [_first(path, start_m, follow)]
     speed_mps = _at(path, start_m)[2]
-    wanted_m = start_m + max(AHEAD_M, AHEAD_S * speed_mps)
+    wanted_m = start_m + max(AHEAD_M, AHEAD_S * abs(speed_mps))
     while follow < end and len(points) < MAX_POINTS and path.along_m[follow - 1] < wanted_m:
         points.append(_waypoint(path, follow))
         follow += 1

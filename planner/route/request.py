@@ -68,11 +68,15 @@ class RouteRequest:
     start: Pose2
     goal: Pose2
     obstacles: tuple[tuple[float, float], ...] = ()  # recent lidar points in ``map`` [m]
+    straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
 
 
 @dataclass(frozen=True, slots=True)
 class RoutePoint:
-    """Give one point of a route in ``map`` and the speed to pass it at, always forward."""
+    """Give one point of a route in ``map`` and the speed to pass it at; its sign is the direction.
+
+    Only a straight way goes backwards, and then all of it does.
+    """
 
     x_m: float
     y_m: float
@@ -85,6 +89,6 @@ class RouteResult:
 
     points: tuple[RoutePoint, ...]  # 0.05 to 0.25 m apart; at least one
     length_m: float
-    moved_goal_m: float  # how far the goal was moved to reach free floor; 0 as asked
+    moved_goal_m: float  # from the goal to where the route ends, for want of free floor; 0 as asked
     start_escaped: bool  # the way begins by leaving a place too near to an obstacle
     took_s: float  # in the search itself

@@ -25,6 +25,7 @@ from planner.route.request import (
 )
 from planner.route.search import Lattice, costs_in_slices, find_path
 from planner.route.shape import Line, densify, is_free, relax, straighten
+from planner.route.straight import BACK_MPS, backwards, straight_line
 from planner.route.waypoints import evenly, speeds, thin
 from planner.world import Site
 
@@ -78,6 +79,8 @@ class Router:
         _check(request)
         start_m = (request.start.x_m, request.start.y_m)
         costmap = self._mapped.with_obstacles(request.obstacles, start_m)
+        if request.straight:
+            return self._straight(costmap, request, began_s, clock)
         ends = choose_ends(costmap, self._site, request)
         line = self._line(costmap, request, ends)
         return RouteResult(
@@ -85,6 +88,25 @@ class Router:
             length_m=float(np.hypot(*np.diff(line, axis=0).T).sum()),
             moved_goal_m=moved_m(costmap, request, ends),
             start_escaped=ends.start_escaped,
+            took_s=clock() - began_s,
+        )
+
+    def _straight(
+        self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
+    ) -> RouteResult:
+        line = straight_line(costmap, request)
+        points = self._points(costmap, line)
+        if backwards(request):
+            points = tuple(
+                RoutePoint(point.x_m, point.y_m, -min(point.speed_mps, BACK_MPS))
+                for point in points
+            )
+        goal_m = np.asarray((request.goal.x_m, request.goal.y_m))
+        return RouteResult(
+            points=points,
+            length_m=float(np.hypot(*np.diff(line, axis=0).T).sum()),
+            moved_goal_m=float(hypot(*(goal_m - line[-1]))),
+            start_escaped=False,
             took_s=clock() - began_s,
         )
 
