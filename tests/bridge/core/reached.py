@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from functools import cache
 
 from tests.bridge.core.scripted import World
@@ -25,13 +24,13 @@ def disarmed() -> World:
 
 
 def hold() -> World:
-    world = World().armed()
+    world = reached("disarmed").arm()
     world.run(0.5)
     return world
 
 
 def hold_granted() -> World:
-    world = World().armed()
+    world = reached("disarmed").arm()
     assert world.planner is not None
     world.planner.mission = "m1"
     world.run(0.5)
@@ -39,11 +38,11 @@ def hold_granted() -> World:
 
 
 def active() -> World:
-    return World().driving((5.0, 0.0))
+    return reached("disarmed").arm().drive_to((5.0, 0.0))
 
 
 def turning() -> World:
-    world = World().armed()
+    world = reached("disarmed").arm()
     assert world.planner is not None
     world.planner.mission, world.planner.goal_m = "m1", (-4.0, 0.0)
     world.until(Mode.ACTIVE)
@@ -58,7 +57,7 @@ def active_external() -> World:
 
 
 def teleop() -> World:
-    world = World().armed()
+    world = reached("disarmed").arm()
     world.teleop(0.0, held=False)
     world.tick()
     for _ in range(12):
@@ -68,28 +67,28 @@ def teleop() -> World:
 
 
 def stopping_by_row() -> World:
-    world = active()
+    world = reached("active")
     world.lidar_silent = True
     world.until(Mode.STOPPING, 1.0)
     return world
 
 
 def stopping_by_person() -> World:
-    world = active()
+    world = reached("active")
     world.stop()
     world.tick()
     return world
 
 
 def stopping_to_disarm() -> World:
-    world = teleop()
+    world = reached("teleop")
     world.op("disarm")
     world.tick()
     return world
 
 
 def stopping_hardest() -> World:
-    world = active()
+    world = reached("active")
     world.drive_silent = True
     world.until(Mode.STOPPING, 1.0)
     world.run(0.2)
@@ -98,20 +97,20 @@ def stopping_hardest() -> World:
 
 
 def estopped_moving() -> World:
-    world = active()
+    world = reached("active")
     world.op("estop")
     world.tick()
     return world
 
 
 def estopped() -> World:
-    world = estopped_moving()
+    world = reached("estopped_moving")
     world.run(3.0)
     return world
 
 
 def fault() -> World:
-    world = active()
+    world = reached("active")
     world.drive.runs_on = True
     world.stop()
     world.until(Mode.FAULT, 2.0)
@@ -155,4 +154,4 @@ def _reached(name: str) -> World:
 
 def reached(name: str) -> World:
     """Return a world of one's own in the mode."""
-    return deepcopy(_reached(name))
+    return _reached(name).fork()

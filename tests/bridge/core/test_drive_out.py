@@ -6,6 +6,7 @@ import pytest
 
 from bridge.core.kinematics import wheels_of
 from bridge.core.wheelcontrol import AT_REST, Wheel
+from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
 from wire import Mode, RobotDescription
 
@@ -27,7 +28,7 @@ def test_the_dead_zone_is_fed_forward_once_and_not_remembered() -> None:
 @pytest.fixture
 def world() -> World:
     """Drive on a motor without the dead zone that robot.toml states: there is much to learn."""
-    world = World().driving()
+    world = reached("active")
     assert wheel(world).integral < -0.05
     return world
 
