@@ -1,0 +1,32 @@
+"""Tell what a person says to the planner itself, before any brain: pause, go on, remember this.
+
+Pure, both languages, whole sentences only. The one door of this package.
+"""
+
+from planner.brain.intents.kinds import (
+    Cancel,
+    Doing,
+    Forget,
+    Intent,
+    Pause,
+    Remember,
+    Replace,
+    Resume,
+    Where,
+)
+from planner.brain.intents.names import name_reads_as_order
+from planner.brain.intents.reader import intent_of
+
+__all__ = [
+    "Cancel",
+    "Doing",
+    "Forget",
+    "Intent",
+    "Pause",
+    "Remember",
+    "Replace",
+    "Resume",
+    "Where",
+    "intent_of",
+    "name_reads_as_order",
+]

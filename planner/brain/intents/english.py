@@ -1,0 +1,92 @@
+"""Own the English sentences that are said to the planner itself. Whole sentences, never a part.
+
+Each pattern is matched against words in lower case with single spaces; punctuation between polite
+words is gone, the name of a place is taken as it was written.
+"""
+
+from __future__ import annotations
+
+import re
+
+_POLITE = (
+    r"please|pls|plz|kindly|just|now|then|so|well|ok|okay|alright|all right|yes|yeah|oh|hey|hi"
+    r"|robot|pons|thanks|thank you|good|great"
+)
+COURTEOUS = re.compile(
+    r"(?:(?:hey|hi|ok|okay|robot|pons|please),? )*(?:can|could|would|will) you\b"
+)
+"""A question mark behind these is courtesy; behind anything else it asks."""
+ASKING = re.compile(r"(?!)")
+"""A word at the end that asks: there is none in English."""
+POLITE = re.compile(rf"(?:{_POLITE}|(?:can|could|would|will) you)(?![\w'])")
+THANKS = re.compile(rf"(?:^| )(?:{_POLITE}|for me|right now|again)$")
+
+_TASK = r"(?:goal|mission|task|job|order|trip|drive|driving|plan|route|way|request|errand|command)"
+_THE_TASK = rf"(?:(?:the|this|that|my|your|our) )?(?:(?:current|running|last|latest) )?{_TASK}"
+_BRIEF = r"(?:(?:a|one|just a) )?(?:moment|sec|bit)"
+
+RESUME = re.compile(
+    r"(?:continue|resume|proceed|carry on|go on|keep going|unpause)"
+    r"|(?:continue|resume|proceed with|carry on with|go on with|unpause)"
+    rf" (?:it|that|this|{_THE_TASK})"
+    r"|(?:continue|carry on|go on|resume|keep) (?:driving|going|moving)"
+    r"|(?:continue|carry on|go on) with what you were doing"
+    r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going)(?: again)?"
+)
+PAUSE = re.compile(
+    rf"pause (?:for now|here|for {_BRIEF}|{_BRIEF}|this|{_THE_TASK}|what you are doing)"
+    rf"|(?:hold on|hang on)(?: (?:a|one) (?:moment|second|sec|minute))?|{_BRIEF}"
+    r"|just a (?:second|minute)|give me a (?:moment|second|sec|minute)|take a break"
+)
+CANCEL = re.compile(
+    rf"(?:cancel|abort|drop|call off) (?:it|this|that one|{_THE_TASK})|call it off"
+    r"|forget (?:it|that|this|about (?:it|that|this)|what i (?:said|told you))"
+    rf"|forget (?:about )?{_THE_TASK}"
+    r"|never ?mind(?: (?:it|that|about (?:it|that)))?|scratch that|scrap that|don't bother"
+    r"|no need(?: (?:any ?more|for (?:it|that)))?|i changed my mind"
+    r"|(?:don't|do not) go(?: there)?(?: (?:any ?more|after all))?"
+)
+TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
+"""What may stand before the order that comes in place of the current one."""
+UNPUNCTUATED = re.compile(
+    r"(?:forget (?:that|it)|never ?mind(?: that)?|scratch that)(?: and)?"
+    r" (?=(?:go|come|drive|move|return|head|wait|turn|patrol) )"
+)
+INSTEAD = re.compile(
+    r"instead,? (?P<rest>(?:go|come|drive|move|return|head|wait|turn|patrol)\b.+)"
+    r"|(?P<rest2>(?:go|come|drive|move|return|head|wait|turn|patrol)\b.+?),? instead"
+)
+WHERE = re.compile(
+    r"where are you(?: (?:now|at|right now|currently|at the moment))?|tell me where you are"
+    r"|(?:what is|what's|report|tell me) your (?:current )?(?:location|position)"
+    r"|(?:which|what) (?:room|place) are you (?:in|at)(?: now)?"
+)
+DOING = re.compile(
+    r"what are you (?:doing|up to)(?: (?:now|right now|at the moment|there))?"
+    r"|where are you (?:going|driving|heading)(?: (?:to|now))?"
+    r"|(?:what is|what's) (?:your|the) (?:current )?(?:status|goal|task)"
+    r"|status(?: report)?|report(?: your)? status|tell me what you are doing"
+)
+
+_HERE = r"(?:this|here|(?:this|that|the current) (?:place|spot|location|position|point)(?: here)?)"
+_SPOT = r"(?:this|the current) (?:place|spot|location|position|point|corner)|here"
+REMEMBER = re.compile(
+    rf"(?:remember|save|store|memori[sz]e|learn|mark|record) {_HERE} as (?P<a>.+)"
+    rf"|(?:let's |let us )?(?:call|name|label) (?:{_SPOT}) (?P<b>.+)"
+    rf"|(?:remember (?:that )?)?(?:{_SPOT}) is (?:called|named) (?P<c>.+)"
+)
+FORGET = re.compile(
+    r"(?:forget|delete|remove)(?: about)? (?:the |my )?(?:place|spot|location)"
+    r"(?: (?:called|named))? (?P<a>.+)"
+    r"|(?:forget|delete|remove) the (?:taught|learnt|remembered) place (?P<b>.+)"
+    r"|forget where (?P<c>.+) (?:is|was)"
+)
+
+DETERMINER = re.compile(r"(?:the|my|our) ")
+NO_NAME = re.compile(
+    r"(?:an?|you|i|we|it|he|she|they|if|when|while|as|soon|well|long|what|who|where|how|which|why"
+    r"|in|at|on|for|by|being|is|are|was|something|anything|nothing|that|this|there)\b.*"
+    r"|.*\b(?:and|or|then|to|from|if|when|until|before|after|because|not|is|are|please)\b.*"
+    r"|.*[,;:.!?].*"
+)
+"""What a sentence goes on with where no name stands: "remember this as you drive"."""

@@ -1,0 +1,57 @@
+"""List what a person may say to the planner itself. Data only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Remember:
+    """Remember where the robot stands by this name, as it was written."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Forget:
+    """Forget a taught place."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """Stand, and keep the current goal's place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Resume:
+    """Go on with what was paused last."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cancel:
+    """End the current goal."""
+
+
+@dataclass(frozen=True, slots=True)
+class Replace:
+    """Do the rest of the sentence in place of the current goal."""
+
+    rest: str
+    now: bool
+    """The person took the current goal back ("forget that, …"): it ends before anything is thought
+    about. Otherwise ("… instead") it ends once the rest is understood."""
+
+
+@dataclass(frozen=True, slots=True)
+class Where:
+    """Say where the robot is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Doing:
+    """Say what the robot does now."""
+
+
+Intent = Remember | Forget | Pause | Resume | Cancel | Replace | Where | Doing
