@@ -9,9 +9,13 @@ from planner.world.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from planner.world.map_file import LoadedMap, load_map
 from planner.world.places import Place, normalised
 from planner.world.site import Site
+from planner.world.taught import MAX_HERE, TaughtPlace, TaughtPlaces
+from planner.world.taught_check import check_spot, plain_name
+from planner.world.taught_errors import PlaceRefused
 
 __all__ = [
     "FREE",
+    "MAX_HERE",
     "OCCUPIED",
     "UNKNOWN",
     "Fence",
@@ -22,11 +26,16 @@ __all__ = [
     "GridMap",
     "LoadedMap",
     "Place",
+    "PlaceRefused",
     "Site",
     "SiteError",
     "SpeedZone",
+    "TaughtPlace",
+    "TaughtPlaces",
     "check_fence",
+    "check_spot",
     "fence_diff",
     "load_map",
     "normalised",
+    "plain_name",
 ]
