@@ -1,5 +1,6 @@
 """Read the owner's settings: `$PONS_HOME/settings.toml` and a few environment variables."""
 
+from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Limits, Price
 from planner.settings.model import OWN_FIELDS, ModelSettings
 from planner.settings.owner import FILE, Settings, load_settings
 from planner.settings.presets import PRESETS, Mode, Preset, PresetName, TokensField
@@ -8,10 +9,15 @@ __all__ = [
     "FILE",
     "OWN_FIELDS",
     "PRESETS",
+    "BudgetSettings",
+    "DayLimits",
+    "GoalLimits",
+    "Limits",
     "Mode",
     "ModelSettings",
     "Preset",
     "PresetName",
+    "Price",
     "Settings",
     "TokensField",
     "load_settings",

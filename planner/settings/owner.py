@@ -15,6 +15,7 @@ from urllib.parse import urlsplit
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
 from planner.settings.model import ModelSettings
 from planner.settings.presets import PRESETS, PresetName
 from wire import Misconfigured
@@ -35,6 +36,7 @@ class Settings(BaseModel):
 
     model: ModelSettings | None = None
     """None: the offline brain alone."""
+    budget: BudgetSettings = BudgetSettings()
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -42,7 +44,7 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
 
     Raises:
         Misconfigured: ``settings_unreadable``, ``settings_malformed``, ``model_incomplete``,
-            ``model_key``.
+            ``model_key``, ``budget_contradictory``.
     """
     tables = _tables(home / FILE)
     model = tables.pop("model", None)
@@ -169,11 +171,16 @@ def _same_place(one: str, other: str) -> bool:
 
 def _checked(tables: dict[str, Any]) -> Settings:
     try:
-        return Settings.model_validate(tables)
+        settings = Settings.model_validate(tables)
     except ValidationError as wrong:
         problems = [_told(error["loc"], error["type"], error["msg"]) for error in wrong.errors()]
         code = "model_incomplete" if all("missing" in p for p in problems) else "settings_malformed"
         raise Misconfigured(code, f"{FILE}: {'; '.join(problems)}") from None
+    most = settings.model.max_tokens if settings.model is not None else None
+    wrong_budget = contradiction(settings.budget, most)
+    if wrong_budget is not None:
+        raise Misconfigured("budget_contradictory", f"{FILE}: {wrong_budget}")
+    return settings
 
 
 def _need_key(model: ModelSettings | None) -> None:
@@ -189,10 +196,23 @@ def _need_key(model: ModelSettings | None) -> None:
         )
 
 
+_TABLES: dict[str, type[BaseModel]] = {
+    "": Settings,
+    "model": ModelSettings,
+    "budget": BudgetSettings,
+    "budget.goal": GoalLimits,
+    "budget.day": DayLimits,
+    "budget.price": Price,
+}
+
+
+def _table(where: tuple[int | str, ...]) -> str:
+    return ".".join(map(str, where[:-1]))
+
+
 def _told(where: tuple[int | str, ...], kind: str, text: str) -> str:
     name = ".".join(map(str, where))
     if kind == "extra_forbidden":
-        tables = {"": Settings.model_fields, "model": ModelSettings.model_fields}
-        known = tables.get(".".join(map(str, where[:-1])), {})
+        known = _TABLES[table].model_fields if (table := _table(where)) in _TABLES else {}
         return f"unknown key {name!r}; known: {', '.join(known)}"
     return f"{name} is missing" if kind == "missing" else f"{name}: {text}"

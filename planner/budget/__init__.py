@@ -1,0 +1,32 @@
+"""Keep what a model may cost: limits per goal and per day, spent in one place, kept on disk."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from planner.budget.day import Clocks
+from planner.budget.ledger import Ledger
+from planner.budget.purse import Purse
+from planner.budget.usage import Amounts, Most, Refused, Usage
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from planner.settings import Settings
+
+__all__ = ["Amounts", "Clocks", "Ledger", "Most", "Purse", "Refused", "Usage", "purse_of"]
+
+
+def purse_of(settings: Settings, home: Path) -> Purse:
+    """Return the purse of a home as the owner has set it.
+
+    Raises:
+        Misconfigured: ``budget_unreadable``.
+    """
+    model = settings.model
+    return Purse(
+        settings.budget,
+        Ledger(home),
+        model=model.name if model is not None else None,
+        most_reply=model.max_tokens if model is not None else 0,
+    )
