@@ -14,6 +14,10 @@ REASONS: dict[str, Bilingual] = {
         "unreachable": ("The model's server can't be reached.", "无法连接模型服务器。"),
         "rate_limited": ("The model's server is taking no more calls now.", "模型服务器限流。"),
         "server_error": ("The model's server failed.", "模型服务器出错。"),
+        "loading": (
+            "The model's server is still loading the model.",
+            "模型服务器仍在加载模型。",
+        ),
         "bad_key": ("The model's server refused the key.", "模型服务器拒绝了密钥。"),
         "unknown_model": (
             "The server does not know the model or the address.",

@@ -2,7 +2,7 @@
 
 from planner.brain.endpoint.address import Address
 from planner.brain.endpoint.brain import EndpointBrain, warm_up
-from planner.brain.endpoint.client import MAX_REPLY_BYTES
 from planner.brain.endpoint.judge import Unusable, judge
+from planner.brain.endpoint.reading import MAX_REPLY_BYTES
 
 __all__ = ["MAX_REPLY_BYTES", "Address", "EndpointBrain", "Unusable", "judge", "warm_up"]

@@ -15,10 +15,22 @@ from urllib.parse import urlsplit
 from wire import Misconfigured
 
 MAX_URL = 2000
-_METADATA_NAMES = ("metadata", "metadata.google.internal", "metadata.goog", "instance-data")
-_METADATA_ADDRESSES = frozenset(
-    map(ipaddress.ip_address, ("100.100.100.200", "fd00:ec2::254", "168.63.129.16"))
+_METADATA_NAMES = frozenset(
+    {
+        *("metadata", "metadata.google.internal", "metadata.goog", "instance-data"),
+        *("instance-data.ec2.internal", "metadata.tencentyun.com", "metadata.azure.internal"),
+    }
 )
+_METADATA_ADDRESSES = frozenset(
+    map(
+        ipaddress.ip_address,
+        ("100.100.100.200", "fd00:ec2::254", "168.63.129.16", "192.0.0.192"),
+    )
+)
+_NAT64 = ipaddress.IPv6Network("64:ff9b::/96")
+"""Holds an IPv4 address in its last 32 bits, RFC 6052; so does ::/96, the old mixed form."""
+_MIXED = ipaddress.IPv6Network("::/96")
+_BROADCAST = ipaddress.IPv4Address("255.255.255.255")
 _LOOPBACK_NAMES = frozenset({"localhost", "localhost.localdomain", "ip6-localhost"})
 
 Ip = ipaddress.IPv4Address | ipaddress.IPv6Address
@@ -74,12 +86,20 @@ class Address:
 
 def allowed(number: Ip) -> bool:
     """Tell whether an address may be asked at all."""
-    if isinstance(number, ipaddress.IPv6Address):
-        inner = number.ipv4_mapped or number.sixtofour
-        if inner is not None and not allowed(inner):
-            return False
+    if not all(map(allowed, _inner(number))):
+        return False
     wrong = number.is_link_local or number.is_multicast or number.is_unspecified
-    return not wrong and number not in _METADATA_ADDRESSES
+    return not (wrong or number in _METADATA_ADDRESSES or number == _BROADCAST)
+
+
+def _inner(number: Ip) -> list[ipaddress.IPv4Address]:
+    """Return the IPv4 addresses that an IPv6 address leads to, by any way of wrapping one."""
+    if isinstance(number, ipaddress.IPv4Address):
+        return []
+    wrapped = [number.ipv4_mapped, number.sixtofour, *(number.teredo or ())]
+    if number in _NAT64 or (number in _MIXED and int(number) > 1):
+        wrapped.append(ipaddress.IPv4Address(int(number) & 0xFFFFFFFF))
+    return [each for each in wrapped if each is not None]
 
 
 def refused_among(found: list[str]) -> str | None:

@@ -9,21 +9,22 @@ import asyncio
 import importlib
 import logging
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.brain.draft import Hear
 from planner.brain.endpoint.address import Address
-from planner.brain.endpoint.client import BadRequest, Client
-from planner.brain.endpoint.dialect import Body, Dialects, body_of
+from planner.brain.endpoint.asking import Asker
+from planner.brain.endpoint.client import Client
+from planner.brain.endpoint.dialects import Dialects
 from planner.brain.endpoint.judge import Planned, Unusable, clean, judge
-from planner.brain.endpoint.reply import Reply, read_reply
+from planner.brain.endpoint.partial import Drafting
+from planner.brain.endpoint.reply import Reply, Tokens
 from planner.brain.errors import BrainDown, PlanRejected
 from planner.brain.meter import Meter, thinking_about
 from planner.brain.prompt import Prompt
 from planner.brain.protocol import ThinkRequest, Thought
-from planner.brain.schema import Message, schema_of
+from planner.brain.schema import schema_of
 from planner.plan import PLAN, Bilingual, BrainTag, Code, Refuse, message, same
 from planner.settings import ModelSettings
 from wire import Misconfigured
@@ -32,9 +33,6 @@ if TYPE_CHECKING:
     import httpx
 
 log = logging.getLogger(__name__)
-
-MAX_STEPS_DOWN = 4
-"""Refused bodies until the ladder and the parameters are used up."""
 
 
 class EndpointBrain:
@@ -71,8 +69,9 @@ class EndpointBrain:
             )
         self._settings = settings
         self._prompt = prompt or Prompt.load()
-        self._dialects = Dialects(home, settings, self.address.url)
         self._client = Client(self.address, settings, transport, meter)
+        dialects = Dialects(home, settings, self.address.url)
+        self._asker = Asker(settings, self._client, dialects)
         self._turns = asyncio.Semaphore(settings.parallel)
         self._tag = BrainTag(
             name=clean(settings.name),
@@ -90,7 +89,7 @@ class EndpointBrain:
         await self._client.close()
 
     async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
-        """Return the model's plan of a sentence.
+        """Return the model's plan of a sentence; who listens hears it as it is written.
 
         Raises:
             PlanRejected: neither reply is a plan.
@@ -101,58 +100,43 @@ class EndpointBrain:
         try:
             with thinking_about(request.goal):
                 async with asyncio.timeout(self._settings.timeout_s), self._turns:
-                    return await self._talk(request, end_s)
+                    return await self._talk(request, end_s, hear)
         except TimeoutError:
             told = f"no plan within {self._settings.timeout_s:g} s"
             raise BrainDown(told, why="timeout") from None
 
-    async def _talk(self, request: ThinkRequest, end_s: float) -> Thought:
+    async def _talk(self, request: ThinkRequest, end_s: float, hear: Hear | None) -> Thought:
         messages = self._prompt.messages(request)
-        schema = schema_of(request.vocabulary)
-        first = await self._ask(messages, schema, end_s)
+        schema = schema_of(request.vocabulary, request.runnable)
+        told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
+        first = await self._asker.ask(messages, schema, end_s, told)
         plan = self._plan_of(first, request)
         if not isinstance(plan, Unusable):
-            return Thought(plan=plan, brain=self._tag, calls=1, tokens=first.tokens)
+            return self._thought(plan, 1, first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
-        second = await self._ask(again, schema, end_s)
-        spent = first.tokens + second.tokens
+        second = await self._asker.ask(again, schema, end_s, told)
         mended = self._plan_of(second, request)
         if isinstance(mended, Unusable):
             raise PlanRejected(f"asked twice: {mended}"[:400])
-        return Thought(plan=mended, brain=self._tag, calls=2, tokens=spent)
+        return self._thought(mended, 2, first.tokens + second.tokens)
 
-    async def _ask(self, messages: list[Message], schema: Body, end_s: float) -> Reply:
-        """Ask once, in the simplest dialect that is needed."""
-        dialect = self._dialects.now
-        complaint = ""
-        for _ in range(MAX_STEPS_DOWN):
-            body = body_of(self._settings, dialect, messages, schema)
-            try:
-                raw = await self._client.post(body, end_s - time.monotonic())
-            except BadRequest as refused:
-                complaint = str(refused)
-                if refused.generated is not None:
-                    return Reply(self._client.struck(refused.generated), trouble=complaint)
-                simpler = dialect.simpler(complaint.lower())
-                if simpler is None:
-                    break
-                dialect = simpler
-                continue
-            try:
-                reply = read_reply(raw)
-            except BrainDown as down:
-                raise BrainDown(self._client.struck(str(down)), why=down.why) from None
-            self._dialects.keep(dialect)
-            return replace(reply, text=self._client.struck(reply.text))
-        raise BrainDown(complaint, why="bad_request")
+    def _thought(self, plan: Planned, calls: int, spent: Tokens) -> Thought:
+        return Thought(
+            plan=plan,
+            brain=self._tag,
+            calls=calls,
+            tokens=spent.total,
+            prompt_tokens=spent.prompt,
+            reply_tokens=spent.reply,
+        )
 
     def _plan_of(self, reply: Reply, request: ThinkRequest) -> Planned | Unusable:
         """Judge a reply. The key, which a server may spell as it likes, is struck out last."""
-        struck = self._client.struck
+        struck = self._client.secret.struck
         if reply.refusal is not None:
             return _declined(struck(reply.refusal), request)
-        judged = judge(reply.text, request.vocabulary)
+        judged = judge(reply.text, request.vocabulary, request.runnable)
         if not isinstance(judged, Unusable):
             written = judged.model_dump_json()
             safe = struck(written)

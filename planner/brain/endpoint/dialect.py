@@ -1,35 +1,25 @@
 """Own what one server and model understands: the rung of the ladder and a few parameters.
 
 The dialect is found out at the first call, by use and not by a call of its own: a server that
-answers 400 is asked again in the next simpler way. What it took is kept in the home folder. The
-schema's text is always in the prompt, tools and response_format never go together, and whatever
-comes back is judged here: a looser rung costs quality, never safety.
+answers 400 is asked again in the next simpler way. The schema's text is always in the prompt, tools
+and response_format never go together, and whatever comes back is judged here: a looser rung costs
+quality, never safety. Pure; `dialects` remembers.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
-import logging
 import re
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
-from pathlib import Path
-from typing import Any, Literal
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
 
 from planner.brain.schema import NAME, Message
-from planner.settings import Mode, ModelSettings
+from planner.settings import Mode, ModelSettings, TokensField
 
-log = logging.getLogger(__name__)
-
-FILE = "model_dialects.json"
-MAX_BYTES = 256 * 1024
-MAX_KEPT = 50
 LADDER = tuple(Mode)
 """Strictest first."""
 
 Body = dict[str, Any]
-TokensField = Literal["max_tokens", "max_completion_tokens"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,41 +30,85 @@ class Dialect:
     temperature: bool = True
     system: bool = True
     tokens_field: TokensField = "max_tokens"
+    quiet: bool = True
+    """Send what switches the model's thoughts off."""
+    stream: bool = True
+    usage: bool = True
+    """Ask a stream for what it cost."""
     fixed: bool = False
 
-    def simpler(self, complaint: str) -> Dialect | None:
-        """Return the next dialect to try after a 400 with these words, or None.
+    @classmethod
+    def first(cls, settings: ModelSettings) -> Dialect:
+        """Return how a server is asked of which nothing but its preset is known."""
+        known = settings.known
+        begin = cls() if known is None else cls(
+            mode=known.mode, system=known.system, tokens_field=known.tokens_field
+        )  # fmt: skip
+        if settings.mode is not None:
+            begin = replace(begin, mode=settings.mode, fixed=True)
+        return begin
+
+    def simpler(self, complaint: str, quiet: frozenset[str] = frozenset()) -> Iterator[Dialect]:
+        """Yield what to try after a 400 with these words, the likeliest first.
 
         A parameter is given up where the complaint names it; else the ladder is stepped down.
+
+        Args:
+            complaint: the server's words, in small letters.
+            quiet: the fields that switch thoughts off here.
         """
         if self.temperature and "temperature" in complaint:
-            return replace(self, temperature=False)
-        if self.tokens_field == "max_tokens" and "max_completion_tokens" in complaint:
-            return replace(self, tokens_field="max_completion_tokens")
+            yield replace(self, temperature=False)
+        if "max_completion_tokens" in complaint or "max_tokens" in complaint:
+            yield replace(self, tokens_field=_other(self.tokens_field))
+        if self.usage and ("stream_options" in complaint or "include_usage" in complaint):
+            yield replace(self, usage=False)
+        if self.quiet and any(name.lower() in complaint for name in quiet):
+            yield replace(self, quiet=False)
+        if self.stream and re.search(r"\bstream(?:ing|ed)?\b", complaint):
+            yield replace(self, stream=False)
         if self.system and _about_system(complaint):
-            return replace(self, system=False)
-        below = LADDER[LADDER.index(self.mode) + 1 :]
-        return replace(self, mode=below[0]) if below and not self.fixed else None
+            yield replace(self, system=False)
+        if not self.fixed:
+            yield from (replace(self, mode=mode) for mode in LADDER[LADDER.index(self.mode) + 1 :])
+
+
+def _other(tokens_field: TokensField) -> TokensField:
+    return "max_completion_tokens" if tokens_field == "max_tokens" else "max_tokens"
 
 
 def _about_system(complaint: str) -> bool:
     return "role" in complaint and re.search(r"\bsystem\b", complaint) is not None
 
 
+def quiet_of(settings: ModelSettings) -> Body:
+    """Return what switches this server's thoughts off, as far as it is wanted and known."""
+    known = settings.known
+    return {} if known is None or settings.thinking else dict(known.quiet)
+
+
 def body_of(
-    settings: ModelSettings, dialect: Dialect, messages: list[Message], schema: Body
+    settings: ModelSettings,
+    dialect: Dialect,
+    messages: list[Message],
+    schema: Body,
+    *,
+    stream: bool = False,
 ) -> Body:
-    """Return the body of one call."""
-    body: Body = {
+    """Return the body of one call; what Pons writes itself wins over all that is extra."""
+    body: Body = quiet_of(settings) if dialect.quiet else {}
+    body |= settings.extra_body
+    body |= {
         "model": settings.name,
         "messages": messages if dialect.system else _merged(messages),
-        "stream": False,
+        "stream": stream and dialect.stream,
         dialect.tokens_field: settings.max_tokens,
     }
+    if stream and dialect.stream and dialect.usage:
+        body["stream_options"] = {"include_usage": True}
     if dialect.temperature and settings.temperature is not None:
         body["temperature"] = settings.temperature
-    body.update(_MODES[dialect.mode](schema))
-    return body
+    return body | _MODES[dialect.mode](schema)
 
 
 def _merged(messages: list[Message]) -> list[Message]:
@@ -90,65 +124,18 @@ def _json_schema(schema: Body) -> Body:
     return {"response_format": {"type": "json_schema", "json_schema": described}}
 
 
+def _tool(schema: Body) -> Body:
+    told = "Reply to the order with one plan, answer, question or refusal."
+    function = {"name": NAME, "description": told, "parameters": schema}
+    return {
+        "tools": [{"type": "function", "function": function}],
+        "tool_choice": {"type": "function", "function": {"name": NAME}},
+    }
+
+
 _MODES: dict[Mode, Callable[[Body], Body]] = {
     Mode.JSON_SCHEMA: _json_schema,
+    Mode.TOOL: _tool,
+    Mode.JSON_OBJECT: lambda _schema: {"response_format": {"type": "json_object"}},
     Mode.PROMPT: lambda _schema: {},
 }
-
-
-class Dialects:
-    """Remember dialects in a file of the home folder; one that can't be read is found out anew."""
-
-    def __init__(self, home: Path, settings: ModelSettings, url: str) -> None:
-        self._path = home / FILE
-        self._key = hashlib.sha256(f"{url}\n{settings.name}".encode()).hexdigest()[:24]
-        self._fixed = settings.mode
-        known = self._all().get(self._key)
-        self._kept = isinstance(known, dict)
-        dialect = _dialect(known) if isinstance(known, dict) else Dialect()
-        if self._fixed:
-            dialect = replace(dialect, mode=self._fixed, fixed=True)
-        self._now = dialect
-
-    @property
-    def now(self) -> Dialect:
-        """Return how to ask."""
-        return self._now
-
-    def keep(self, dialect: Dialect) -> None:
-        """Remember what the server took. A disk that refuses costs a call at the next start."""
-        if dialect == self._now and self._kept:
-            return
-        self._now, self._kept = dialect, True
-        kept = {k: v for k, v in self._all().items() if k != self._key}
-        kept = dict([*kept.items()][-(MAX_KEPT - 1) :])
-        kept[self._key] = asdict(replace(dialect, fixed=False))
-        fresh = self._path.with_suffix(".new")
-        try:
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            fresh.write_text(json.dumps(kept, indent=1) + "\n", "utf-8")
-            fresh.replace(self._path)
-        except OSError as error:
-            log.warning("%s could not be written: %s", self._path, error.strerror)
-
-    def _all(self) -> dict[str, Any]:
-        try:
-            with self._path.open("rb") as file:
-                found = json.loads(file.read(MAX_BYTES))
-        except (OSError, ValueError, RecursionError):
-            return {}
-        return found if isinstance(found, dict) else {}
-
-
-def _dialect(known: dict[str, Any]) -> Dialect:
-    try:
-        return Dialect(
-            mode=Mode(known.get("mode", LADDER[0])),
-            temperature=known.get("temperature") is not False,
-            system=known.get("system") is not False,
-            tokens_field="max_completion_tokens"
-            if known.get("tokens_field") == "max_completion_tokens"
-            else "max_tokens",
-        )
-    except ValueError:
-        return Dialect()

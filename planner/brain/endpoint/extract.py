@@ -38,7 +38,7 @@ def one_object(text: str) -> dict[str, Any]:
     Raises:
         NoObject: there is none, or there are several.
     """
-    spoken = _without_thoughts(text)
+    spoken = without_thoughts(text)
     if len(spoken) > MAX_CHARACTERS:
         raise NoObject(f"the reply has {len(spoken)} characters; at most {MAX_CHARACTERS} are read")
     blocks = spoken.split(_FENCE, MAX_FENCES)[1:-1:2]
@@ -52,7 +52,7 @@ def one_object(text: str) -> dict[str, Any]:
     return distinct[0]
 
 
-def _without_thoughts(text: str) -> str:
+def without_thoughts(text: str) -> str:
     """Drop thoughts: closed ones, those that began before the reply, those that never end.
 
     One pass over the tags: a pattern for pairs takes quadratic time on tags that never close.

@@ -17,6 +17,7 @@ from planner.brain.schema import CLARIFY_CODES, KINDS, REFUSE_CODES
 from planner.plan import (
     MAX_STEPS,
     PLAN,
+    RUNNABLE,
     Answer,
     Clarify,
     Refuse,
@@ -52,7 +53,9 @@ class Unusable:
         return "; ".join(self.reasons)
 
 
-def judge(text: str, vocabulary: Vocabulary) -> Planned | Unusable:
+def judge(
+    text: str, vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE
+) -> Planned | Unusable:
     """Return the plan that a reply is, or why it is none.
 
     A plan that only the robot's own lack makes impossible (no camera, no arm) is returned as it is:
@@ -70,7 +73,7 @@ def judge(text: str, vocabulary: Vocabulary) -> Planned | Unusable:
         plan = PLAN.validate_python(shaped)
     except ValidationError as wrong:
         return Unusable(tuple(map(_told, wrong.errors(include_url=False)[:MAX_REASONS])))
-    judged = validate_plan(plan, vocabulary)
+    judged = validate_plan(plan, vocabulary, runnable)
     if isinstance(judged, Rejection) and judged.repairable:
         known = ", ".join(list(vocabulary.by_id)[:40]) or "none"
         told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in judged.reasons]
@@ -98,10 +101,10 @@ def _steps(steps: object) -> dict[str, Any] | Unusable:
         return Unusable(("steps must be a list of 1 or more objects",))
     if len(steps) > MAX_STEPS:
         return Unusable((f"{len(steps)} steps; at most {MAX_STEPS}",))
-    return {"kind": "plan", "steps": [_step(step) for step in steps]}
+    return {"kind": "plan", "steps": [trimmed(step) for step in steps]}
 
 
-def _step(step: dict[str, Any]) -> dict[str, Any]:
+def trimmed(step: dict[str, Any]) -> dict[str, Any]:
     """Drop fields that a grammar made the model fill with nothing; clean its words."""
     kept = {k: v for k, v in step.items() if v not in (None, "", [])}
     return {k: clean(v) if k in ("text", "question") and isinstance(v, str) else v

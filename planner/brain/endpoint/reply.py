@@ -6,6 +6,7 @@ Reasoning fields are never read as the reply.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +17,22 @@ from planner.brain.schema import NAME
 
 MAX_TOKENS = 10_000_000
 _DECLINED = "The model declined."
+_FILTERED = frozenset({"content_filter", "data_inspection_failed"})
+"""What Azure and DashScope answer with 400 where a filter of theirs refuses an order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tokens:
+    """Count what was billed."""
+
+    total: int = 0
+    prompt: int = 0
+    reply: int = 0
+
+    def __add__(self, other: Tokens) -> Tokens:
+        return Tokens(
+            self.total + other.total, self.prompt + other.prompt, self.reply + other.reply
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,16 +43,15 @@ class Reply:
     refusal: str | None = None
     trouble: str | None = None
     """Why there may be nothing in the text, told to the model where it is repaired."""
-    tokens: int = 0
+    tokens: Tokens = Tokens()
 
 
-def read_reply(raw: bytes) -> Reply:
+def read_reply(content: object) -> Reply:
     """Return what a server answered with 200.
 
     Raises:
         BrainDown: ``bad_reply``: it is no chat completion; ``server_error``: it says so itself.
     """
-    content = read_json(raw)
     if not isinstance(content, dict):
         raise BrainDown("the reply is no JSON object", why="bad_reply")
     choice = _first(content.get("choices"))
@@ -51,7 +67,7 @@ def read_reply(raw: bytes) -> Reply:
     if isinstance(refusal, str) and refusal.strip():
         return Reply("", refusal=refusal, tokens=usage)
     text, trouble = _text(message)
-    if finish == "content_filter" and not text.strip():
+    if finish in ("content_filter", "refusal") and not text.strip():
         return Reply("", refusal=_DECLINED, tokens=usage)
     if finish == "length":
         trouble = "the reply was cut off at the token limit; reply shorter, without thoughts"
@@ -78,9 +94,18 @@ def complaint_of(content: object) -> str:
 
 def generated_by(content: object) -> str | None:
     """Return what the model wrote where a server refuses it as an error of its own, or None."""
-    error = content.get("error") if isinstance(content, dict) else None
-    written = error.get("failed_generation") if isinstance(error, dict) else None
+    written = _error(content).get("failed_generation")
     return written if isinstance(written, str) else None
+
+
+def declined_by(content: object) -> bool:
+    """Tell whether a filter of the server's refused the order itself."""
+    return _error(content).get("code") in _FILTERED
+
+
+def _error(content: object) -> dict[str, Any]:
+    error = content.get("error") if isinstance(content, dict) else None
+    return error if isinstance(error, dict) else {}
 
 
 def _text(message: dict[str, Any]) -> tuple[str, str | None]:
@@ -89,17 +114,36 @@ def _text(message: dict[str, Any]) -> tuple[str, str | None]:
     if isinstance(content, list):  # parts, as some servers write them
         parts = [part.get("text") for part in content if isinstance(part, dict)]
         content = "".join(part for part in parts if isinstance(part, str))
-    if isinstance(content, str) and content.strip():
-        return content, None
-    called = _first(message.get("tool_calls"))
-    if called is None:
-        return "", "the reply is empty"
-    function = called.get("function")
-    function = function if isinstance(function, dict) else {}
-    if function.get("name") != NAME:
-        return "", "a tool was called, but there are no tools"
-    arguments = function.get("arguments")
-    return (arguments, None) if isinstance(arguments, str) else ("", "the call has no arguments")
+    said = content if isinstance(content, str) else ""
+    calls = message.get("tool_calls")
+    if not (isinstance(calls, list) and calls) and isinstance(message.get("function_call"), dict):
+        calls = [{"function": message["function_call"]}]  # as it was called before 2024
+    if not isinstance(calls, list) or not calls:
+        return said, None if said.strip() else "the reply is empty"
+    arguments = _called(calls)
+    if arguments is None:  # whoever calls what does not exist has not understood the question
+        return "", f"a tool was called that does not exist; the only tool is {NAME}"
+    if "{" in said:  # a second plan beside the call, if it is another one, is found later on
+        return f"{said.replace('`', ' ')}\n{arguments}", None
+    return arguments, None if arguments.strip() else "the call has no arguments"
+
+
+def _called(calls: list[Any]) -> str | None:
+    """Return the arguments of all calls; None where one is not of our tool.
+
+    The same call twice is found to be one later on, two that differ are found to be two.
+    """
+    written: list[str] = []
+    for call in calls:
+        function = call.get("function") if isinstance(call, dict) else None
+        function = function if isinstance(function, dict) else {}
+        if function.get("name") != NAME:
+            return None
+        arguments = function.get("arguments")
+        if isinstance(arguments, dict):
+            arguments = json.dumps(arguments, ensure_ascii=False)
+        written.append(arguments if isinstance(arguments, str) else "")
+    return "\n".join(written)
 
 
 def _first(value: object) -> dict[str, Any] | None:
@@ -108,7 +152,13 @@ def _first(value: object) -> dict[str, Any] | None:
     return None
 
 
-def _tokens(usage: object) -> int:
-    total = usage.get("total_tokens") if isinstance(usage, dict) else None
-    known = isinstance(total, int) and not isinstance(total, bool) and 0 <= total <= MAX_TOKENS
-    return total if known and isinstance(total, int) else 0
+def _tokens(usage: object) -> Tokens:
+    if not isinstance(usage, dict):
+        return Tokens()
+    prompt, reply = _count(usage.get("prompt_tokens")), _count(usage.get("completion_tokens"))
+    return Tokens(_count(usage.get("total_tokens")) or prompt + reply, prompt, reply)
+
+
+def _count(value: object) -> int:
+    known = isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MAX_TOKENS
+    return value if known and isinstance(value, int) else 0

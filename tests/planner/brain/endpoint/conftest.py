@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import pytest
 
-from planner.brain.endpoint import client
+from planner.brain.endpoint import status
 
 
 @pytest.fixture(autouse=True)
 def short_pauses() -> Iterator[None]:
     """Shorten the pause before a second try."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(client, "PAUSE_S", 0.01)
+        patch.setattr(status, "PAUSE_S", 0.01)
         yield

@@ -13,7 +13,7 @@ import pytest
 
 from planner.brain import BrainDown, FallbackBrain, OfflineBrain, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.dialect import FILE
+from planner.brain.endpoint.dialects import FILE
 from planner.plan import Answer, Code, GoTo, Refuse, StepPlan, Vocabulary
 from tests.planner.brain.endpoint.servers import (
     GO,
@@ -133,7 +133,7 @@ def test_the_ladder_ends(home: Vocabulary, tmp_path: Path) -> None:
     server = Server(refused("no"))
     with pytest.raises(BrainDown) as down:
         think(brain(server, tmp_path), home)
-    assert (down.value.why, len(server.requests)) == ("bad_request", 2)
+    assert (down.value.why, len(server.requests)) == ("bad_request", 4)
     assert not (tmp_path / FILE).exists()
 
 

@@ -47,7 +47,7 @@ def expected(exchange: Exchange) -> str:
         return "rejected" if "failed_generation" in body else "bad_request"
     if status != 200:
         return {404: "unknown_model", 429: "rate_limited"}[status]
-    return "bad_reply" if "event-stream" in exchange["content_type"] else "rejected"
+    return "rejected"
 
 
 def test_every_recorded_answer_ends_typed(
@@ -107,9 +107,9 @@ def test_text_is_read_and_reasoning_is_not(exchanges: list[Exchange]) -> None:
         if exchange["status"] != 200 or "event-stream" in exchange["content_type"]:
             continue
         message = json.loads(exchange["response_body"])["choices"][0]["message"]
-        reply = read_reply(exchange["response_body"].encode())
+        reply = read_reply(json.loads(exchange["response_body"]))
         assert reply.text == (message.get("content") or ""), exchange["file"]
-        assert reply.tokens > 0
+        assert 0 < reply.tokens.prompt < reply.tokens.total
         if not reply.text:
             assert reply.trouble is not None
         read += 1
@@ -127,4 +127,4 @@ def test_reported_failures_end_typed(shared_data: Path, home: Vocabulary, tmp_pa
         with pytest.raises(BrainDown) as down:
             think(brain(server, tmp_path, timeout_s=5.0), home)
         ended.setdefault(item["status"], set()).add(down.value.why)
-    assert ended == {503: {"server_error"}, 500: {"server_error"}, 404: {"unknown_model"}}
+    assert ended == {503: {"loading"}, 500: {"server_error"}, 404: {"unknown_model"}}

@@ -1,0 +1,98 @@
+"""Ask a server once for one reply: in the dialect it takes, and streamed where that works.
+
+A body that is refused is made simpler and sent again; a stream that breaks is asked for plainly.
+Neither has any effect outside of the call: nothing moves before a whole reply was judged.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from dataclasses import replace
+
+from planner.brain.endpoint.client import Client
+from planner.brain.endpoint.dialect import Body, Dialect, body_of, quiet_of
+from planner.brain.endpoint.dialects import Dialects
+from planner.brain.endpoint.reading import StreamBroken, Told
+from planner.brain.endpoint.reply import Reply, read_reply
+from planner.brain.endpoint.status import BadRequest
+from planner.brain.errors import BrainDown
+from planner.brain.schema import Message
+from planner.settings import ModelSettings
+
+log = logging.getLogger(__name__)
+
+MAX_REFUSED = 8
+"""Refused bodies until a server counts as one that takes none."""
+MAX_BREAKS = 2
+"""Streams that broke in a row until this process streams no more."""
+
+
+class Asker:
+    """Own how one endpoint is asked."""
+
+    def __init__(self, settings: ModelSettings, client: Client, dialects: Dialects) -> None:
+        self._settings, self._client, self._dialects = settings, client, dialects
+        self._quiet = frozenset(quiet_of(settings))
+        self._breaks = 0
+
+    async def ask(
+        self, messages: list[Message], schema: Body, end_s: float, told: Told | None
+    ) -> Reply:
+        """Return a reply to these messages.
+
+        Args:
+            messages: the prompt.
+            schema: of the reply.
+            end_s: when the goal's time is up, on the monotonic clock.
+            told: takes what is written so far; None: no stream is asked for.
+
+        Raises:
+            BrainDown: there is none.
+        """
+        dialect, tried = self._dialects.now, set[Dialect]()
+        stream = told is not None and self._settings.stream and self._breaks < MAX_BREAKS
+        complaint = ""
+        while len(tried) < MAX_REFUSED:
+            body = body_of(self._settings, dialect, messages, schema, stream=stream)
+            try:
+                content = await self._client.post(body, end_s - time.monotonic(), told)
+            except StreamBroken as broken:
+                if not stream:
+                    raise BrainDown(f"the stream broke: {broken}", why="bad_reply") from None
+                log.info("%s broke its stream (%s): asked plainly", self._settings.name, broken)
+                self._breaks, stream = self._breaks + 1, False
+            except BadRequest as refused:
+                if (answered := self._answered(refused)) is not None:
+                    return answered
+                complaint, simpler = str(refused), self._simpler(dialect, str(refused), tried)
+                if simpler is None:
+                    break
+                dialect = simpler
+            else:
+                self._breaks = 0 if stream else self._breaks
+                return self._read(content, dialect)
+        raise BrainDown(complaint, why="bad_request")
+
+    def _answered(self, refused: BadRequest) -> Reply | None:
+        """Return the reply that a refusal holds, where the model or its filter did answer."""
+        said = str(refused)
+        if refused.declined:
+            return Reply("", refusal=said)
+        if refused.generated is not None:
+            return Reply(self._client.secret.struck(refused.generated), trouble=said)
+        return None
+
+    def _simpler(self, dialect: Dialect, said: str, tried: set[Dialect]) -> Dialect | None:
+        tried.add(dialect)
+        likely = dialect.simpler(said.lower(), self._quiet)
+        return next((each for each in likely if each not in tried), None)
+
+    def _read(self, content: object, dialect: Dialect) -> Reply:
+        struck = self._client.secret.struck
+        try:
+            reply = read_reply(content)
+        except BrainDown as down:
+            raise BrainDown(struck(str(down)), why=down.why) from None
+        self._dialects.keep(dialect)
+        return replace(reply, text=struck(reply.text))

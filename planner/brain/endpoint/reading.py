@@ -1,0 +1,105 @@
+"""Read an answer off the wire, whole or as a stream, never more of it than there may be."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator, Callable
+from typing import Any
+
+import httpx
+
+from planner.brain.endpoint import status
+from planner.brain.endpoint.assemble import Assembly, Broken
+from planner.brain.endpoint.reply import read_json
+from planner.brain.endpoint.secret import Secret
+from planner.brain.endpoint.sse import Events
+from planner.brain.endpoint.status import Again
+from planner.brain.errors import BrainDown
+
+MAX_REPLY_BYTES = 1_000_000
+MAX_ERROR_BYTES = 64_000
+END_S = 0.02
+"""For the end of a stream after its last event: only what was read whole is used again."""
+
+Told = Callable[[str], None]
+"""Takes what the model has written so far."""
+
+
+class StreamBroken(Exception):
+    """The stream ended before the reply did: a plain call may do better. Holds why."""
+
+
+async def read(
+    response: httpx.Response, secret: Secret, assembly: Assembly, told: Told | None
+) -> Any | Again:
+    """Return the JSON of a reply, put together where it is a stream; None where it is none.
+
+    Raises:
+        BadRequest, BrainDown: see ``status.judged``; ``too_large``, ``bad_reply``.
+        StreamBroken: as it says.
+    """
+    code = response.status_code
+    if not 200 <= code < 300:
+        content = read_json(secret.struck_bytes(await _body(response, MAX_ERROR_BYTES)))
+        return status.judged(response, content, secret.struck(status.words_of(code, content)))
+    if response.headers.get("content-type", "").lower().startswith("text/event-stream"):
+        return await _listen(response, secret, assembly, told)
+    return read_json(secret.struck_bytes(await _body(response, MAX_REPLY_BYTES)))
+
+
+async def _listen(
+    response: httpx.Response, secret: Secret, assembly: Assembly, told: Told | None
+) -> dict[str, Any]:
+    """Put a stream together and tell of it as it grows."""
+    _refuse_packed(response)
+    events, size, chunks = Events(), 0, response.aiter_raw()
+    try:
+        async for chunk in chunks:
+            size += len(chunk)
+            if size > MAX_REPLY_BYTES:
+                raise BrainDown(f"the reply is over {MAX_REPLY_BYTES} bytes", why="too_large")
+            for event in events.feed(chunk):
+                assembly.add(event)
+            if events.done:
+                await _let_end(chunks)
+                break
+            if told is not None and assembly.begun:
+                told(secret.struck_growing(assembly.text))
+        for event in events.end():
+            assembly.add(event)
+    except Broken as broken:
+        raise StreamBroken(secret.struck(str(broken))) from None
+    if not events.done and assembly.finish is None:
+        raise StreamBroken("it ended before the reply did")
+    return assembly.completion()
+
+
+async def _let_end(chunks: AsyncIterator[bytes]) -> None:
+    """Read to the end of a stream that said it was through, so that its connection stays."""
+    with contextlib.suppress(TimeoutError, httpx.HTTPError):
+        async with asyncio.timeout(END_S):
+            async for _ in chunks:
+                pass
+
+
+async def _body(response: httpx.Response, cap: int) -> bytes:
+    """Return a body of at most ``cap`` bytes, as it is on the wire; an error is cut there.
+
+    Raises:
+        BrainDown: ``too_large``, as soon as it is; ``bad_reply``: it is packed unasked.
+    """
+    _refuse_packed(response)
+    body = bytearray()
+    async for chunk in response.aiter_raw():
+        if len(body) + len(chunk) > cap:
+            if response.status_code != 200:
+                break
+            raise BrainDown(f"the reply is over {cap} bytes", why="too_large")
+        body += chunk
+    return bytes(body)
+
+
+def _refuse_packed(response: httpx.Response) -> None:
+    if response.headers.get("content-encoding", "identity").lower() not in ("identity", ""):
+        raise BrainDown("the reply is packed, though that was not asked for", why="bad_reply")
