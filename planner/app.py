@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.api import Access, build
 from planner.brain import Brain, FallbackBrain, OfflineBrain
+from planner.budget import purse_of
 from planner.link import Link, WireBus
 from planner.mission import MissionJournal, Missions
 from planner.robot import LinkedRobot
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from fastapi import FastAPI
 
     from planner.brain.endpoint import EndpointBrain
+    from planner.brain.meter import Meter
     from planner.settings import Settings
 
 log = logging.getLogger(__name__)
@@ -57,7 +59,8 @@ class Planner:
                 runs here.
         """
         self.settings = load_settings(where.home, os.environ)
-        self._model = _model(self.settings, where.home)
+        self.budget = purse_of(self.settings, where.home)
+        self._model = _model(self.settings, where.home, self.budget)
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
         self.brain = _brain(self._model, self.settings)
@@ -104,18 +107,19 @@ class Planner:
         await self.ears.close()
         if self._model is not None:
             await self._model.close()
+        self.budget.close()
         self._journal.close()
         self._session.close()
 
 
-def _model(settings: Settings, home: Path) -> EndpointBrain | None:
+def _model(settings: Settings, home: Path, meter: Meter) -> EndpointBrain | None:
     """Return the brain of the model that the owner has set, if one is."""
     if settings.model is None:
         return None
     from planner.brain.endpoint import EndpointBrain, warm_up  # httpx costs 0.1 s: not for nothing
 
     logging.getLogger("httpx").setLevel(logging.WARNING)  # a line for each call is too much
-    model = EndpointBrain(settings.model, home)
+    model = EndpointBrain(settings.model, home, meter=meter)
     warm_up()
     log.info("plans come from %s at %s", model.tag.name, model.address.host)
     return model

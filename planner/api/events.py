@@ -17,6 +17,7 @@ from planner.api.access import SUBPROTOCOL
 from planner.api.feed import Body, Feed, Listener, text_of
 from planner.api.ports import Services
 from planner.api.robot import about, path_view, robot_view, scan_view
+from planner.api.usage import usage_view
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
@@ -91,6 +92,7 @@ def snapshot(services: Services) -> dict[str, Any]:
         "about": about(services),
         "path": path_view(services),
         "scan": scan_view(services),
+        "usage": usage_view(services),
     }
 
 

@@ -1,4 +1,4 @@
-"""Make what every page watches once, however many watch: robot, scan and path, as JSON bodies.
+"""Make what every page watches once, however many watch: robot, scan, path and meter, as JSON.
 
 Latest wins: a listener that falls behind skips to the newest and never holds the others up. Runs
 only while somebody listens. Knows no socket.
@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from planner.api.robot import path_view, robot_view, scan_view
+from planner.api.usage import usage_view
 
 if TYPE_CHECKING:
     from planner.api.ports import Services
@@ -57,6 +58,7 @@ class Feed:
         self._robot_s = self._scan_s = float("-inf")
         self._told: tuple[Any, ...] = ()
         self._driven: tuple[str, int] | None = None
+        self._metered = 0
 
     def listen(self) -> Listener:
         """Begin to listen; the first listener starts the looking."""
@@ -90,6 +92,10 @@ class Feed:
         if driven != self._driven:  # legs only rise, so a new path is a new number
             self._driven = driven
             self._offer("path", {"path": path_view(self._services)})
+        changes = self._services.budget.changes
+        if changes != self._metered:
+            self._metered = changes
+            self._offer("usage", {"usage": usage_view(self._services)})
         if now_s - self._scan_s >= SCAN_S:
             self._scan_s = now_s
             self._offer("scan", {"scan": scan_view(self._services)})

@@ -81,6 +81,22 @@ class _Collector:
             family.add_metric([state], count)
         yield family
         yield from self._bridge()
+        yield from self._budget()
+
+    def _budget(self) -> Iterable[GaugeMetricFamily]:
+        usage = self._services.budget.usage()
+        spent = GaugeMetricFamily("pons_model_spent_today", "Spent today", labels=["what"])
+        limit = GaugeMetricFamily("pons_model_limit_per_day", "May be spent", labels=["what"])
+        for what, amount in usage.today.model_dump().items():
+            spent.add_metric([what], amount)
+            most = getattr(usage.day_limits, what)
+            if most is not None:
+                limit.add_metric([what], most)
+        yield spent
+        yield limit
+        yield _gauge("pons_model_calls", "Calls since start", usage.calls_since_start)
+        yield _gauge("pons_model_calls_under_way", "Not ended", usage.under_way)
+        yield _gauge("pons_model_idle_calls", "Refused: no goal asked", usage.idle_calls)
 
     def _bridge(self) -> Iterable[GaugeMetricFamily]:
         status = self._services.robot.status

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Sequence
 
     from planner.brain import Brain
+    from planner.budget import Usage
     from planner.mission import Leg
     from planner.plan import Goal, Language
     from planner.voice import Recogniser
@@ -84,6 +85,15 @@ class Robot(Protocol):
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
 
 
+class Budget(Protocol):
+    """Show what the model has cost; ``changes`` rises with every change."""
+
+    @property
+    def changes(self) -> int: ...
+
+    def usage(self, goal: str | None = None) -> Usage: ...
+
+
 class Services(Protocol):
     """Hold what one planner is made of."""
 
@@ -101,6 +111,9 @@ class Services(Protocol):
 
     @property
     def brain(self) -> Brain: ...
+
+    @property
+    def budget(self) -> Budget: ...
 
     @property
     def ears(self) -> Recogniser: ...

@@ -11,6 +11,7 @@ import pytest
 from planner.__main__ import REFUSED, main
 from planner.app import _brain, _model
 from planner.brain import FallbackBrain, OfflineBrain
+from planner.budget import purse_of
 from planner.settings import FILE, load_settings
 from tests.conftest import ROOT
 
@@ -20,7 +21,9 @@ KEY = "sk-never-shown-12345"
 def test_without_a_setting_the_offline_brain_thinks(tmp_path: Path) -> None:
     stray = {"OPENAI_API_KEY": KEY, "OPENAI_BASE_URL": "http://127.0.0.1:1/v1"}
     settings = load_settings(tmp_path, stray)
-    assert _model(settings, tmp_path) is None
+    purse = purse_of(settings, tmp_path)
+    assert _model(settings, tmp_path, purse) is None
+    purse.close()
     assert isinstance(_brain(None, settings), OfflineBrain)
 
 
@@ -30,12 +33,14 @@ def test_with_a_setting_the_model_thinks_first(
     caplog.set_level(logging.DEBUG)
     named = {"PONS_MODEL_URL": "http://127.0.0.1:1/v1", "PONS_MODEL": "m", "PONS_MODEL_KEY": KEY}
     settings = load_settings(tmp_path, named)
-    model = _model(settings, tmp_path)
+    purse = purse_of(settings, tmp_path)
+    model = _model(settings, tmp_path, purse)
     assert model is not None
     brain = _brain(model, settings)
     assert isinstance(brain, FallbackBrain)
     assert brain.tag.name == "m"
     asyncio.run(model.close())
+    purse.close()
     assert "m at 127.0.0.1" in caplog.text
     assert KEY not in caplog.text
 

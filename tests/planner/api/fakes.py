@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from planner.brain import Brain, OfflineBrain
+from planner.budget import Amounts, Most, Usage
 from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
@@ -157,6 +158,33 @@ class FakeEars:
         return self.heard
 
 
+class FakeBudget:
+    """Show a meter that a test sets."""
+
+    def __init__(self) -> None:
+        self.changes = 0
+        self.calls = 0
+        self.asked: list[str | None] = []
+
+    def usage(self, goal: str | None = None) -> Usage:
+        self.asked.append(goal)
+        spent = Amounts(calls=self.calls, prompt_tokens=9, reply_tokens=3, seconds=0.5, money=0.1)
+        most = Most(calls=20, prompt_tokens=100, reply_tokens=50, seconds=60.0, money=None)
+        return Usage(
+            model="m",
+            day=datetime(2026, 1, 1, tzinfo=UTC).date(),
+            resets_in_s=60.0,
+            currency="USD",
+            today=spent,
+            day_limits=most,
+            goal=None if goal is None else spent,
+            goal_limits=most,
+            under_way=1,
+            calls_since_start=self.calls,
+            idle_calls=0,
+        )
+
+
 class FakeServices:
     """Hold one of each."""
 
@@ -164,6 +192,7 @@ class FakeServices:
         self.goals = FakeGoals()
         self.robot = FakeRobot(status)
         self.ears = FakeEars()
+        self.budget = FakeBudget()
         self.brain: Brain = OfflineBrain()
         self.site = Site.load(ROOT / "sites" / "two_room")
         self.fences = FenceProposals(Path("/nowhere"))
