@@ -7,9 +7,9 @@ from planner.plan import Bilingual, Entry, Vocabulary
 from planner.world import Place, Site
 
 
-def facts_of(site: Site) -> Facts:
-    """Return the rooms and places of a site as targets, and its home."""
-    return Facts({place.id: _target(place) for place in site.places}, site.home.id)
+def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> Facts:
+    """Return the rooms and places of a site, and the taught ones, as targets; and its home."""
+    return Facts({place.id: _target(place) for place in (*site.places, *taught)}, site.home.id)
 
 
 def _target(place: Place) -> Target:
@@ -22,9 +22,9 @@ def _target(place: Place) -> Target:
     )
 
 
-def vocabulary_of(site: Site) -> Vocabulary:
-    """Return the names that a plan for this site may use."""
-    return Vocabulary(entries=tuple(_entry(site, place) for place in site.places))
+def vocabulary_of(site: Site, taught: tuple[Place, ...] = ()) -> Vocabulary:
+    """Return the names that a plan for this site may use, the taught ones last."""
+    return Vocabulary(entries=tuple(_entry(site, place) for place in (*site.places, *taught)))
 
 
 def _entry(site: Site, place: Place) -> Entry:

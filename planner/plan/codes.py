@@ -31,6 +31,7 @@ class Code(StrEnum):
     BAD_PLAN = "bad_plan"
     MODEL_UNAVAILABLE = "model_unavailable"
     NOT_ARMED = "not_armed"
+    PLACE_NOT_KEPT = "place_not_kept"
     # On the way.
     CONFIRM = "confirm"
     ASKED = "asked"
@@ -113,6 +114,10 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
     Code.NOT_ARMED: (
         "The robot is not armed. Arm it, then resume the goal.",
         "机器人未解锁。请先解锁，再继续任务。",
+    ),
+    Code.PLACE_NOT_KEPT: (
+        "The memory of places is as it was: {why}.",
+        "地点记忆没有改变：{why}。",
     ),
     Code.CONFIRM: (
         "The plan has changed: {why}. Say yes, or cancel.",
