@@ -100,7 +100,8 @@ class _Read(httpx.AsyncByteStream):
         if self._status >= 300:
             return 0, 0
         most = self._bill.most
-        wrote = min(most, self._size // CHARACTERS_PER_TOKEN) if self._whole else most
+        whole = self._whole or b"[DONE]" in self._tail
+        wrote = min(most, self._size // CHARACTERS_PER_TOKEN) if whole else most
         return self._sent, wrote
 
 
