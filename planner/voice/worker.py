@@ -34,6 +34,8 @@ class VoiceWorker:
 
     def __init__(self, names: Sequence[str], command: Sequence[str] | None = None) -> None:
         self._names = tuple(names)
+        self._told: tuple[str, ...] = ()
+        """The names that the process of now was started with."""
         self._command = command or (sys.executable, "-m", "planner.voice.child")
         self._process: Process | None = None
         self._turn = asyncio.Lock()
@@ -50,6 +52,19 @@ class VoiceWorker:
     def warm(self) -> None:
         """Start the process beside everything else, so that the first order need not wait."""
         self._warming = asyncio.create_task(self._warm(), name="voice worker")
+
+    def know(self, names: Sequence[str]) -> None:
+        """Hear other names from now on: a process that knows them is started beside all else."""
+        if tuple(names) == self._names:
+            return
+        self._names = tuple(names)
+        work = self._warm_after(self._warming)
+        self._warming = asyncio.create_task(work, name="voice worker")
+
+    async def _warm_after(self, before: asyncio.Task[None] | None) -> None:
+        if before is not None:
+            await asyncio.gather(before, return_exceptions=True)
+        await self._warm()
 
     async def hear(self, sound: Sound) -> Heard:
         """Return what was heard.
@@ -108,13 +123,15 @@ class VoiceWorker:
         Raises:
             VoiceFailure: there is none, and it says why.
         """
-        if self._process is not None and self._process.returncode is None:
+        alive = self._process is not None and self._process.returncode is None
+        if self._process is not None and alive and self._told == self._names:
             return self._process
         await self._bury()
         try:
             self._process = process = await self._spawn()
+            self._told = self._names
             async with asyncio.timeout(READY_S):
-                greeting = await self._exchange(process, pack({"names": self._names}))
+                greeting = await self._exchange(process, pack({"names": self._told}))
         except (TimeoutError, OSError, EOFError, ValueError) as error:
             await self._bury()
             text = f"it did not start: {str(error) or type(error).__name__}"

@@ -75,6 +75,22 @@ def test_the_real_process_hears_silence_and_ends() -> None:
     run(story)
 
 
+def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
+    async def story() -> None:
+        async with running(*stub(TELL)) as ears:
+            ears.warm()
+            ears.know(("kitchen", "xyzzy"))  # the same as before: the process stays
+            assert (await ears.hear(SECOND)).understood
+            pid, left_out = ears.pid, ears.left_out
+            ears.know(("kitchen", "corner", "nook"))
+            ears.know(("kitchen", "corner"))
+            assert (await ears.hear(SECOND)).understood
+            assert (left_out, ears.left_out) == (("xyzzy",), ("corner",))
+            assert ears.pid != pid
+
+    run(story)
+
+
 def test_recordings_come_whole_and_one_after_the_other() -> None:
     async def story() -> None:
         async with running(*stub(TELL)) as ears:
