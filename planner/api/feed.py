@@ -65,6 +65,7 @@ class Feed:
         listener = Listener()
         self._listeners.add(listener)
         if self._task is None or self._task.done():
+            self._metered = self._services.budget.changes  # the snapshot tells it so far
             self._task = asyncio.get_running_loop().create_task(self._run(), name="feed")
         return listener
 

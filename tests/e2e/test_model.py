@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from websockets.sync.client import connect
 
 from planner.settings import FILE
 from pons.mock_llm import Switches
@@ -31,6 +33,7 @@ NONSENSE = "colourless green ideas"
 """Neither the offline brain nor anything it offers moves on this."""
 SHORT = "wait 0.2 seconds"
 TRIALS_S = 3.0
+IDLE_S = 1.0
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +81,42 @@ def test_a_plan_by_a_model_is_driven_to_its_end(robot: Robot, mock: RunningMock)
     assert goal["brain"]["prompt"].startswith("plan/")
     assert goal["brain"]["fallback_from"] is None
     assert mock.report()["calls"] == before + 1
+
+
+def test_an_idle_robot_with_a_page_open_asks_nothing(robot: Robot, mock: RunningMock) -> None:
+    before = mock.report()["calls"]
+    metered = robot.system.http("GET", "/v1/usage").body
+    end_s = time.monotonic() + IDLE_S
+    with connect(f"ws://127.0.0.1:{robot.system.port}/v1/events") as socket:
+        shown = json.loads(socket.recv())["usage"]
+        while time.monotonic() < end_s:
+            assert json.loads(socket.recv())["kind"] != "usage"
+    assert shown["today"] == metered["today"]
+    after = robot.system.http("GET", "/v1/usage").body
+    assert (after["today"], after["idle_calls"]) == (metered["today"], 0)
+    assert (mock.report()["calls"], after["calls_since_start"]) == (before, before)
+
+
+def test_a_spent_budget_is_told_and_the_offline_brain_plans(
+    robot: Robot, mock: RunningMock
+) -> None:
+    """Another program of the same home spends what there is; the robot keeps to it at once."""
+    spent = (
+        robot.system.home / "spent" / f"{robot.system.http('GET', '/v1/usage').body['day']}.jsonl"
+    )
+    with spent.open("a") as ledger:
+        ledger.write('{"goal": "elsewhere", "calls": 2000}\n')
+    before = mock.report()["calls"]
+    waits = ended(robot, robot.system.give(SHORT))
+    assert (waits["state"], waits["brain"]["fallback_reason"]) == ("succeeded", "out_of_budget")
+    assert "midnight UTC" in waits["brain"]["fallback_message"]["en"]
+    lost = ended(robot, robot.system.give(NONSENSE))
+    assert lost["outcome"]["code"] == "out_of_budget"
+    assert "预算" in lost["outcome"]["message"]["zh"]
+    assert robot.system.http("GET", "/v1/usage").body["refused"]["code"] == "out_of_budget"
+    assert mock.report()["calls"] == before
+    with spent.open("a") as ledger:
+        ledger.write('{"goal": "elsewhere", "calls": -2000}\n')
 
 
 def test_a_stop_works_while_the_model_hangs(robot: Robot, mock: RunningMock) -> None:
