@@ -20,6 +20,7 @@ from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Restarted, Stopped, Submitted, Tick
 from planner.mission.facts import facts_of
 from planner.mission.records import Book, Mission
+from planner.mission.skills import Way
 from planner.mission.thinking import thinker
 from planner.route import RouteFailure, RouteRequest
 from wire import VIRTUAL_KEY, OpKind, OpRequest, Scan, Status, Stop, sign
@@ -187,7 +188,8 @@ class PlannerSide:
         def act(now_s: float) -> Output:
             try:
                 found = self._scene.router.route(
-                    RouteRequest(ask.start, ask.goal, obstacles), lambda: now_s
+                    RouteRequest(ask.start, ask.goal, obstacles, ask.way is Way.STRAIGHT),
+                    lambda: now_s,
                 )
             except RouteFailure as failure:
                 return self.engine.routed(ask, None, failure.code, now_s)

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from planner.brain.protocol import Observation
 from planner.mission.records import Mission
+from planner.mission.skills.act import Way
 from planner.plan import Language
 from wire import Pose2
 
@@ -23,6 +25,10 @@ class AskBrain:
     language: Language
     room: str | None = None
     """The room that the robot is in, where known."""
+    observed: tuple[Observation, ...] = ()
+    """What came of the steps so far, where the goal is thought about again."""
+    replan: int = 0
+    """How often it was thought about again after a step that failed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +49,8 @@ class AskRoute:
     heading: bool
     obstacles: bool
     """Count what the lidar sees now."""
+    way: Way = Way.ROUTE
+    """A spin needs no search: the engine answers it by itself."""
 
 
 @dataclass(frozen=True, slots=True)

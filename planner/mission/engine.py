@@ -7,14 +7,19 @@ at once and carry out ``effects``. Whoever answers an effect does so with anothe
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot
 
 from planner.link import Course, Identity, OwnerState, on_course, on_status
 from planner.mission.effects import AskRoute, Effect, Journal, Wish
 from planner.mission.events import Event, Journalled, Routed, Seen
 from planner.mission.records import Book
 from planner.mission.reducer import advance, wish
+from planner.mission.skills import Way
 from planner.route import Horizon, LegPath, RoutePoint, cut
 from wire import Record, Status
+
+SPIN_MPS = 0.05
+"""The slowest speed that the bridge takes for a speed: a spin's one point is never driven to."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,11 +71,13 @@ class Engine:
 
     def status(self, status: Status, now_s: float) -> Output:
         """Judge one bridge status and answer it as the owner."""
-        horizon = self._cut(status)
-        seen = Seen(status, off_path=horizon is not None and horizon.off_path)
-        self.book, effects = advance(self.book, seen, now_s)
+        horizon, before = self._cut(status), self._following
+        off_path, left_m = False, None
+        if horizon is not None and before is not None:
+            off_path, left_m = horizon.off_path, before.path.length_m - horizon.progress_m
+        effects = self._advance(Seen(status, off_path, left_m), now_s)
         self._used = status.seq
-        course = self._course(horizon)
+        course = self._course(horizon if self._following is before else self._cut(status))
         self._owner, messages = on_status(
             self._identity, self._owner, status, course, self._used, now_s
         )
@@ -80,7 +87,7 @@ class Engine:
         """Take any other event; if it changes what is wanted, say so to the bridge at once."""
         if isinstance(event, Seen):
             return self.status(event.status, now_s)
-        self.book, effects = advance(self.book, event, now_s)
+        effects = self._advance(event, now_s)
         return Output(self._speak(now_s), effects)
 
     def routed(
@@ -91,17 +98,41 @@ class Engine:
         now_s: float,
     ) -> Output:
         """Take the answer to ``AskRoute``: the route's points, or the code of why there is none."""
-        if points is not None:
-            self._path = LegPath.of(points, ask.goal.yaw_rad if ask.heading else None)
-        event = Routed(ask.id, ask.ticket, failure if points is None else None)
-        self.book, effects = advance(self.book, event, now_s)
-        self._adopt()
-        self._path = None
+        effects = self._take_route(ask, points, failure, now_s)
         return Output(self._speak(now_s), effects)
 
     def journalled(self, journal: Journal, now_s: float) -> Output:
         """Take the word that an entry is on disk."""
         return self.event(Journalled(journal.entry), now_s)
+
+    def _advance(self, event: Event, now_s: float) -> tuple[Effect, ...]:
+        """Reduce one event; a spin that is asked for needs no router and is answered here."""
+        self.book, effects = advance(self.book, event, now_s)
+        carried: list[Effect] = []
+        for effect in effects:
+            if isinstance(effect, AskRoute) and effect.way is Way.SPIN:
+                here = (RoutePoint(effect.start.x_m, effect.start.y_m, SPIN_MPS),)
+                carried.extend(self._take_route(effect, here, None, now_s))
+            else:
+                carried.append(effect)
+        return tuple(carried)
+
+    def _take_route(
+        self,
+        ask: AskRoute,
+        points: tuple[RoutePoint, ...] | None,
+        failure: str | None,
+        now_s: float,
+    ) -> tuple[Effect, ...]:
+        short_m = 0.0
+        if points is not None:
+            self._path = LegPath.of(points, ask.goal.yaw_rad if ask.heading else None)
+            short_m = hypot(ask.goal.x_m - points[-1].x_m, ask.goal.y_m - points[-1].y_m)
+        event = Routed(ask.id, ask.ticket, failure if points is None else None, short_m)
+        effects = self._advance(event, now_s)
+        self._adopt()
+        self._path = None
+        return effects
 
     def _speak(self, now_s: float) -> tuple[Record, ...]:
         status, wanted = self.book.status, wish(self.book)

@@ -42,6 +42,8 @@ class Routed:
     id: str
     ticket: int
     failure: str | None = None
+    short_m: float = 0.0
+    """From the end of the route to its goal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +52,8 @@ class Seen:
 
     status: Status
     off_path: bool = False
+    left_m: float | None = None
+    """Along that path, to its end."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from planner.mission.asking import asks, take_answer
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
+from planner.mission.gate import unwalkable
 from planner.mission.queue import (
     cancel,
     enqueue,
@@ -15,10 +17,10 @@ from planner.mission.queue import (
     release_queue,
 )
 from planner.mission.records import Mission
+from planner.mission.rethought import fingerprint, rethought
 from planner.mission.turn import Turn
 from planner.mission.verdict import spot_at
 from planner.plan import (
-    RUNNABLE,
     Answer,
     Bilingual,
     Clarify,
@@ -29,11 +31,16 @@ from planner.plan import (
     Refuse,
     StepPlan,
     message,
-    places_of,
     plan_record,
-    same,
 )
 
+MAP_CHANGED = Bilingual(
+    en="The map has changed since: places are found on the new one, but there is no way back.",
+    zh="地图已更换：地点以新地图为准，但无法返回原来的位置。",
+)
+IN_HAND = frozenset(
+    {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
+)
 UNCONFIRMED = Bilingual(
     en="No more waypoints are sent, but the bridge did not confirm the stop.",
     zh="已不再发送路径点，但安全桥没有确认停止。",
@@ -59,6 +66,7 @@ def submit(turn: Turn, event: Submitted) -> None:
         state=GoalState.PLANNING,
         confirm=event.confirm,
         replace=event.replace,
+        map_id=turn.book.facts.map_id,
         accepted_at=(pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None,
         created_unix_s=now_unix_s,
         updated_unix_s=now_unix_s,
@@ -81,14 +89,17 @@ def _stopped(turn: Turn, mission: Mission, echoed: bool) -> None:
 def _think(turn: Turn, mission: Mission) -> None:
     turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None, plan=None)
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
-    text = mission.replies[-1] if mission.replies else mission.text
     room = spot_at(turn.book.facts, pose).room
-    turn.emit(AskBrain(mission.id, text, mission.language, room))
+    turn.emit(AskBrain(mission.id, mission.words, mission.language, room))
 
 
 def planned(turn: Turn, event: Planned) -> None:
     """Take the brain's answer, if somebody still waits for it."""
     mission = turn.mission(event.id)
+    walk = turn.book.walk
+    if mission is not None and mission is turn.running and walk and walk.kind == "think":
+        rethought(turn, mission, event)
+        return
     if mission is None or mission.state is not GoalState.PLANNING:
         return
     plan = event.plan
@@ -113,7 +124,7 @@ def planned(turn: Turn, event: Planned) -> None:
                 mission, state=GoalState.NEEDS_CLARIFICATION, reason=plan.code.value, outcome=said
             )
         case StepPlan():
-            _walkable(turn, mission, plan)
+            _walkable(turn, mission)
 
 
 def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: Outcome) -> None:
@@ -121,24 +132,14 @@ def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: O
     finish(turn, mission, state, outcome, reason)
 
 
-def _walkable(turn: Turn, mission: Mission, plan: StepPlan) -> None:
-    """Be the last gate: what can't be walked is refused before anything moves."""
-    lacking = next((s for s in plan.steps if s.kind not in RUNNABLE), None)
-    targets = turn.book.facts.targets
-    unknown = [p for s in plan.steps for p in places_of(s) if p not in targets]
-    outcome: Outcome | None = None
-    if not plan.steps:
-        outcome = _bad_plan("no steps")
-    elif lacking is not None:
-        said = message(Code.NO_CAPABILITY, part=same(lacking.kind))
-        outcome = Outcome(code=Code.NO_CAPABILITY, message=said)
-    elif unknown:
-        known = same(", ".join(sorted(targets)))
-        said = message(Code.UNKNOWN_PLACE, name=unknown[0], near="", known=known)
-        outcome = Outcome(code=Code.UNKNOWN_PLACE, message=said)
+def _walkable(turn: Turn, mission: Mission) -> None:
+    """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
+    outcome = unwalkable(turn.book.facts, mission.steps)
     if outcome is not None:
         finish(turn, mission, GoalState.REFUSED, outcome, outcome.code.value)
-    elif mission.confirm:
+        return
+    mission = turn.put(mission, tried=(fingerprint(mission.steps),))
+    if mission.confirm:
         turn.put(mission, state=GoalState.AWAITING_CONFIRMATION)
     else:
         ready(turn, mission)
@@ -150,9 +151,24 @@ def _bad_plan(why: str) -> Outcome:
 
 def ready(turn: Turn, mission: Mission) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
-    if mission.replace and turn.running is not None:
-        cancel(turn, turn.running)
+    if mission.begun:  # it was asked under way, and goes on where it stood
+        release_queue(turn)
+        enqueue(turn, mission, first=True)
+        return
+    if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
+        cancel(turn, replaced)
     enqueue(turn, mission, first=mission.replace)
+
+
+def _in_hand(turn: Turn, new: Mission) -> Mission | None:
+    """Return what "forget that" means: the running goal, else the newest that thinks or asks.
+
+    A goal that a person paused keeps its place, and so do those that wait.
+    """
+    if turn.running is not None:
+        return turn.running
+    open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
+    return max(open_, key=lambda m: m.order, default=None)
 
 
 def confirm(turn: Turn, mission: Mission) -> None:
@@ -162,8 +178,11 @@ def confirm(turn: Turn, mission: Mission) -> None:
 
 
 def reply(turn: Turn, mission: Mission, text: str) -> None:
-    """Take a person's answer and think again."""
+    """Take a person's answer: to the plan's own question, or to one about the order itself."""
     pardon(turn)
+    if asks(mission):
+        take_answer(turn, mission, text)
+        return
     _think(turn, turn.put(mission, replies=(*mission.replies, text)))
 
 
@@ -213,12 +232,25 @@ def restart(turn: Turn, event: Restarted) -> None:
         walk=None,
         order=order,
         wall_offset_s=event.wall_offset_s,
+        asked_s={m.id: turn.now_s for m in missions.values() if asks(m)},
     )
     for mission in missions.values():
         if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
             reason = PauseReason.PLANNER_RESTARTED.value
             turn.put(mission, state=GoalState.PAUSED, reason=reason)
+        if not mission.ended and mission.map_id != turn.book.facts.map_id:
+            _forget_poses(turn, turn.book.missions[mission.id])
     hold_queue(turn)
+
+
+def _forget_poses(turn: Turn, mission: Mission) -> None:
+    """Drop where a goal began on another map: a point of that map is nowhere on this one."""
+    if mission.map_id:
+        mission = turn.put(mission, accepted_at=None, began_at=None)
+        if mission.state is GoalState.PAUSED:
+            said = Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED)
+            turn.put(mission, outcome=said)
+    turn.put(turn.book.missions[mission.id], map_id=turn.book.facts.map_id)
 
 
 def _queue(event: Restarted, missions: dict[str, Mission]) -> tuple[str, ...]:

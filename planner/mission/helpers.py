@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 from planner.mission.effects import AskBrain, AskRoute, DropBrain
 from planner.mission.events import Planned
+from planner.mission.skills import Way
 from planner.plan import Code, Outcome, message
 from planner.route import RouteFailure, RoutePoint, RouteRequest, RouteResult
 
@@ -105,7 +106,8 @@ class Helpers:
     async def _search(self, ask: AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
         try:
-            result = await self._router.route(RouteRequest(ask.start, ask.goal, obstacles))
+            request = RouteRequest(ask.start, ask.goal, obstacles, straight=ask.way is Way.STRAIGHT)
+            result = await self._router.route(request)
         except RouteFailure as failure:
             log.warning("no route for goal %s: %s", ask.id, failure)
             self._answers.routed(ask, None, failure.code)

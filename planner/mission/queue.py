@@ -10,7 +10,7 @@ from planner.mission.effects import DropBrain
 from planner.mission.records import Mission
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended, failure
-from planner.plan import Code, GoalState, Outcome, StepState, message
+from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""
@@ -67,7 +67,10 @@ def settle_walk(turn: Turn) -> Mission | None:
         for name, count in walk.limited.items():
             limited[name] = limited.get(name, 0) + count
         metres = round(mission.metres + walk.metres, 4)
-        mission = turn.put(mission, metres=metres, limited=limited)
+        done = round(mission.done + walk.amount, 5)
+        mission = turn.put(mission, metres=metres, limited=limited, done=done)
+        if walk.kind == "think":  # nobody waits for this thought any more
+            turn.emit(DropBrain(mission.id))
     turn.set(walk=None)
     return mission
 
@@ -78,6 +81,15 @@ def pause_running(turn: Turn, reason: str) -> None:
     if mission is not None:
         turn.put(mission, state=GoalState.PAUSED, reason=reason, outcome=_hint(reason))
         turn.set(running=None)
+    hold_queue(turn)
+
+
+def step_aside(
+    turn: Turn, mission: Mission, state: GoalState, reason: str | None, said: Outcome | None
+) -> None:
+    """Leave the robot standing and free while a person is asked; who waits is kept waiting."""
+    turn.set(running=None, walk=None)
+    turn.put(mission, state=state, reason=reason, outcome=said)
     hold_queue(turn)
 
 
@@ -95,14 +107,18 @@ def pause_planning(turn: Turn, mission: Mission, reason: str) -> None:
 
 
 def end_running(
-    turn: Turn, state: GoalState, code: Code, reason: str | None = None, row: str = ""
+    turn: Turn,
+    state: GoalState,
+    code: Code,
+    reason: str | None = None,
+    row: str = "",
+    said: Bilingual | None = None,
 ) -> None:
     """End the running mission with its figures; steps never begun are skipped."""
     mission = settle_walk(turn)
     if mission is None:
         return
-    step = mission.steps[mission.step] if mission.step < len(mission.steps) else None
-    said = failure(turn.book.facts, mission, step, code, row)
+    said = said or failure(turn.book.facts, mission, mission.now, code, row)
     finish(turn, mission, state, ended(
         turn.book.facts, mission, None, turn.book.status, turn.now_s + turn.book.wall_offset_s,
         code=code, said=said,

@@ -12,6 +12,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from planner.mission.skills.act import Way
 from planner.plan import (
     ENDED,
     Bilingual,
@@ -22,6 +23,7 @@ from planner.plan import (
     Outcome,
     PlanRecord,
     StepRecord,
+    StepState,
 )
 from wire import Pose2, Status
 
@@ -51,7 +53,23 @@ class Mission(Frozen):
     replace: bool = False
     held: bool = False
     """Queued, and kept there until a person resumes or cancels it."""
+    map_id: str = ""
+    """The map that every pose here is on; empty in records of older programs."""
     step: int = 0
+    part: int = 0
+    """Legs of the current step that were reached: what was done of it is not done again."""
+    began_at: tuple[float, float, float] | None = None
+    """Where the robot stood when the current step began: x [m], y [m], yaw [rad] in ``map``."""
+    done: float = 0.0
+    """What odometry says was done of the current step: radians of a turn, else metres ahead."""
+    replans: int = 0
+    """Thoughts spent on steps that failed."""
+    decides: int = 0
+    """Thoughts spent on ``decide`` steps."""
+    tried: tuple[str, ...] = ()
+    """Fingerprints of the plans that were taken: the same again leads nowhere."""
+    failure: Outcome | None = None
+    """Why the current step failed, while a new plan is thought about."""
     leg: int = 0
     """The newest leg of this mission; legs only rise."""
     accepted_at: tuple[float, float, float] | None = None
@@ -69,6 +87,21 @@ class Mission(Frozen):
     @property
     def steps(self) -> tuple[StepRecord, ...]:
         return self.plan.steps if self.plan is not None else ()
+
+    @property
+    def words(self) -> str:
+        """Return the newest thing that the person said about this goal, to be understood."""
+        return self.replies[-1] if self.replies else self.text
+
+    @property
+    def now(self) -> StepRecord | None:
+        """Return the current step; None before the plan and after its last step."""
+        return self.steps[self.step] if self.step < len(self.steps) else None
+
+    @property
+    def begun(self) -> bool:
+        """Tell whether any step was begun: from then on the goal keeps its place at the front."""
+        return self.step > 0 or (self.now is not None and self.now.state is not StepState.PENDING)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,23 +121,51 @@ class Facts:
 
     targets: dict[str, Target]
     home: str
+    map_id: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """Bound what a mission may do by itself. Data, from the owner's settings."""
+
+    replans: int = 2
+    """New plans for a goal whose step failed; then it fails."""
+    decides: int = 3
+    """Times that a goal may think again because its plan says so."""
+    answer_s: float = 600.0
+    """How long an answer to a step's question is waited for, standing."""
 
 
 @dataclass(frozen=True, slots=True)
 class Walk:
     """Remember the running step between two statuses."""
 
-    kind: Literal["drive", "wait", "say"]
+    kind: Literal["drive", "wait", "say", "ask", "think"]
     record: int
     """The journal entry that says this step started; nothing moves or speaks before it is safe."""
     goal: Pose2 | None = None
     heading: bool = False
     """The goal's yaw matters too."""
+    way: Way = Way.ROUTE
+    target: str | None = None
+    """The place that is driven to."""
+    limit_s: float | None = None
+    limit_m: float | None = None
+    """The skill's budget for this leg."""
+    moving_s: float = 0.0
+    """Time for which the leg was followed and nothing held it."""
+    left_m: float | None = None
+    """Along the path, as of the newest status."""
+    amount: float = 0.0
+    """What odometry says was done in this leg, as in ``Mission.done``."""
     until_s: float | None = None
     """When a wait ends."""
+    aloud: bool = True
+    """A question is spoken; False where it was perhaps spoken before."""
     ticket: int | None = None
     """The route that is being searched."""
-    ticket_obstacles: bool = False
+    ticket_detour: bool = False
+    """It is to lead round what the lidar sees."""
     leg: int | None = None
     """The leg that is streamed; None: stand."""
     route_when_standing: bool = False
@@ -128,6 +189,7 @@ class Book:
     """Hold all missions of one robot. Frozen; dictionaries in it are replaced, never changed."""
 
     facts: Facts
+    rules: Rules = Rules()
     wall_offset_s: float = 0.0
     """Unix time less the monotonic clock that ``now_s`` is on."""
     missions: dict[str, Mission] = field(default_factory=dict)
@@ -139,6 +201,8 @@ class Book:
     pardoned: str | None = None
     """The bridge's hold that stood when a person last acted; it is given time to clear."""
     pardon_until_s: float = float("-inf")
+    asked_s: dict[str, float] = field(default_factory=dict)
+    """Since when each goal waits for the answer to its own question."""
     order: int = 0
     tickets: int = 0
     written: int = 0

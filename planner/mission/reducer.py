@@ -35,12 +35,13 @@ from planner.mission.goals import (
     stop,
     submit,
 )
+from planner.mission.legs import on_routed
 from planner.mission.queue import cancel, reorder
 from planner.mission.records import Book
 from planner.mission.table import refusal
 from planner.mission.turn import Turn
 from planner.mission.verdict import MOTION
-from planner.mission.walk import on_routed, speak_if_safe, start_next
+from planner.mission.walk import speak_if_safe, start_next
 from planner.mission.watch import on_status, on_tick
 
 __all__ = ["AskBrain", "advance", "wish"]
@@ -80,13 +81,13 @@ def _fact(
 ) -> None:
     match event:
         case Seen():
-            on_status(turn, event.status, event.off_path)
+            on_status(turn, event.status, event.off_path, event.left_m)
         case Tick():
             on_tick(turn)
         case Journalled():
             turn.set(safe=max(turn.book.safe, min(event.entry, turn.book.written)))
         case Routed():
-            on_routed(turn, event.id, event.ticket, event.failure)
+            on_routed(turn, event.id, event.ticket, event.failure, event.short_m)
         case Planned():
             planned(turn, event)
         case Submitted():

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import cos, hypot, sin
 
 from planner.plan import PauseReason, fault
-from wire import SEVERITY, Action, Mode, RowReport, Status
+from wire import SEVERITY, Action, Mode, RowReport, Status, wrap
 
 STANDING_MPS = 0.02
 STANDING_RADPS = 0.05
@@ -62,6 +62,18 @@ def refused_grant(status: Status, mission_id: str) -> str | None:
         if answer.kind == "grant" and answer.id == mission_id and not answer.accepted:
             return answer.code
     return None
+
+
+def amount_done(before: Status | None, now: Status, *, turning: bool) -> float:
+    """Return what odometry says was turned [rad], or gone along the heading [m], in between."""
+    if before is None or before.boot != now.boot or now.seq <= before.seq:
+        return 0.0
+    a, b = before.base_in_odom, now.base_in_odom
+    if turning:
+        return wrap(b.yaw_rad - a.yaw_rad)
+    dx, dy = b.x_m - a.x_m, b.y_m - a.y_m
+    ahead_m = dx * cos(a.yaw_rad) + dy * sin(a.yaw_rad)
+    return ahead_m if abs(ahead_m) <= MAX_STEP_M else 0.0
 
 
 def driven_m(before: Status | None, now: Status) -> float:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from planner.mission.records import Facts, Mission, Walk
+from planner.mission.skills.words import angle, metres
 from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message, same
 from planner.world.polygon import area_m2, contains
 from wire import Pose2, Status
@@ -13,7 +14,7 @@ from wire import Pose2, Status
 MAX_LIMITS_NAMED = 5
 MIN_LIMIT_SHARE = 0.02
 """A limit that was the nearest one in under 2 % of the statuses explains nothing."""
-MOTION = frozenset({"go_to", "return_home", "come_back"})
+MOTION = frozenset({"go_to", "return_home", "come_back", "turn", "move", "patrol"})
 BUDGET = Bilingual(en="distance or time", zh="里程或时间")
 
 
@@ -54,10 +55,19 @@ def place_name(facts: Facts, mission: Mission, step: StepRecord | None) -> Bilin
     """Name a step's destination for a person."""
     if step is not None and step.kind == "come_back":
         return Bilingual(en="where you gave the order", zh="下达指令的地方")
+    if step is not None and step.kind in ("turn", "move"):
+        return Bilingual(en="where I was to be", zh="要到达的位置")
     wanted = facts.home if step is not None and step.kind == "return_home" else None
-    wanted = wanted or (step.place if step is not None else None) or ""
+    wanted = wanted or (_place(mission, step) if step is not None else "")
     target = facts.targets.get(wanted)
     return target.name if target is not None else same(wanted or "?")
+
+
+def _place(mission: Mission, step: StepRecord) -> str:
+    """Return the place that a step is at: of a patrol the one whose turn it is, or the last."""
+    if step.places:
+        return step.places[min(mission.part, len(step.places) - 1)]
+    return step.place or ""
 
 
 def limits(mission: Mission, walk: Walk | None) -> tuple[str, ...]:
@@ -100,9 +110,23 @@ def ended(
 def success(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:
     """Return the code and sentence of a mission whose every step is done."""
     drives = [s for s in mission.steps if s.kind in MOTION]
+    if drives and drives[-1].kind in ("turn", "move"):
+        return Code.DONE, _amount(drives[-1])
     if drives:
         return Code.ARRIVED, message(Code.ARRIVED, place=place_name(facts, mission, drives[-1]))
     return Code.DONE, message(Code.DONE)
+
+
+def _amount(step: StepRecord) -> Bilingual:
+    """Say how far a turn or a move came, by odometry, and what was asked."""
+    turned = step.kind == "turn"
+    put = angle if turned else metres
+    asked = put((step.angle_rad if turned else step.distance_m) or 0.0)
+    came = put((step.turned_rad if turned else step.moved_m) or 0.0)
+    return Bilingual(
+        en=f"Done: {came.en} by odometry ({asked.en} asked).",
+        zh=f"已完成：里程计显示{came.zh}（要求{asked.zh}）。",
+    )
 
 
 def failure(

@@ -1,4 +1,4 @@
-"""Walk the running mission's plan: begin steps, ask for routes, believe only the bridge's word.
+"""Walk the running mission's plan: begin steps, carry out what their skills ask, end them.
 
 A motion step is done when the bridge says that this very leg was reached, the robot stands, and its
 pose lies inside the room's outline. Nothing moves or speaks before the journal holds its beginning.
@@ -6,30 +6,38 @@ pose lies inside the room's outline. Nothing moves or speaks before the journal 
 
 from __future__ import annotations
 
-from planner.mission.effects import AskRoute, SayAloud
-from planner.mission.queue import (
-    end_running,
-    finish,
-    next_up,
-    note_step,
-    pause_running,
-    settle_walk,
-)
-from planner.mission.records import Mission, Target, Walk
+from math import cos, sin
+
+from planner.mission.effects import SayAloud
+from planner.mission.failing import fail_step, think
+from planner.mission.legs import RETRY_S, ask_route, lost_route
+from planner.mission.queue import finish, next_up, note_step, pause_running, settle_walk, step_aside
+from planner.mission.records import Mission, Walk
 from planner.mission.sight import cannot_move, standing
+from planner.mission.skills import (
+    Act,
+    Cannot,
+    Done,
+    Drive,
+    Later,
+    Question,
+    Scene,
+    Skip,
+    Speak,
+    Stand,
+    Think,
+    act_of,
+)
+from planner.mission.skills.move import along
+from planner.mission.skills.turn import turned_rad
 from planner.mission.turn import Turn
 from planner.mission.verdict import MOTION, accepted_at, ended, spot_at, success
-from planner.plan import Code, GoalState, StepRecord, StepState
+from planner.plan import Code, GoalState, Outcome, StepState, message, same
 from planner.world.polygon import contains
 from wire import Pose2
 
-MAX_ROUTES = 5
-"""Routes of one step that may be lost (off the path, refused by the bridge, short of the room)."""
-MAX_DETOURS_FAILED = 3
-RETRY_S = 1.0
-DETOUR_AFTER_S = 3.0
-DETOUR_MOST_S = 30.0
-TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
+BY_AMOUNT = frozenset({"turn", "move"})
+"""Steps that are measured from where they began."""
 
 
 def start_next(turn: Turn) -> None:
@@ -45,155 +53,159 @@ def begin_step(turn: Turn) -> None:
     mission = turn.running
     if mission is None:
         return
-    if mission.step >= len(mission.steps):
+    step = mission.now
+    if step is None:
         _succeed(turn, mission)
         return
-    step = mission.steps[mission.step]
-    if step.kind in MOTION:
-        _begin_drive(turn, mission, step)
-    elif step.kind == "wait":
-        _note_running(turn, mission)
-        until_s = turn.now_s + (step.seconds or 0.0)
-        turn.set(walk=Walk("wait", turn.next_entry, until_s=until_s))
-    elif step.kind == "say":
-        _begin_say(turn, mission, step)
-    else:  # refused when it was planned; here for a journal that an older program wrote
-        end_running(turn, GoalState.FAILED, Code.NO_CAPABILITY, step.kind)
-
-
-def _note_running(turn: Turn, mission: Mission) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None)
-
-
-def _begin_say(turn: Turn, mission: Mission, step: StepRecord) -> None:
-    if step.state is StepState.RUNNING:  # begun before a crash or pause: perhaps said already
-        finish_step(turn, StepState.SKIPPED, reason="perhaps_said")
+    if step.state is StepState.FAILED:  # paused while a better plan was thought about
+        think(turn, mission)
         return
-    _note_running(turn, mission)
-    turn.set(walk=Walk("say", turn.next_entry))
-
-
-def _begin_drive(turn: Turn, mission: Mission, step: StepRecord) -> None:
-    cause = cannot_move(turn.book.status)
+    cause = cannot_move(turn.book.status) if step.kind in MOTION else None
     if cause is not None:
         turn.set(walk=None)
         pause_running(turn, cause)
         return
-    goal, heading = _goal_of(turn, mission, step)
-    if goal is None:
-        end_running(turn, GoalState.FAILED, Code.NO_ROUTE, "no_route")
-        return
-    _note_running(turn, mission)
-    turn.set(walk=Walk("drive", turn.next_entry, goal=goal, heading=heading))
-    ask_route(turn, obstacles=False)
+    mission = _measure_from(turn, mission)
+    _carry_out(turn, mission, act_of(scene_of(turn, mission)))
 
 
-def target_of(turn: Turn, step: StepRecord) -> Target | None:
-    """Return the room or place that a step names."""
-    facts = turn.book.facts
-    return facts.targets.get(facts.home if step.kind == "return_home" else step.place or "")
+def _measure_from(turn: Turn, mission: Mission) -> Mission:
+    """Note where a step that is measured began; after an interruption believe the map for the gap.
+
+    Where the beginning is not known any more (another map), it is what odometry says before here.
+    """
+    step, pose = mission.now, _pose(turn)
+    if step is None or pose is None or step.kind not in BY_AMOUNT:
+        return mission
+    done = mission.done
+    if mission.began_at is None:
+        ahead_m, turned = (0.0, done) if step.kind == "turn" else (done, 0.0)
+        began = (
+            pose.x_m - ahead_m * cos(pose.yaw_rad),
+            pose.y_m - ahead_m * sin(pose.yaw_rad),
+            pose.yaw_rad - turned,
+        )
+        return turn.put(mission, began_at=began)
+    began_at = Pose2(*mission.began_at)
+    if step.kind == "turn":
+        return turn.put(mission, done=turned_rad(pose, began_at, done))
+    return turn.put(mission, done=along(pose, began_at)[0])
 
 
-def _goal_of(turn: Turn, mission: Mission, step: StepRecord) -> tuple[Pose2 | None, bool]:
-    if step.kind == "come_back":
-        return accepted_at(mission), True
-    target = target_of(turn, step)
-    return (None, False) if target is None else (target.pose, not target.room)
-
-
-def ask_route(turn: Turn, *, obstacles: bool) -> None:
-    """Have a way searched from where the robot is; without a pose, as soon as there is one."""
-    mission, walk, status = turn.running, turn.book.walk, turn.book.status
-    if mission is None or walk is None or walk.goal is None:
-        return
-    start = status.base_in_map if status is not None else None
-    if start is None:
-        turn.walk(retry_s=turn.now_s + RETRY_S)
-        return
-    ticket = turn.book.tickets + 1
-    turn.set(tickets=ticket)
-    turn.walk(ticket=ticket, ticket_obstacles=obstacles, retry_s=None, route_when_standing=False)
-    turn.emit(AskRoute(mission.id, ticket, start, walk.goal, walk.heading, obstacles))
-
-
-def on_routed(turn: Turn, mission_id: str, ticket: int, failure: str | None) -> None:
-    """Take the route that was asked for; any other is forgotten."""
-    mission, walk = turn.running, turn.book.walk
-    if mission is None or walk is None or mission.id != mission_id or walk.ticket != ticket:
-        return
-    turn.walk(ticket=None)
-    if failure is None:
-        _new_leg(turn, mission)
-    elif walk.ticket_obstacles:
-        _detour_failed(turn, walk)
-    elif failure in TRANSIENT and walk.routes < MAX_ROUTES:
-        turn.walk(routes=walk.routes + 1, retry_s=turn.now_s + RETRY_S)
-    else:
-        end_running(turn, GoalState.FAILED, Code.NO_ROUTE, "no_route")
-
-
-def _new_leg(turn: Turn, mission: Mission) -> None:
-    """Number the leg above every one that bridge or journal know: reached is latched by leg."""
-    status = turn.book.status
-    known = status.leg if status is not None else None
-    floor = known.leg if known is not None and known.mission == mission.id else 0
-    leg = max(mission.leg, floor) + 1
-    turn.put(mission, leg=leg)
-    turn.walk(leg=leg, refused_since_s=None, idle_since_s=None, jumped=False)
-
-
-def _detour_failed(turn: Turn, walk: Walk) -> None:
-    if walk.detours_failed + 1 >= MAX_DETOURS_FAILED:
-        end_running(turn, GoalState.FAILED, Code.BLOCKED, "blocked")
-        return
-    turn.walk(
-        detours_failed=walk.detours_failed + 1,
-        retry_s=turn.now_s + detour_pause_s(walk.detours_failed + 1) if walk.leg is None else None,
+def scene_of(turn: Turn, mission: Mission) -> Scene:
+    """Return what the skill of the current step is told."""
+    return Scene(
+        step=mission.steps[mission.step],
+        facts=turn.book.facts,
+        pose=_pose(turn),
+        began=Pose2(*mission.began_at) if mission.began_at is not None else None,
+        done=mission.done,
+        part=mission.part,
+        accepted=accepted_at(mission),
     )
 
 
-def detour_pause_s(tried: int) -> float:
-    """Return how long to wait before the next way round is searched [s]: 3, 6, 12 … 30."""
-    return min(DETOUR_MOST_S, DETOUR_AFTER_S * 2.0**tried)
+def _pose(turn: Turn) -> Pose2 | None:
+    return turn.book.status.base_in_map if turn.book.status is not None else None
+
+
+def _carry_out(turn: Turn, mission: Mission, act: Act) -> None:
+    """Do what a skill asked for."""
+    match act:
+        case Drive():
+            _drive(turn, act)
+        case Later():
+            note_step(turn, mission, state=StepState.RUNNING, reason=None)
+            retry_s = turn.now_s + RETRY_S
+            turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s))
+        case Stand():
+            note_step(turn, mission, state=StepState.RUNNING, reason=None)
+            until_s = turn.now_s + act.seconds
+            turn.set(walk=Walk("wait", turn.next_entry, until_s=until_s))
+        case Speak():
+            note_step(turn, mission, state=StepState.RUNNING, reason=None)
+            turn.set(walk=Walk("say", turn.next_entry))
+        case Question():
+            _ask(turn, mission)
+        case Think():
+            _decide(turn, mission)
+        case Done():
+            finish_step(turn, StepState.SUCCEEDED, **act.figures)
+        case Skip():
+            finish_step(turn, StepState.SKIPPED, reason=act.reason)
+        case Cannot():
+            fail_step(turn, act)
+
+
+def _drive(turn: Turn, act: Drive) -> None:
+    mission = turn.running
+    if mission is None:
+        return
+    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    turn.set(
+        walk=Walk(
+            "drive",
+            turn.next_entry,
+            goal=act.goal,
+            heading=act.heading,
+            way=act.way,
+            target=act.target,
+            limit_s=act.limit_s,
+            limit_m=act.limit_m,
+        )
+    )
+    ask_route(turn, detour=False)
+
+
+def _ask(turn: Turn, mission: Mission) -> None:
+    again = mission.steps[mission.step].state is StepState.RUNNING  # then it was perhaps said
+    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    turn.set(walk=Walk("ask", turn.next_entry, aloud=not again))
+
+
+def _decide(turn: Turn, mission: Mission) -> None:
+    if mission.decides >= turn.book.rules.decides:
+        fail_step(turn, Cannot(Code.OUT_OF_BUDGET, "thoughts"))
+        return
+    mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    think(turn, turn.put(mission, decides=mission.decides + 1))
 
 
 def on_arrival(turn: Turn) -> bool:
-    """End the step if the bridge says that its leg is done; say whether that happened."""
+    """Go on in the step if the bridge says that its leg is done; say whether that happened."""
     mission, walk, status = turn.running, turn.book.walk, turn.book.status
     if mission is None or walk is None or status is None or walk.leg is None:
         return False
-    leg = status.leg
-    ours = leg is not None and leg.mission == mission.id and leg.leg == walk.leg
-    if not (ours and leg is not None and leg.reached and standing(status)):
+    leg, pose = status.leg, status.base_in_map
+    if leg is None or (leg.mission, leg.leg) != (mission.id, walk.leg):
         return False
-    pose = status.base_in_map
-    if pose is None:
+    if not (leg.reached and standing(status)) or pose is None:
         return False
-    target = target_of(turn, mission.steps[mission.step])
-    outside = (
-        target is not None
-        and target.polygon is not None
-        and target.room
-        and not contains(target.polygon, pose.x_m, pose.y_m)
-    )
-    if outside:
+    if _outside(turn, walk, pose):
         lost_route(turn)
         return True
-    place = target.id if target is not None else None
-    spot = spot_at(turn.book.facts, pose, place)
-    finish_step(turn, StepState.SUCCEEDED, reached=spot, residual_m=round(leg.residual_m, 4))
+    settled = settle_walk(turn)
+    if settled is None:
+        return True
+    mission = turn.put(settled, part=settled.part + 1)
+    figures = {"reached": spot_at(turn.book.facts, pose, walk.target)}
+    residuals = {
+        "residual_m": round(leg.residual_m, 4),
+        "residual_rad": round(leg.residual_rad, 4) if walk.heading else None,
+    }
+    mission = note_step(turn, mission, **figures, **residuals)
+    if mission.steps[mission.step].kind == "patrol":
+        mission = note_step(turn, mission, visited=mission.part)
+    _carry_out(turn, mission, act_of(scene_of(turn, mission)))
     return True
 
 
-def lost_route(turn: Turn) -> None:
-    """Stand, and route again once standing; give up after so many."""
-    walk = turn.book.walk
-    if walk is None:
-        return
-    if walk.routes >= MAX_ROUTES:
-        end_running(turn, GoalState.FAILED, Code.NO_ROUTE, "no_route")
-        return
-    turn.walk(leg=None, ticket=None, routes=walk.routes + 1, route_when_standing=True)
+def _outside(turn: Turn, walk: Walk, pose: Pose2) -> bool:
+    """Tell whether the leg ended short of the room that it was to."""
+    target = turn.book.facts.targets.get(walk.target) if walk.target is not None else None
+    if target is None or not target.room or target.polygon is None:
+        return False
+    return not contains(target.polygon, pose.x_m, pose.y_m)
 
 
 def finish_step(turn: Turn, state: StepState, **record: object) -> None:
@@ -201,18 +213,30 @@ def finish_step(turn: Turn, state: StepState, **record: object) -> None:
     mission = settle_walk(turn)
     if mission is None:
         return
-    mission = note_step(turn, mission, state=state, **record)
-    turn.put(mission, step=mission.step + 1)
+    next_step(turn, note_step(turn, mission, state=state, **record))
     begin_step(turn)
 
 
+def next_step(turn: Turn, mission: Mission) -> Mission:
+    """Point at the next step, of which nothing is done yet."""
+    return turn.put(mission, step=mission.step + 1, part=0, began_at=None, done=0.0)
+
+
 def speak_if_safe(turn: Turn) -> None:
-    """Say the words of a step whose beginning is on disk."""
+    """Say the words of a step whose beginning is on disk; a question then waits for its answer."""
     mission, walk = turn.running, turn.book.walk
-    if mission is None or walk is None or walk.kind != "say" or turn.book.safe < walk.record:
+    if mission is None or walk is None or turn.book.safe < walk.record:
         return
-    turn.emit(SayAloud(mission.id, mission.steps[mission.step].text or ""))
-    finish_step(turn, StepState.SUCCEEDED)
+    text = mission.steps[mission.step].text or "" if mission.now is not None else ""
+    if walk.kind == "say":
+        turn.emit(SayAloud(mission.id, text))
+        finish_step(turn, StepState.SUCCEEDED)
+    elif walk.kind == "ask":
+        if walk.aloud:
+            turn.emit(SayAloud(mission.id, text))
+        turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
+        said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=same(text)))
+        step_aside(turn, mission, GoalState.NEEDS_CLARIFICATION, "asked", said)
 
 
 def end_wait_if_due(turn: Turn) -> None:

@@ -6,10 +6,14 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
+from planner.mission.asking import end_unanswered
+from planner.mission.failing import fail_step
+from planner.mission.legs import ask_route, detour_if_due, lost_route
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
 from planner.mission.records import Walk
 from planner.mission.sight import (
     GATES,
+    amount_done,
     cannot_move,
     driven_m,
     holding_rows,
@@ -17,16 +21,11 @@ from planner.mission.sight import (
     shows,
     standing,
 )
+from planner.mission.skills import Cannot
+from planner.mission.skills.places import place_gone
 from planner.mission.turn import Turn
 from planner.mission.verdict import MOTION
-from planner.mission.walk import (
-    DETOUR_AFTER_S,
-    ask_route,
-    detour_pause_s,
-    end_wait_if_due,
-    lost_route,
-    on_arrival,
-)
+from planner.mission.walk import begin_step, end_wait_if_due, on_arrival
 from planner.plan import Code, GoalState, PauseReason, fault
 from wire import Mode, Status
 
@@ -39,8 +38,8 @@ IDLE_S = 30.0
 REFUSED_S = 0.5
 
 
-def on_status(turn: Turn, status: Status, off_path: bool) -> None:
-    """Judge one status."""
+def on_status(turn: Turn, status: Status, off_path: bool, left_m: float | None) -> None:
+    """Judge one status; ``left_m`` is the way left on the path that is streamed."""
     before = turn.book.status
     if before is not None and before.boot == status.boot and status.seq <= before.seq:
         return  # late or repeated: the newest word stands
@@ -50,13 +49,14 @@ def on_status(turn: Turn, status: Status, off_path: bool) -> None:
         hold_queue(turn)
     if turn.running is None:
         return
-    _measure(turn, before, status)
+    _measure(turn, before, status, min(silent_s, SILENCE_S), left_m)
     if not _interrupted(turn, status, silent_s):
         _progress(turn, status, off_path)
 
 
 def on_tick(turn: Turn) -> None:
-    """Let time pass: waits end, silence is noticed."""
+    """Let time pass: waits end, silence is noticed, a question is not waited on for ever."""
+    end_unanswered(turn)
     if turn.running is None:
         return
     walk = turn.book.walk
@@ -66,16 +66,25 @@ def on_tick(turn: Turn) -> None:
     end_wait_if_due(turn)
 
 
-def _measure(turn: Turn, before: Status | None, status: Status) -> None:
-    walk = turn.book.walk
-    if walk is None:
+def _measure(
+    turn: Turn, before: Status | None, status: Status, since_s: float, left_m: float | None
+) -> None:
+    """Add up what odometry says, for how long the leg was followed, and what limited it."""
+    walk, mission = turn.book.walk, turn.running
+    if walk is None or mission is None or mission.now is None:
         return
-    metres = driven_m(before, status)
-    limited = walk.limited
+    limited, moving_s = walk.limited, walk.moving_s
     if status.leg is not None and status.leg.following and walk.leg == status.leg.leg:
         limited = {**limited, status.limits.by: limited.get(status.limits.by, 0) + 1}
-    if metres > 0.0 or limited is not walk.limited:
-        turn.walk(metres=walk.metres + metres, limited=limited)
+        if not (status.blocked or holding_rows(status)):
+            moving_s += since_s
+    turn.walk(
+        metres=walk.metres + driven_m(before, status),
+        amount=walk.amount + amount_done(before, status, turning=mission.now.kind == "turn"),
+        limited=limited,
+        moving_s=moving_s,
+        left_m=left_m,
+    )
 
 
 def _interrupted(turn: Turn, status: Status, silent_s: float) -> bool:
@@ -152,7 +161,7 @@ def _held_too_long(turn: Turn, status: Status) -> bool:
 def _progress(turn: Turn, status: Status, off_path: bool) -> None:
     end_wait_if_due(turn)
     walk = turn.book.walk
-    if walk is None or walk.kind != "drive" or on_arrival(turn):
+    if walk is None or walk.kind != "drive" or on_arrival(turn) or _off_limits(turn, walk):
         return
     if shows(status, "POSE_JUMP"):
         if not walk.jumped:
@@ -163,14 +172,30 @@ def _progress(turn: Turn, status: Status, off_path: bool) -> None:
     elif walk.route_when_standing:
         _route_standing(turn, status)
     elif walk.retry_s is not None and turn.now_s >= walk.retry_s and walk.ticket is None:
-        ask_route(turn, obstacles=walk.detours_failed > 0)
+        if walk.goal is None:
+            begin_step(turn)
+        else:
+            ask_route(turn, detour=walk.detours_failed > 0)
     elif walk.leg is not None:
         _watch_leg(turn, status, walk)
 
 
+def _off_limits(turn: Turn, walk: Walk) -> bool:
+    """End a leg whose place is gone, or that spends more than its skill's budget."""
+    if walk.target is not None and walk.target not in turn.book.facts.targets:
+        fail_step(turn, place_gone(turn.book.facts, walk.target))
+    elif walk.limit_s is not None and not walk.moving_s <= walk.limit_s:
+        fail_step(turn, Cannot(Code.BLOCKED, "too_slow"))
+    elif walk.limit_m is not None and not walk.metres <= walk.limit_m:
+        fail_step(turn, Cannot(Code.BLOCKED, "too_far"))
+    else:
+        return False
+    return True
+
+
 def _route_standing(turn: Turn, status: Status) -> None:
     if standing(status) and not shows(status, "POSE_JUMP"):
-        ask_route(turn, obstacles=False)
+        ask_route(turn, detour=False)
 
 
 def _watch_leg(turn: Turn, status: Status, walk: Walk) -> None:
@@ -191,16 +216,7 @@ def _watch_leg(turn: Turn, status: Status, walk: Walk) -> None:
     elif idle_s is not None and turn.now_s - idle_s > IDLE_S:
         pause_running(turn, PauseReason.BLOCKED.value)
     elif blocked_s is not None and walk.ticket is None:
-        _detour_if_due(turn, walk, blocked_s)
-
-
-def _detour_if_due(turn: Turn, walk: Walk, blocked_since_s: float) -> None:
-    """Ask for a way round; the old horizon streams on until there is one."""
-    due_s = detour_pause_s(walk.detours) if walk.detours else DETOUR_AFTER_S
-    if turn.now_s - blocked_since_s >= due_s:
-        # The wait for the next try begins now, and grows: the world may just need time.
-        turn.walk(detours=walk.detours + 1, blocked_since_s=turn.now_s)
-        ask_route(turn, obstacles=True)
+        detour_if_due(turn, walk, blocked_s)
 
 
 def _since(since_s: float | None, true_now: bool, now_s: float) -> float | None:

@@ -103,7 +103,7 @@ def test_answers_and_refusals_end_at_once(world: Together) -> None:
 @pytest.mark.parametrize(
     ("plan", "code"),
     [
-        (StepPlan(steps=(GoTo(place="hall"), Look(question="who?"))), Code.NO_CAPABILITY),
+        (StepPlan(steps=(GoTo(place="hall"), Look(question="who?"))), Code.NO_CAMERA),
         (go("hall", "cellar"), Code.UNKNOWN_PLACE),
         (StepPlan(steps=()), Code.BAD_PLAN),
     ],

@@ -1,0 +1,55 @@
+"""Keep the questions that a plan's own steps asked: take the answer, or end what nobody answers.
+
+The robot stands and is free for other goals meanwhile; who waits behind the asking goal waits on.
+"""
+
+from __future__ import annotations
+
+from planner.mission.queue import enqueue, finish, note_step, release_queue
+from planner.mission.records import Mission
+from planner.mission.turn import Turn
+from planner.mission.verdict import ended
+from planner.mission.walk import next_step
+from planner.plan import Code, GoalState, StepState, message, same
+
+MAX_ANSWER = 2000
+
+
+def asks(mission: Mission) -> bool:
+    """Tell whether a goal waits for the answer to a question of its own plan."""
+    step = mission.now
+    return (
+        mission.state is GoalState.NEEDS_CLARIFICATION
+        and step is not None
+        and step.kind == "ask"
+        and step.state is StepState.RUNNING
+    )
+
+
+def take_answer(turn: Turn, mission: Mission, text: str) -> None:
+    """Write the answer into its step, and go on first of all who wait."""
+    mission = note_step(turn, mission, state=StepState.SUCCEEDED, answer=text[:MAX_ANSWER])
+    release_queue(turn)
+    enqueue(turn, next_step(turn, turn.put(mission, outcome=None)), first=True)
+
+
+def end_unanswered(turn: Turn) -> None:
+    """End every goal whose question nobody answered in time; the robot stays where it is."""
+    for mission_id, since_s in turn.book.asked_s.items():
+        mission, limit_s = turn.mission(mission_id), turn.book.rules.answer_s
+        waits = mission is not None and asks(mission)
+        if waits and not turn.now_s - since_s > limit_s:
+            continue
+        left = {i: s for i, s in turn.book.asked_s.items() if i != mission_id}
+        turn.set(asked_s=left)
+        if mission is not None and waits:
+            _unanswered(turn, mission, limit_s)
+
+
+def _unanswered(turn: Turn, mission: Mission, limit_s: float) -> None:
+    text = (mission.now.text if mission.now is not None else None) or ""
+    said = message(Code.NO_ANSWER, text=same(text), seconds=f"{limit_s:.0f}")
+    now_unix_s = turn.now_s + turn.book.wall_offset_s
+    outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
+                    code=Code.NO_ANSWER, said=said)  # fmt: skip
+    finish(turn, mission, GoalState.FAILED, outcome, Code.NO_ANSWER.value)

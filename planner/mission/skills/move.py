@@ -1,0 +1,74 @@
+"""Drive straight by a distance along the heading, backwards where it is negative.
+
+Precondition: the map and the lidar leave room for the whole way; where they don't, nothing moves
+and the room there is is told. Verdict: odometry has gone the distance along the heading within
+``OFF_M`` and a twentieth of it. After a pause or a crash only what is left is driven, and only by a
+robot that still stands on its line. Budget: time for the way at 0.05 m/s, and half a metre more
+than asked.
+"""
+
+from __future__ import annotations
+
+from math import cos, hypot, sin
+
+from planner.mission.skills.act import Act, Cannot, Done, Drive, Later, Scene, Way
+from planner.mission.skills.words import metres
+from planner.plan import Bilingual, Code, message
+from wire import Pose2, wrap
+
+THERE_M = 0.02
+ASIDE_M, ASIDE_RAD = 0.3, 0.6
+"""Farther off its line than this the robot was carried away meanwhile."""
+OFF_M, OFF_SHARE = 0.12, 0.05
+LIMIT_S, SLOWEST_MPS = 20.0, 0.05
+MORE_M = 0.5
+
+
+def move(scene: Scene) -> Act:
+    """Return the straight leg, or how far odometry says that it came."""
+    asked = scene.step.distance_m or 0.0
+    pose, began = scene.pose, scene.began
+    if pose is None or began is None:
+        return Later()
+    if scene.part > 0:
+        return _verdict(asked, scene.done)
+    along_m, aside_m = along(pose, began)
+    left_m = asked - along_m
+    if aside_m > ASIDE_M or abs(wrap(pose.yaw_rad - began.yaw_rad)) > ASIDE_RAD:
+        return Cannot(Code.NOT_REACHED, "carried_away", *_said(asked, scene.done))
+    if abs(left_m) <= THERE_M:
+        return _verdict(asked, scene.done)
+    goal = Pose2(
+        began.x_m + asked * cos(began.yaw_rad),
+        began.y_m + asked * sin(began.yaw_rad),
+        began.yaw_rad,
+    )
+    limit_s, limit_m = LIMIT_S + abs(left_m) / SLOWEST_MPS, abs(left_m) + MORE_M
+    return Drive(goal, heading=True, way=Way.STRAIGHT, limit_s=limit_s, limit_m=limit_m)
+
+
+def along(pose: Pose2, began: Pose2) -> tuple[float, float]:
+    """Return how far a pose lies along and beside the line of a beginning [m]."""
+    dx, dy = pose.x_m - began.x_m, pose.y_m - began.y_m
+    c, s = cos(began.yaw_rad), sin(began.yaw_rad)
+    return dx * c + dy * s, abs(dy * c - dx * s)
+
+
+def no_room(goal: Pose2, pose: Pose2, short_m: float) -> Cannot:
+    """Say how much room there is for what is left of a way, of which ``short_m`` are not free."""
+    left_m = hypot(goal.x_m - pose.x_m, goal.y_m - pose.y_m)
+    room_m = max(0.0, left_m - short_m)
+    said = message(Code.NO_ROOM, room=f"{room_m:.1f}", asked=f"{left_m:.1f}")
+    return Cannot(Code.NO_ROOM, "no_room", said)
+
+
+def _said(asked: float, done: float) -> tuple[Bilingual, dict[str, float]]:
+    figures = {"moved_m": round(done, 4), "residual_m": round(abs(asked - done), 4)}
+    return message(Code.NOT_REACHED, asked=metres(asked), reached=metres(done)), figures
+
+
+def _verdict(asked: float, done: float) -> Done | Cannot:
+    said, figures = _said(asked, done)
+    if abs(asked - done) <= OFF_M + OFF_SHARE * abs(asked):
+        return Done(dict(figures))
+    return Cannot(Code.NOT_REACHED, "odometry_disagrees", said, figures)

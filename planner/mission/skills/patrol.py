@@ -1,0 +1,19 @@
+"""Visit places in the order they were named.
+
+Precondition: each place exists when its turn comes. Verdict: every place was reached as ``go_to``
+reaches it; a pause or a crash goes on with the place that was next. Budget: one leg a place; metres
+and seconds are the bridge's grant.
+"""
+
+from __future__ import annotations
+
+from planner.mission.skills.act import Act, Done, Scene
+from planner.mission.skills.places import drive_to
+
+
+def patrol(scene: Scene) -> Act:
+    """Return the leg to the next place, or that all were visited."""
+    places = scene.step.places
+    if scene.part >= len(places):
+        return Done({"visited": scene.part})
+    return drive_to(scene, places[scene.part])

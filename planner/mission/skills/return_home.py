@@ -1,0 +1,15 @@
+"""Drive to the site's home.
+
+Precondition: the site still has its home. Verdict: as for any place. Budget: one leg; metres and
+seconds are the bridge's grant.
+"""
+
+from __future__ import annotations
+
+from planner.mission.skills.act import Act, Done, Scene
+from planner.mission.skills.places import drive_to
+
+
+def return_home(scene: Scene) -> Act:
+    """Return the leg home, or that it was reached."""
+    return Done() if scene.part > 0 else drive_to(scene, scene.facts.home)

@@ -1,0 +1,17 @@
+"""Say words to the people near the robot.
+
+Law: at most once, even across a crash: words whose beginning is on disk were perhaps said, and are
+left out. Budget: 500 characters by the plan's own bounds; no motion.
+"""
+
+from __future__ import annotations
+
+from planner.mission.skills.act import Act, Scene, Skip, Speak
+from planner.plan import StepState
+
+
+def say(scene: Scene) -> Act:
+    """Return the words, or leave them out where they were perhaps said."""
+    if scene.step.state is StepState.RUNNING:
+        return Skip("perhaps_said")
+    return Speak(scene.step.text or "")
