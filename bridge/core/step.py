@@ -147,6 +147,5 @@ def _reconsider(tick: Tick) -> None:
     """Judge a blocked way on what the follower would ask now."""
     kept = tick.s.motion.follow
     asked, _ = drive_out.followed(tick)
-    if not tick.moving:
-        tick.s.motion.follow = kept
+    tick.s.motion.follow = kept  # blocked it stands: nothing has been followed
     gate.reconsider(tick, asked)

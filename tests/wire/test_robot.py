@@ -37,6 +37,8 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
         ("[limits]\nmax_speed_mps = inf", "robot_toml_invalid", "limits.max_speed_mps"),
         ("[limits]\nmax_decel_mps2 = 0.0", "robot_toml_invalid", "limits.max_decel_mps2"),
         ("[limits]\nmax_decel_mps2 = '1'", "robot_toml_invalid", "limits.max_decel_mps2"),
+        ("[recording]\nfile_mb = 1024\ntotal_mb = 4095", "robot_toml_invalid",
+         "must hold four files"),
         ("[limits]\nhardest_decel_mps2 = 0.5", "robot_toml_invalid", "hardest_decel_mps2"),
         ("[limits]\nmax_wheel_radps = 1.0", "robot_toml_invalid", "cannot be reached"),
         ("[drive]\ntimeout_s = 0.0", "robot_toml_invalid", "drive.timeout_s"),
