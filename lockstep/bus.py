@@ -38,6 +38,7 @@ class Bus:
         self._seed = seed
         self._latency = latency
         self._subscribers: dict[str, list[PortSubscriber[Record]]] = {}
+        self._listeners: dict[tuple[Party, str], tuple[Listener, ...]] = {}
         self._ways: dict[tuple[Party, Party], Way] = {}
         self._disturbances: list[Disturbance] = []
 
@@ -56,20 +57,31 @@ class Bus:
     def send(self, party: Party, key: Key[M], payload: bytes) -> None:
         """Put bytes on their way to everyone who hears the key."""
         self.sent += 1
-        for subscriber in self._subscribers.get(key.path, ()):
-            if subscriber.party is not party:
-                way = self._way(party, subscriber.party)
-                for due in way.dues(self.tick, self._spoiling(party, key)):
-                    subscriber.arrive(due, payload)
+        listeners = self._listeners.get((party, key.path))
+        if listeners is None:
+            listeners = self._listeners[party, key.path] = self._hearing(party, key.path)
+        for subscriber, way in listeners:
+            for due in way.dues(self.tick, self._spoiling(party, key)):
+                subscriber.arrive(due, payload)
 
     def join(self, subscriber: PortSubscriber[M], path: str) -> None:
         """Add a listener."""
+        self._listeners.clear()
         self._subscribers.setdefault(path, []).append(subscriber)  # type: ignore[arg-type]  # a subscriber only ever produces its M
 
     def leave(self, port: Port) -> None:
         """Forget the listeners of a part that is gone."""
+        self._listeners.clear()
         for path, heard in self._subscribers.items():
             self._subscribers[path] = [one for one in heard if one.port is not port]
+
+    def _hearing(self, sender: Party, path: str) -> tuple[Listener, ...]:
+        """Return who hears a key that a party says, and how it gets there."""
+        return tuple(
+            (subscriber, self._way(sender, subscriber.party))
+            for subscriber in self._subscribers.get(path, ())
+            if subscriber.party is not sender
+        )
 
     def _way(self, sender: Party, receiver: Party) -> Way:
         way = self._ways.get((sender, receiver))
@@ -81,6 +93,8 @@ class Bus:
 
     def _spoiling(self, sender: Party, key: Key[M]) -> Disturbance:
         """Return the newest disturbance that names this key and sender, or none."""
+        if not self._disturbances:
+            return QUIET
         fitting = (one for one in reversed(self._disturbances) if one.fits(sender, key.path))
         return next(fitting, QUIET)
 
@@ -96,14 +110,16 @@ class Way:
     def dues(self, tick: int, spoiling: Disturbance) -> tuple[int, ...]:
         """Return the ticks at which copies of one message arrive; none if it is lost."""
         low, high = self._span_ticks
-        due = tick + self._chance.randint(low, high)
-        if spoiling is not QUIET:
-            due += self._chance.randint(*spoiling.delay_ticks)
-            if self._chance.random() < spoiling.drop:
-                return ()
+        due = tick + (self._chance.randint(low, high) if low < high else low)
+        if spoiling is QUIET:
+            due = self._newest_due = max(due, self._newest_due)
+            return (due,)
+        due += self._chance.randint(*spoiling.delay_ticks)
+        if self._chance.random() < spoiling.drop:
+            return ()
         if not spoiling.reorder:
             due = self._newest_due = max(due, self._newest_due)
-        twice = spoiling is not QUIET and self._chance.random() < spoiling.duplicate
+        twice = self._chance.random() < spoiling.duplicate
         return (due, due) if twice else (due,)
 
 
@@ -152,7 +168,6 @@ class PortSubscriber(Generic[M]):
         self.party = port.party
         self._key = key
         self._coming: deque[tuple[int, bytes]] = deque()
-        self._ring: deque[bytes] = deque(maxlen=key.ring)
 
     def arrive(self, due: int, payload: bytes) -> None:
         """Take bytes that will be here at a tick."""
@@ -164,12 +179,11 @@ class PortSubscriber(Generic[M]):
         """Take all that is here, oldest first, unparsed."""
         if not self._coming:
             return []
-        now = self.port.bus.tick
-        while self._coming and self._coming[0][0] <= now:
-            self._ring.append(self._coming.popleft()[1])
-        payloads = list(self._ring)
-        self._ring.clear()
-        return payloads
+        now, coming = self.port.bus.tick, self._coming
+        ring: deque[bytes] = deque(maxlen=self._key.ring)
+        while coming and coming[0][0] <= now:
+            ring.append(coming.popleft()[1])
+        return list(ring)
 
     def drain(self) -> Drained[M]:
         """Take all that is here, parse at most the 4 newest, in order of arrival."""
@@ -185,8 +199,13 @@ class PortSubscriber(Generic[M]):
         Raises:
             TypeError: it is no message. In one process only a defect can cause that.
         """
-        for item in reversed(self.drain().items):
-            if isinstance(item, Rejected):
-                raise TypeError(f"{self._key.path} cannot be sent: {item.code}: {item.detail}")
-            return item
-        return None
+        payloads = self.drain_bytes()
+        if not payloads:
+            return None
+        item = decode(self._key, payloads[-1])
+        if isinstance(item, Rejected):
+            raise TypeError(f"{self._key.path} cannot be sent: {item.code}: {item.detail}")
+        return item
+
+
+Listener = tuple[PortSubscriber[Record], Way]

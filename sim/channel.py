@@ -50,6 +50,9 @@ class Channel(Generic[M]):
     def through(self, message: M | None, troubles: frozenset[Trouble]) -> M | None:
         """Take this tick's message, if one was due; return what arrives in this tick, if any."""
         self._tick += 1
+        if not (troubles or self._late):  # nearly always: a channel is asked every tick
+            self._stuck = None
+            return message
         if Trouble.STUCK not in troubles:
             self._stuck = None
         if message is not None:

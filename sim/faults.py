@@ -23,16 +23,18 @@ class Faults:
 
     def __init__(self, standing: Iterable[SimFault] = ()) -> None:
         self._standing = frozenset(standing)
+        self._in_order = tuple(fault for fault in SimFault if fault in self._standing)
         self._sensors = {sensor: self._troubles(sensor) for sensor in ("encoder", "lidar", "gyro")}
 
     @property
     def standing(self) -> tuple[SimFault, ...]:
         """Return what is broken, in the order in which the names are defined."""
-        return tuple(fault for fault in SimFault if fault in self._standing)
+        return self._in_order
 
     def __contains__(self, fault: SimFault) -> bool:
         """Tell whether this is broken."""
-        return fault in self._standing
+        # Nearly always nothing is: the hash of a member is a call, asked for ten times in a tick.
+        return bool(self._standing) and fault in self._standing
 
     def of_sensor(self, sensor: str) -> frozenset[Trouble]:
         """Return what is wrong with a sensor: ``encoder``, ``lidar`` or ``gyro``."""

@@ -21,7 +21,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.braking import Braking
+from bridge.core.braking import AS_CONFIGURED, Braking
 from bridge.core.kinematics import fastest_rim
 from bridge.core.state_braking import LEAST_SHARE, MOST_LAG_S, MOST_STOPS, Learnt, Ramp
 
@@ -59,6 +59,8 @@ ALIKE = 0.8
 
 def in_force(learnt: Learnt) -> Braking:
     """Return what gates may count on."""
+    if learnt.lag_more_s == 0.0 and learnt.decel_share == 1.0:
+        return AS_CONFIGURED
     return Braking(learnt.lag_more_s, learnt.decel_share)
 
 
