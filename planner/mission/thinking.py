@@ -24,6 +24,8 @@ def thinker(brain: Brain, vocabulary: Vocabulary) -> Think:
             room=ask.room,
             language=ask.language,
             goal=ask.id,
+            observed=ask.observed,
+            replan=ask.replan,
         )
         try:
             thought = await brain.think(request)

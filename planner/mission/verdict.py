@@ -66,7 +66,8 @@ def place_name(facts: Facts, mission: Mission, step: StepRecord | None) -> Bilin
 def _place(mission: Mission, step: StepRecord) -> str:
     """Return the place that a step is at: of a patrol the one whose turn it is, or the last."""
     if step.places:
-        return step.places[min(mission.part, len(step.places) - 1)]
+        visited = len(step.places) if step.state is StepState.SUCCEEDED else mission.part
+        return step.places[min(visited, len(step.places) - 1)]
     return step.place or ""
 
 

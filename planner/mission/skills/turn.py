@@ -3,8 +3,8 @@
 Law: the bridge turns to a heading by the shorter way, so a long turn goes in equal parts of at most
 120 degrees, each aimed at a heading of the map: no part carries the error of the one before. After
 a pause or a crash only what is left is turned. Verdict: odometry has turned by the angle within
-``OFF_RAD`` and a twentieth of it. Budget: time for every part at a third of a radian a second, and
-no way driven but what turning slips.
+``OFF_RAD`` and a twentieth of it, and at least by half. Budget: time for every part at a third of a
+radian a second, and no way driven but what turning slips.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from wire import Pose2, wrap
 
 PART_RAD = 2.0 * pi / 3.0
 THERE_RAD = 0.10
-"""The bridge calls a heading reached within this."""
+"""The bridge calls a heading reached within this, and does not set off for less."""
 OFF_RAD, OFF_SHARE = 0.15, 0.05
 LIMIT_S, SLOWEST_RADPS = 10.0, 0.33
 MORE_PARTS = 2
@@ -49,7 +49,8 @@ def turned_rad(pose: Pose2, began: Pose2, done_rad: float) -> float:
 
 def _verdict(asked: float, done: float) -> Done | Cannot:
     figures = {"turned_rad": round(done, 4), "residual_rad": round(asked - done, 4)}
-    if abs(asked - done) <= OFF_RAD + OFF_SHARE * abs(asked):
+    if abs(asked - done) <= min(OFF_RAD + OFF_SHARE * abs(asked), abs(asked) / 2.0):
         return Done(figures)
     said = message(Code.NOT_REACHED, asked=angle(asked), reached=angle(done))
-    return Cannot(Code.NOT_REACHED, "odometry_disagrees", said, figures)
+    reason = "too_short" if abs(asked) <= THERE_RAD else "odometry_disagrees"
+    return Cannot(Code.NOT_REACHED, reason, said, figures)
