@@ -5,26 +5,23 @@ from __future__ import annotations
 import asyncio
 import itertools
 import json
-import time
 from collections import Counter
-from collections.abc import AsyncIterator, Callable
+from collections.abc import Callable
 from typing import Any
 
 from fastapi import FastAPI, Request
-from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.responses import Response, StreamingResponse
 
 from planner.brain import OfflineBrain
-from planner.brain.schema import NAME
+from pons.mock_llm import streams
+from pons.mock_llm.completion import bytes_of, completion
+from pons.mock_llm.early import error, instead_of_a_reply
 from pons.mock_llm.replies import GARBAGE, hallucinated, hostile, reply_of, shaped
 from pons.mock_llm.switches import Switches
 from pons.mock_llm.world import request_of
 
 MAX_BODY = 4_000_000
-CHUNK = 64 * 1024
-HUGE_BYTES = 1_000_000_000
-DRIP_S = 0.2
-LOOK_S = 0.05
-METADATA = "http://169.254.169.254/latest/meta-data/"
+EVENTS = "text/event-stream"
 
 
 class Mock:
@@ -82,16 +79,16 @@ def build(switches: Switches | None = None) -> FastAPI:
         fault = mock.next_fault()
         body = await _body(request)
         if body is None:
-            return _error(400, "the body is no JSON object of a chat request")
+            return error(400, "the body is no JSON object of a chat request")
         await asyncio.sleep(mock.switches.delay_s)
-        early = await _instead_of_a_reply(fault, mock, body, request)
+        early = await instead_of_a_reply(fault, mock, body, request)
         if early is not None:
             return early
         asked = request_of(body)
         good = json.dumps(reply_of((await brain.think(asked)).plan), ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
         text = _written(fault, good, mock, known, request)
-        return _answer(fault, completion(body, text), body, mock.ending)
+        return await _answer(fault, completion(body, text, fault), body, mock)
 
     return app
 
@@ -109,25 +106,6 @@ async def _body(request: Request) -> dict[str, Any] | None:
     return body if isinstance(body, dict) else None
 
 
-async def _instead_of_a_reply(
-    fault: str | None, mock: Mock, body: dict[str, Any], request: Request
-) -> Response | None:
-    """Do what a server does that gives no completion at all."""
-    switches = mock.switches
-    if fault == "status":
-        kept = {"Retry-After": switches.retry_after} if switches.retry_after is not None else {}
-        return _error(switches.status, f"mock status {switches.status}", kept)
-    if fault == "redirect":
-        return Response(status_code=307, headers={"Location": METADATA})
-    if fault == "no_schema" and ("response_format" in body or "tools" in body):
-        return _error(400, "response_format and tools are not supported by this model")
-    if fault == "hang":
-        while not (mock.ending() or await request.is_disconnected()):  # noqa: ASYNC110  # nothing tells of it
-            await asyncio.sleep(LOOK_S)
-        return _error(499, "the client left")
-    return None
-
-
 def _written(fault: str | None, good: str, mock: Mock, known: str, request: Request) -> str | None:
     """Return the content of the reply."""
     match fault:
@@ -140,93 +118,32 @@ def _written(fault: str | None, good: str, mock: Mock, known: str, request: Requ
         case "echo_key":
             words = f"the key is {request.headers.get('authorization', 'none')}"
             return json.dumps({"kind": "answer", "en": words, "zh": words})
-    return shaped(fault, good)
+    return shaped(fault, good, known)
 
 
-def completion(body: dict[str, Any], text: str | None) -> dict[str, Any]:
-    """Wrap a text as a chat completion; a forced tool gets it as its arguments."""
-    forced = isinstance(body.get("tool_choice"), dict) and text is not None
-    message: dict[str, Any] = {"role": "assistant", "content": None if forced else text}
-    if forced:
-        call = {"name": NAME, "arguments": text}
-        message["tool_calls"] = [{"id": "call_1", "type": "function", "function": call}]
-    prompt = len(json.dumps(body.get("messages", ""), ensure_ascii=False)) // 4
-    wrote = len(text or "") // 4
-    return {
-        "id": f"chatcmpl-{time.monotonic_ns():x}",
-        "object": "chat.completion",
-        "created": int(time.time()),
-        "model": str(body.get("model", "pons-mock")),
-        "choices": [
-            {
-                "index": 0,
-                "message": message,
-                "finish_reason": "tool_calls" if forced else "stop",
-            }
-        ],
-        "usage": {
-            "prompt_tokens": prompt,
-            "completion_tokens": wrote,
-            "total_tokens": prompt + wrote,
-        },
-    }
-
-
-def _answer(
-    fault: str | None, whole: dict[str, Any], body: dict[str, Any], ending: Callable[[], bool]
+async def _answer(
+    fault: str | None, whole: dict[str, Any], body: dict[str, Any], mock: Mock
 ) -> Response:
-    raw = json.dumps(whole, ensure_ascii=False).encode()
-    if fault == "endless":
-        return StreamingResponse(_endless(ending), media_type="application/json")
-    if fault == "huge":
-        size = {"Content-Length": str(HUGE_BYTES)}
-        return StreamingResponse(_huge(ending), media_type="application/json", headers=size)
-    if fault == "drip":
-        return StreamingResponse(_drip(raw, ending), media_type="application/json")
-    if body.get("stream") is True:
-        return StreamingResponse(_events(whole), media_type="text/event-stream")
-    return Response(raw, media_type="application/json")
-
-
-async def _endless(ending: Callable[[], bool]) -> AsyncIterator[bytes]:
-    yield b'{"choices":[{"message":{"role":"assistant","content":"'
-    while not ending():
-        yield b"a" * CHUNK
-        await asyncio.sleep(0)
-
-
-async def _huge(ending: Callable[[], bool]) -> AsyncIterator[bytes]:
-    yield (head := b'{"choices":[{"message":{"role":"assistant","content":"')
-    left, tail = HUGE_BYTES - len(head), b'"}}]}'
-    while left > len(tail) and not ending():
-        size = min(CHUNK, left - len(tail))
-        yield b"a" * size
-        left -= size
-    yield tail
-
-
-async def _drip(raw: bytes, ending: Callable[[], bool]) -> AsyncIterator[bytes]:
-    for byte in raw:
-        if ending():
-            break
-        yield bytes([byte])
-        await asyncio.sleep(DRIP_S)
-
-
-async def _events(whole: dict[str, Any]) -> AsyncIterator[bytes]:
-    """Send a reply as a stream of deltas, one word each."""
-    message = whole["choices"][0]["message"]
-    kept = {key: whole[key] for key in ("id", "created", "model")}
-    words = [{"content": word + " "} for word in (message["content"] or "").split(" ")]
-    if words:
-        words[-1]["content"] = words[-1]["content"][:-1]
-    for delta in ({"role": "assistant"}, *words, {}):
-        choice = {"index": 0, "delta": delta, "finish_reason": None if delta else "stop"}
-        event = {**kept, "object": "chat.completion.chunk", "choices": [choice]}
-        yield f"data: {json.dumps(event, ensure_ascii=False)}\n\n".encode()
-    yield b"data: [DONE]\n\n"
-
-
-def _error(status: int, words: str, headers: dict[str, str] | None = None) -> Response:
-    content = {"error": {"message": words, "type": "mock", "code": status}}
-    return JSONResponse(content, status_code=status, headers=headers)
+    """Send a completion, as a stream where one was asked for."""
+    ending, rate = mock.ending, mock.switches.tokens_per_s
+    raw, headers = bytes_of(whole, fault)
+    json_type = headers.pop("Content-Type", "application/json")
+    match fault:
+        case "endless":
+            return StreamingResponse(streams.endless(ending), media_type=json_type)
+        case "huge":
+            size = {"Content-Length": str(streams.HUGE_BYTES)}
+            return StreamingResponse(streams.huge(ending), media_type=json_type, headers=size)
+        case "drip":
+            return StreamingResponse(streams.drip(raw, ending), media_type=json_type)
+        case "lost":
+            return streams.Cut(streams.half(raw), json_type)
+    plainly = fault in ("plain", "not_json", "no_choices", "error_200", "packed")
+    if body.get("stream") is True and not plainly:
+        events = streams.events(whole, fault, rate, ending)
+        if fault == "stream_breaks":
+            return streams.Cut(events, EVENTS)
+        return StreamingResponse(events, media_type=EVENTS)
+    if rate is not None:
+        await asyncio.sleep(whole["usage"]["completion_tokens"] / rate)
+    return Response(raw, media_type=json_type, headers=headers)

@@ -54,17 +54,28 @@ def hallucinated(reply: dict[str, Any]) -> dict[str, Any]:
     return {"kind": "plan", "steps": moved}
 
 
-def shaped(fault: str | None, text: str) -> str | None:
-    """Return a good reply as a fault writes it."""
-    if fault == "fenced":
-        return f"Here is the plan you asked for:\n```json\n{text}\n```\nHave a nice day!"
-    if fault == "thinking":
-        other = '{"kind":"plan","steps":[{"kind":"return_home"}]}'
-        return f"<think>Perhaps {other}? No.</think>\n{text}"
-    if fault == "twice":
-        return f"{text}\n{text}"
-    if fault == "truncated":
-        return text[: max(1, len(text) - 7)]
+def shaped(fault: str | None, text: str, place: str = "kitchen") -> str | None:
+    """Return a good reply as a fault writes it; ``place`` exists in the closed world."""
+    other = '{"kind":"plan","steps":[{"kind":"return_home"}]}'
+    match fault:
+        case "fenced":
+            return f"Here is the plan you asked for:\n```json\n{text}\n```\nHave a nice day!"
+        case "thinking":
+            return f"<think>Perhaps {other}? No.</think>\n{text}"
+        case "thoughts_only":
+            return f"<think>Perhaps {other}? Perhaps {text}? Who knows"
+        case "twice":
+            return f"{text}\n{text}"
+        case "two_plans":
+            return f'{text}\n{{"kind":"plan","steps":[{{"kind":"wait","seconds":599}}]}}'
+        case "truncated" | "length":
+            return text[: max(1, len(text) - 7)]
+        case "wrong_types":
+            return _plan({"kind": "go_to", "place": 7}, {"kind": "wait", "seconds": "soon"})
+        case "refuse_and_plan":
+            steps = [{"kind": "go_to", "place": place}]
+            said = {"code": "unsafe", "en": "No.", "zh": "不。"}
+            return _dump({"kind": "refuse", **said, "steps": steps})
     return None if fault == "null" else text
 
 

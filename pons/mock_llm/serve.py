@@ -37,20 +37,23 @@ def run(options: Options) -> int:
             print(f"pons mock-llm: port_in_use: {where}: {error.strerror}", file=sys.stderr)
             return REFUSED
         ears.listen(128)
-        port = ears.getsockname()[1]
-        shown = f"[{options.host}]" if ":" in options.host else options.host
-        print(f"pons mock-llm: http://{shown}:{port}/v1", flush=True)
-        app = build(options.switches)
-        server = uvicorn.Server(
-            uvicorn.Config(
-                app,
-                log_level="warning",
-                access_log=False,
-                server_header=False,
-                timeout_graceful_shutdown=1,
-            )
-        )
-        app.state.mock.ending = lambda: server.should_exit
         with contextlib.suppress(KeyboardInterrupt):
-            server.run(sockets=[ears])
+            _serve(options, ears)
     return 0
+
+
+def _serve(options: Options, ears: socket.socket) -> None:
+    """Build the application, say where it is, and run it."""
+    app = build(options.switches)
+    config = uvicorn.Config(
+        app,
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        timeout_graceful_shutdown=1,
+    )
+    server = uvicorn.Server(config)
+    app.state.mock.ending = lambda: server.should_exit
+    shown = f"[{options.host}]" if ":" in options.host else options.host
+    print(f"pons mock-llm: http://{shown}:{ears.getsockname()[1]}/v1", flush=True)
+    server.run(sockets=[ears])

@@ -8,10 +8,11 @@ it is judged like any other reply, so a wrong guess costs a repair turn and neve
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 MAX_CALLS = 8
+MAX_NAME = 64
 
 
 class Broken(Exception):
@@ -23,7 +24,11 @@ class _Call:
     index: object = None
     id: str = ""
     name: str = ""
-    arguments: str = ""
+    pieces: list[str] = field(default_factory=list)
+
+    @property
+    def arguments(self) -> str:
+        return "".join(self.pieces)
 
     def whole(self) -> dict[str, Any]:
         return {"id": self.id, "function": {"name": self.name, "arguments": self.arguments}}
@@ -41,6 +46,8 @@ class Assembly:
         self.finish: str | None = None
         self.begun = False
         """Something of the model's own has come."""
+        self.size = 0
+        """Of what is kept, about [bytes]."""
 
     @property
     def text(self) -> str:
@@ -77,9 +84,11 @@ class Assembly:
             content = "".join(str(part.get("text") or "") for part in _dicts(content))
         if isinstance(content, str) and content:
             self._content.append(content)
+            self.size += len(content)
             self.begun = True
         if isinstance(delta.get("refusal"), str):
             self._refusal.append(delta["refusal"])
+            self.size += len(delta["refusal"])
         for piece in _dicts(delta.get("tool_calls")):
             self._add_call(piece)
         legacy = delta.get("function_call")
@@ -94,12 +103,13 @@ class Assembly:
         function = piece.get("function")
         function = function if isinstance(function, dict) else piece
         name, arguments = function.get("name"), function.get("arguments")
-        if isinstance(name, str) and name != call.name:
-            call.name += name  # it may come in pieces, and comes again whole with some servers
+        if isinstance(name, str) and name != call.name:  # in pieces, or once more as a whole
+            call.name = (call.name + name)[:MAX_NAME]
         if isinstance(arguments, dict):
             arguments = json.dumps(arguments, ensure_ascii=False)
         if isinstance(arguments, str) and arguments:
-            call.arguments += arguments
+            call.pieces.append(arguments)
+            self.size += len(arguments)
 
     def _call_of(self, piece: dict[str, Any]) -> _Call | None:
         """Return the call that a piece belongs to, a new one where it begins one."""

@@ -20,7 +20,8 @@ from planner.brain.endpoint.judge import clean, trimmed
 from planner.plan import MAX_STEPS, Step, Vocabulary, places_of
 
 TELL_S = 0.05
-"""Between two drafts: twenty a second read as a flow, and cost 2 % of a core."""
+"""Between two drafts: twenty a second read as a flow."""
+SHARE = 20.0
 _STEP: TypeAdapter[Step] = TypeAdapter(Step)
 _STEPS = re.compile(r'"steps"\s*:\s*\[')
 _KIND = re.compile(r'"kind"\s*:\s*"([a-z_]*)"')
@@ -40,17 +41,21 @@ class Drafting:
     ) -> None:
         self._vocabulary, self._runnable = vocabulary, runnable
         self._hear, self._clock = hear, clock
-        self._told_s = float("-inf")
+        self._read_s, self._pause_s = float("-inf"), TELL_S
         self._told: Draft | None = None
 
-    def __call__(self, text: str) -> None:
-        """Take all that is written so far; tell of it if the last telling is long enough ago."""
+    def __call__(self, written: Callable[[], str]) -> None:
+        """Read what is written so far and tell of it, if the last reading is long enough ago."""
         now_s = self._clock()
-        if now_s - self._told_s < TELL_S or len(text) > MAX_CHARACTERS:
+        if now_s - self._read_s < self._pause_s:
             return
-        draft = self.draft_of(text)
-        if draft.text and draft != self._told:
-            self._told_s, self._told = now_s, draft
+        text = written()
+        draft = self.draft_of(text) if len(text) <= MAX_CHARACTERS else self._told
+        # What is slow to read is read less often: a twentieth of the loop's time at most.
+        self._read_s = self._clock()
+        self._pause_s = max(TELL_S, SHARE * (self._read_s - now_s))
+        if draft is not None and draft.text and draft != self._told:
+            self._told = draft
             self._hear(draft)
 
     def draft_of(self, text: str) -> Draft:

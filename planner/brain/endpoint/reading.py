@@ -18,12 +18,14 @@ from planner.brain.endpoint.status import Again
 from planner.brain.errors import BrainDown
 
 MAX_REPLY_BYTES = 1_000_000
+MAX_STREAM_BYTES = 8_000_000
+"""A stream wraps each token in some 300 bytes, and thoughts are streamed too, though not kept."""
 MAX_ERROR_BYTES = 64_000
 END_S = 0.02
 """For the end of a stream after its last event: only what was read whole is used again."""
 
-Told = Callable[[str], None]
-"""Takes what the model has written so far."""
+Told = Callable[[Callable[[], str]], None]
+"""Takes a way to read what the model has written so far, and reads it when it likes."""
 
 
 class StreamBroken(Exception):
@@ -57,15 +59,16 @@ async def _listen(
     try:
         async for chunk in chunks:
             size += len(chunk)
-            if size > MAX_REPLY_BYTES:
-                raise BrainDown(f"the reply is over {MAX_REPLY_BYTES} bytes", why="too_large")
+            if size > MAX_STREAM_BYTES or assembly.size > MAX_REPLY_BYTES:
+                told_bytes = f"{MAX_REPLY_BYTES} bytes, {MAX_STREAM_BYTES} on the wire"
+                raise BrainDown(f"the stream is over {told_bytes}", why="too_large")
             for event in events.feed(chunk):
                 assembly.add(event)
             if events.done:
                 await _let_end(chunks)
                 break
             if told is not None and assembly.begun:
-                told(secret.struck_growing(assembly.text))
+                told(lambda: secret.struck_growing(assembly.text))
         for event in events.end():
             assembly.add(event)
     except Broken as broken:

@@ -17,11 +17,19 @@ import httpx
 import psutil
 import pytest
 
-from planner.brain import BrainDown, OfflineBrain, PlanRejected, ThinkRequest, Thought
+from planner.brain import (
+    BrainDown,
+    Draft,
+    Hear,
+    OfflineBrain,
+    PlanRejected,
+    ThinkRequest,
+    Thought,
+)
 from planner.brain.endpoint import EndpointBrain
 from planner.plan import GoTo, StepPlan, Vocabulary
 from planner.settings import ModelSettings
-from pons.mock_llm import FAULTS, Switches
+from pons.mock_llm import FAULTS, READABLE, Switches
 from pons.mock_llm.world import request_of
 from tests.planner.brain.conftest import HOME
 from tests.pons.mock.mocks import RunningMock, running_mock
@@ -39,13 +47,20 @@ def mock() -> Iterator[RunningMock]:
         yield served
 
 
-def ask(mock: RunningMock, home: Path, text: str = "go to the kitchen", **more: Any) -> Thought:
+def ask(
+    mock: RunningMock,
+    home: Path,
+    text: str = "go to the kitchen",
+    hear: Hear | None = None,
+    **more: Any,
+) -> Thought:
     settings = {"url": mock.url, "name": "m", "key": KEY, "timeout_s": 5.0, **more}
 
     async def once() -> Thought:
         brain = EndpointBrain(ModelSettings.model_validate(settings), home)
         try:
-            return await brain.think(ThinkRequest(text=text, vocabulary=HOME, room="study"))
+            request = ThinkRequest(text=text, vocabulary=HOME, room="study")
+            return await brain.think(request, hear)
         finally:
             await brain.close()
 
@@ -124,52 +139,122 @@ def test_forced_tool_stream_and_models_are_served_too(mock: RunningMock) -> None
     streamed = httpx.post(url, json={"messages": said, "stream": True}, trust_env=False)
     events = [line[6:] for line in streamed.text.splitlines() if line.startswith("data: ")]
     assert events[-1] == "[DONE]"
-    deltas = [json.loads(event)["choices"][0]["delta"] for event in events[:-1]]
+    *chunks, usage = map(json.loads, events[:-1])
+    assert (usage["choices"], usage["usage"]["prompt_tokens"] > 0) == ([], True)
+    deltas = [chunk["choices"][0]["delta"] for chunk in chunks]
     json.loads("".join(delta.get("content", "") for delta in deltas))
     models = httpx.get(f"{mock.url}/models", trust_env=False).json()
     assert models["data"][0]["id"] == "pons-mock"
 
 
-@pytest.mark.parametrize("fault", ["fenced", "thinking", "twice", "no_schema"])
-def test_what_can_be_read_is_read_at_once(mock: RunningMock, fault: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("streamed", [False, True])
+@pytest.mark.parametrize("fault", sorted(READABLE))
+def test_what_can_be_read_is_read_at_once(
+    mock: RunningMock, fault: str, streamed: bool, tmp_path: Path
+) -> None:
     mock.set(fault=fault)
-    thought = ask(mock, tmp_path)
+    thought = ask(mock, tmp_path, hear=ignore if streamed else None)
     assert (thought.plan, thought.calls) == (KITCHEN, 1)
 
 
-@pytest.mark.parametrize("fault", ["garbage", "hallucinate", "hostile", "truncated", "null"])
-def test_what_is_no_plan_is_repaired_once(mock: RunningMock, fault: str, tmp_path: Path) -> None:
+def ignore(_: Draft) -> None:
+    """Listen and do nothing."""
+
+
+REPAIRED = {
+    *("garbage", "hallucinate", "hostile", "wrong_types", "two_plans", "refuse_and_plan"),
+    *("truncated", "length", "null", "reasoning", "thoughts_only", "unknown_tool"),
+}
+
+
+@pytest.mark.parametrize("streamed", [False, True])
+@pytest.mark.parametrize("fault", sorted(REPAIRED))
+def test_what_is_no_plan_is_repaired_once(
+    mock: RunningMock, fault: str, streamed: bool, tmp_path: Path
+) -> None:
+    hear = ignore if streamed else None
     mock.set(fault=fault, times=1)
-    thought = ask(mock, tmp_path)
+    thought = ask(mock, tmp_path, hear=hear)
     assert (thought.plan, thought.calls) == (KITCHEN, 2)
     mock.set(fault=fault)
     before = mock.report()["calls"]
     with pytest.raises(PlanRejected):
-        ask(mock, tmp_path)
+        ask(mock, tmp_path, hear=hear)
     assert mock.report()["calls"] == before + 2
+
+
+DOWN = {
+    "status": "server_error",
+    "loading": "loading",
+    "rate_limited": "rate_limited",
+    "not_found": "unknown_model",
+    "redirect": "redirect",
+    "hang": "timeout",
+    "drip": "timeout",
+    "lost": "server_error",
+    "endless": "too_large",
+    "huge": "too_large",
+    "stream_endless": "too_large",
+    "not_json": "bad_reply",
+    "no_choices": "bad_reply",
+    "error_200": "server_error",
+    "packed": "bad_reply",
+}
+
+
+@pytest.mark.parametrize("fault", sorted(DOWN))
+def test_a_server_that_fails_is_down_with_the_reason(
+    mock: RunningMock, fault: str, tmp_path: Path
+) -> None:
+    mock.set(fault=fault, retry_after="60")
+    hear = ignore if fault == "stream_endless" else None
+    limit_s = 0.5 if DOWN[fault] == "timeout" else 10.0
+    with pytest.raises(BrainDown) as down:
+        ask(mock, tmp_path, timeout_s=limit_s, hear=hear)
+    assert down.value.why == DOWN[fault]
 
 
 @pytest.mark.parametrize(
     ("switches", "why"),
     [
-        ({"fault": "status", "status": 500}, "server_error"),
         ({"fault": "status", "status": 503, "retry_after": "60"}, "server_error"),
-        ({"fault": "status", "status": 429, "retry_after": "60"}, "rate_limited"),
         ({"fault": "status", "status": 401}, "bad_key"),
-        ({"fault": "status", "status": 404}, "unknown_model"),
-        ({"fault": "redirect"}, "redirect"),
-        ({"fault": "hang"}, "timeout"),
-        ({"fault": "drip"}, "timeout"),
         ({"delay_s": 30.0}, "timeout"),
+        ({"tokens_per_s": 1.0}, "timeout"),
     ],
 )
-def test_a_server_that_fails_is_down_with_the_reason(
+def test_a_status_and_a_slow_server_end_typed_too(
     mock: RunningMock, switches: dict[str, Any], why: str, tmp_path: Path
 ) -> None:
     mock.set(**switches)
-    with pytest.raises(BrainDown) as down:
-        ask(mock, tmp_path, timeout_s=1.5)
-    assert down.value.why == why
+    for hear in (None, ignore):
+        with pytest.raises(BrainDown) as down:
+            ask(mock, tmp_path, timeout_s=0.5, hear=hear)
+        assert down.value.why == why
+
+
+def test_a_filter_and_a_model_that_declines_are_refusals(mock: RunningMock, tmp_path: Path) -> None:
+    for fault in ("filtered", "declined"):
+        for hear in (None, ignore):
+            mock.set(fault=fault)
+            assert ask(mock, tmp_path, hear=hear).plan.kind == "refuse"
+
+
+def test_every_fault_is_tried_here() -> None:
+    others = {"filtered", "declined", "echo_key"}
+    assert set(FAULTS) == READABLE | REPAIRED | set(DOWN) | others
+
+
+def test_a_plan_is_heard_as_it_is_written(mock: RunningMock, tmp_path: Path) -> None:
+    mock.set(tokens_per_s=200.0)
+    heard: list[Draft] = []
+    text = "go to the kitchen, then wait ten seconds and go to the sofa"
+    plan = ask(mock, tmp_path, text, hear=heard.append).plan
+    assert isinstance(plan, StepPlan)
+    assert len(heard) >= 3
+    assert [len(draft.steps) for draft in heard] == sorted(len(draft.steps) for draft in heard)
+    assert heard[-1].steps[:1] == plan.steps[:1]
+    assert heard[-1].text.startswith('{"kind": "plan"')
 
 
 @pytest.mark.parametrize("fault", ["huge", "endless"])
@@ -191,9 +276,13 @@ def ask_down(mock: RunningMock, home: Path) -> None:
 
 def test_a_key_that_is_echoed_is_struck_out(mock: RunningMock, tmp_path: Path) -> None:
     mock.set(fault="echo_key")
-    told = ask(mock, tmp_path).model_dump_json()
-    assert "the key is Bearer ***" in told
-    assert KEY not in told
+    heard: list[Draft] = []
+    for hear in (None, heard.append):
+        told = ask(mock, tmp_path, hear=hear).model_dump_json()
+        assert "the key is Bearer ***" in told
+        assert KEY not in told
+    assert heard
+    assert KEY[:8] not in "".join(draft.text for draft in heard)
 
 
 def test_switches_are_checked_and_counted(mock: RunningMock) -> None:

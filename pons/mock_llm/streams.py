@@ -1,0 +1,160 @@
+"""Send a completion as a stream of deltas, at the pace of a model, and as odd servers do."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from starlette.responses import Response
+
+from planner.brain.schema import NAME
+from pons.mock_llm.completion import CHARACTERS_PER_TOKEN
+
+if TYPE_CHECKING:
+    from starlette.types import Receive, Scope, Send
+
+CHUNK = 64 * 1024
+HUGE_BYTES = 1_000_000_000
+DRIP_S = 0.2
+MOST_DELTAS = 2000
+Ending = Callable[[], bool]
+_HEAD = b'{"choices":[{"message":{"role":"assistant","content":"'
+_MIDDLE = {"stream_breaks", "stream_error", "stream_unfinished", "stream_garbage"}
+
+
+class Cut(Response):
+    """Begin a reply and close the connection in the middle of it."""
+
+    def __init__(self, parts: AsyncIterator[bytes], media_type: str) -> None:
+        super().__init__(media_type=media_type)
+        del self.headers["content-length"]
+        self._parts = parts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Send the parts and no end: the server then drops the connection."""
+        start = {"type": "http.response.start", "status": 200, "headers": self.raw_headers}
+        await send(start)
+        async for part in self._parts:
+            await send({"type": "http.response.body", "body": part, "more_body": True})
+
+
+async def endless(ending: Ending) -> AsyncIterator[bytes]:
+    """Write for ever."""
+    yield _HEAD
+    while not ending():
+        yield b"a" * CHUNK
+        await asyncio.sleep(0)
+
+
+async def huge(ending: Ending) -> AsyncIterator[bytes]:
+    """Write 1 GB, as announced."""
+    yield _HEAD
+    left, tail = HUGE_BYTES - len(_HEAD), b'"}}]}'
+    while left > len(tail) and not ending():
+        size = min(CHUNK, left - len(tail))
+        yield b"a" * size
+        left -= size
+    yield tail
+
+
+async def drip(raw: bytes, ending: Ending) -> AsyncIterator[bytes]:
+    """Write one byte at a time."""
+    for byte in raw:
+        if ending():
+            break
+        yield bytes([byte])
+        await asyncio.sleep(DRIP_S)
+
+
+async def half(raw: bytes) -> AsyncIterator[bytes]:
+    """Write the first half."""
+    yield raw[: len(raw) // 2]
+
+
+async def events(
+    whole: dict[str, Any], fault: str | None, tokens_per_s: float | None, ending: Ending
+) -> AsyncIterator[bytes]:
+    """Send a reply as a stream of deltas, one token each."""
+    deltas = list(_deltas(whole["choices"][0]["message"], fault))
+    pause_s = 0.0 if tokens_per_s is None else 1.0 / tokens_per_s
+    line_end = "\r\n" if fault == "stream_comments" else "\n"
+    broken_at = max(2, len(deltas) // 2) if fault in _MIDDLE else None
+    if fault == "stream_comments":
+        yield b": the model is warming up\r\n\r\n"
+        yield _event(whole, line_end, choices=[])
+    yield _event(whole, line_end, {"role": "assistant"})
+    for number, delta in enumerate(deltas):
+        if pause_s:
+            await asyncio.sleep(pause_s)
+        if number == broken_at:
+            for bad in _broken(fault):
+                yield bad
+            return
+        yield _event(whole, line_end, delta)
+    while fault == "stream_endless" and not ending():
+        yield _event(whole, line_end, {"content": " " * CHUNK})
+        await asyncio.sleep(0)
+    yield _event(whole, line_end, {}, finish=whole["choices"][0]["finish_reason"])
+    yield _event(whole, line_end, choices=[], usage=whole["usage"])
+    yield f"data: [DONE]{line_end}{line_end}".encode()
+
+
+def _broken(fault: str | None) -> Iterator[bytes]:
+    if fault == "stream_error":
+        yield b'data: {"error":{"message":"the backend failed","code":500}}\n\n'
+    elif fault == "stream_garbage":
+        yield b'data: {"choices":[{"delta":{"content":\n\ndata: [DONE]\n\n'
+
+
+def _event(
+    whole: dict[str, Any],
+    line_end: str,
+    delta: dict[str, Any] | None = None,
+    finish: str | None = None,
+    **more: Any,
+) -> bytes:
+    event = {key: whole[key] for key in ("id", "created", "model")}
+    event |= {"object": "chat.completion.chunk"}
+    if delta is not None:
+        event["choices"] = [{"index": 0, "delta": delta, "finish_reason": finish}]
+    return f"data: {json.dumps(event | more, ensure_ascii=False)}{line_end}{line_end}".encode()
+
+
+def _deltas(message: dict[str, Any], fault: str | None) -> Iterator[dict[str, Any]]:
+    for name in ("reasoning_content", "refusal"):
+        if name in message:
+            yield {name: message[name]}
+    content = message["content"]
+    if isinstance(content, list):
+        content = "".join(part["text"] for part in content)
+    yield from ({"content": token} for token in _tokens(content or ""))
+    for call in message.get("tool_calls", ()):
+        yield from ({"tool_calls": [piece]} for piece in _pieces(call, fault))
+
+
+def _pieces(call: dict[str, Any], fault: str | None) -> Iterator[dict[str, Any]]:
+    """Cut a call as servers do: name and id first, then its arguments."""
+    name, arguments = call["function"]["name"], call["function"]["arguments"]
+    place: dict[str, Any] = {} if fault in ("odd_index", "odd_object") else {"index": 0}
+    if isinstance(arguments, dict) or fault == "odd_object":
+        whole = arguments if isinstance(arguments, dict) else json.loads(arguments)
+        yield {**place, "id": "call_1", "function": {"name": name, "arguments": whole}}
+        return
+    late = fault in ("odd_name", "odd_id")
+    first = {} if late else {"id": "call_1", "type": "function"}
+    named = {} if fault == "odd_name" else {"name": name}
+    yield {**place, **first, "function": {**named, "arguments": ""}}
+    for token in _tokens(arguments):
+        yield {**place, "id": None, "function": {"name": None, "arguments": token}}
+    if late:
+        yield {**place, "id": "call_1", "function": {"name": NAME, "arguments": ""}}
+    if fault == "odd_repeat":
+        yield {**place, **first, "function": {"name": name, "arguments": arguments}}
+
+
+def _tokens(text: str) -> Iterator[str]:
+    size = max(CHARACTERS_PER_TOKEN, len(text) // MOST_DELTAS)
+    for at in range(0, len(text), size):
+        yield text[at : at + size]
