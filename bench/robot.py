@@ -21,7 +21,7 @@ from pons.http import PlannerDown, Refused, call
 from pons.processes import Child
 from pons.settings import CHECKOUT, Settings
 from sim import PERIODS
-from wire import VIRTUAL_KEY, Mode, OpKind, OpRequest, SimTruth, Status, load_robot, sign
+from wire import VIRTUAL_KEY, Mode, OpKind, SimTruth, Status, load_robot, signed_request
 from wire.keys import OPS, SIM_TRUTH, STATUS, Party
 from wire.session import open_session
 
@@ -177,8 +177,7 @@ class Robot:
         if status is None:
             return False
         request_id = f"bench-{secrets.token_hex(6)}"
-        proof = sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)
-        request = OpRequest(id=request_id, source="bench", proof=proof)
+        request = signed_request(VIRTUAL_KEY, kind, status, "bench", request_id)
         end_s = time.monotonic() + limit_s
         while time.monotonic() < end_s:
             self._asks[f"op/{kind}"].put(request)

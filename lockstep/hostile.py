@@ -28,7 +28,7 @@ from wire import (
     Waypoint,
     Waypoints,
     keys,
-    sign,
+    signed_request,
 )
 from wire.keys import Party
 
@@ -250,5 +250,5 @@ class Person:
         for kind in kinds:
             self._count += 1
             request_id = f"person-{self._count}"
-            proof = sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)
-            self._mouths[kind].put(OpRequest(id=request_id, source="person", proof=proof))
+            request = signed_request(VIRTUAL_KEY, kind, status, "person", request_id)
+            self._mouths[kind].put(request)

@@ -23,7 +23,7 @@ from planner.mission.records import Book, Mission
 from planner.mission.skills import Way
 from planner.mission.thinking import thinker
 from planner.route import RouteFailure, RouteRequest
-from wire import VIRTUAL_KEY, OpKind, OpRequest, Scan, Status, Stop, sign
+from wire import VIRTUAL_KEY, OpKind, Scan, Status, Stop, signed_request
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -138,8 +138,7 @@ class PlannerSide:
         if status is None:
             return None
         request_id = self._new_id(kind)
-        proof = sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)
-        request = OpRequest(id=request_id, source="api", proof=proof)
+        request = signed_request(VIRTUAL_KEY, kind, status, "api", request_id)
         return self._insist(kind, request_id, lambda: self._bus.ask(kind, request))
 
     def _insist(self, kind: str, request_id: str, say: Callable[[], None]) -> Request:

@@ -12,12 +12,11 @@ from wire import (
     FenceRequest,
     OpKind,
     OpRequest,
-    Proof,
     Status,
     Stop,
     load_robot,
-    sign,
     sign_fence,
+    signed_request,
 )
 from wire.keys import FENCE, OPS, STATUS, STOP, Party
 from wire.session import Publisher, Session, Subscriber, open_session
@@ -29,7 +28,6 @@ if TYPE_CHECKING:
 
 PERIOD_S = 0.05
 LIMIT_S = 2.0
-NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
 
 
 class NoBridge(Exception):
@@ -56,8 +54,10 @@ def ask_direct(settings: Settings, kind: OpKind) -> Answer:
     with open_session(Party.OPERATOR, robot.id, settings.home) as session:
         mouth, ears = _op(session, kind), session.subscriber(STATUS)
         status = _first_status(ears)
-        proof = _proof(settings, kind, status, request_id) if kind in NEEDS_PROOF else None
-        request = OpRequest(id=request_id, source="cli", proof=proof)
+        key = operator_key(settings, virtual=status.drive.virtual)
+        request = OpRequest(id=request_id, source="cli")
+        if key is not None:
+            request = signed_request(key, kind, status, "cli", request_id)
         answer = _until_answered(lambda: mouth.put(request), ears, request_id)
         if answer is None:
             raise NoBridge(f"no_answer: the bridge speaks but did not answer {kind} within 2 s")
@@ -90,11 +90,6 @@ def operator_key(settings: Settings, *, virtual: bool) -> bytes | None:
         return VIRTUAL_KEY
     path = settings.home / "operator.key"
     return path.read_bytes().strip() if path.is_file() else None
-
-
-def _proof(settings: Settings, kind: OpKind, status: Status, request_id: str) -> Proof | None:
-    key = operator_key(settings, virtual=status.drive.virtual)
-    return sign(key, kind, status.robot, status.nonce, request_id) if key else None
 
 
 def _op(session: Session, kind: OpKind) -> Publisher[OpRequest]:

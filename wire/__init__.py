@@ -36,7 +36,15 @@ from wire.geometry import (
     transform,
     wrap,
 )
-from wire.proof import VIRTUAL_KEY, authentic, authentic_fence, sign, sign_fence
+from wire.proof import (
+    NEEDS_PROOF,
+    VIRTUAL_KEY,
+    authentic,
+    authentic_fence,
+    sign,
+    sign_fence,
+    signed_request,
+)
 from wire.robot import RobotDescription, load_robot
 from wire.scalars import MAX_POINTS, PROTOCOL, STATUS_RING
 from wire.sensors import (
@@ -71,6 +79,7 @@ from wire.status import (
 __all__ = [
     "IDENTITY",
     "MAX_POINTS",
+    "NEEDS_PROOF",
     "PROTOCOL",
     "SEVERITY",
     "STATUS_RING",
@@ -134,6 +143,7 @@ __all__ = [
     "map_id",
     "sign",
     "sign_fence",
+    "signed_request",
     "transform",
     "wrap",
 ]

@@ -10,18 +10,30 @@ from __future__ import annotations
 import hashlib
 import hmac
 
-from wire.commands import FenceRequest, OpKind, Proof
+from wire.commands import FenceRequest, OpKind, OpRequest, Proof
 from wire.fence import text_sha256
+from wire.status import Status
 
 VIRTUAL_KEY = b"pons-virtual-drive-operator-key"
 """The key of every drive that declares itself virtual. Published on purpose: it guards no metal."""
 
 MIN_KEY_BYTES = 16
 
+NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
+"""What lets a robot move again. What makes it stand still is believed from anybody."""
+
 
 def sign(key: bytes, kind: OpKind, robot: str, nonce: str, request_id: str) -> Proof:
     """Make the proof for one request under one nonce."""
     return Proof(nonce=nonce, mac=_mac(key, kind, robot, nonce, request_id))
+
+
+def signed_request(
+    key: bytes, kind: OpKind, status: Status, source: str, request_id: str
+) -> OpRequest:
+    """Make an operator's request under the nonce of a status, with a proof where it needs one."""
+    proof = sign(key, kind, status.robot, status.nonce, request_id) if kind in NEEDS_PROOF else None
+    return OpRequest(id=request_id, source=source, proof=proof)
 
 
 def authentic(key: bytes, kind: OpKind, robot: str, proof: Proof | None, request_id: str) -> bool:

@@ -15,9 +15,7 @@ from planner.api.ports import Robot, Services
 from planner.api.problems import Problem
 from planner.api.requests import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.api.unrefused import Unrefused
-from wire import VIRTUAL_KEY, Answer, OpKind, OpRequest, sign
-
-NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
+from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, signed_request
 
 
 def routes(services: Services) -> APIRouter:
@@ -123,5 +121,4 @@ def request(robot: Robot, kind: OpKind, source: str, given: OperatorProof | None
             f"{kind} on this robot needs a proof made with the operator's key; use the page or "
             f"`pons {kind}` on a machine that holds the key",
         )
-    proof = sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)
-    return OpRequest(id=request_id, source=source, proof=proof)
+    return signed_request(VIRTUAL_KEY, kind, status, source, request_id)

@@ -21,7 +21,7 @@ from pons.conformance.mouth import Mouth
 from pons.conformance.record import Record
 from pons.conformance.watch import Watch
 from pons.processes import Child
-from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, sign
+from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, signed_request
 from wire.keys import Party
 from wire.session import open_session
 from wire.sockets import Endpoints
@@ -37,7 +37,6 @@ START_S = 40.0
 HEARD_S = 3.0
 PATIENCE_S = 4.0
 PUT_S = 1.0
-NEEDS_PROOF = frozenset({"arm", "reset", "resume"})
 OURS = "bridge"
 
 
@@ -102,10 +101,10 @@ class Rig:
     def operate(self, kind: OpKind) -> bytes:
         """Make an operator's request, signed with the simulator's published key."""
         status, request_id = self.status(), f"kit-{secrets.token_hex(6)}"
-        proof = None
-        if status is not None and kind in NEEDS_PROOF:
-            proof = sign(VIRTUAL_KEY, kind, status.robot, status.nonce, request_id)
-        payload = encode(OpRequest(id=request_id, source="kit", proof=proof))
+        request = OpRequest(id=request_id, source="kit")
+        if status is not None:
+            request = signed_request(VIRTUAL_KEY, kind, status, "kit", request_id)
+        payload = encode(request)
         self.say(f"op/{kind}", payload)
         return payload
 

@@ -6,7 +6,8 @@ from typing import get_args
 
 import pytest
 
-from wire import VIRTUAL_KEY, OpKind, Proof, authentic, sign
+from tests.wire.examples import STATUS
+from wire import NEEDS_PROOF, VIRTUAL_KEY, OpKind, Proof, authentic, sign, signed_request
 
 KEY = b"k" * 32
 
@@ -46,3 +47,11 @@ def test_fields_cannot_be_shifted_into_each_other() -> None:
 def test_every_kind_has_its_own_mac() -> None:
     kinds = get_args(OpKind)
     assert len({sign(KEY, kind, "r1", "n", "i").mac for kind in kinds}) == len(kinds)
+
+
+@pytest.mark.parametrize("kind", get_args(OpKind))
+def test_a_request_is_signed_where_it_could_let_the_robot_move(kind: OpKind) -> None:
+    request = signed_request(KEY, kind, STATUS, "cli", "op-1")
+    assert (request.id, request.source) == ("op-1", "cli")
+    assert authentic(KEY, kind, STATUS.robot, request.proof, "op-1") == (kind in NEEDS_PROOF)
+    assert request.proof is None or request.proof.nonce == STATUS.nonce
