@@ -73,6 +73,7 @@ from planner.mission.helpers import Router, Think
 from planner.mission.hub import Subscription
 from planner.mission.journal import MissionJournal
 from planner.mission.loop import Clocks
+from planner.mission.memory import Kept, Lesson, Memory
 from planner.mission.records import Book, Facts, Mission, Target
 from planner.mission.reducer import advance, wish
 from planner.mission.runner import Missions
@@ -96,7 +97,10 @@ __all__ = [
     "Journal",
     "JournalDown",
     "Journalled",
+    "Kept",
     "Leg",
+    "Lesson",
+    "Memory",
     "Mission",
     "MissionError",
     "MissionJournal",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner.mission.records import Mission
+from planner.mission.records import Facts, Mission
 from planner.plan import Answer, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
 from wire import Status
 
@@ -124,6 +124,13 @@ class Restarted:
 
 
 @dataclass(frozen=True, slots=True)
+class Known:
+    """A place was taught, moved or forgotten: these are the places now."""
+
+    facts: Facts
+
+
+@dataclass(frozen=True, slots=True)
 class Tick:
     """Time went by."""
 
@@ -143,5 +150,6 @@ Event = (
     | Move
     | Stopped
     | Restarted
+    | Known
     | Tick
 )

@@ -9,7 +9,8 @@ from planner.world import Place, Site
 
 def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> Facts:
     """Return the rooms and places of a site, and the taught ones, as targets; and its home."""
-    return Facts({place.id: _target(place) for place in (*site.places, *taught)}, site.home.id)
+    places = (*site.places, *taught)
+    return Facts({place.id: _target(place) for place in places}, site.home.id, site.map_id)
 
 
 def _target(place: Place) -> Target:

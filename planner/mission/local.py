@@ -161,7 +161,7 @@ def not_kept(refused: PlaceRefused) -> Refuse:
 
 def _by_person(mission: Mission, ask: AskBrain) -> bool:
     """Tell whether the words are the person's own newest ones, not a model's question."""
-    return ask.text == (mission.replies[-1] if mission.replies else mission.text)
+    return ask.text == mission.words
 
 
 _OPEN = (

@@ -89,14 +89,14 @@ class Memory:
         site: Site,
         store: TaughtPlaces | None = None,
         *,
-        link: Hears | None = None,
-        router: Router | None = None,
         radius_m: float = 0.3,
         clock: Callable[[], datetime] = _now,
     ) -> None:
         """Take up what was taught. Raises SiteError where the file is not ours."""
         self.site = site
-        self._store, self._link, self._router, self._radius_m = store, link, router, radius_m
+        self._store, self._radius_m = store, radius_m
+        self._link: Hears | None = None
+        self._router: Router | None = None
         self._clock = clock
         self._lock = asyncio.Lock()
         self._listeners: list[Callable[[], None]] = []
@@ -124,6 +124,10 @@ class Memory:
     def facts(self) -> Facts:
         """Return the places as the reducer knows them."""
         return self._facts
+
+    def use(self, link: Hears, router: Router) -> None:
+        """Take where the robot is heard, and who finds ways to a point."""
+        self._link, self._router = link, router
 
     def listen(self, told: Callable[[], None]) -> None:
         """Have something called after each change."""
@@ -206,7 +210,7 @@ class Memory:
     def _why_not(self, kept: TaughtPlace, known: tuple[Place, ...]) -> str | None:
         """Say why a kept place can't be used: the site's files may have changed since."""
         if not self._here(kept):
-            return "map_mismatch"
+            return "other_map"
         if any(_owner(name, known) is not None for name in kept.as_place().spoken):
             return "place_name_taken"
         try:

@@ -13,6 +13,7 @@ from planner.mission.events import (
     Confirm,
     Event,
     Journalled,
+    Known,
     Move,
     Pause,
     Planned,
@@ -35,6 +36,7 @@ from planner.mission.goals import (
     stop,
     submit,
 )
+from planner.mission.known import on_known
 from planner.mission.legs import on_routed
 from planner.mission.queue import cancel, reorder
 from planner.mission.records import Book
@@ -77,7 +79,8 @@ def wish(book: Book) -> Wish:
 
 
 def _fact(
-    turn: Turn, event: Submitted | Planned | Routed | Seen | Journalled | Stopped | Restarted | Tick
+    turn: Turn,
+    event: Submitted | Planned | Routed | Seen | Journalled | Stopped | Restarted | Known | Tick,
 ) -> None:
     match event:
         case Seen():
@@ -96,6 +99,8 @@ def _fact(
             stop(turn)
         case Restarted():
             restart(turn, event)
+        case Known():
+            on_known(turn, event.facts)
 
 
 def _command(turn: Turn, event: Cancel | Pause | Resume | Confirm | Reply | Move) -> None:

@@ -10,14 +10,19 @@ import asyncio
 import uuid
 from typing import Any
 
+from planner.brain.intents import Cancel as TakeBack
+from planner.brain.intents import Doing, Replace, Where, intent_of
+from planner.brain.intents import Resume as GoOn
 from planner.brain.protocol import Brain
 from planner.brain.stoplane import is_stop
 from planner.link import Identity, Link, StopResult
 from planner.mission.accept import body_of, language_of
+from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine, Leg
 from planner.mission.errors import (
     IdempotencyConflict,
     JournalDown,
+    MissionError,
     NothingToResume,
     QueueFull,
     UnknownGoal,
@@ -26,23 +31,26 @@ from planner.mission.events import (
     Cancel,
     Command,
     Confirm,
+    Known,
     Move,
     Pause,
+    Planned,
     Reply,
     Resume,
     Stopped,
     Submitted,
 )
-from planner.mission.facts import facts_of, vocabulary_of
 from planner.mission.helpers import Router
 from planner.mission.hub import Subscription
 from planner.mission.journal import GoalKey, MissionJournal
+from planner.mission.local import Local, current, to_resume
 from planner.mission.loop import Clocks, Loop
+from planner.mission.memory import Memory
 from planner.mission.records import MAX_OPEN, Book
 from planner.mission.table import refusal
 from planner.mission.thinking import thinker
 from planner.mission.view import goal_of
-from planner.plan import Goal, GoalState, Language
+from planner.plan import Goal, Language
 from planner.world import Site
 from wire import OpRequest, RobotDescription
 
@@ -53,7 +61,7 @@ class Missions:
     def __init__(
         self,
         *,
-        site: Site,
+        site: Site | Memory,
         robot: RobotDescription,
         link: Link,
         router: Router,
@@ -62,14 +70,21 @@ class Missions:
         planner_id: str | None = None,
         clocks: Clocks | None = None,
     ) -> None:
-        self.link = link
+        """Put the parts together; ``site`` is a site, or the memory of its places."""
+        self.link, self.memory = link, site if isinstance(site, Memory) else Memory(site)
+        self.memory.use(link, router)
+        site = self.memory.site
         self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
-        engine = Engine(Book(facts_of(site)), identity)
+        engine = Engine(Book(self.memory.facts), identity)
         self._clocks = clocks or Clocks()
         self._loop = Loop(engine, link, journal, self._clocks)
-        self._think, self._router = thinker(brain, vocabulary_of(site)), router
+        self._brain, self._router = brain, router
+        self._think = Local(
+            self._ask_brain, self.memory, lambda: self._book, self._obey, self._age_s
+        ).think
         self._keys: dict[str, GoalKey] = {}
+        self.memory.listen(lambda: self._loop.event(Known(self.memory.facts)))
 
     # Life ---------------------------------------------------------------------------------------
 
@@ -136,14 +151,22 @@ class Missions:
             JournalDown: it can't be written down, so it was not taken.
         """
         said = language or language_of(text)
-        if is_stop(text):
+        intent = intent_of(text)
+        if is_stop(text) or (isinstance(intent, Replace) and is_stop(intent.rest)):
             return await self._stop_goal(text, said, source)
         body = body_of(text, said, confirm, replace)
         if (known := self._known(idempotency_key, body)) is not None:
             return known
         waiting = sum(not m.ended for m in self._book.missions.values())
-        if waiting >= MAX_OPEN:
+        local = intent is not None and not isinstance(intent, Replace)
+        if waiting >= MAX_OPEN and not local:
             raise QueueFull(waiting)
+        if local and not isinstance(intent, GoOn):
+            operator, act = False, None  # what can't lead to motion clears no hold
+        if isinstance(intent, Replace):
+            replace = True
+            if intent.now and (taken_back := current(self._book)) is not None:
+                self._loop.event(Cancel(taken_back))
         goal_id = self._clocks.new_id()
         key = self._remember(idempotency_key, body, goal_id)
         self._loop.clear_hold(act)
@@ -195,10 +218,22 @@ class Missions:
         return await self._command(Confirm(goal_id), act)
 
     async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
-        """Answer a goal's question; an order to stop stops. Raises UnknownGoal, BadState."""
+        """Answer a goal's question; an order to stop stops, and a question of one's own is answered
+        beside it. Raises UnknownGoal, BadState.
+        """
         if is_stop(text):
             await self.stop("answer")
             return self.goal(goal_id)
+        intent = intent_of(text)
+        if isinstance(intent, TakeBack):
+            return await self.cancel(goal_id)
+        if isinstance(intent, Where | Doing):
+            await self.submit(text)
+            return self.goal(goal_id)
+        if isinstance(intent, Replace):
+            taken_back = await self.cancel(goal_id)
+            await self.submit(intent.rest, act=act)
+            return taken_back
         return await self._command(Reply(goal_id, text), act)
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal:
@@ -262,14 +297,24 @@ class Missions:
         return self.goal(goal_id)
 
     def _newest_paused(self) -> str:
-        book = self._book
-        paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED]
-        held = [book.missions[i] for i in book.queue if book.missions[i].held]
-        if paused:
-            return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
-        if held:
-            return held[0].id
-        raise NothingToResume
+        goal_id = to_resume(self._book)
+        if goal_id is None:
+            raise NothingToResume
+        return goal_id
+
+    async def _ask_brain(self, ask: AskBrain) -> Planned:
+        return await thinker(self._brain, self.memory.vocabulary)(ask)
+
+    def _age_s(self) -> float:
+        heard = self.link.status
+        return heard.age_s if heard is not None else float("inf")
+
+    def _obey(self, command: Command) -> MissionError | None:
+        """Obey a command at once, or say why it can't be obeyed."""
+        error = refusal(self._book, command)
+        if error is None:
+            self._loop.event(command)
+        return error
 
     async def _command(self, command: Command, act: OpRequest | None = None) -> Goal:
         error = refusal(self._book, command)

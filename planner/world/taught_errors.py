@@ -27,6 +27,7 @@ REASONS = MappingProxyType(
             "the robot localizes on another map than this site's",
             "机器人所用的地图与本站点不符",
         ),
+        "other_map": ("it was taught on another map", "它是在另一张地图上记住的"),
         "place_outside_map": ("the point is off the map", "该点在地图之外"),
         "place_in_obstacle": ("the robot can't stand there", "该点没有足够的空地"),
         "place_outside_fence": ("the point is outside the fence", "该点在围栏之外"),

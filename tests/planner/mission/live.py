@@ -16,6 +16,7 @@ from planner.mission import (
     MissionJournal,
     Missions,
 )
+from planner.mission.memory import Memory
 from planner.plan import Goal, GoalState, GoTo, StepPlan
 from planner.route import RouteFailure, RouteRequest, RouteResult
 from planner.world import Site
@@ -72,7 +73,7 @@ class Together:
 @asynccontextmanager
 async def planner(
     home: Path,
-    site: Site,
+    site: Site | Memory,
     *replies: Reply,
     bridge: LiveBridge | None = None,
     hangs: bool = False,

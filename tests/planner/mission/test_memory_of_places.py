@@ -56,13 +56,9 @@ def memory(
     site: Site = SITE,
     router: StraightRouter | None = None,
 ) -> Memory:
-    return Memory(
-        site,
-        TaughtPlaces.in_home(home),
-        link=bridge or Bridge(),
-        router=router or StraightRouter(),
-        clock=lambda: DAY,
-    )
+    made = Memory(site, TaughtPlaces.in_home(home), clock=lambda: DAY)
+    made.use(bridge or Bridge(), router or StraightRouter())
+    return made
 
 
 def teach(kept: Memory, *args: Any, **named: Any) -> TaughtPlace:
@@ -172,7 +168,7 @@ def test_another_map_keeps_its_places_and_they_are_never_driven_to(tmp_path: Pat
     home = Site.load(ROOT / "sites" / "home")
     bridge = Bridge(map_id=home.map_id)
     kept = memory(tmp_path, bridge, site=home)
-    assert [(k.place.id, k.why_not) for k in kept.taught] == [("corner", "map_mismatch")]
+    assert [(k.place.id, k.why_not) for k in kept.taught] == [("corner", "other_map")]
     assert "corner" not in kept.facts.targets
     assert "corner" not in kept.vocabulary
     with pytest.raises(PlaceRefused, match="unknown_taught_place"):
