@@ -1,0 +1,81 @@
+"""Places, waits and words: what each skill asks for, at its beginning, on the way and again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from planner.mission.skills import (
+    SKILLS,
+    Act,
+    Cannot,
+    Done,
+    Drive,
+    Question,
+    Skip,
+    Speak,
+    Stand,
+    Think,
+    act_of,
+)
+from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, StepState
+from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.skills.scenes import scene
+from wire import Pose2
+
+HALL, DOCK = FACTS.targets["hall"].pose, FACTS.targets["dock"].pose
+BACK = Pose2(1.0, 1.0, 0.5)
+
+
+def test_what_may_be_planned_has_a_skill_and_what_needs_a_camera_has_none() -> None:
+    assert set(SKILLS) == RUNNABLE == EVERY_KIND - NEEDS_CAMERA
+
+
+@pytest.mark.parametrize(
+    ("kind", "step", "more", "act"),
+    [
+        ("go_to", {"place": "hall"}, {}, Drive(HALL, heading=False, target="hall")),
+        ("go_to", {"place": "dock"}, {}, Drive(DOCK, heading=True, target="dock")),
+        ("go_to", {"place": "hall"}, {"part": 1}, Done()),
+        ("return_home", {}, {}, Drive(DOCK, heading=True, target="dock")),
+        ("return_home", {}, {"part": 1}, Done()),
+        ("come_back", {}, {"accepted": BACK}, Drive(BACK, heading=True)),
+        ("come_back", {}, {"accepted": BACK, "part": 1}, Done()),
+        ("come_back", {}, {"accepted": None}, Cannot(Code.NO_ROUTE, "no_route")),
+        ("patrol", {"places": ("hall", "dock")}, {}, Drive(HALL, heading=False, target="hall")),
+        ("patrol", {"places": ("hall", "dock")}, {"part": 1}, Drive(DOCK, True, target="dock")),
+        ("patrol", {"places": ("hall", "dock")}, {"part": 2}, Done({"visited": 2})),
+        ("wait", {"seconds": 3.0}, {}, Stand(3.0)),
+        ("say", {"text": "hi"}, {}, Speak("hi")),
+        ("say", {"text": "hi", "state": StepState.RUNNING}, {}, Skip("perhaps_said")),
+        ("ask", {"text": "who?"}, {}, Question("who?")),
+        ("decide", {"text": "where?"}, {}, Think()),
+    ],
+)
+def test_each_skill_asks_for_one_thing(
+    kind: str, step: dict[str, Any], more: dict[str, Any], act: Act
+) -> None:
+    assert act_of(scene(kind, step=step, **more)) == act
+
+
+@pytest.mark.parametrize(
+    ("kind", "step"),
+    [("go_to", {"place": "attic"}), ("patrol", {"places": ("hall", "attic")}), ("return_home", {})],
+)
+def test_a_place_that_is_gone_is_not_driven_to(kind: str, step: dict[str, Any]) -> None:
+    facts = replace(FACTS, home="attic")
+    act = act_of(scene(kind, step=step, facts=facts, part=1 if kind == "patrol" else 0))
+    assert isinstance(act, Cannot)
+    assert (act.code, act.reason) == (Code.UNKNOWN_PLACE, "place_gone")
+    assert act.said is not None
+    assert "attic" in act.said.en
+    assert "hall" in act.said.zh
+
+
+@pytest.mark.parametrize("kind", sorted(NEEDS_CAMERA))
+def test_what_needs_a_camera_says_so(kind: str) -> None:
+    act = act_of(scene(kind))
+    assert isinstance(act, Cannot)
+    assert act.code is Code.NO_CAMERA
