@@ -17,6 +17,7 @@ from planner.brain.protocol import Brain
 from planner.brain.stoplane import is_stop
 from planner.link import Identity, Link, StopResult
 from planner.mission.accept import body_of, language_of
+from planner.mission.ahead import RouteAhead
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine, Leg
 from planner.mission.errors import (
@@ -40,6 +41,7 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
+from planner.mission.hearing import Hearing
 from planner.mission.helpers import Router
 from planner.mission.hub import Subscription
 from planner.mission.journal import GoalKey, MissionJournal
@@ -79,7 +81,8 @@ class Missions:
         engine = Engine(Book(self.memory.facts), identity)
         self._clocks = clocks or Clocks()
         self._loop = Loop(engine, link, journal, self._clocks)
-        self._brain, self._router = brain, router
+        self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
+        self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
         self._think = Local(
             self._ask_brain, self.memory, lambda: self._book, self._obey, self._age_s
         ).think
@@ -103,6 +106,7 @@ class Missions:
     async def close(self) -> None:
         """End everything; a running goal comes back paused in the next process."""
         await self._loop.close()
+        await self._router.close()
 
     @property
     def failed(self) -> BaseException | None:
@@ -303,7 +307,7 @@ class Missions:
         return goal_id
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        return await thinker(self._brain, self.memory.vocabulary)(ask)
+        return await thinker(self._brain, self.memory.vocabulary, self._hearing)(ask)
 
     def _age_s(self) -> float:
         heard = self.link.status

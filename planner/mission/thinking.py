@@ -8,14 +8,15 @@ from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.protocol import Brain, ThinkRequest
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
+from planner.mission.hearing import Hearing
 from planner.mission.helpers import Think
 from planner.plan import Code, Outcome, Rejection, Vocabulary, message, validate_plan
 
 log = logging.getLogger(__name__)
 
 
-def thinker(brain: Brain, vocabulary: Vocabulary) -> Think:
-    """Return how this brain thinks about goals in this closed world."""
+def thinker(brain: Brain, vocabulary: Vocabulary, hearing: Hearing | None = None) -> Think:
+    """Return how this brain thinks about goals in this closed world; ``hearing`` listens."""
 
     async def think(ask: AskBrain) -> Planned:
         request = ThinkRequest(
@@ -28,7 +29,7 @@ def thinker(brain: Brain, vocabulary: Vocabulary) -> Think:
             replan=ask.replan,
         )
         try:
-            thought = await brain.think(request)
+            thought = await brain.think(request, hearing.of(ask.id) if hearing else None)
         except PlanRejected as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
             said = _outcome(Code.BAD_PLAN, why=str(error)[:200])
