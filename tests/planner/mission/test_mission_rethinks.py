@@ -1,0 +1,217 @@
+"""A goal thinks again: because its plan says so, or because a step failed; never for ever."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import pytest
+
+from planner.mission.effects import AskBrain
+from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply, Resume, Stopped
+from planner.plan import (
+    Answer,
+    Ask,
+    Bilingual,
+    BrainTag,
+    Clarify,
+    Code,
+    Decide,
+    GoalState,
+    GoTo,
+    Outcome,
+    Refuse,
+    Say,
+    StepPlan,
+    StepState,
+    message,
+)
+from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, RUNNING, SUCCEEDED
+from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.lockstep import Together, go
+
+SHUT = "no_route"
+DECIDE = Decide(question="where to?")
+SAYS = Bilingual(en="It is gone.", zh="不见了。")
+DOWN = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
+TAG = BrainTag(name="b", version="1")
+
+
+@dataclass
+class Rethinking(Together):
+    """Let each goal's brain give one answer after the other; None: it thinks on."""
+
+    thoughts: list[Any] = field(default_factory=list)
+    asked: list[AskBrain] = field(default_factory=list)
+
+    def answer(self, effect: Any) -> None:
+        if isinstance(effect, AskBrain):
+            self.asked.append(effect)
+            thought = self.thoughts.pop(0) if self.thoughts else None
+            if thought is not None:
+                down = isinstance(thought, Outcome)
+                self.event(Planned(effect.id, None if down else thought,
+                                   thought if down else None, TAG))  # fmt: skip
+            return
+        super().answer(effect)
+
+
+def rethinking(*thoughts: Any, shut: bool = False) -> Rethinking:
+    world = Rethinking(thoughts=list(thoughts), way=lambda _: SHUT if shut else None)
+    world.run(0.2)
+    return world
+
+
+def plan(*steps: Any) -> StepPlan:
+    return StepPlan(steps=steps)
+
+
+def test_new_steps_replace_the_rest_and_know_what_was_heard() -> None:
+    first = plan(Ask(question="Where to?"), DECIDE, Say(text="never said"))
+    world = rethinking(first, go("kitchen"))
+    goal = world.give(None)
+    world.event(Reply(goal, "to the kitchen"))
+    done = world.run_until(goal, SUCCEEDED)
+    assert [s.kind for s in done.steps] == ["ask", "decide", "go_to"]
+    assert [s.state for s in done.steps] == [StepState.SUCCEEDED] * 3
+    asked, decided = world.asked[1].observed
+    assert (asked.step, asked.result) == ("ask", "answered")
+    assert "to the kitchen" in asked.detail.en
+    assert "where to?" in decided.detail.zh
+    assert world.said == ["Where to?"]
+
+
+def test_a_failed_step_is_thought_about_with_what_went_wrong() -> None:
+    world = rethinking(plan(GoTo(place="kitchen")), plan(Say(text="the door is shut")))
+    world.way = lambda ask: SHUT if ask.goal == FACTS.targets["kitchen"].pose else None
+    goal = world.give(None)
+    done = world.run_until(goal, SUCCEEDED)
+    assert [(s.kind, s.state) for s in done.steps] == [
+        ("go_to", StepState.FAILED), ("say", StepState.SUCCEEDED)]  # fmt: skip
+    assert done.steps[0].reason == "no_route"
+    again = world.asked[1]
+    assert (again.replan, again.observed[0].result) == (1, "failed")
+    assert "no way to kitchen" in again.observed[0].detail.en
+
+
+def test_the_same_steps_again_end_with_the_first_failure_after_one_thought() -> None:
+    """So it goes with the offline brain, whose answer to a sentence is always the same."""
+    world = rethinking(go("kitchen"), go("kitchen"), go("kitchen"), shut=True)
+    goal = world.give(None)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason, len(world.asked)) == (FAILED, "no_route", 2)
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.NO_ROUTE
+
+
+def test_no_more_new_plans_than_the_rules_allow() -> None:
+    thoughts = [plan(Say(text=f"try {i}"), GoTo(place="kitchen")) for i in range(9)]
+    world = rethinking(*thoughts, shut=True)
+    goal = world.give(None)
+    assert world.goal(goal).state is FAILED
+    assert len(world.asked) == 1 + world.book.rules.replans
+    assert world.said == ["try 0", "try 1", "try 2"]
+
+
+def test_no_goal_decides_for_ever() -> None:
+    thoughts = [plan(Say(text=f"hm {i}"), DECIDE) for i in range(9)]
+    world = rethinking(*thoughts)
+    goal = world.give(None)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "thoughts")
+    assert len(world.asked) == 1 + world.book.rules.decides
+
+
+@pytest.mark.parametrize(
+    ("thought", "state", "code"),
+    [
+        (Answer(text=SAYS), SUCCEEDED, Code.ANSWERED),
+        (Refuse(code=Code.UNSAFE, reason=SAYS), GoalState.REFUSED, Code.UNSAFE),
+        ("the same", FAILED, Code.BAD_PLAN),
+        (go("cellar"), FAILED, Code.UNKNOWN_PLACE),
+        (DOWN, FAILED, Code.MODEL_UNAVAILABLE),
+    ],
+)
+@pytest.mark.parametrize("failed", [False, True])
+def test_what_is_no_new_plan_ends_the_goal_and_a_failure_stays_the_failure(
+    thought: Any, state: GoalState, code: Code, failed: bool
+) -> None:
+    first = go("kitchen") if failed else plan(DECIDE)
+    world = rethinking(first, first if thought == "the same" else thought, shut=failed)
+    mission = world.goal(world.give(None))
+    told = (FAILED, Code.NO_ROUTE) if failed else (state, code)
+    assert (mission.state, mission.outcome and mission.outcome.code) == told
+    assert world.book.running is None
+
+
+def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
+    question = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which dock?", zh="哪个？"))
+    world = rethinking(plan(DECIDE), question, go("dock"))
+    goal = world.give(None)
+    assert world.goal(goal).state is GoalState.NEEDS_CLARIFICATION
+    world.event(Reply(goal, "the left one"))
+    world.run_until(goal, SUCCEEDED)
+    assert "the left one" in world.asked[2].observed[1].detail.en
+
+
+def test_another_destination_than_was_named_needs_a_yes() -> None:
+    world = rethinking(go("kitchen"), go("dock"))
+    world.way = lambda ask: SHUT if ask.goal == FACTS.targets["kitchen"].pose else None
+    goal = world.give(None)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (GoalState.AWAITING_CONFIRMATION, "new_place")
+    assert mission.outcome is not None
+    assert "dock" in mission.outcome.message.en
+    world.run(5.0)
+    assert world.bridge.waypoints == []
+    world.event(Confirm(goal))
+    world.run_until(goal, SUCCEEDED)
+
+
+@pytest.mark.parametrize(
+    ("order", "state"), [(Cancel, CANCELLED), (Pause, PAUSED), (Stopped, PAUSED)]
+)
+def test_a_thinking_brain_is_interrupted_at_once_and_its_answer_changes_nothing(
+    order: Any, state: GoalState
+) -> None:
+    world = rethinking(plan(DECIDE))
+    goal = world.give(None)
+    assert world.goal(goal).state is RUNNING
+    world.event(order(goal))
+    assert (world.goal(goal).state, world.dropped) == (state, [goal])
+    world.event(Planned(goal, go("kitchen")))
+    world.run(2.0)
+    assert world.bridge.waypoints == []
+    if state is PAUSED:
+        world.thoughts.append(plan(Say(text="on we go")))
+        world.event(Resume(goal))
+        assert (world.goal(goal).state, world.said) == (SUCCEEDED, ["on we go"])
+
+
+def test_a_crash_while_it_thinks_about_a_failure_thinks_on_when_a_person_says_so() -> None:
+    world = rethinking(go("kitchen"), shut=True)
+    goal = world.give(None)
+    assert world.goal(goal).replans == 1
+    after = world.restart()
+    assert (after.goal(goal).state, after.goal(goal).reason) == (PAUSED, "planner_restarted")
+    after.act()
+    after.plans[goal] = plan(Say(text="another way"))
+    after.event(Resume(goal))
+    after.run_until(goal, SUCCEEDED)
+    assert (after.goal(goal).replans, after.said) == (1, ["another way"])
+
+
+def test_a_place_that_is_forgotten_on_the_way_stops_the_robot_and_is_told(world: Together) -> None:
+    goal = world.give(go("kitchen"))
+    world.plans[goal] = plan(GoTo(place="kitchen"))  # the brain knows nothing better
+    world.run(1.0)
+    left = {place: target for place, target in FACTS.targets.items() if place != "kitchen"}
+    world.event(Known(replace(FACTS, targets=left)))
+    world.run(0.2)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "place_gone")
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.UNKNOWN_PLACE
+    assert mission.outcome.metres is not None
+    assert mission.outcome.metres > 0.2
+    assert world.bridge.horizon is None
