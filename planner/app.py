@@ -14,12 +14,12 @@ from planner.api import Access, build
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.budget import purse_of
 from planner.link import Link, WireBus
-from planner.mission import MissionJournal, Missions
+from planner.mission import Memory, MissionJournal, Missions
 from planner.robot import LinkedRobot
 from planner.route import RouteLimits, RouteWorker
 from planner.settings import load_settings
 from planner.voice import VoiceWorker
-from planner.world import FenceProposals, Site
+from planner.world import FenceProposals, Site, TaughtPlaces
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -69,19 +69,24 @@ class Planner:
         self._journal = MissionJournal.in_home(where.home)
         limits = RouteLimits.of(self.description)
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
-        self.ears = VoiceWorker(
-            [name for place in self.site.places for name in place.said_in_english]
-        )
+        radius_m = self.description.base.radius_m
+        self.memory = Memory(self.site, TaughtPlaces.in_home(where.home), radius_m=radius_m)
+        self.ears = VoiceWorker(self._spoken())
+        self.memory.listen(lambda: self.ears.know(self._spoken()))
         link = Link(WireBus(self._session), self.description)
         self.robot = LinkedRobot(link, self.description)
         self.goals = Missions(
-            site=self.site,
+            site=self.memory,
             robot=self.description,
             link=link,
             router=self._router,
             brain=self.brain,
             journal=self._journal,
         )
+
+    def _spoken(self) -> list[str]:
+        """Return the English names that may be said, the taught ones too."""
+        return [name for place in self.memory.places for name in place.said_in_english]
 
     def fence_is_old(self) -> bool:
         """Say whether the bridge holds what the site's fence.json has become since our start."""

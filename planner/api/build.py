@@ -7,7 +7,19 @@ from typing import TYPE_CHECKING
 from fastapi import FastAPI, Request
 from starlette.responses import JSONResponse
 
-from planner.api import events, fence, goals, health, operator, pages, problems, robot, usage, voice
+from planner.api import (
+    events,
+    fence,
+    goals,
+    health,
+    operator,
+    pages,
+    places,
+    problems,
+    robot,
+    usage,
+    voice,
+)
 from planner.api.guard import Guard
 from planner.api.ports import Services
 from planner.mission.errors import MissionError
@@ -42,7 +54,7 @@ def build(
         redoc_url=None,
         lifespan=lifespan,
     )
-    for part in (goals, voice, operator, robot, fence, usage, health, events):
+    for part in (goals, voice, operator, robot, places, fence, usage, health, events):
         app.include_router(part.routes(services))
     problems.install(app)
     app.add_exception_handler(MissionError, _mission)

@@ -93,6 +93,7 @@ def snapshot(services: Services) -> dict[str, Any]:
         "path": path_view(services),
         "scan": scan_view(services),
         "usage": usage_view(services),
+        "places_version": services.memory.version,
     }
 
 

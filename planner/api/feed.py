@@ -59,6 +59,7 @@ class Feed:
         self._told: tuple[Any, ...] = ()
         self._driven: tuple[str, int] | None = None
         self._metered = 0
+        self._places = 0
 
     def listen(self) -> Listener:
         """Begin to listen; the first listener starts the looking."""
@@ -97,6 +98,10 @@ class Feed:
         if changes != self._metered:
             self._metered = changes
             self._offer("usage", {"usage": usage_view(self._services)})
+        version = self._services.memory.version
+        if version != self._places:
+            self._places = version
+            self._offer("places", {"version": version})
         if now_s - self._scan_s >= SCAN_S:
             self._scan_s = now_s
             self._offer("scan", {"scan": scan_view(self._services)})

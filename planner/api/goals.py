@@ -10,7 +10,7 @@ from planner.api.operator import persons_act
 from planner.api.ports import Services
 from planner.api.problems import Problem
 from planner.api.requests import GoalOrder, Move, NewGoal, Reply
-from planner.brain.stoplane import is_stop
+from planner.brain.intents import stays_put
 from planner.mission.errors import MissionError
 from planner.plan import Goal
 
@@ -41,7 +41,7 @@ def _giving(router: APIRouter, services: Services) -> None:
     @router.post("", status_code=202, operation_id="give_goal")
     async def give(new: NewGoal, idempotency_key: IdempotencyKey = None) -> Goal:
         """Give a goal in words. What is understood but impossible ends refused."""
-        act = None if is_stop(new.text) else persons_act(services.robot, new.operator)
+        act = None if stays_put(new.text) else persons_act(services.robot, new.operator)
         return await goals.submit(
             new.text,
             language=new.language,
@@ -90,7 +90,7 @@ def _acting(router: APIRouter, services: Services) -> None:
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: Reply) -> Goal:
         """Answer a goal's question; an operator's act."""
-        act = None if is_stop(reply.text) else persons_act(services.robot, reply.operator)
+        act = None if stays_put(reply.text) else persons_act(services.robot, reply.operator)
         return await goals.answer(goal_id, reply.text, act=act)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from planner.brain import Brain
     from planner.budget import Usage
-    from planner.mission import Leg
+    from planner.mission import Leg, Memory
     from planner.plan import Goal, Language
     from planner.voice import Recogniser
     from planner.world import FenceProposals, Site
@@ -105,6 +105,9 @@ class Services(Protocol):
 
     @property
     def site(self) -> Site: ...
+
+    @property
+    def memory(self) -> Memory: ...
 
     @property
     def fences(self) -> FenceProposals: ...

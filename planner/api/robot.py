@@ -1,4 +1,4 @@
-"""Serve what is known: the robot as the bridge reports it, the map, the places. Read only."""
+"""Serve what is known: the robot as the bridge reports it, and the map. Read only."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from planner.brain import mind_of
 def routes(services: Services) -> APIRouter:
     """Return the reading routes."""
     router = APIRouter(prefix="/v1", tags=["robot"])
-    site = services.site
     map_body = _map(services)
 
     @router.get("/robot", operation_id="get_robot")
@@ -27,11 +26,6 @@ def routes(services: Services) -> APIRouter:
     async def grid() -> dict[str, Any]:
         """Give the map's cells (0 free, 1 occupied, 2 unknown; row 0 lowest y) and the fence."""
         return map_body
-
-    @router.get("/places", operation_id="list_places")
-    async def places() -> dict[str, Any]:
-        """List rooms and places with their names in both languages."""
-        return {"home": site.home.id, "places": site.places}
 
     @router.get("/camera.jpg", operation_id="get_camera")
     async def camera() -> None:

@@ -11,6 +11,7 @@ from planner.api.goals import IdempotencyKey
 from planner.api.operator import persons_act
 from planner.api.ports import Services
 from planner.api.problems import Problem
+from planner.brain.intents import stays_put
 from planner.brain.stoplane import is_stop
 from planner.plan import Bilingual, Goal, Language
 from planner.voice import BadRecording, Heard, VoiceFailure, read_wav
@@ -87,7 +88,7 @@ def routes(services: Services) -> APIRouter:
             confirm=confirm or not (heard.sure or is_stop(text)),
             replace=replace,
             idempotency_key=idempotency_key,
-            act=None if is_stop(text) else persons_act(services.robot, None),
+            act=None if stays_put(text) else persons_act(services.robot, None),
         )
         return Spoken(
             transcript=text,

@@ -99,6 +99,8 @@ class Memory:
         self._router: Router | None = None
         self._clock = clock
         self._lock = asyncio.Lock()
+        self.version = 0
+        """Rises with every change."""
         self._listeners: list[Callable[[], None]] = []
         self._kept: tuple[TaughtPlace, ...] = store.load() if store is not None else ()
         self._judge()
@@ -294,6 +296,7 @@ class Memory:
             raise PlaceRefused("places_unwritable", "this planner keeps no places")
         await asyncio.to_thread(self._store.save, places)
         self._kept = places
+        self.version += 1
         self._judge()
         for told in self._listeners:
             told()

@@ -11,7 +11,7 @@ from typing import Any
 
 from planner.brain import Brain, OfflineBrain
 from planner.budget import Amounts, Most, Usage
-from planner.mission import Leg
+from planner.mission import Leg, Memory
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
 from planner.voice import Heard, Sound, VoiceFailure
@@ -195,4 +195,5 @@ class FakeServices:
         self.budget = FakeBudget()
         self.brain: Brain = OfflineBrain()
         self.site = Site.load(ROOT / "sites" / "two_room")
+        self.memory = Memory(self.site)
         self.fences = FenceProposals(Path("/nowhere"))
