@@ -5,6 +5,7 @@ Owns the tests' environment; knows no package of ours.
 
 from __future__ import annotations
 
+import gc
 import os
 import socket
 import tempfile
@@ -30,6 +31,20 @@ settings.register_profile(
 )
 settings.register_profile("dev", deadline=None, max_examples=50)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci" if os.environ.get("CI") else "dev"))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """Collect thousands of tests without looking again and again for garbage among them.
+
+    They live until the end, so no later look need walk them either.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
+        gc.freeze()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -35,6 +35,13 @@ def settings(tmp_path: Path) -> Settings:
     return Settings(home, CHECKOUT / "robot.toml", TWO_ROOM, "127.0.0.1", free_port())
 
 
+@pytest.fixture
+def deaf(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out the one check that costs a second: it loads the recogniser's model."""
+    heard = Finding("recogniser", Verdict.OK, Words("left out", "略过"))
+    monkeypatch.setattr(mind, "recogniser", lambda _site: heard)
+
+
 def assert_says(found: Finding, verdict: Verdict, *parts: str) -> None:
     assert found.verdict is verdict, found
     assert (found.fix is None) == (verdict is Verdict.OK)
@@ -77,6 +84,7 @@ def test_a_fault_is_one_line_with_its_fix_in_each_language(
     assert chinese.strip() == "被占用 -> 释放"
 
 
+@pytest.mark.usefixtures("deaf")
 @pytest.mark.parametrize(
     "error", [PermissionError("denied"), subprocess.TimeoutExpired("x", 1), RuntimeError("odd")]
 )
@@ -120,6 +128,7 @@ def test_a_cyclictest_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> No
         assert hanging.returncode is not None
 
 
+@pytest.mark.usefixtures("deaf")
 def test_json_is_for_machines(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
