@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from datetime import datetime
+
 from planner.brain.draft import Hear
 from planner.brain.offline.reader import Context, plan
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.plan import BrainTag
 
-VERSION = "1"
+VERSION = "2"
 TAG = BrainTag(name="offline", version=VERSION)
 
 
+def _now() -> datetime:
+    return datetime.now().astimezone()
+
+
 class OfflineBrain:
-    """Plan by grammar, in this process and without a model."""
+    """Plan by grammar, in this process and without a model. `clock` tells the time of day."""
+
+    def __init__(self, clock: Callable[[], datetime] = _now) -> None:
+        self._clock = clock
 
     @property
     def tag(self) -> BrainTag:
@@ -21,5 +31,10 @@ class OfflineBrain:
 
     async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
         """Return the plan of a sentence. Pure beneath, and bounded by the length of the text."""
-        context = Context(room=request.room, language=request.language)
+        context = Context(
+            room=request.room,
+            language=request.language,
+            now=self._clock(),
+            runnable=request.runnable,
+        )
         return Thought(plan=plan(request.text, request.vocabulary, context), brain=TAG)

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import datetime
 
 from planner.brain.offline.lexicon import Lexicon
-from planner.brain.offline.meaning import About, Meaning, Problem, Steps, Topic
+from planner.brain.offline.meaning import About, Meaning, Problem, Steps
 from planner.brain.offline.render import option, sentence
+from planner.brain.offline.talk import Topic, told
 from planner.plan import (
     DRIVES,
     MAX_STEPS,
@@ -20,11 +22,14 @@ from planner.plan import (
     Clarify,
     Code,
     ComeBack,
+    Find,
     GoTo,
     Language,
     Option,
+    Patrol,
     Refuse,
     ReturnHome,
+    Say,
     Step,
     StepPlan,
     Vocabulary,
@@ -40,13 +45,13 @@ _RANK = (
     Code.BAD_PLAN,
     Code.NOT_UNDERSTOOD,
     Code.UNKNOWN_PLACE,
+    Code.INCOMPLETE,
     Code.AMBIGUOUS,
 )
 _LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA})
 _SHOWN = 60  # characters of the sentence that a message repeats
 _SPAN = Bilingual(en="a wait is at most 600 seconds", zh="等待时间最多 600 秒")
-_RULE = Bilingual(en="it could hurt somebody or something", zh="可能会伤到人或物")
-_ONLY_DRIVE = Bilingual(en=" Shall I only drive: {order}?", zh="要不要只行驶：{order}？")
+_ONLY = Bilingual(en=" Shall I do only this: {order}?", zh="要不要只做这些：{order}？")
 _NO_ROOM = Bilingual(en="I don't know where I am yet.", zh="我还不知道自己在哪里。")
 _I_KNOW = Bilingual(en="I can drive to: {names}.", zh="我可以去：{names}。")
 _I_AM_IN = Bilingual(en="I am in the {name}.", zh="我在{name}。")
@@ -62,6 +67,7 @@ class Setting:
     lexicon: Lexicon
     language: Language
     room: str | None
+    now: datetime | None = None
 
     def button(self, steps: Sequence[Step]) -> Option:
         """Return a button that stands for these steps."""
@@ -76,7 +82,8 @@ def compose(meanings: Sequence[Meaning], text: str, setting: Setting) -> Plan:
         return _explain(worst, problems, meanings, setting)
     if len(meanings) == 1 and isinstance(meanings[0], About):
         return _answer(meanings[0].topic, setting)
-    steps = _steps_of(meanings)
+    meanings = [_aloud(meaning, setting) for meaning in meanings]
+    steps = _joined(_steps_of(meanings))
     if not steps or any(isinstance(meaning, About) for meaning in meanings):
         return _ask(Problem(Code.NOT_UNDERSTOOD, text), (), setting)
     return _checked(steps, text, setting)
@@ -87,9 +94,30 @@ def veto(code: Code, part: str, places: Sequence[str], setting: Setting) -> Plan
     if code is Code.AMBIGUOUS:
         buttons = tuple(setting.button((GoTo(place=place),)) for place in dict.fromkeys(places))
         return _ask(Problem(code, part), buttons, setting)
-    if code is Code.UNSAFE:
-        return Refuse(code=code, reason=message(code, part=_cut(part), rule=_RULE))
     return Refuse(code=code, reason=message(code, part=_cut(part)))
+
+
+def unsafe(rule: Bilingual, part: str) -> Refuse:
+    """Return the no to an order that would do harm, with the rule that it breaks."""
+    return Refuse(code=Code.UNSAFE, reason=message(Code.UNSAFE, part=_cut(part), rule=rule))
+
+
+def _aloud(meaning: Meaning, setting: Setting) -> Meaning:
+    """Say what a topic tells, where it is one part of an order."""
+    words = told(meaning.topic, setting.now) if isinstance(meaning, About) else None
+    return Steps((Say(text=words.of(setting.language)),)) if words else meaning
+
+
+def _joined(steps: Sequence[Step]) -> tuple[Step, ...]:
+    """Join patrols that follow each other: "the kitchen and the study" are one round."""
+    joined: list[Step] = []
+    for step in steps:
+        before = joined[-1] if joined else None
+        if isinstance(step, Patrol) and isinstance(before, Patrol) and before.places != step.places:
+            joined[-1] = Patrol(places=(*before.places, *step.places)[:MAX_STEPS])
+        else:
+            joined.append(step)
+    return tuple(joined)
 
 
 def _checked(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
@@ -114,7 +142,7 @@ def _explain(
         understood = all(problem.code in _LACKING for problem in problems)
         return _lacking(worst, _offer(meanings) if understood else (), setting)
     if worst.code is Code.BAD_PLAN:
-        return Refuse(code=worst.code, reason=message(worst.code, why=_SPAN))
+        return Refuse(code=worst.code, reason=message(worst.code, why=worst.what or _SPAN))
     if worst.code is Code.NOT_UNDERSTOOD:
         offered = _offer(meanings)
         # Of two places the order was not understood either.
@@ -134,14 +162,17 @@ def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Pla
         return Refuse(code=worst.code, reason=said)
     order = sentence(offered, setting.vocabulary, setting.lexicon)
     question = Bilingual(
-        en=said.en + _ONLY_DRIVE.en.format(order=order.en),
-        zh=said.zh + _ONLY_DRIVE.zh.format(order=order.zh),
+        en=said.en + _ONLY.en.format(order=order.en),
+        zh=said.zh + _ONLY.zh.format(order=order.zh),
     )
     return Clarify(code=worst.code, question=question, options=(setting.button(offered),))
 
 
 def _ask(problem: Problem, options: tuple[Option, ...], setting: Setting) -> Clarify:
-    if problem.code is Code.UNKNOWN_PLACE:
+    if problem.code is Code.INCOMPLETE:
+        what = problem.what or same("?")
+        question = message(problem.code, part=_cut(problem.part), what=what)
+    elif problem.code is Code.UNKNOWN_PLACE:
         question = _unknown(problem, setting.vocabulary)
     else:
         question = message(problem.code, part=_cut(problem.part))
@@ -161,6 +192,9 @@ def _answer(topic: Topic, setting: Setting) -> Answer:
     if topic is Topic.PLACES:
         names = setting.vocabulary.known()
         return Answer(text=_filled(_I_KNOW, "names", names))
+    words = told(topic, setting.now)
+    if words is not None:
+        return Answer(text=words)
     if setting.room is None:
         return Answer(text=_NO_ROOM)
     return Answer(text=_filled(_I_AM_IN, "name", setting.vocabulary.name(setting.room)))
@@ -196,7 +230,7 @@ def _offer(meanings: Sequence[Meaning]) -> tuple[Step, ...]:
 
 
 def _drives(steps: Sequence[Step]) -> bool:
-    return any(isinstance(step, GoTo | ReturnHome) for step in steps)
+    return any(isinstance(step, GoTo | ReturnHome | Find | Patrol) for step in steps)
 
 
 def _cut(part: str) -> Bilingual:

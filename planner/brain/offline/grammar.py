@@ -6,8 +6,9 @@ around an order without changing it, and rules that read a clause whole.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from re import Match, Pattern
 
 from pydantic import ValidationError
@@ -16,16 +17,15 @@ from planner.brain.offline.meaning import (
     About,
     Clause,
     Meaning,
-    Problem,
     Reading,
     Rule,
     Steps,
-    Topic,
     read_by,
 )
 from planner.brain.offline.numbers import seconds
 from planner.brain.offline.places import go_to
-from planner.plan import Code, ComeBack, GoTo, ReturnHome, Say, Wait
+from planner.brain.offline.talk import Topic
+from planner.plan import Code, ComeBack, GoTo, Patrol, ReturnHome, Say, Wait
 
 FIRST_QUOTE = 0xF800
 QUOTE = "[\uf800-\uf8ff]"
@@ -76,6 +76,22 @@ class Grammar:
         return read_by(self.rules, text, reading)
 
 
+def rule(pattern: str, build: Build) -> Rule:
+    """Return a rule of a pattern."""
+    return Rule(re.compile(pattern), build)
+
+
+def where(found: Match[str], group: str) -> str | None:
+    """Return the place phrase of a group, or "there"."""
+    groups = found.groupdict()
+    return groups.get(group) or groups.get(f"{group}_there")
+
+
+def ahead(reading: Reading, meaning: Steps) -> Reading:
+    """Return the reading of what a clause says after its first part."""
+    return replace(reading, scene=reading.scene.after(meaning))
+
+
 def drive_to(found: Match[str], reading: Reading) -> Meaning:
     """Read the group `place` as a place to drive to."""
     return go_to(found["place"], reading)
@@ -112,8 +128,10 @@ def next_place(found: Match[str], reading: Reading) -> Meaning | None:
     """Read a bare place after a go-to clause as the next place; elsewhere offer it."""
     phrase = found["place"]
     meaning = go_to(phrase, reading)
-    if reading.going and not isinstance(meaning, Problem):
-        return meaning
+    if reading.going and isinstance(meaning, Steps):
+        goals = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
+        patrols = reading.scene.kind == "patrol" and goals
+        return Steps((Patrol(places=goals),)) if patrols else meaning
     named = reading.going and phrase.startswith(("the ", "my ", "our "))
     return meaning if named else None
 
@@ -162,15 +180,5 @@ def about(topic: Topic) -> Build:
 
 
 def lacks(code: Code) -> Build:
-    """Return a builder for an order that is understood and can't be done.
-
-    A group `go` is read first: it is what could be done without the rest.
-    """
-
-    def build(found: Match[str], reading: Reading) -> Meaning:
-        ahead = found.groupdict().get("go")
-        meaning = go_to(ahead, reading) if ahead else Steps(())
-        before = meaning.steps if isinstance(meaning, Steps) else ()
-        return reading.problem(code, found[0], before)
-
-    return build
+    """Return a builder for an order that is understood and can't be done."""
+    return lambda found, reading: reading.problem(code, found[0])

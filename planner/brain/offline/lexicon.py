@@ -21,6 +21,11 @@ FIRST_MARK = 0xE000
 MARKS = 2048  # no sentence of readable length names more places
 MARK = rf"[{chr(FIRST_MARK)}-{chr(FIRST_MARK + MARKS - 1)}]"
 
+FIRST_NAME = 0xE900
+NAMES = 256
+NAME = rf"[{chr(FIRST_NAME)}-{chr(FIRST_NAME + NAMES - 1)}]"
+"""What stands for a person's name."""
+
 # "home" is a step of its own (return_home), whatever a site calls its home.
 _RESERVED = frozenset({"home", "base", "家", "here", "there", "it", "back"})
 _PIECE = re.compile(r"[a-z0-9']+|\S")
@@ -43,6 +48,7 @@ class Marked:
 
     text: str
     mentions: tuple[Mention, ...]
+    people: tuple[str, ...] = ()  # names of persons, marked by FIRST_NAME and up
 
     def mention(self, mark: str) -> Mention:
         """Return what a private character stands for."""
@@ -50,7 +56,8 @@ class Marked:
 
     def restore(self, part: str) -> str:
         """Write a part of the sentence with its names again."""
-        return re.sub(MARK, lambda found: self.mention(found[0]).written, part).strip()
+        named = re.sub(MARK, lambda found: self.mention(found[0]).written, part).strip()
+        return re.sub(NAME, lambda found: self.people[ord(found[0]) - FIRST_NAME], named)
 
 
 class Lexicon:

@@ -1,8 +1,9 @@
-"""Read numbers and durations in both languages. Units: seconds."""
+"""Read numbers, durations [s], lengths [m] and angles [rad] in both languages."""
 
 from __future__ import annotations
 
 import re
+from math import pi, radians
 
 _WORDS = (
     *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
@@ -17,6 +18,16 @@ _EN_VALUES = {word: float(value) for value, word in enumerate(_WORDS)} | {
     "forty": 40.0,
     "fifty": 50.0,
     "sixty": 60.0,
+    "seventy": 70.0,
+    "eighty": 80.0,
+    "ninety": 90.0,
+    "half": 0.5,
+    "forty five": 45.0,
+    "forty-five": 45.0,
+    "one hundred eighty": 180.0,
+    "a hundred eighty": 180.0,
+    "one hundred and eighty": 180.0,
+    "a couple of": 2.0,
 }
 _ZH_DIGITS = {digit: value for value, digit in enumerate("零一二三四五六七八九")} | {"两": 2}
 _UNITS_S = {"s": 1.0, "m": 60.0, "h": 3600.0, "秒": 1.0, "分": 60.0, "小": 3600.0}
@@ -29,6 +40,41 @@ EN_DURATION = (
 ZH_DURATION = (
     r"(?P<number>\d{1,5}(?:\.\d{1,3})?|[零一二三四五六七八九十两半]{1,4})个?(?P<unit>秒|分|小时)钟?"
 )
+
+
+_DIGITS = r"\d{1,5}(?:\.\d{1,4})?"
+_ZH_DIGIT = r"[零一二三四五六七八九十两半百]{1,5}"
+EN_LENGTH = (
+    rf"(?P<length>{_DIGITS}|{_EN_NUMBER}) ?(?P<unit>met(?:er|re)s?|m|centimet(?:er|re)s?|cm)"
+)
+ZH_LENGTH = rf"(?P<length>{_DIGITS}|{_ZH_DIGIT})个?(?P<unit>厘米|公分|米|m|cm)(?P<half>半)?"
+EN_ANGLE = rf"(?P<angle>{_DIGITS}|{_EN_NUMBER}) ?(?P<arc>degrees?|deg|°|radians?|rad)"
+ZH_ANGLE = rf"(?P<angle>{_DIGITS}|{_ZH_DIGIT})(?P<arc>度|°|弧度)"
+TIMES = r"(?P<times>once|twice|thrice|two times|three times|four times|\d times)"
+_TIMES = {"once": 1, "twice": 2, "thrice": 3, "two": 2, "three": 3, "four": 4}
+
+
+def metres(number: str, unit: str) -> float | None:
+    """Return a length [m], or None where the number is no number."""
+    value = _value(number)
+    if value is None:
+        return None
+    return value * (0.01 if unit.startswith(("c", "厘", "公")) else 1.0)
+
+
+def angle_rad(number: str, unit: str) -> float | None:
+    """Return an angle [rad], or None where the number is no number or over two turns."""
+    value = _value(number)
+    if value is None:
+        return None
+    angle = value if unit.startswith(("rad", "弧")) else radians(value)
+    return angle if angle <= 4 * pi else None
+
+
+def times(words: str) -> int:
+    """Return how often "twice" and "3 times" are."""
+    first = words.split(maxsplit=1)[0]
+    return _TIMES.get(first) or int(first)
 
 
 def seconds(number: str, unit: str) -> float | None:
@@ -47,6 +93,10 @@ def _chinese(number: str) -> float | None:
     """Read 半, 0 to 99 written with 十, or one digit."""
     if number == "半":
         return 0.5
+    hundreds = re.fullmatch(r"([一二两三]?)百(?:零?([一二三四五六七八九十]*))", number)
+    if hundreds is not None:
+        rest = _chinese(hundreds[2]) if hundreds[2] else 0.0
+        return None if rest is None else 100.0 * _ZH_DIGITS.get(hundreds[1], 1) + rest
     found = re.fullmatch(r"([一二三四五六七八九]?)(十?)([一二三四五六七八九两]?)", number)
     if found is None or (found[1] and found[3] and not found[2]):
         return 0.0 if number == "零" else None

@@ -8,39 +8,51 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
+from datetime import datetime
 
 from planner.brain.offline.chinese import CHINESE
-from planner.brain.offline.compose import Setting, compose, veto
+from planner.brain.offline.compose import Setting, compose, unsafe, veto
 from planner.brain.offline.english import ENGLISH
 from planner.brain.offline.grammar import Grammar
 from planner.brain.offline.guard import EXAMPLE, refuse_bad_text
 from planner.brain.offline.lexicon import MARK, Marked, lexicon_of
-from planner.brain.offline.meaning import Meaning, Problem, Reading, Steps
+from planner.brain.offline.meaning import Meaning, Problem, Reading, Scene, Steps
 from planner.brain.offline.normalise import language_of, normalise
+from planner.brain.offline.order import in_order
+from planner.brain.offline.people import mark_people
 from planner.brain.offline.quotes import take_quotes
+from planner.brain.offline.unsafe import TAMPERING, broken_rule
 from planner.brain.stoplane import is_stop
 from planner.plan import (
+    NEEDS_CAMERA,
+    RUNNABLE,
     Answer,
     Clarify,
     Code,
     Frozen,
     GoTo,
     Language,
+    Patrol,
     Refuse,
     StepPlan,
     Vocabulary,
+    lacking,
     message,
 )
 
-_SEAM = re.compile(rf"(?<=[a-z0-9])(?={MARK})|(?<={MARK})(?=[a-z0-9])")
+_OTHER = rf"(?:{MARK}|[\u3400-\u9fff])"
+_SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
 _LATIN = re.compile(r"[a-z]")
 
 
 class Context(Frozen):
-    """Tell a brain what it may know besides the sentence: the robot's room, the language."""
+    """Tell a brain what it may know besides the sentence: where and when it is, what it can do."""
 
     room: str | None = None
     language: Language | None = None
+    now: datetime | None = None  # for "what time is it"
+    runnable: frozenset[str] = RUNNABLE  # kinds of steps the robot can do
 
 
 NOWHERE = Context()
@@ -57,25 +69,67 @@ def plan(
         return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
     apart, quotes = take_quotes(text)
     lexicon = lexicon_of(vocabulary)
-    marked = lexicon.mark(normalise(apart))
-    setting = Setting(vocabulary, lexicon, context.language or language_of(text), context.room)
+    marked = mark_people(lexicon.mark(normalise(apart)), apart)
+    language = context.language or language_of(text)
+    setting = Setting(vocabulary, lexicon, language, context.room, context.now)
     vetoed = _vetoed(marked, setting)
     if vetoed is not None:
         return vetoed
-    meanings = _meanings(marked, Reading(marked, lexicon, vocabulary, quotes), language_of(text))
+    ordered = replace(marked, text=in_order(marked.text))
+    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now)
+    meanings = [
+        _within(meaning, context.runnable)
+        for meaning in _meanings(ordered, reading, language_of(text))
+    ]
     if not meanings:
         return Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example=EXAMPLE))
     return compose(meanings, marked.restore(marked.text), setting)
 
 
+def _within(meaning: Meaning, runnable: frozenset[str]) -> Meaning:
+    """Turn steps that this robot can't do into the problem that it lacks the means."""
+    if isinstance(meaning, Problem):
+        can = tuple(step for step in meaning.before if step.kind in runnable)
+        return replace(meaning, before=can)
+    lacks = (
+        [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
+    )
+    if not lacks or not isinstance(meaning, Steps):
+        return meaning
+    code = Code.NO_CAMERA if any(s.kind in NEEDS_CAMERA for s in lacks) else lacking(lacks[0])
+    patrolled = [p for s in lacks if isinstance(s, Patrol) for p in s.places]
+    can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
+    can = (*can, *(GoTo(place=place) for place in patrolled))
+    return Problem(code, meaning.part, before=can)
+
+
 def _vetoed(marked: Marked, setting: Setting) -> StepPlan | Answer | Clarify | Refuse | None:
     """Look for words that turn an order into something else, in both languages at once."""
+    text = marked.restore(marked.text)
+    if TAMPERING.pattern.search(text):
+        return unsafe(TAMPERING.rule, text)
+    looking = asks_whether(marked.text)
     for (code, english), (_code, chinese) in zip(ENGLISH.vetoes, CHINESE.vetoes, strict=True):
-        found = english.search(marked.text) or chinese.search(marked.text)
+        found = english.search(looking) or chinese.search(looking)
         if found:
             named = [mention.ids[0] for mention in marked.mentions if len(mention.ids) == 1]
-            return veto(code, marked.restore(marked.text), named, setting)
+            return veto(code, text, named, setting)
+        if code is Code.NEGATED:  # "don't hit the wall" is told as a no; "hit the wall" as a rule
+            rule = broken_rule(marked.text)
+            if rule is not None:
+                return unsafe(rule, text)
     return None
+
+
+_WHETHER = re.compile(
+    r"\b(tell (?:me|us)|check|see|look|find out|report) (?:if|whether)\b"
+    r"|(?<=[看查认下])(?:一下|看)?(?:是否|是不是|有没有)"
+)
+
+
+def asks_whether(text: str) -> str:
+    """Return the text without the "if" of a question that looking answers: no condition."""
+    return _WHETHER.sub(lambda found: found[1] or "有", text)
 
 
 def _meanings(marked: Marked, reading: Reading, language: Language) -> list[Meaning]:
@@ -96,11 +150,9 @@ def _lost(meanings: Sequence[Meaning]) -> bool:
 
 def _read(grammar: Grammar, text: str, reading: Reading) -> list[Meaning]:
     meanings: list[Meaning] = []
-    going = False
+    scene = Scene()
     for clause in grammar.clauses(text):
-        meaning = grammar.read(clause, reading.at(clause, going))
+        meaning = grammar.read(clause, reading.at(clause, scene))
         meanings.append(meaning)
-        going = isinstance(meaning, Steps) and (
-            going if not meaning.steps else isinstance(meaning.steps[-1], GoTo)
-        )
+        scene = scene.after(meaning)
     return meanings

@@ -3,11 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import UTC, datetime
+from math import degrees
 
 import pytest
 
 from planner.brain.offline import Context, plan
-from planner.plan import Answer, Bilingual, Clarify, Entry, GoTo, Say, StepPlan, Vocabulary, Wait
+from planner.plan import (
+    EVERY_KIND,
+    Answer,
+    Ask,
+    Bilingual,
+    Clarify,
+    Count,
+    Entry,
+    Find,
+    Follow,
+    GoTo,
+    Look,
+    Move,
+    Patrol,
+    Say,
+    StepPlan,
+    Turn,
+    Vocabulary,
+    Wait,
+    places_of,
+)
 
 ROOMS = (
     ("living_room", "living room", "客厅", ("lounge", "sitting room", "起居室")),
@@ -51,9 +73,14 @@ def home() -> Vocabulary:
     return HOME
 
 
-def in_short(text: str, vocabulary: Vocabulary) -> str:
+BARE = frozenset({"go_to", "come_back", "return_home", "wait", "say"})
+"""What a robot can do that has no camera and neither turns nor moves on its own word."""
+NOON = datetime(2030, 1, 2, 12, 0, tzinfo=UTC)
+
+
+def in_short(text: str, vocabulary: Vocabulary, runnable: frozenset[str] = EVERY_KIND) -> str:
     """Return what a sentence is understood as, in one line."""
-    made = plan(text, vocabulary, Context(room="study"))
+    made = plan(text, vocabulary, Context(room="study", runnable=runnable, now=NOON))
     match made:
         case StepPlan():
             return " ".join(_short(step) for step in made.steps)
@@ -72,6 +99,17 @@ def _short(step: object) -> str:
             return f"wait={seconds:g}"
         case Say(text=text):
             return f"say={text}"
+        case Find() | Count() | Follow() | Look():
+            what = step.question if isinstance(step, Look) else step.object
+            return f"{step.kind}={what}" + "".join(f"@{place}" for place in places_of(step))
+        case Turn():
+            return f"turn={round(degrees(step.angle_rad))}"
+        case Move(distance_m=metres):
+            return f"move={metres:g}"
+        case Patrol(places=places):
+            return f"patrol={','.join(places)}"
+        case Ask(question=question):
+            return f"ask={question}"
     return str(getattr(step, "kind", step))
 
 
@@ -79,3 +117,9 @@ def _short(step: object) -> str:
 def understood() -> Callable[[str], str]:
     """Return the reader of one line per sentence."""
     return lambda text: in_short(text, HOME)
+
+
+@pytest.fixture(scope="session")
+def understood_bare() -> Callable[[str], str]:
+    """Return the same for a robot that can only drive, wait and speak."""
+    return lambda text: in_short(text, HOME, BARE)

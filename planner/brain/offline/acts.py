@@ -1,0 +1,165 @@
+"""Make steps of what a rule found: meet, follow, guide, find, count, look. One way for all tongues.
+
+A person known only by name has to be somewhere that the sentence names; what is missing is asked
+for, never guessed.
+"""
+
+from __future__ import annotations
+
+import re
+
+from pydantic import ValidationError
+
+from planner.brain.offline.lexicon import MARK, NAME
+from planner.brain.offline.meaning import Meaning, Problem, Reading, Steps
+from planner.brain.offline.places import go_to
+from planner.plan import Bilingual, Code, Count, Find, Follow, GoTo, Language, Look, Say, Step
+
+WHERE_IS = Bilingual(en="where is {name}? Name the place.", zh="{name}在哪里？请说出地点。")
+WHERE_TO = Bilingual(en="where to?", zh="要去哪里？")
+WHO = Bilingual(en="who or what is meant?", zh="指的是谁或什么？")
+WHERE_ARE_YOU = Bilingual(en="where are you? Name the place.", zh="您在哪里？请说出地点。")
+
+_SELF = frozenset({"me", "us", "我", "我们"})
+_THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta"})
+_IT = frozenset({"it", "them", "one", "它", "它们"})
+_THERE = frozenset({"there", "over there", "那里", "那儿", "那边"})
+_HERE = frozenset({"here", "over here", "这里", "这儿", "这边"})
+_ARTICLE = re.compile(
+    r"^(?:(?:the|a|an|my|our|your|some|any|that|this|all|all of|of|every|each|me)\s+)+"
+    r"|^(?:这个|那个|一个|一下|一只|一位|一些|所有的?|我的|咱们?的)"
+)
+_TITLE = 80
+
+
+def place_of(phrase: str | None, reading: Reading) -> str | Problem | None:
+    """Return the id of a place phrase; None where no place is named and none was before."""
+    if phrase is None or phrase in _THERE:
+        return reading.scene.place
+    if phrase in _HERE:
+        return None
+    meaning = go_to(phrase, reading)
+    if isinstance(meaning, Steps) and isinstance(meaning.steps[0], GoTo):
+        return meaning.steps[0].place
+    return meaning if isinstance(meaning, Problem) else None
+
+
+def arrive(place: str | None, reading: Reading) -> tuple[Step, ...]:
+    """Return the way to a place, where the clauses before have not led there."""
+    there = place is None or (place == reading.scene.place and reading.scene.kind != "follow")
+    return () if there or place is None else (GoTo(place=place),)
+
+
+def label_of(words: str, reading: Reading) -> str:
+    """Return what to look for, in the sentence's own words."""
+    return _ARTICLE.sub("", reading.marked.restore(words).strip(" ,的")).strip()[:_TITLE]
+
+
+def person_of(words: str, reading: Reading) -> str | Problem:
+    """Return whom a phrase means."""
+    if words in _SELF:
+        return "person"
+    if words in _THEY or words in _IT:
+        known = reading.scene.person
+        return known or reading.problem(Code.INCOMPLETE, words, what=WHO)
+    return label_of(words, reading) or reading.problem(Code.INCOMPLETE, words, what=WHO)
+
+
+def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> Meaning:
+    """Go to where somebody is, and look for them."""
+    person, place = person_of(words, reading), place_of(where, reading)
+    if isinstance(person, Problem):
+        return person
+    if isinstance(place, Problem):
+        return place
+    if place is None and re.search(NAME, words):
+        return missing(WHERE_IS, words, reading, person)
+    again = words in _THEY and where is None  # who was met is still there
+    steps: tuple[Step, ...] = () if again else (Find(object=person, place=place),)
+    said = (Say(text=saying),) if saying else ()
+    return Steps((*arrive(place, reading), *steps, *said), person=person, seen=True)
+
+
+def follow(words: str, start: str | None, end: str | None, reading: Reading) -> Meaning:
+    """Find somebody, follow them, and end at a place where one is named."""
+    found = meet(words, start, reading)
+    to = place_of(end, reading) if end else None
+    if not isinstance(found, Steps) or found.person is None:
+        return found
+    if isinstance(to, Problem):
+        return to
+    last = (GoTo(place=to),) if to else ()
+    return Steps((*found.steps, Follow(object=found.person), *last), person=found.person)
+
+
+def guide(words: str, start: str | None, end: str | None, reading: Reading) -> Meaning:
+    """Find somebody and drive ahead of them to a place."""
+    found = meet(words, start, reading)
+    if not isinstance(found, Steps):
+        return found
+    if end is None:
+        return missing(WHERE_TO, words, reading)
+    back = end in ("back", "回去", "回来")
+    to = reading.scene.met if back else place_of(end, reading)
+    if isinstance(to, Problem):
+        return to
+    if to is None:
+        return missing(WHERE_TO, words, reading)
+    come = spoken("Please come with me.", "请跟我来。", reading)
+    return Steps((*found.steps, Say(text=come), GoTo(place=to)), person=found.person)
+
+
+def find(words: str, where: str | None, reading: Reading) -> Meaning:
+    """Go to a place and look for a thing there; for a place, go there."""
+    if re.fullmatch(rf"(?:(?:the|my|our) )?{MARK}", words) and where is None:
+        return go_to(words, reading)
+    place = place_of(where, reading)
+    if isinstance(place, Problem):
+        return place
+    if words in _IT or words in _THEY:
+        thing = reading.scene.thing or reading.scene.person
+    else:
+        thing = label_of(words, reading)
+    if not thing:
+        return missing(WHO, words, reading)
+    return Steps((*arrive(place, reading), Find(object=thing, place=place)), thing=thing, seen=True)
+
+
+def count(words: str, where: str | None, reading: Reading) -> Meaning:
+    """Go to a place and count things or people there."""
+    place, label = place_of(where, reading), label_of(words, reading)
+    if isinstance(place, Problem):
+        return place
+    if not label:
+        return missing(WHO, words, reading)
+    steps = (*arrive(place, reading), Count(object=label, place=place))
+    return Steps(steps, thing=label, seen=True)
+
+
+def look(question: str, where: str | None, reading: Reading) -> Meaning:
+    """Go to a place and answer a question by looking."""
+    place = place_of(where, reading)
+    if isinstance(place, Problem):
+        return place
+    asked = reading.marked.restore(question)[:500]
+    return Steps((*arrive(place, reading), Look(question=asked, place=place)), seen=True)
+
+
+def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:
+    """Say what the sentence leaves open."""
+    filled = Bilingual(en=what.en.format(name=name), zh=what.zh.format(name=name))
+    return reading.problem(Code.INCOMPLETE, part, what=filled)
+
+
+def spoken(en: str, zh: str, reading: Reading) -> str:
+    """Return words to say, in the language of the goal."""
+    return zh if reading.language is Language.ZH else en
+
+
+def saying(words: str, reading: Reading) -> Meaning:
+    """Say words of the sentence."""
+    said = reading.marked.restore(words).strip(" \"'")
+    try:
+        return Steps((Say(text=said),))
+    except ValidationError:
+        return reading.problem(Code.NOT_UNDERSTOOD, words)

@@ -1,0 +1,78 @@
+"""Own what a suite is: sentences, each with what is expected of it, in one world."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from pons.evals.laws import Law
+from pons.evals.matchers import BadMatcher, Wanted, wanted
+from pons.evals.world import World
+
+HOLD_OUT_SEED = 5
+TUNED, HELD_OUT = "tuned", "held out"
+
+
+class MissingSuite(Exception):
+    """Nobody's fault here: the suite, or its data, is not on this machine."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """Hold one sentence and what is expected of it: a law by category, or a matcher."""
+
+    text: str
+    group: str
+    law: Law | None = None
+    wanted: Wanted | None = None
+    split: str = TUNED
+
+
+@dataclass(frozen=True, slots=True)
+class Suite:
+    """Hold cases and the world they are planned in."""
+
+    name: str
+    world: World
+    cases: tuple[Case, ...]
+
+    def halved(self, seed: int = HOLD_OUT_SEED) -> Suite:
+        """Return the suite with a random half held out, the same for one seed."""
+        rng = random.Random(seed)
+        order = list(range(len(self.cases)))
+        rng.shuffle(order)
+        held = frozenset(order[: len(order) // 2])
+        cases = [
+            replace(case, split=HELD_OUT if at in held else TUNED)
+            for at, case in enumerate(self.cases)
+        ]
+        return replace(self, cases=tuple(cases))
+
+
+def read_tsv(path: Path, world: World) -> Suite:
+    """Read a suite of our own: split, group, sentence and expectation in four columns.
+
+    Raises:
+        MissingSuite: there is no such file.
+        BadMatcher: a line can't be read.
+    """
+    if not path.is_file():
+        raise MissingSuite(f"no suite at {path}")
+    cases = []
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        try:
+            split, group, text, expected = line.split("\t")
+            cases.append(Case(text, group, wanted=wanted(expected), split=_split(split)))
+        except ValueError as wrong:
+            raise BadMatcher(f"{path.name}:{number}: {wrong}") from wrong
+    return Suite(path.stem, world, tuple(cases))
+
+
+def _split(word: str) -> str:
+    known = {"tuned": TUNED, "held": HELD_OUT}
+    if word not in known:
+        raise BadMatcher(f"unknown split {word!r}; known: {', '.join(known)}")
+    return known[word]

@@ -1,0 +1,149 @@
+"""Read what a suite expects of a sentence, and compare it with what a plan would do.
+
+``go kitchen > find cup @kitchen > back`` in this order · ``{go kitchen & go study}`` in any order ·
+``go kitchen | clarify ambiguous`` either. Expectations are compared with the trace of a walk
+(:mod:`pons.evals.world`), so that it does not matter how a plan is cut into steps. Words said on
+the way are free; every other act must be expected.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import permutations
+from math import radians
+
+from planner.plan import Answer, Clarify, Refuse, StepPlan
+from pons.evals.mentions import plain
+from pons.evals.world import HOME, START, Event, walk
+
+Made = StepPlan | Answer | Clarify | Refuse
+CLOSE = 0.02
+_STILL = frozenset({"clarify", "refuse", "still", "answer"})
+_KINDS = frozenset(
+    {"go", "back", "home", "wait", "say", "ask", "turn", "move", "find", "count", "look"}
+    | {"follow", "decide", "approach"}
+)
+
+
+class BadMatcher(ValueError):
+    """Ours: a suite's expectation can't be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """Expect one thing done: of several words one, at a place where one is named."""
+
+    kind: str
+    words: tuple[str, ...] = ()  # any of these
+    where: str | None = None
+    number: float | None = None
+    optional: bool = False
+
+    def fits(self, event: Event) -> bool:
+        """Tell whether an event is what is expected."""
+        if event.kind != self.kind or (self.where is not None and event.where != self.where):
+            return False
+        if self.number is not None:
+            said = event.number if event.number is not None else float("inf")
+            return abs(said - self.number) <= CLOSE * max(1.0, abs(self.number))
+        if self.kind == "at":
+            return event.what in self.words
+        done = plain(event.what)
+        return not self.words or any(all(part in done for part in w.split()) for w in self.words)
+
+
+Item = Act | tuple[Act, ...]  # a tuple in any order
+
+
+@dataclass(frozen=True, slots=True)
+class Still:
+    """Expect no motion: a question, a no, an answer; with one of these codes where any is named."""
+
+    kinds: frozenset[str]
+    codes: frozenset[str]
+
+    def fits(self, made: Made) -> bool:
+        """Tell whether nothing moves, in the way expected."""
+        code = getattr(made, "code", None)
+        return made.kind in self.kinds and (not self.codes or code in self.codes)
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Expect one of several things of a sentence."""
+
+    plans: tuple[tuple[Item, ...], ...]
+    stills: tuple[Still, ...]
+
+    def fits(self, made: Made) -> bool:
+        """Tell whether a plan, an answer, a question or a no is one that is expected."""
+        if isinstance(made, StepPlan):
+            trace = walk(made)
+            return any(_follows(trace, items) for items in self.plans)
+        return any(still.fits(made) for still in self.stills)
+
+    @property
+    def may_move(self) -> bool:
+        """Tell whether any plan is expected at all."""
+        return bool(self.plans)
+
+
+def wanted(text: str) -> Wanted:
+    """Read an expectation.
+
+    Raises:
+        BadMatcher: it can't be read.
+    """
+    plans, stills = [], []
+    for way in (part.strip() for part in text.split("|")):
+        word, *codes = way.split() or [""]
+        if word in _STILL:
+            kinds = frozenset({"clarify", "refuse"}) if word == "still" else frozenset({word})
+            stills.append(Still(kinds, frozenset(codes)))
+        else:
+            plans.append(tuple(_item(part.strip()) for part in way.split(">")))
+    return Wanted(tuple(plans), tuple(stills))
+
+
+def _item(text: str) -> Item:
+    if text.startswith("{") and text.endswith("}"):
+        return tuple(_act(part.strip()) for part in text[1:-1].split("&"))
+    return _act(text)
+
+
+def _act(text: str) -> Act:
+    optional = text.endswith("?")
+    kind, *rest = text.removesuffix("?").split()
+    if kind not in _KINDS:
+        raise BadMatcher(f"{text!r}: unknown act {kind!r}; known: {', '.join(sorted(_KINDS))}")
+    where = next((word[1:] for word in rest if word.startswith("@")), None)
+    words = " ".join(word for word in rest if not word.startswith("@"))
+    if kind in ("go", "back", "home"):
+        places = {"back": START, "home": HOME}.get(kind, words)
+        return Act("at", tuple(places.split("/")), optional=optional)
+    if kind in ("wait", "turn", "move"):
+        number = radians(float(words)) if kind == "turn" else float(words)
+        return Act(kind, number=number, optional=optional)
+    kind = "go_to_object" if kind == "approach" else kind
+    return Act(kind, tuple(plain(words).split("/")) if words else (), where, optional=optional)
+
+
+def _follows(trace: tuple[Event, ...], items: tuple[Item, ...], here: str = START) -> bool:
+    """Tell whether a trace does these things in order and nothing else but talk."""
+    if not items:
+        return all(event.kind == "say" for event in trace)
+    head, rest = items[0], items[1:]
+    if isinstance(head, tuple):
+        return any(_follows(trace, (*order, *rest), here) for order in permutations(head))
+    if head.kind == "at" and here in head.words and _follows(trace, rest, here):
+        return True
+    if head.optional and _follows(trace, rest, here):
+        return True
+    if not trace:
+        return False
+    event, after = trace[0], trace[1:]
+    if head.fits(event) and _follows(after, rest, event.where):
+        return True
+    if event.kind == "at" and head.where == event.what:  # the way to where it is to be done
+        return _follows(after, items, event.where)
+    return event.kind == "say" and _follows(after, items, here)

@@ -1,0 +1,133 @@
+"""Find what a sentence names, for the judge alone: plain text search, no grammar.
+
+It shares no code with any brain, so that a brain's misreading can't hide in the judge's.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from functools import lru_cache
+
+from planner.plan import Vocabulary
+
+_WORD = re.compile(r"[a-z0-9']+|[\u3400-\u9fff]")
+_GENERIC = frozenset(
+    (
+        "the",
+        "a",
+        "an",
+        "of",
+        "in",
+        "on",
+        "at",
+        "to",
+        "that",
+        "any",
+        "some",
+        "all",
+        "my",
+        "your",
+        "their",
+        "his",
+        "her",
+        "its",
+        "with",
+        "and",
+        "is",
+        "are",
+        "there",
+        "who",
+        "person",
+        "people",
+        "someone",
+        "somebody",
+        "objects",
+        "object",
+        "one",
+        "thing",
+        "things",
+    )
+)
+_GENERIC_ZH = frozenset("的个一人有在里那这些吗")
+
+
+def plain(text: str) -> str:
+    """Return a text in one width and case, with single spaces."""
+    return " ".join(unicodedata.normalize("NFKC", text).casefold().replace("’", "'").split())
+
+
+@lru_cache(maxsize=8)
+def _finder(vocabulary: Vocabulary) -> tuple[re.Pattern[str], dict[str, str]]:
+    owner: dict[str, str] = {}
+    for entry in vocabulary.entries:
+        for spelling in entry.spellings:
+            owner.setdefault(_tight(spelling), entry.id)
+    by_length = sorted(owner, key=len, reverse=True)
+    return re.compile("|".join(map(_loose, by_length)) or r"(?!)"), owner
+
+
+def _tight(name: str) -> str:
+    return re.sub(r"[\s\-_']+", "", plain(name))
+
+
+def _loose(name: str) -> str:
+    letters = r"[\s\-_']*".join(map(re.escape, name))
+    return rf"(?<![a-z0-9]){letters}(?![a-z0-9])" if name.isascii() else letters
+
+
+def places_named(text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Return the ids of the places that a text names, in its order, with repetitions."""
+    finder, owner = _finder(vocabulary)
+    return tuple(owner[_tight(found[0])] for found in finder.finditer(plain(text)))
+
+
+def label_named(label: str, text: str) -> bool:
+    """Tell whether every word of a label stands in the text, but for words that name nothing."""
+    said = plain(text)
+    words = set(_WORD.findall(said))
+    for word in _WORD.findall(plain(label)):
+        if word in _GENERIC or word in _GENERIC_ZH or word in words:
+            continue
+        stem = word.removesuffix("s")
+        if not (
+            word.isascii() and len(stem) > 2 and any(said_.startswith(stem) for said_ in words)
+        ):
+            return False
+    return True
+
+
+_NUMBERS = {
+    word: float(value)
+    for value, word in enumerate(
+        (
+            "zero",
+            "one",
+            "two",
+            "three",
+            "four",
+            "five",
+            "six",
+            "seven",
+            "eight",
+            "nine",
+            "ten",
+            "eleven",
+            "twelve",
+        )
+    )
+} | {"half": 0.5, "a": 1.0, "an": 1.0, "fifteen": 15.0, "twenty": 20.0, "thirty": 30.0}
+_ZH = {char: float(value) for value, char in enumerate("零一二三四五六七八九十")} | {
+    "两": 2.0,
+    "半": 0.5,
+}
+
+
+def numbers_named(text: str) -> tuple[float, ...]:
+    """Return every number that a text writes, in digits or in plain words."""
+    said = plain(text)
+    found = [float(number) for number in re.findall(r"\d+(?:\.\d+)?", said)]
+    found += [_NUMBERS[word] for word in re.findall(r"[a-z]+", said) if word in _NUMBERS]
+    for tens, ones in re.findall(r"([一二三四五六七八九]?)十([一二三四五六七八九]?)", said):
+        found.append(10 * _ZH.get(tens, 1.0) + _ZH.get(ones, 0.0))
+    return (*found, *(_ZH[char] for char in said if char in _ZH))

@@ -1,0 +1,116 @@
+"""Find wrong motion: any step that moves the robot and that the sentence does not name.
+
+Judged from the sentence alone, with words of its own for each kind of step, never with a brain's.
+"""
+
+from __future__ import annotations
+
+import re
+from math import degrees
+
+from planner.plan import (
+    DRIVES,
+    ComeBack,
+    Count,
+    Find,
+    Follow,
+    GoToObject,
+    GoToPoint,
+    Move,
+    ReturnHome,
+    Step,
+    StepPlan,
+    Turn,
+    Vocabulary,
+    places_of,
+)
+from pons.evals.mentions import label_named, numbers_named, places_named, plain
+
+_HOME = r"home|base|dock|charg|家|充电|基地|返航|回桩|回充"
+_BACK = r"back|return|here|where you (?:are|started)|回|返|过来|原"
+_FOLLOW = r"follow|after|behind|come with|跟|随|尾"
+_LEFT, _RIGHT = r"left|counter|anti|左|逆", r"right|(?<!counter)(?<!anti)clockwise|右|顺"
+_TURN = r"turn|spin|rotat|face|around|degree|radian|circle|转|掉头|调头|偏|方向|圈|朝"
+_FORWARD = r"forward|ahead|straight|front|front|前|直"
+_BACKWARD = r"back|reverse|后|退|倒"
+_MOVE = rf"move|go|drive|walk|come|step|roll|走|移|进|行|开|{_FORWARD}|{_BACKWARD}"
+_USUAL_DEG = {
+    90.0: r"left|right|左|右",
+    180.0: r"around|u-turn|about|掉头|调头|转身|向后|后转",
+    360.0: r"circle|spin|full|圈|360",
+}
+_CLOSE = 0.02  # of the number that was said
+
+
+def moves(step: Step) -> bool:
+    """Tell whether a step moves the robot."""
+    return step.kind in DRIVES or bool(places_of(step))
+
+
+def wrong_motions(plan: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Return why each step that moves is not named by the sentence; empty where all are."""
+    named = frozenset(places_named(text, vocabulary))
+    found = []
+    for step in plan.steps:
+        if moves(step):
+            unnamed = [place for place in places_of(step) if place not in named]
+            found += [f"{step.kind} to {place}, which is not named" for place in unnamed]
+            what = _unnamed(step, plain(text))
+            found += [f"{step.kind}: {what}"] if what else []
+    return tuple(found)
+
+
+def _unnamed(step: Step, said: str) -> str:
+    """Return what of a step, besides its places, the sentence does not say."""
+    match step:
+        case ReturnHome():
+            return "" if re.search(_HOME, said) else "no word of home"
+        case ComeBack():
+            return "" if re.search(_BACK, said) else "no word of coming back"
+        case Follow():
+            if not re.search(_FOLLOW, said):
+                return "no word of following"
+            return _label(step.object, said)
+        case Find() | Count() | GoToObject():
+            return _label(step.object, said)
+        case GoToPoint():
+            return "a point that no sentence names"
+        case Turn():
+            return _turn(degrees(step.angle_rad), said)
+        case Move():
+            return _move(step.distance_m, said)
+    return ""
+
+
+def _label(label: str, said: str) -> str:
+    return "" if label_named(label, said) else f"{label!r} is not named"
+
+
+def _turn(angle_deg: float, said: str) -> str:
+    if not re.search(_TURN, said):
+        return "no word of turning"
+    side = _LEFT if angle_deg > 0 else _RIGHT
+    other = _RIGHT if angle_deg > 0 else _LEFT
+    if re.search(other, said) and not re.search(side, said):
+        return "the other side was said"
+    wanted = [*numbers_named(said), *(degrees(number) for number in numbers_named(said))]
+    usual = [angle for angle, word in _USUAL_DEG.items() if re.search(word, said)]
+    return _number(abs(angle_deg), [*wanted, *usual])
+
+
+def _move(distance_m: float, said: str) -> str:
+    if not re.search(_MOVE, said):
+        return "no word of moving"
+    side, other = (_FORWARD, _BACKWARD) if distance_m > 0 else (_BACKWARD, _FORWARD)
+    if re.search(other, said) and not re.search(side, said):
+        return "the other way was said"
+    scales = {1.0: r".", 0.01: r"cm|centi|厘米|公分"}
+    numbers = [
+        n * s for s, word in scales.items() if re.search(word, said) for n in numbers_named(said)
+    ]
+    return _number(abs(distance_m), numbers)
+
+
+def _number(value: float, said: list[float]) -> str:
+    near = any(abs(value - number) <= _CLOSE * max(number, 0.05) for number in said)
+    return "" if near else f"{value:g} is no number of the sentence"

@@ -1,0 +1,110 @@
+"""Ask a brain every sentence of a suite and judge what it makes of each. Plans only: nothing runs.
+
+A sentence is right where its outcome is allowed, its plan is valid in the closed world with every
+kind of step, and no step moves to what the sentence does not name.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from planner.brain import Brain, BrainDown, PlanRejected, ThinkRequest, is_stop
+from planner.plan import (
+    EVERY_KIND,
+    Code,
+    Refuse,
+    Rejection,
+    StepPlan,
+    message,
+    validate_plan,
+)
+from pons.evals.cases import Case, Suite
+from pons.evals.matchers import Made
+from pons.evals.motion import moves, wrong_motions
+from pons.evals.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Hold what a brain made of one sentence, and what is wrong with it."""
+
+    case: Case
+    made: Made
+    fault: str  # empty: allowed
+    wrong: tuple[str, ...]  # wrong motions
+    seconds: float
+    calls: int = 0
+    tokens: int = 0
+
+    @property
+    def right(self) -> bool:
+        """Tell whether the outcome is allowed and nothing moves wrongly."""
+        return not self.fault and not self.wrong
+
+    @property
+    def code(self) -> str:
+        """Return the outcome's code, or its kind where it has none."""
+        return str(getattr(self.made, "code", self.made.kind))
+
+
+async def score(
+    suite: Suite, brain: Brain, clock: Callable[[], float] = time.perf_counter
+) -> tuple[Verdict, ...]:
+    """Return a verdict for every sentence, in order."""
+    return tuple([await _one(case, suite.world, brain, clock) for case in suite.cases])
+
+
+async def _one(case: Case, world: World, brain: Brain, clock: Callable[[], float]) -> Verdict:
+    asked = ThinkRequest(
+        text=case.text, vocabulary=world.vocabulary, room=world.room, runnable=EVERY_KIND
+    )
+    began, calls, tokens = clock(), 0, 0
+    made: Made
+    if is_stop(case.text):  # as at run time: a stop asks no brain
+        made = _no(Code.STOPPED)
+    else:
+        try:
+            thought = await brain.think(asked)
+            made, calls, tokens = thought.plan, thought.calls, thought.tokens
+        except PlanRejected as rejected:
+            made = _no(Code.BAD_PLAN, why=str(rejected)[:200])
+        except BrainDown:
+            made = _no(Code.MODEL_UNAVAILABLE)
+    return judge(case, made, world, clock() - began, calls, tokens)
+
+
+def judge(
+    case: Case, made: Made, world: World, seconds: float = 0.0, calls: int = 0, tokens: int = 0
+) -> Verdict:
+    """Return the verdict over one outcome."""
+    checked = validate_plan(made, world.vocabulary, EVERY_KIND)
+    if isinstance(checked, Rejection):  # what validation refuses never moves
+        fault = f"no valid plan: {checked.outcome.message.en}"
+        return Verdict(case, made, fault, (), seconds, calls, tokens)
+    wrong = _wrong(case, checked, world)
+    fault = _fault(case, checked, world)
+    return Verdict(case, checked, fault, wrong, seconds, calls, tokens)
+
+
+def _fault(case: Case, made: Made, world: World) -> str:
+    if case.law is not None:
+        return case.law.fault(made, case.text, world.vocabulary)
+    if case.wanted is not None and not case.wanted.fits(made):
+        return "not what is expected"
+    return ""
+
+
+def _wrong(case: Case, made: Made, world: World) -> tuple[str, ...]:
+    if not isinstance(made, StepPlan):
+        return ()
+    may_move = case.law.steps if case.law is not None else case.wanted and case.wanted.may_move
+    if not may_move and any(moves(step) for step in made.steps):
+        return ("moves where nothing may move",)
+    fits = case.wanted is not None and case.wanted.fits(made)  # a name misspelt on purpose
+    return () if fits else wrong_motions(made, case.text, world.vocabulary)
+
+
+def _no(code: Code, **facts: str) -> Refuse:
+    return Refuse(code=code, reason=message(code, **facts))

@@ -1,0 +1,80 @@
+"""Be the world a plan is scored in: names, and a walk that writes down what the robot would do.
+
+No robot, no map, no clock. Two plans that do the same leave the same trace, however they are cut
+into steps: ``find(cup, kitchen)`` goes to the kitchen as ``go_to(kitchen)`` does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from planner.mission.facts import vocabulary_of
+from planner.plan import ComeBack, Patrol, ReturnHome, StepPlan, Vocabulary, places_of
+from planner.world.site import Site
+
+START, HOME, SOMEWHERE = "start", "home", "?"
+
+
+@dataclass(frozen=True, slots=True)
+class World:
+    """Hold what a suite plans against: its names, and the room the robot stands in."""
+
+    vocabulary: Vocabulary
+    room: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Write down one thing that a walked plan does, and where."""
+
+    kind: str
+    what: str = ""
+    where: str = START
+    number: float | None = None  # [m], [rad] or [s], by kind
+
+
+@dataclass
+class _Walk:
+    here: str = START
+    events: list[Event] = field(default_factory=list)
+
+    def arrive(self, place: str) -> None:
+        if place != self.here:
+            self.here = place
+            self.events.append(Event("at", place, place))
+
+    def act(self, kind: str, what: str = "", number: float | None = None) -> None:
+        self.events.append(Event(kind, what, self.here, number))
+
+
+def walk(plan: StepPlan) -> tuple[Event, ...]:
+    """Return what a plan would do, in order."""
+    trace = _Walk()
+    for step in plan.steps:
+        if isinstance(step, ComeBack | ReturnHome):
+            trace.arrive(START if isinstance(step, ComeBack) else HOME)
+            continue
+        for place in places_of(step):
+            trace.arrive(place)
+        if step.kind not in ("go_to", Patrol.model_fields["kind"].default):
+            _act(trace, step.kind, step.model_dump())
+    return tuple(trace.events)
+
+
+def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
+    what = fields.get("object") or fields.get("text") or fields.get("question") or ""
+    number = fields.get("seconds", fields.get("angle_rad", fields.get("distance_m")))
+    trace.act(kind, what, number)
+    if kind in ("turn", "move", "follow", "go_to_object", "go_to_point"):
+        trace.here = SOMEWHERE
+
+
+def site_world(folder: Path, room: str | None = None) -> World:
+    """Return the world of a site's folder.
+
+    Raises:
+        SiteError: a file is missing or wrong.
+    """
+    return World(vocabulary_of(Site.load(folder)), room)
