@@ -11,7 +11,6 @@ import ast
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import islice
 from typing import Any
 
 SWAPS: dict[type[ast.AST], tuple[type[ast.AST], ...]] = {
@@ -51,26 +50,22 @@ Change = tuple[str, int, Callable[[], None]]
 """What, its line (0: the node's own), do it."""
 
 
-def mutants_of(source: str) -> list[Mutant]:
-    """Return all mutants of a module, in the order of its lines."""
+def mutants_of(source: str) -> tuple[ast.Module, list[tuple[Mutant, Callable[[], None]]]]:
+    """Return a module's tree, and all its mutants in the order of its lines.
+
+    Each comes with a function that makes its change in the tree, once and for good.
+    """
     lines = source.splitlines()
-    found: list[Mutant] = []
+    tree = ast.parse(source)
+    found: list[tuple[Mutant, Callable[[], None]]] = []
     seen: Counter[str] = Counter()
-    for number, (node, where, change) in enumerate(_all(ast.parse(source))):
-        what, at, _ = change
+    for number, (node, where, change) in enumerate(_all(tree)):
+        what, at, do = change
         line: int = at or getattr(node, "lineno", 0)
         key = f"{where}:{lines[line - 1].strip() if line else ''}:{what}"
-        found.append(Mutant(number, f"{key}:{seen[key]}", line, where, what))
+        found.append((Mutant(number, f"{key}:{seen[key]}", line, where, what), do))
         seen[key] += 1
-    return sorted(found, key=lambda one: (one.line, one.number))
-
-
-def changed(source: str, mutant: Mutant) -> ast.Module:
-    """Return the module with one change made."""
-    tree = ast.parse(source)
-    _, _, change = next(islice(_all(tree), mutant.number, None))
-    change[2]()
-    return ast.fix_missing_locations(tree)
+    return tree, sorted(found, key=lambda one: (one[0].line, one[0].number))
 
 
 def _all(tree: ast.Module) -> Iterator[tuple[ast.AST, str, Change]]:
