@@ -50,29 +50,38 @@ class Asker:
         Raises:
             BrainDown: there is none.
         """
-        dialect, tried = self._dialects.now, set[Dialect]()
+        dialect, refused = self._dialects.now, list[Body]()
         stream = told is not None and self._settings.stream and self._breaks < MAX_BREAKS
-        complaint = ""
-        while len(tried) < MAX_REFUSED:
-            body = body_of(self._settings, dialect, messages, schema, stream=stream)
+
+        def body(of: Dialect) -> Body:
+            return body_of(self._settings, of, messages, schema, stream=stream)
+
+        while True:
+            asked = body(dialect)
             try:
-                content = await self._client.post(body, end_s - time.monotonic(), told)
+                content = await self._client.post(asked, end_s - time.monotonic(), told)
             except StreamBroken as broken:
-                if not stream:
-                    raise BrainDown(f"the stream broke: {broken}", why="bad_reply") from None
-                log.info("%s broke its stream (%s): asked plainly", self._settings.name, broken)
-                self._breaks, stream = self._breaks + 1, False
-            except BadRequest as refused:
-                if (answered := self._answered(refused)) is not None:
+                stream = self._plainly(stream, broken)
+            except BadRequest as no:
+                if (answered := self._answered(no)) is not None:
                     return answered
-                complaint, simpler = str(refused), self._simpler(dialect, str(refused), tried)
-                if simpler is None:
-                    break
+                refused.append(asked)
+                likely = dialect.simpler(str(no).lower(), self._quiet)
+                simpler = next((each for each in likely if body(each) not in refused), None)
+                if simpler is None or len(refused) >= MAX_REFUSED:
+                    raise BrainDown(str(no), why="bad_request") from None
                 dialect = simpler
             else:
                 self._breaks = 0 if stream else self._breaks
                 return self._read(content, dialect)
-        raise BrainDown(complaint, why="bad_request")
+
+    def _plainly(self, stream: bool, broken: StreamBroken) -> bool:
+        """Return that no stream is asked for now; a stream that nobody asked for is no reply."""
+        if not stream:
+            raise BrainDown(f"the stream broke: {broken}", why="bad_reply") from None
+        log.info("%s broke its stream (%s): asked plainly", self._settings.name, broken)
+        self._breaks += 1
+        return False
 
     def _answered(self, refused: BadRequest) -> Reply | None:
         """Return the reply that a refusal holds, where the model or its filter did answer."""
@@ -82,11 +91,6 @@ class Asker:
         if refused.generated is not None:
             return Reply(self._client.secret.struck(refused.generated), trouble=said)
         return None
-
-    def _simpler(self, dialect: Dialect, said: str, tried: set[Dialect]) -> Dialect | None:
-        tried.add(dialect)
-        likely = dialect.simpler(said.lower(), self._quiet)
-        return next((each for each in likely if each not in tried), None)
 
     def _read(self, content: object, dialect: Dialect) -> Reply:
         struck = self._client.secret.struck

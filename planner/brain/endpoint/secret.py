@@ -8,6 +8,7 @@ _STRUCK = "***"
 MIN_STRUCK = 6
 """Characters; a shorter key protects nothing, and striking it out would break every reply."""
 _ESCAPED = re.compile(r"\\u00([2-7][0-9a-fA-F])")
+_HALF_ESCAPED = re.compile(r"\\(?:u[0-9a-fA-F]{0,3})?$")
 
 
 class Secret:
@@ -29,7 +30,8 @@ class Secret:
         """Return a text that goes on, without the key, its beginning, its spelling in escapes."""
         if not self._key:
             return text
-        plain = self.struck(_ESCAPED.sub(lambda found: chr(int(found[1], 16)), text))
+        whole = _ESCAPED.sub(lambda found: chr(int(found[1], 16)), _HALF_ESCAPED.sub("", text))
+        plain = self.struck(whole)
         for size in range(min(len(self._key) - 1, len(plain)), 0, -1):
             if plain.endswith(self._key[:size]):
                 return plain[:-size]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import json
 import socket
@@ -11,12 +12,13 @@ from pathlib import Path
 import psutil
 import pytest
 
-from planner.brain import BrainDown, PlanRejected
+from planner.brain import BrainDown, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.plan import Vocabulary
 from tests.planner.brain.endpoint.servers import GO, settings, think
 from tests.planner.brain.endpoint.sockets import (
     CHUNK,
+    END_S,
     Script,
     completion,
     ok,
@@ -30,6 +32,8 @@ GROWN_BYTES = 48_000_000
 """A reply's cap many times over; a server that gets its will sends more in a second."""
 HEAD = b"HTTP/1.1 200 OK\r\nContent-Type: application/json\r\n"
 CHUNKED = HEAD + b"Transfer-Encoding: chunked\r\n\r\n"
+EVENTS = b"HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n\r\n"
+DELTA = b'data: {"choices":[{"delta":{"content":" "}}]}\n\n'
 ONE_CHUNK = b"10000\r\n" + CHUNK + b"\r\n"
 DEEP = "[" * 100_000 + "]" * 100_000
 
@@ -88,6 +92,15 @@ def _thought(made: EndpointBrain, home: Vocabulary) -> tuple[str, str]:
         (said(ok(b"7")), "bad_reply"),
         (said(ok(b"\x00" * 900_000)), "bad_reply"),
         (said(ok(b"x", b"Content-Encoding: gzip")), "bad_reply"),
+        (without_end(EVENTS, b": " + CHUNK + b"\n"), "too_large"),
+        (without_end(EVENTS, b"data: " + CHUNK), "too_large"),
+        (without_end(EVENTS, DELTA, 0.02), "timeout"),
+        (without_end(EVENTS, b": I think\n\n", 0.02), "timeout"),
+        (said(EVENTS + b"data: [DONE]\n\n"), "rejected"),
+        (said(EVENTS), "bad_reply"),
+        (said(EVENTS + b"data: " + DEEP.encode() + b"\n\n"), "bad_reply"),
+        (said(EVENTS + b'data: {"choices":[{"delta":{"content":"{"}}]}\n\n'), "bad_reply"),
+        (said(EVENTS + bytes(range(256)) * 9), "bad_reply"),
         (said(completion(DEEP)), "rejected"),
         (said(completion('{"kind":' + DEEP + "}")), "rejected"),
         (said(completion('{"kind":"plan","steps":[{"kind":"wait","seconds":NaN}]}')), "rejected"),
@@ -106,6 +119,30 @@ def test_every_server_ends_typed(
     with serving(script) as wire:
         assert ended(wire.port, home, tmp_path) == end
         assert wire.asked, "nobody asked"
+
+
+def test_a_connection_is_used_again_and_one_that_was_closed_is_opened_anew(
+    home: Vocabulary, tmp_path: Path
+) -> None:
+    """What a server closed while it idled costs nothing; what it keeps open is kept."""
+
+    def twice(connection: socket.socket) -> None:
+        connection.sendall(completion(GO))
+        connection.settimeout(END_S)
+        if connection.recv(65_536):
+            connection.sendall(completion(GO))
+
+    async def story() -> None:
+        made = EndpointBrain(settings(url=f"http://127.0.0.1:{wire.port}/v1"), tmp_path)
+        for _ in range(4):
+            thought = await made.think(ThinkRequest(text="go to the kitchen", vocabulary=home))
+            assert (thought.plan.kind, thought.calls) == ("plan", 1)
+            await asyncio.sleep(0.05)  # the server closes after its second answer
+        await made.close()
+
+    with serving(twice) as wire:
+        asyncio.run(story())
+        assert len(wire.asked) == 2
 
 
 @pytest.mark.parametrize(
