@@ -20,6 +20,7 @@ from planner.mission.events import Event, Planned, Restarted, Submitted
 from planner.mission.records import Book, Mission
 from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
 from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
+from wire import Pose2
 
 Reply = Callable[[AskBrain], Planned | None]
 Way = Callable[[AskRoute], str | None]
@@ -46,6 +47,8 @@ class Together:
     disk: bool = True
     """Entries are safe at once; False: not before ``sync``."""
     way: Way = lambda ask: None
+    ends: Pose2 | None = None
+    """Where every way ends, whatever its goal."""
     now_s: float = 100.0
     disk_entries: list[Journal] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
@@ -97,7 +100,9 @@ class Together:
             case AskRoute():
                 self.routes.append(effect)
                 failure = self.way(effect)
-                points = straight(effect.start, effect.goal) if failure is None else None
+                points = (
+                    straight(effect.start, self.ends or effect.goal) if failure is None else None
+                )
                 self.carry(self.engine.routed(effect, points, failure, self.now_s))
             case SayAloud():
                 self.said.append(effect.text)
