@@ -1,0 +1,66 @@
+"""Be ``pons doctor --model``: say what it will spend, ask, examine, grade, show."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from planner.brain.endpoint import Address
+from planner.budget.spent import cost
+from pons.doctor.exam.ask import Caps, examine
+from pons.doctor.exam.grade import grade
+from pons.doctor.exam.show import content, table
+from pons.modelchoice import chosen
+from pons.spending import agreed
+from wire import Misconfigured
+
+if TYPE_CHECKING:
+    from planner.settings import ModelSettings, Settings
+    from pons import settings as places
+
+EXIT = {"A": 0, "B": 0, "C": 1, "D": 2, "F": 2}
+"""As for the rest of the doctor: 0 well, 1 less well, 2 not fit to plan."""
+REFUSED = 2
+PROMPT_TOKENS = 1500
+"""What a call sends at most with this exam's world, schema included twice."""
+
+
+def run(
+    where: places.Settings, word: str, *, as_json: bool, yes: bool, caps: Caps | None = None
+) -> int:
+    """Examine the model of a word; 2 where it can't be or may not be asked."""
+    caps = caps or Caps()
+    try:
+        settings, model = chosen(word, where.home, os.environ)
+        address = Address.parse(model.url)
+        if not address.local and not agreed(_bill(settings, model, address.host, caps), yes=yes):
+            return REFUSED
+        site = where.site if where.site.is_dir() else None
+        exam = asyncio.run(examine(settings, model, where.home, site, caps))
+    except Misconfigured as wrong:
+        print(f"pons doctor --model: {wrong.code}: {wrong}", file=sys.stderr)
+        return REFUSED
+    found = grade(exam)
+    currency = settings.budget.price.currency if settings.budget.price is not None else None
+    print(content(exam, found, currency) if as_json else table(exam, found, currency))
+    return EXIT[found.letter]
+
+
+def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> str:
+    """Say what an exam may cost at most, before it costs anything."""
+    sent, written = caps.calls * PROMPT_TOKENS, caps.calls * model.max_tokens
+    price = settings.budget.price
+    money = (
+        "no price is set in [budget.price]"
+        if price is None
+        else f"at most {cost(price, sent, written):.2f} {price.currency}"
+    )
+    return (
+        f"The exam asks {model.name} at {host}, which is not this machine: at most {caps.calls} "
+        f"calls in {caps.seconds:.0f} s, about {sent} tokens sent and at most {written} written "
+        f"({money}). Only the exam's own sentences are sent.\n"
+        f"考试将调用 {host} 上的 {model.name}：最多 {caps.calls} 次、{caps.seconds:.0f} 秒，"
+        f"约发送 {sent}、最多生成 {written} 个 token。只发送考题本身。"
+    )
