@@ -14,7 +14,7 @@ from planner.api import Access, build
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.budget import purse_of
 from planner.link import Link, WireBus
-from planner.mission import Memory, MissionJournal, Missions
+from planner.mission import Memory, MissionJournal, Missions, Rules
 from planner.robot import LinkedRobot
 from planner.route import RouteLimits, RouteWorker
 from planner.settings import load_settings
@@ -103,7 +103,7 @@ class Planner:
         """Start the route process, then the missions."""
         await self._router.start()
         self.ears.warm()
-        await self.goals.start(freeze=True)
+        await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
 
     async def close(self) -> None:
         """End all parts; what ran comes back paused in the next process."""

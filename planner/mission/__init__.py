@@ -21,7 +21,8 @@ clears the bridge's hold. Without it a goal given while a hold stands pauses aft
 
 Events: {"type": "goal", "goal": …}, {"type": "status", "status": wire.Status (dump it yourself)},
 {"type": "bridge", "event": …}, {"type": "say", "goal", "text"}, {"type": "first_waypoint", "goal",
-"seconds"}, {"type": "act", "accepted", "code"}, {"type": "gap", "missed"} (take a snapshot again).
+"seconds"}, {"type": "progress", "goal", "step", "left_m" | "left_rad" | "left_s"}, {"type": "act",
+"accepted", "code"}, {"type": "gap", "missed"} (take a snapshot again).
 
 Errors (all ``MissionError`` with ``code`` and bilingual ``message``): unknown_goal 404, bad_state
 409, nothing_to_resume 409, queue_full 429, idempotency_conflict 409, journal_unavailable 503.
@@ -74,7 +75,7 @@ from planner.mission.hub import Subscription
 from planner.mission.journal import MissionJournal
 from planner.mission.loop import Clocks
 from planner.mission.memory import Kept, Lesson, Memory
-from planner.mission.records import Book, Facts, Mission, Target
+from planner.mission.records import Book, Facts, Mission, Rules, Target
 from planner.mission.reducer import advance, wish
 from planner.mission.runner import Missions
 from planner.mission.view import goal_of
@@ -116,6 +117,7 @@ __all__ = [
     "Resume",
     "Routed",
     "Router",
+    "Rules",
     "SayAloud",
     "Seen",
     "Stopped",

@@ -11,7 +11,7 @@ import asyncio
 import time
 import uuid
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planner.link import Link, LinkError
 from planner.mission.accept import Accepted
@@ -30,10 +30,10 @@ from planner.mission.events import Event, Journalled, Restarted, Tick
 from planner.mission.helpers import Answers, Helpers, Router, Think
 from planner.mission.hub import Hub
 from planner.mission.journal import GoalKey, MissionJournal
-from planner.mission.records import Book
+from planner.mission.records import Book, Rules
 from planner.mission.safekeeping import Safekeeping
 from planner.mission.sight import at_rest
-from planner.mission.view import goal_of
+from planner.mission.view import Progress, goal_of, progress_of
 from planner.route import RoutePoint
 from wire import OpRequest, Status, Waypoints
 
@@ -68,6 +68,7 @@ class Loop:
         self._broken: BaseException | None = None
         self._ticked_s = self._told_s = float("-inf")
         self._told: tuple[object, ...] = ()
+        self._progress: Progress | None = None
 
     @property
     def book(self) -> Book:
@@ -91,6 +92,10 @@ class Loop:
     def trouble(self) -> str | None:
         """Return why the journal can't be written, or None."""
         return self._safe.trouble if self._safe is not None else "not started"
+
+    def rule(self, rules: Rules) -> None:
+        """Bound what goals may do by themselves, before anything starts."""
+        self._engine.book = replace(self._engine.book, rules=rules)
 
     async def start(self, think: Think, router: Router, *, freeze: bool) -> tuple[GoalKey, ...]:
         """Take up the journal and begin; return the idempotency keys it kept.
@@ -174,6 +179,14 @@ class Loop:
         if news != self._told or now_s - self._told_s >= STATUS_NEWS_S:
             self._told, self._told_s = news, now_s
             self.hub.publish({"type": "status", "status": status})
+            self._tell_progress()
+
+    def _tell_progress(self) -> None:
+        """Tell what is left of the running step where it changed; the record shows it, too."""
+        progress = progress_of(self.book)
+        if progress is not None and progress != self._progress:
+            self.hub.publish({"type": "progress", **progress})
+        self._progress = progress
 
     def _on_safe(self, entry: int) -> None:
         try:

@@ -48,7 +48,7 @@ from planner.mission.journal import GoalKey, MissionJournal
 from planner.mission.local import Local, current, to_resume
 from planner.mission.loop import Clocks, Loop
 from planner.mission.memory import Memory
-from planner.mission.records import MAX_OPEN, Book
+from planner.mission.records import MAX_OPEN, Book, Rules
 from planner.mission.table import refusal
 from planner.mission.thinking import thinker
 from planner.mission.view import goal_of
@@ -91,15 +91,17 @@ class Missions:
 
     # Life ---------------------------------------------------------------------------------------
 
-    async def start(self, *, freeze: bool = False) -> None:
+    async def start(self, *, freeze: bool = False, rules: Rules | None = None) -> None:
         """Take up the journal and begin to listen to the bridge. Nothing of before goes on.
 
         Args:
             freeze: take the garbage collector over, which concerns the whole process.
+            rules: how far a goal may go by itself.
 
         Raises:
             Misconfigured: the journal holds what this version can't read.
         """
+        self._loop.rule(rules or Rules())
         keys = await self._loop.start(self._think, self._router, freeze=freeze)
         self._keys = {key.key: key for key in keys}
 

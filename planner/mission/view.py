@@ -8,6 +8,10 @@ from math import isfinite
 from planner.mission.records import Book, Mission
 from planner.plan import Goal, PlanRecord
 
+Progress = dict[str, float | int | str]
+"""The goal, the number of its step, and what is left of it: ``left_m``, ``left_rad``, ``left_s``.
+"""
+
 
 def goal_of(book: Book, mission: Mission) -> Goal:
     """Return a mission as a goal, with its place in the queue."""
@@ -27,7 +31,7 @@ def goal_of(book: Book, mission: Mission) -> Goal:
     )
 
 
-def progress_of(book: Book) -> dict[str, float | int | str] | None:
+def progress_of(book: Book) -> Progress | None:
     """Return what is left of the running step: metres, radians or seconds; None of no motion."""
     mission, walk = book.missions.get(book.running or ""), book.walk
     if mission is None or walk is None or mission.now is None:

@@ -1,6 +1,7 @@
 """Read the owner's settings: `$PONS_HOME/settings.toml` and a few environment variables."""
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Limits, Price
+from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
 from planner.settings.owner import FILE, Settings, load_settings
 from planner.settings.presets import PRESETS, Mode, Preset, PresetName, TokensField
@@ -13,6 +14,7 @@ __all__ = [
     "DayLimits",
     "GoalLimits",
     "Limits",
+    "MissionSettings",
     "Mode",
     "ModelSettings",
     "Preset",

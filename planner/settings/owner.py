@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
+from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
 from planner.settings.presets import PRESETS, PresetName
 from wire import Misconfigured
@@ -37,6 +38,7 @@ class Settings(BaseModel):
     model: ModelSettings | None = None
     """None: the offline brain alone."""
     budget: BudgetSettings = BudgetSettings()
+    mission: MissionSettings = MissionSettings()
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
