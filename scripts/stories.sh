@@ -4,6 +4,7 @@
 # seconds; a story that fails twice is red.
 set -uo pipefail
 
+set -- -o cache_dir=.pytest_cache/stories "$@" # unit tests that run beside remember their own failures
 .venv/bin/python -m pytest -n logical --maxprocesses 2 --dist loadfile "$@"
 code=$?
 [ "$code" = 1 ] || exit "$code" # 1: tests failed; all else (Ctrl-C, bad usage) is not tried again
