@@ -11,7 +11,7 @@ settings.register_profile("coverage", deadline=None, derandomize=True, max_examp
 QUICK = frozenset(
     """
     test_ages_and_docs test_branches test_decide_exact test_drive_out test_enumerated test_fence
-    test_freespace
+    test_freespace test_latch_exact test_transition_exact
     test_horizon test_kinematics test_limiter test_limiter_exact test_modes test_numbers
     test_odometry test_path test_quick_core test_quick_corners
     test_scanpicture test_stopcurve test_wheelcontrol

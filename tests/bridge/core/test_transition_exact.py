@@ -1,0 +1,230 @@
+"""Hold what entering a mode does to every field it owns, by single calls."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from bridge.core.limiter import LimiterState, Profile, seeded
+from bridge.core.modes import Cause, Fact, Request
+from bridge.core.state import Stopping
+from bridge.core.stopcurve import NO_STOP, plan_stop
+from bridge.core.tick import Tick
+from bridge.core.transition import escalate, go, profile_of
+from tests.bridge.core.reached import reached
+from tests.bridge.core.test_quick_core import ROBOT, tick_of
+from wire import STILL, Action, Held, HeldReason, Mode
+
+LATER_S = 0.5
+
+
+def later(start: str) -> Tick:
+    """Return a tick half a second after the mode was reached."""
+    tick = tick_of(reached(start))
+    tick.now_s += LATER_S
+    return tick
+
+
+@pytest.mark.parametrize(
+    ("start", "cause", "action", "resumes"),
+    [
+        ("active", Action.HOLD2, Action.HOLD2, True),
+        ("active", Action.STOP1, Action.STOP1, False),
+        ("active", Action.FAST1, Action.FAST1, False),
+        ("active", Request.STOP, Action.HOLD2, False),
+        ("active", Request.DISARM, Action.STOP1, False),
+        ("teleop", Action.HOLD2, Action.HOLD2, False),
+        ("teleop", Request.STOP, Action.HOLD2, False),
+        ("hold", Action.STOP1, Action.STOP1, False),
+    ],
+)
+@pytest.mark.parametrize("reset_needed", [False, True])
+def test_a_stop_begins_as_its_cause_says(
+    start: str, cause: Cause, action: Action, resumes: bool, reset_needed: bool
+) -> None:
+    tick = later(start)
+    before, source = tick.s.mode, tick.s.source
+    assert go(tick, cause, "why", reset_needed=reset_needed)
+    plan = plan_stop(tick.s.motion.limiter, ROBOT.base, ROBOT.limits, profile_of(action))
+    assert tick.s.stopping == Stopping(
+        action, "why", tick.now_s, plan, source, resumes, reset_needed
+    )
+    assert (tick.s.mode, tick.s.mode_since_s) == (Mode.STOPPING, tick.now_s)
+    assert tick.events == [("mode", f"{before.value} STOPPING why")]
+
+
+@pytest.mark.parametrize(
+    ("start", "cause"),
+    [("disarmed", Action.HOLD2), ("hold", Action.HOLD2), ("fault", Request.ARM)],
+)
+def test_what_the_table_has_not_changes_nothing(start: str, cause: Cause) -> None:
+    tick = later(start)
+    before = tick_of(reached(start)).s
+    assert not go(tick, cause, "why")
+    assert tick.s == before
+    assert tick.events == []
+
+
+def test_only_the_hardest_stop_has_the_hardest_ramp() -> None:
+    assert {action: profile_of(action) for action in Action} == {
+        action: Profile.FASTEST if action is Action.FAST1 else Profile.STOP for action in Action
+    }
+
+
+def stopping(action: Action, *, reset_needed: bool = False) -> Tick:
+    tick = later("stopping_by_row")
+    assert tick.s.stopping is not None
+    tick.s.stopping = replace(
+        tick.s.stopping, action=action, slow_since_s=1.0, reset_needed=reset_needed
+    )
+    return tick
+
+
+@pytest.mark.parametrize(
+    ("had", "came", "faster"),
+    [
+        (Action.HOLD2, Action.STOP1, False),
+        (Action.HOLD2, Action.FAST1, True),
+        (Action.STOP1, Action.FAST1, True),
+    ],
+)
+@pytest.mark.parametrize("needed", [(False, False), (False, True), (True, False)])
+def test_a_stop_grows_harder_and_only_a_harder_ramp_is_planned_anew(
+    had: Action, came: Action, faster: bool, needed: tuple[bool, bool]
+) -> None:
+    tick = stopping(had, reset_needed=needed[0])
+    before = tick.s.stopping
+    assert before is not None
+    escalate(tick, came, "worse", reset_needed=needed[1])
+    harder = plan_stop(tick.s.motion.limiter, ROBOT.base, ROBOT.limits, Profile.FASTEST)
+    assert tick.s.stopping == Stopping(
+        action=came,
+        cause="worse",
+        since_s=tick.now_s if faster else before.since_s,
+        plan=harder if faster else before.plan,
+        source=before.source,
+        resumes=False,
+        reset_needed=any(needed),
+        slow_since_s=None if faster else 1.0,
+    )
+    assert tick.events == [("stop_escalated", f"{came.value} worse")]
+
+
+@pytest.mark.parametrize("came", [Action.HOLD2, Action.STOP1])
+@pytest.mark.parametrize("needed", [(False, False), (False, True), (True, True), (True, False)])
+def test_a_stop_never_grows_milder_but_learns_that_a_reset_is_needed(
+    came: Action, needed: tuple[bool, bool]
+) -> None:
+    tick = stopping(Action.STOP1, reset_needed=needed[0])
+    before = tick.s.stopping
+    assert before is not None
+    escalate(tick, came, "other", reset_needed=needed[1])
+    if needed == (False, True):
+        before = replace(before, reset_needed=True, cause="other")
+    assert tick.s.stopping == before
+    assert tick.events == []
+    tick.s.stopping = None
+    escalate(tick, Action.FAST1, "none", reset_needed=True)
+    assert tick.s.stopping is None
+
+
+def test_a_person_who_stops_a_stop_ends_its_going_on() -> None:
+    tick = stopping(Action.HOLD2)
+    assert go(tick, Request.DISARM, "disarm")
+    assert tick.s.stopping is not None
+    assert (tick.s.stopping.action, tick.s.stopping.resumes) == (Action.STOP1, False)
+    assert tick.s.mode_since_s < tick.now_s, "the mode is the same"
+    assert ("mode", "STOPPING STOPPING disarm") not in tick.events
+
+
+HELD = Held(reason=HeldReason.STOP, id="s1")
+
+
+@pytest.mark.parametrize("held", [None, HELD])
+@pytest.mark.parametrize("start", ["active", "disarmed", "stopping_by_row", "selftest"])
+def test_a_protective_stop_ramps_where_there_is_torque(start: str, held: Held | None) -> None:
+    tick = later(start)
+    tick.s.held = held
+    source, had = tick.s.source, tick.s.motion.limiter
+    powered = tick.powered
+    go(tick, Request.ESTOP, "estop")
+    plan = plan_stop(had, ROBOT.base, ROBOT.limits, Profile.FASTEST)
+    if powered:
+        assert tick.s.stopping == Stopping(
+            Action.FAST1, "estop", tick.now_s, plan, source, resumes=False
+        )
+        assert tick.s.motion.limiter == had
+    else:
+        assert tick.s.stopping is None
+        assert tick.s.motion.limiter == LimiterState()
+    assert tick.s.source == ""
+    assert tick.s.held == (held or Held(reason=HeldReason.FAULT, id="estop"))
+
+
+def test_after_a_hand_on_the_stick_the_ramp_is_judged_like_a_stop() -> None:
+    tick = later("teleop")
+    plan = plan_stop(tick.s.motion.limiter, ROBOT.base, ROBOT.limits, Profile.STOP)
+    assert go(tick, Fact.RELEASED, "released")
+    assert tick.s.stopping == Stopping(
+        Action.HOLD2, "released", tick.now_s, plan, "T", resumes=False
+    )
+    assert (tick.s.source, tick.s.motion.asked) == ("", STILL)
+
+
+def test_who_arrives_stands_without_a_stop() -> None:
+    tick = later("active")
+    tick.s.stopping = Stopping(Action.HOLD2, "old", 0.0, NO_STOP, "W", resumes=True)
+    assert go(tick, Fact.ARRIVED, "reached")
+    assert tick.s.stopping is None
+    assert (tick.s.source, tick.s.motion.asked) == ("", STILL)
+
+
+def test_motion_begins_from_what_the_robot_really_does() -> None:
+    tick = later("stopping_by_row")
+    assert tick.s.odometry.measured.v_mps > 0.1
+    assert go(tick, Fact.CLEARED, "m1")
+    assert tick.s.stopping is None
+    seed = seeded(tick.s.odometry.measured, ROBOT.base, ROBOT.limits)
+    assert tick.s.motion.limiter == seed
+    assert tick.s.source == "W", "whoever calls sets it"
+
+
+@pytest.mark.parametrize("held", [None, HELD])
+@pytest.mark.parametrize(
+    ("start", "cause", "stop_cause", "mode", "fault", "holds"),
+    [
+        ("stopping_by_row", Fact.TOO_SLOW, "x", Mode.FAULT, "why", "why"),
+        ("stopping_by_row", Fact.STOOD_DISARM, "stuck", Mode.DISARMED, None, "stuck"),
+        ("stopping_by_row", Fact.STOOD_DISARM, "disarm", Mode.DISARMED, None, None),
+        ("fault", Request.RESET, None, Mode.DISARMED, None, None),
+        ("fault", Fact.UNPROVEN_RESET, None, Mode.SELFTEST, None, None),
+        ("active", Action.CUT0, None, Mode.FAULT, "why", "why"),
+    ],
+)
+def test_without_torque_nothing_of_the_motion_is_left(
+    start: str,
+    cause: Cause,
+    stop_cause: str | None,
+    mode: Mode,
+    fault: str | None,
+    holds: str | None,
+    held: Held | None,
+) -> None:
+    tick = later(start)
+    tick.s.held = held
+    if stop_cause is not None:
+        assert tick.s.stopping is not None
+        tick.s.stopping = replace(tick.s.stopping, cause=stop_cause)
+    before = tick.s.selftest
+    assert go(tick, cause, "why")
+    assert (tick.s.mode, tick.s.fault) == (mode, fault)
+    expected = None if holds is None else Held(reason=HeldReason.FAULT, id=holds)
+    assert tick.s.held == (held or expected)
+    assert (tick.s.stopping, tick.s.source, tick.s.motion.asked) == (None, "", STILL)
+    assert tick.s.motion.limiter == LimiterState()
+    if mode is Mode.SELFTEST:
+        assert (tick.s.selftest.since_s, tick.s.selftest.passed) == (tick.now_s, False)
+        assert tick.s.selftest.phase == "echo"
+    else:
+        assert tick.s.selftest == before
