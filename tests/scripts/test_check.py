@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -34,6 +35,25 @@ def test_one_failure_fails_all_but_stops_none(
     assert "FAILED (3)" in printed
     assert "good" in printed.splitlines()[-2]
     assert "total" in printed.splitlines()[-1]
+
+
+def test_steps_beside_each_other_run_at_once_and_are_each_told(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    meet = (  # ends only if both run at once
+        "import pathlib; here = pathlib.Path({0!r}); (here / '{1}').touch(); print('in {1}')\n"
+        "while not (here / '{2}').exists(): pass\n"
+        "raise SystemExit({3})"
+    )
+    steps = tuple(
+        check.Step(own, (sys.executable, "-c", meet.format(str(tmp_path), own, other, code)), late)
+        for own, other, code, late in (("a", "b", 0, False), ("b", "a", 4, True))
+    )
+    monkeypatch.setattr(check, "STEPS", (*steps, step("after", 0)))
+    assert check.main() == 4
+    printed = capfd.readouterr().out
+    assert printed.index("== b") < printed.index("in b") < printed.index("== after")
+    assert [line.split()[0] for line in printed.splitlines()[-4:]] == ["a", "b", "after", "total"]
 
 
 def test_a_step_killed_by_a_signal_fails(monkeypatch: pytest.MonkeyPatch) -> None:
