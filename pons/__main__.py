@@ -40,13 +40,7 @@ def parser() -> argparse.ArgumentParser:
     word.add_argument("goal", nargs="?")
     for kind, what in _OPERATOR.items():
         words.add_parser(kind, help=what)
-    seen = words.add_parser(
-        "doctor",
-        help="say what this machine lacks and how to mend it",
-        description="Exit status: 0 all is well, 1 something works less well, 2 must be mended.",
-    )
-    seen.add_argument("--json", action="store_true")
-    seen.add_argument("--jitter", action="store_true", help="measure a 100 Hz loop for 5 s")
+    _doctor(words)
     _calibrate(words)
     words.add_parser("why", help="explain the last stop: row, evidence, what to do")
     brakes = words.add_parser("braking", help="show what stops have taught of the brakes")
@@ -57,13 +51,44 @@ def parser() -> argparse.ArgumentParser:
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
-    again = words.add_parser("replay", help="run a recording again and compare every command")
-    again.add_argument("files", nargs="+", metavar="FILE", help="in order, where they are one run")
+    _replay(words)
     words.add_parser(
         CONFORMANCE, help="play broken brains at a simulated bridge: conformance --help"
     )
     words.add_parser(MOCK_LLM, help="serve a model that is none, with faults: mock-llm --help")
     return top
+
+
+def _doctor(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    seen = words.add_parser(
+        "doctor",
+        help="say what this machine lacks and how to mend it",
+        description="Exit status: 0 all is well, 1 something works less well, 2 must be mended.",
+    )
+    seen.add_argument("--json", action="store_true")
+    seen.add_argument("--jitter", action="store_true", help="measure a 100 Hz loop for 5 s")
+    seen.add_argument(
+        "--model",
+        nargs="?",
+        const="",
+        metavar="NAME@URL",
+        help="examine a model for a minute: the owner's, or NAME, URL or NAME@URL",
+    )
+    seen.add_argument("--yes", action="store_true", help="with --model: spend without asking")
+
+
+def _replay(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    again = words.add_parser("replay", help="run a recording again and compare every command")
+    again.add_argument("files", nargs="+", metavar="FILE", help="in order, where they are one run")
+    again.add_argument(
+        "--with-model",
+        metavar="NAME@URL",
+        help="FILE is a journal (missions.db) or a home folder: think its sentences again",
+    )
+    again.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
+    again.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
+    again.add_argument("--json", action="store_true", help="with --with-model")
+    again.add_argument("--yes", action="store_true", help="with --with-model: do not ask")
 
 
 def _calibrate(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -168,6 +193,10 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
     if said.word == "doctor":
         from pons import doctor
 
+        if said.model is not None:
+            from pons.doctor import exam
+
+            return exam.run(settings, said.model, as_json=said.json, yes=said.yes)
         return doctor.run(settings, as_json=said.json, jitter=said.jitter)
     if said.word == "why":
         from pons import why
@@ -198,6 +227,8 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
         return fault.run(settings, said.names, seconds=said.seconds)
     from pons import replay
 
+    if said.with_model is not None:
+        return replay.with_model(settings, said)
     return replay.run(said.files)
 
 

@@ -1,4 +1,7 @@
-"""Run recordings again and say whether every command came out the same: ``pons replay FILE...``."""
+"""Run recordings again and say whether every command came out the same: ``pons replay FILE...``.
+
+With a model, run recorded sentences again and say which decisions differ: see ``pons.rethink``.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Sequence
+
+    from pons.settings import Settings
 
 EXIT_SAME, EXIT_DIFFERS, EXIT_BAD = 0, 1, 2
 
@@ -30,3 +36,11 @@ def run(files: Sequence[str]) -> int:
             "last bit use the version that recorded it"
         )
     return EXIT_DIFFERS if report.differing else EXIT_SAME
+
+
+def with_model(settings: Settings, said: argparse.Namespace) -> int:
+    """Think recorded sentences again with the model that was named."""
+    from pons.rethink import command
+
+    options = command.Options(max(0, said.most), max(0, said.drives), said.json, said.yes)
+    return command.run(settings, said.files, said.with_model, options)
