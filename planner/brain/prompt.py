@@ -1,7 +1,7 @@
 """Render the prompt: the only place where words for a model are put together.
 
-`prompts/plan.md` is the template; its first line is its version. Names of places and the person's
-words enter as JSON, as data only.
+`prompts/plan.md` is the template; its first line is its version. Names of places, the person's
+words and what came of earlier steps enter as JSON, as data only.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from planner.brain.protocol import ThinkRequest
+from planner.brain.protocol import Observation, ThinkRequest
 from planner.brain.schema import (
     CLARIFY_CODES,
     REFUSE_CODES,
@@ -23,15 +23,28 @@ from planner.brain.schema import (
     step_line,
     step_models,
 )
-from planner.plan import Code, Vocabulary
+from planner.plan import NEEDS_CAMERA, Code, Language, Vocabulary
 from wire import Misconfigured
 
 FOLDER = Path(__file__).resolve().parents[2] / "prompts"
-CHARACTERS_PER_TOKEN = 4
+BUDGET_TOKENS = 1500
+ORDER_TOKENS = 150
+"""Of the budget, left for the order and what came of its steps."""
+_PIECE = re.compile(r"([A-Za-z]+)|[0-9]{1,3}|[\u3400-\u9fff]|[^\sA-Za-z0-9\u3400-\u9fff]{1,3}")
+_LETTERS = 8
 _VERSION = re.compile(r"version: ([0-9]{1,4})\n\n")
 _BLANK = re.compile(r"\{\{(\w+)\}\}")
-_BLANKS = frozenset({"steps", "clarify", "refuse", "places", "schema"})
-_NAMES = 16  # of one place: more would crowd out the other places
+_BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places", "schema"})
+_NAMES = (16, 8, 4, 2)  # of one place: as many as the budget allows
+_REPORTED = 600  # characters of what came of earlier steps, the newest
+_NO_CAMERA = (
+    "The robot only drives, waits and talks. It has no arm and no camera: refuse fetching, opening "
+    "and carrying with no_capability; looking, finding, counting and following with no_camera."
+)
+_CAMERA = (
+    "The robot drives, looks and talks. It has no arm: refuse fetching, opening and carrying with "
+    "no_capability. Whoever or whatever is to be found is found by a step before it is gone to."
+)
 _SHOWN = 2000  # characters of a bad reply that are shown to the model again
 
 
@@ -72,13 +85,18 @@ class Prompt:
 
     def messages(self, request: ThinkRequest) -> list[Message]:
         """Return the messages of a first call: one of the system, one of the person."""
-        order: dict[str, str] = {"order": request.text}
+        order: dict[str, object] = {"order": request.text}
         if request.room is not None:
             order["robot_is_in"] = request.room
         if request.language is not None:
             order["language"] = request.language.value
+        if request.observed:
+            order["so_far"] = _reports(request.observed, request.language or Language.EN)
+        if request.replan:
+            order["plans_that_failed"] = request.replan
+        system = _system(self.template, request.vocabulary, request.runnable)
         return [
-            {"role": "system", "content": _system(self.template, request.vocabulary)},
+            {"role": "system", "content": system},
             {"role": "user", "content": _json(order)},
         ]
 
@@ -92,27 +110,55 @@ class Prompt:
 
 
 def tokens(messages: Sequence[Message]) -> int:
-    """Estimate the tokens of messages, at four characters each."""
-    return sum(len(message["content"]) for message in messages) // CHARACTERS_PER_TOKEN
+    """Estimate the tokens of messages, rather too many than too few.
+
+    Common tokenizers make one of a short word, of three digits, of a few marks in a row and, at the
+    worst, of each Chinese character.
+    """
+    return sum(map(_tokens, (message["content"] for message in messages)))
+
+
+def _tokens(text: str) -> int:
+    return sum(1 + max(0, len(piece[1] or "") - 1) // _LETTERS for piece in _PIECE.finditer(text))
 
 
 @lru_cache(maxsize=16)
-def _system(template: str, vocabulary: Vocabulary) -> str:
+def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str]) -> str:
+    """Fill the template; a place has as many names as the budget allows, and one more at least."""
     filled = {
-        "steps": "\n".join(map(step_line, step_models().values())),
+        "steps": "\n".join(map(step_line, step_models(runnable).values())),
         "clarify": _codes(CLARIFY_CODES),
         "refuse": _codes(REFUSE_CODES),
-        "places": "\n".join(_place_lines(vocabulary)),
-        "schema": _json(schema_of(vocabulary)),
+        "robot": _CAMERA if runnable & NEEDS_CAMERA else _NO_CAMERA,
+        "schema": _json(schema_of(vocabulary, runnable)),
     }
-    return _BLANK.sub(lambda blank: filled[blank[1]], template).strip()
+    text = ""
+    for names in _NAMES:
+        filled["places"] = "\n".join(_place_lines(vocabulary, names))
+        text = _BLANK.sub(lambda blank: filled[blank[1]], template).strip()
+        if _tokens(text) <= BUDGET_TOKENS - ORDER_TOKENS:
+            break
+    return text
 
 
-def _place_lines(vocabulary: Vocabulary) -> list[str]:
+def _place_lines(vocabulary: Vocabulary, names: int) -> list[str]:
     return [
-        f"{entry.id}: {_json([entry.name.en, entry.name.zh, *entry.aliases][:_NAMES])}"
+        f"{entry.id}: {_json([entry.name.en, entry.name.zh, *entry.aliases][:names])}"
         for entry in vocabulary.entries
     ]
+
+
+def _reports(observed: Sequence[Observation], language: Language) -> list[dict[str, str]]:
+    """Return what came of the newest steps, oldest first, within a bound."""
+    reports: list[dict[str, str]] = []
+    left = _REPORTED
+    for each in reversed(observed):
+        what = each.detail.of(language)
+        left -= len(what) + len(each.step) + len(each.result)
+        if left < 0 and reports:
+            break
+        reports.append({"step": each.step, "result": each.result, "what": what})
+    return reports[::-1]
 
 
 def _codes(codes: Sequence[Code]) -> str:

@@ -9,31 +9,35 @@ from typing import Any
 from pydantic import ValidationError
 
 from planner.brain import ThinkRequest
-from planner.plan import Bilingual, Entry, Language, Vocabulary
+from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 
 MAX_DEPTH = 12
 MAX_PLACES = 2000
 _LINE = re.compile(r"^([a-z0-9][a-z0-9_]{0,63}): (\[.*\])$", re.MULTILINE)
+_STEP = re.compile(r'^\{"kind":"([a-z_]+)"', re.MULTILINE)
 _CHINESE = re.compile(r"[\u3400-\u9fff]")
 
 
 def request_of(body: dict[str, Any]) -> ThinkRequest:
     """Return what the offline brain is to think about."""
     texts = [(m.get("role"), _words(m.get("content"))) for m in _dicts(body.get("messages"))]
-    vocabulary = _vocabulary("\n".join(text for _, text in texts), body)
+    page = "\n".join(text for _, text in texts)
+    vocabulary = _vocabulary(page, body)
+    offered = EVERY_KIND & set(_STEP.findall(page))
     for role, text in texts:  # our prompt's message; a repair turn comes after it
         order = _order(text) if role == "user" else None
         if order is not None:
-            return _asked(order, vocabulary)
+            return _asked(order, vocabulary, offered or RUNNABLE)
     said = [text for role, text in texts if role == "user"]
     return ThinkRequest(text=said[-1] if said else "", vocabulary=vocabulary)
 
 
-def _asked(order: dict[str, Any], vocabulary: Vocabulary) -> ThinkRequest:
+def _asked(order: dict[str, Any], vocabulary: Vocabulary, runnable: frozenset[str]) -> ThinkRequest:
     room, language = order.get("robot_is_in"), order.get("language")
     return ThinkRequest(
         text=str(order["order"]),
         vocabulary=vocabulary,
+        runnable=runnable,
         room=room if isinstance(room, str) else None,
         language=Language(language) if language in set(Language) else None,
     )
