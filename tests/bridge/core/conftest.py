@@ -10,11 +10,9 @@ settings.register_profile("coverage", deadline=None, derandomize=True, max_examp
 
 QUICK = frozenset(
     """
-    test_ages_and_docs test_branches test_decide_exact test_drive_out test_enumerated test_fence
-    test_freespace test_latch_exact test_transition_exact
-    test_horizon test_kinematics test_limiter test_limiter_exact test_modes test_numbers
-    test_odometry test_path test_quick_core test_quick_corners
-    test_scanpicture test_stopcurve test_wheelcontrol
+    test_ages_and_docs test_branches test_drive_out test_enumerated test_fence test_freespace
+    test_horizon test_kinematics test_limiter test_modes test_numbers test_odometry test_path
+    test_quick_core test_quick_corners test_scanpicture test_stopcurve test_wheelcontrol
     test_window_edges
     """.split()  # noqa: SIM905  # one name a word reads better
 )
@@ -42,5 +40,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         test = getattr(item, "obj", None)
         plain = not getattr(test, "is_hypothesis_test", False)
-        if item.path.stem in QUICK and plain and not any(part in item.name for part in LONG):
+        quick = item.path.stem in QUICK or item.path.stem.endswith("_exact")
+        if quick and plain and not any(part in item.name for part in LONG):
             item.add_marker("core_quick")

@@ -1,0 +1,203 @@
+"""Hold what people order to its numbers: proofs, acts, what speaks against them, the stick."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from bridge.core import operator, stick
+from bridge.core.arming import ready_lacks, reset_lacks
+from bridge.core.rows import STAGES
+from bridge.core.state import RowUp
+from bridge.core.tick import Tick
+from tests.bridge.core.reached import reached
+from tests.bridge.core.test_quick_core import tick_of
+from wire import Held, HeldReason, Mode, Velocity
+
+EPS = 1e-6
+HELD = Held(reason=HeldReason.STOP, id="s1")
+
+
+def at(start: str) -> Tick:
+    return tick_of(reached(start))
+
+
+@pytest.mark.parametrize(("age_s", "renewed"), [(60.0 - EPS, False), (60.0 + EPS, True)])
+def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
+    age_s: float, renewed: bool
+) -> None:
+    tick = at("disarmed")
+    tick.s.operator = replace(tick.s.operator, nonce_made_s=tick.now_s - age_s)
+    before = tick.s.operator
+    operator.renew_nonce(tick)
+    after = tick.s.operator
+    assert after == (
+        replace(
+            before,
+            nonce_no=before.nonce_no + 1,
+            nonce_made_s=tick.now_s,
+            old_nonce_no=before.nonce_no,
+            old_until_s=tick.now_s + 10.0,
+        )
+        if renewed
+        else before
+    )
+    if renewed:
+        old = operator.nonce_text(tick, before.nonce_no)
+        for more_s, codes in ((10.0 - EPS, []), (EPS * 2, ["old_nonce"])):
+            tick.now_s += more_s
+            told = operator.bad_proof(tick, "arm", "a1", old, authentic=True)
+            assert [code for code, _ in told] == codes
+
+
+def test_a_proof_is_used_once_under_either_nonce() -> None:
+    tick = at("disarmed")
+    operator.renew_nonce(tick)
+    tick.now_s += 60.0
+    operator.renew_nonce(tick)
+    now, old = tick.s.operator.nonce_no, tick.s.operator.old_nonce_no
+    assert old is not None
+    operator.use_nonce(tick, "arm", "a1")
+    assert {f"{now} arm a1", f"{old} arm a1"} <= set(tick.s.operator.accepted)
+    text = operator.nonce_text(tick, now)
+    for request_id, codes in (("a1", ["repeated"]), ("a2", [])):
+        told = operator.bad_proof(tick, "arm", request_id, text, authentic=True)
+        assert [code for code, _ in told] == codes
+    for count in range(40):
+        operator.use_nonce(tick, "arm", f"b{count}")
+    assert len(tick.s.operator.accepted) == 16
+    assert tick.s.operator.accepted[-1].endswith("b39")
+
+
+def test_each_act_of_a_person_ends_what_it_should() -> None:
+    tick = at("hold")
+    tick.s.held = HELD
+    tick.s.grants = replace(tick.s.grants, operator_metres=0.0, operator_seconds=0.0)
+    operator._resume(tick, "r1")
+    assert tick.s.held is None
+    assert (tick.s.grants.operator_metres, tick.s.grants.operator_seconds) == (500.0, 3600.0)
+    assert tick.s.operator.accepted[-1].endswith("resume r1")
+    tick = at("disarmed")
+    tick.s.held = HELD
+    tick.s.grants = replace(tick.s.grants, operator_metres=0.0, since_arm=True)
+    tick.s.rows = {"ENC_STALE.1": RowUp(0.0, 0.0, "old")}
+    epoch = tick.s.epoch_no
+    operator._arm(tick, "a1")
+    assert (tick.s.mode, tick.s.held, tick.s.rows) == (Mode.HOLD, None, {})
+    assert (tick.s.grants.operator_metres, tick.s.grants.since_arm) == (500.0, False)
+    assert tick.s.epoch_no == epoch + 1
+    tick = at("estopped")
+    tick.s.buttons = replace(tick.s.buttons, ordered=True)
+    tick.s.rows = {"ESTOP.0": RowUp(0.0, 0.0, "old")}
+    operator._reset(tick, "x1")
+    assert (tick.s.mode, tick.s.buttons.ordered, tick.s.rows) == (Mode.DISARMED, False, {})
+    tick = at("estopped")
+    tick.s.selftest = replace(tick.s.selftest, passed=False)
+    operator._reset(tick, "x1")
+    assert tick.s.mode is Mode.SELFTEST
+    tick = at("active")
+    epoch, nonce = tick.s.epoch_no, tick.s.operator.nonce_no
+    operator._estop(tick, "e1")
+    assert (tick.s.mode, tick.s.buttons.ordered) == (Mode.ESTOPPED, True)
+    assert tick.s.epoch_no == epoch + 1
+    assert (tick.s.operator.nonce_no, tick.s.operator.old_nonce_no) == (nonce + 1, None)
+    operator._estop(tick, "e1")
+    assert tick.s.epoch_no == epoch + 1
+
+
+@pytest.mark.parametrize(
+    ("name", "age_s", "speaks"),
+    [
+        ("RUNAWAY.0", 2.0, True),
+        ("RUNAWAY.0", 2.0 + EPS, False),
+        ("ENC_STALE.0", 0.01 - EPS, True),
+        ("ENC_STALE.0", 0.01 + EPS, False),
+        ("LIDAR_STALE.0", 0.0, True),
+        ("NO_RANGE.0", 0.0, False),
+        ("LOOP_LATE.0", 0.0, False),
+        ("BRAIN_GONE.0", 0.0, False),
+    ],
+)
+def test_a_row_speaks_against_arming_while_it_is_dirty(
+    name: str, age_s: float, speaks: bool
+) -> None:
+    tick = at("disarmed")
+    tick.s.rows = {name: RowUp(0.0, tick.now_s - age_s, "seen")}
+    lacks = [(STAGES[name].row.lower(), "seen")] if speaks else []
+    assert list(ready_lacks(tick)) == lacks
+
+
+@pytest.mark.parametrize(
+    ("change", "code"),
+    [
+        ("nothing", None),
+        ("pressed_ago", "estop_just_released"),
+        ("moves", "not_standing"),
+        ("row", "runaway"),
+        ("estop_row", None),
+        ("other_row", None),
+    ],
+)
+def test_a_reset_waits_for_one_thing_each(change: str, code: str | None) -> None:
+    for age_s in (2.0 - EPS, 2.0 + EPS):
+        tick = at("fault")
+        tick.s.rows = {}
+        tick.s.buttons = replace(tick.s.buttons, pressed_s=None)
+        if change == "pressed_ago":
+            tick.s.buttons = replace(tick.s.buttons, pressed_s=tick.now_s - age_s)
+        elif change == "moves":
+            tick.s.drive.still_since_s = tick.now_s - age_s + 1.5
+        elif change.endswith("row"):
+            name = {"row": "RUNAWAY.0", "estop_row": "ESTOP.0"}.get(change, "ENC_STALE.1")
+            tick.s.rows = {name: RowUp(0.0, tick.now_s - age_s, "seen")}
+        lacks = [one for one, _ in reset_lacks(tick)]
+        assert lacks == ([code] if code and age_s < 2.0 else [])
+
+
+def velocity(tick: Tick, v_mps: float = 0.0, w_radps: float = 0.0, **more: object) -> Velocity:
+    said = {"source_id": "s", "epoch": tick.epoch, "seq": 9, "seen": tick.s.voice.status_seq,
+            "dead_man": True} | more  # fmt: skip
+    return Velocity.model_validate(said | {"v_mps": v_mps, "w_radps": w_radps})
+
+
+@pytest.mark.parametrize(
+    ("v_mps", "w_radps", "ready"),
+    [(0.02, 0.05, True), (-0.02, -0.05, True), (0.021, 0.0, False), (0.0, -0.051, False)],
+)
+def test_a_stick_is_ready_once_seen_released_and_neutral(
+    v_mps: float, w_radps: float, ready: bool
+) -> None:
+    tick = at("hold")
+    stick.hear_teleop(tick, velocity(tick, v_mps, w_radps, dead_man=False))
+    assert tick.s.stick.released == ("s",)
+    assert tick.s.stick.ready == (("s",) if ready else ())
+    stick.hear_teleop(tick, velocity(tick, 0.3))
+    assert (tick.s.mode is Mode.TELEOP) is ready
+    if ready:
+        assert (tick.s.stick.v_mps, tick.s.stick.received_s) == (0.3, tick.now_s)
+        assert (tick.s.source, tick.s.grants.since_arm) == ("T", False)
+        assert tick.s.held == Held(reason=HeldReason.TELEOP, id="s")
+    else:
+        assert tick.reasons == ["stick_not_ready"]
+
+
+@pytest.mark.parametrize(
+    ("received_age_s", "sent_age_s", "fresh"),
+    [(0.25, 0.4, True), (0.25 + EPS, 0.0, False), (0.0, 0.4 + EPS, False)],
+)
+def test_a_stick_steers_while_it_is_fresh(
+    received_age_s: float, sent_age_s: float, fresh: bool
+) -> None:
+    tick = at("teleop")
+    tick.s.stick = replace(
+        tick.s.stick,
+        received_s=tick.now_s - received_age_s + EPS / 2 * fresh,
+        sent_s=tick.now_s - sent_age_s + EPS / 2 * fresh,
+    )
+    stick.watch(tick)
+    assert (tick.s.mode is Mode.TELEOP) is fresh
+    if not fresh:
+        assert (tick.s.mode, tick.s.stick.source_id) == (Mode.HOLD, None)
+        assert tick.s.stick.pressed_s is not None
+        assert tick.s.held == Held(reason=HeldReason.TELEOP, id="stick")
