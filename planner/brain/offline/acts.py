@@ -17,6 +17,7 @@ from planner.plan import Bilingual, Code, Count, Find, Follow, GoTo, Language, L
 
 WHERE_IS = Bilingual(en="where is {name}? Name the place.", zh="{name}在哪里？请说出地点。")
 WHERE_TO = Bilingual(en="where to?", zh="要去哪里？")
+HOW_LONG = Bilingual(en="how long? For example: ten seconds.", zh="等多久？例如：十秒。")
 WHO = Bilingual(en="who or what is meant?", zh="指的是谁或什么？")
 WHERE_ARE_YOU = Bilingual(en="where are you? Name the place.", zh="您在哪里？请说出地点。")
 

@@ -9,6 +9,7 @@ import re
 
 from planner.brain.offline import chinese_drive, chinese_people, chinese_things
 from planner.brain.offline.arm import lacks_arm
+from planner.brain.offline.chinese_words import GO, IN, VERB
 from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
 from planner.brain.offline.lexicon import MARK
 from planner.plan import Code
@@ -52,7 +53,8 @@ _COURTESY = (
     r"马上|立刻|立即|快点|赶快|赶紧|快(?!递)|直接|"
     r"就|那么|那(?![里儿边个位些])|好的|好了|好(?!吗|不好)|嗨(?=.)|喂(?!食|猫|狗|养)|嘿|"
     r"你好(?=[请去到,])|然后|接着|随后|再(?!见)|并且|并|也|还要?|继续|please|hey|嗯|"
-    r"接下来|紧接着|顺便|顺路|替我|给我去"
+    r"接下来|紧接着|顺便|顺路|替我|给我去|一下|"
+    rf"(?:去|来|过去|过来|上前|前去)(?={VERB})"
 )
 _THANKS = (
     r"吧|呀|啊|哦|喔|噢|哈|嘛|谢谢(?:你|您)?|多谢|拜托了?|好吗|好不好|可以吗|行吗|行不行|"
@@ -67,6 +69,7 @@ CHINESE = Grammar(
         (Code.AMBIGUOUS, re.compile(r"或者|或|还是|要么|任意|随便|\bor\b")),
         (Code.OUT_OF_SCOPE, re.compile(_SCOPE)),
     ),
+    joint=re.compile(rf"((?:{GO})(?:{MARK}的)?{MARK}{IN}(?:去|来)?)(?={VERB})(?!(?:{_ARM}))"),
     clause_end=re.compile(
         r"[,;.!?。、~\s]+(?!\d)|然后|接着|随后|紧接着|之后|以后|而后|并且|并|同时|顺便"
         r"|再(?=[去到回走开前返看等说移驶进停找数巡告带跟问向往左右掉转])|(?<=[秒钟米度])后|"
@@ -80,6 +83,7 @@ CHINESE = Grammar(
     closing=re.compile(r"^(?:最后|最终)"),
     rules=(
         *chinese_drive.RULES[:-2],
+        *chinese_people.GUIDE,
         rule(rf".*{_ARM}.*", lacks_arm),
         *chinese_people.RULES,
         *chinese_things.RULES,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from re import Match
 
-from planner.brain.offline.acts import WHERE_ARE_YOU, missing
+from planner.brain.offline.acts import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
 from planner.brain.offline.chinese_words import GO
 from planner.brain.offline.grammar import (
     QUOTE,
@@ -13,6 +13,7 @@ from planner.brain.offline.grammar import (
     drive_to,
     home,
     lacks,
+    on_topic,
     route,
     rule,
     say,
@@ -27,7 +28,7 @@ from planner.brain.offline.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
 from planner.brain.offline.talk import Topic
 from planner.plan import Code, Say
 
-_AFTER = r"(?:去|来|过去|待命|停下来?|等我|一下|一趟|走一趟|转转|转一圈)?"
+_AFTER = r"(?:去一下|去一趟|去|来|过去|待命|停下来?|等我|一下|一趟|走一趟|转转|转一圈)?"
 _LEAD = r"(?:(?:带|领|引导|陪|护送|送)(?:着)?(?:我们|我))?"
 _ORIGIN = (
     r"(?:原地|原位|原处|原来的?(?:地方|位置)|起点|出发点|出发的?地方|起始(?:点|位置)|这里|这儿|"
@@ -66,12 +67,25 @@ def _come_here(found: Match[str], reading: Reading) -> Meaning:
     return missing(WHERE_ARE_YOU, found[0], reading)
 
 
-RULES: tuple[Rule, ...] = (
+def _how_long(found: Match[str], reading: Reading) -> Meaning:
+    return missing(HOW_LONG, found[0], reading)
+
+
+def _leave(found: Match[str], reading: Reading) -> Meaning:
+    return missing(WHERE_TO, reading.marked.restore(found[0]), reading)
+
+
+TALK: tuple[Rule, ...] = (
     rule(_WHERE, about(Topic.WHERE)),
     rule(_PLACES, about(Topic.PLACES)),
     rule(_HELP, about(Topic.HELP)),
     rule(r"你好|您好|嗨|哈喽|早上好|早安|下午好|晚上好|大家好|你好呀", about(Topic.HELLO)),
     rule(r"谢谢(?:你|您)?|多谢|感谢|辛苦了|干得好|真棒|做得好", about(Topic.THANKS)),
+    rule(r"(?P<topic>.+)", on_topic),
+)
+
+RULES: tuple[Rule, ...] = (
+    *TALK,
     rule(
         r"回家(?:去|吧)?|(?:回去|去|回)?充电(?:去)?|回充|返航|回桩|"
         r"(?:回到?|返回|去|到)(?:充电(?:桩|座|站|器)|基地|家里?)",
@@ -87,6 +101,12 @@ RULES: tuple[Rule, ...] = (
         rf"上)?{ZH_DURATION}",
         wait,
     ),
+    rule(
+        r"(?:在?(?:这里|这儿|那里|那儿))?(?:等一下|等一等|等等|等一会儿?|稍等|等我|等着|等待|等)",
+        _how_long,
+    ),
+    rule(rf"离开{MARK}(?:里)?", _leave),
+    rule(rf"{GO}完(?P<place>{MARK})(?:以后|之后|后)?", drive_to),
     rule(r"(?:在那里|在那儿)(?:停下来?|停住|停|待命|等着|等待)|待命", stand),
     rule(rf"(?:说|喊|播报|讲)(?:一声|一句|一下|出)?[:]?(?P<quote>{QUOTE})", say),
     rule(rf"(?:(?:和|跟|向|对)(?:我|大家))?(?:说|喊|讲)(?:一声|一句)?(?P<words>{_HELLO})", say),

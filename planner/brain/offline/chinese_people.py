@@ -5,13 +5,13 @@ from __future__ import annotations
 from re import Match
 
 from planner.brain.offline.acts import follow, guide, label_of, meet
-from planner.brain.offline.chinese_words import GO, PERSON, SPOT, loc
+from planner.brain.offline.chinese_words import GO, IN, PERSON, SPOT, loc
 from planner.brain.offline.grammar import QUOTE, lacks, rule, where
 from planner.brain.offline.meaning import About, Meaning, Reading, Rule, Steps
 from planner.brain.offline.talk import Topic, told, topic_of
 from planner.plan import Ask, Code
 
-_FIND = r"(?:找到|寻找|找找|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
+_FIND = r"(?:接到?|找到|寻找|找找|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
 _GREET = (
     r"(?:打(?:个|一?声)?招呼|问好|问候|打招呼|挥手|说(?:一声)?(?:你好|您好|早上好|晚上好|晚安|"
     r"再见|欢迎))"
@@ -70,7 +70,7 @@ def _quote_to(found: Match[str], reading: Reading) -> Meaning:
 def _ask(found: Match[str], reading: Reading) -> Meaning:
     question = Ask(question=reading.marked.restore(found["question"])[:500])
     who = found["who"]
-    if who is None or who == "大家":
+    if who is None or who in ("大家", "他们", "她们"):
         return Steps((question,))
     met = meet(who, where(found, "at"), reading)
     return Steps((*met.steps, question), person=met.person) if isinstance(met, Steps) else met
@@ -79,6 +79,19 @@ def _ask(found: Match[str], reading: Reading) -> Meaning:
 _AT = rf"(?:{loc('at')})?"
 _AT2 = rf"(?:{loc('at2')})?"
 _WHO = rf"(?P<who>{PERSON})"
+
+GUIDE: tuple[Rule, ...] = (
+    rule(
+        rf"把{_WHO}从(?P<at>{SPOT})(?P<back>)?(?:{_GUIDE})(?:到|去|回)(?P<to>{SPOT}){IN}",
+        _guide,
+    ),
+    rule(
+        rf"(?:从)?{_AT}(?:{_GUIDE}){_WHO}(?:(?:{GO})(?P<to>{SPOT}|[^,把给拿放]{{1,12}}?)(?:去|"
+        r"来)?|(?P<back>回去|回来))?",
+        _guide,
+    ),
+)
+"""Tried ahead of what takes an arm: one verb says both."""
 
 RULES: tuple[Rule, ...] = (
     rule(rf"{_AT}(?:和|跟|向|对|给)?{_WHO}{_GREET}", _greet),
@@ -104,14 +117,9 @@ RULES: tuple[Rule, ...] = (
         _ask,
     ),
     rule(
-        rf"{_AT}{_FOLLOW}(?P<who>我们?|{PERSON})(?:走|后面?|的?后面)?(?:(?:去|到|"
+        rf"{_AT}{_FOLLOW}(?P<who>我们?|{PERSON})(?:走|来|后面?|的?后面)?(?:(?:去|到|"
         rf"来)(?P<to>{SPOT}))?",
         _follow,
-    ),
-    rule(
-        rf"(?:从)?{_AT}(?:把)?{_GUIDE}{_WHO}(?:(?:{GO})(?P<to>{SPOT}|[^,把给拿放]{{1,12}}?)(?:去|"
-        r"来)?|(?P<back>回去|回来))?",
-        _guide,
     ),
     rule(
         rf"{_AT}{_FIND}{_AT2}(?:还?有没有|是否有|是不是有|有无)?{_WHO}(?:在家?|了)?",

@@ -60,7 +60,7 @@ RULES: tuple[Rule, ...] = (
     rule(rf"(?:把)?(?P<what>{THING})(?:给我)?找(?:出来|到)", _find),
     rule(rf"(?:{_SEE}){_MUST}{_IS_THERE}(?P<what>{THING})", _find),
     rule(rf"{_MUST}(?:{_SEE})?{_IS_THERE}(?P<what>(?!什么|事|问题|异常|情况){THING})", _find),
-    rule(rf"(?:{_SEE}){_MUST}(?:[^,]*)", _look),
+    rule(rf"(?:{_SEE})(?:谁|什么)?(?:人)?{_MUST}(?:[^,]*)", _look),
     rule(rf"{_MUST}(?:{_SEE})(?:[^,\ue000-\ue8ff]*)", _look),
     rule(
         rf"{_MUST}(?:有(?:什么|谁|哪些)|(?:是|在)?(?:什么|怎么样|干净|整洁|安全|空的?|开着|"

@@ -95,6 +95,7 @@ ENGLISH = Grammar(
         (Code.AMBIGUOUS, re.compile(r"\b(?:or|either|whichever)\b")),
         (Code.OUT_OF_SCOPE, re.compile(_SCOPE)),
     ),
+    joint=re.compile(r"(?!)()"),
     clause_end=re.compile(
         r",(?! (?:and )?(?:who |whom )?you (?:can|may|will|could|might|should) (?:also )?(?:find|"
         r"meet|see) )"
@@ -103,7 +104,7 @@ ENGLISH = Grammar(
         rf"|(?<={MARK}) (?:in order )?to (?=(?:{_PURPOSE})\b)"
     ),
     courtesy=re.compile(rf"^(?:(?:{_COURTESY})(?:\s+|$))+"),
-    thanks=re.compile(rf"(?:^|\s+)(?:{_THANKS})$"),
+    thanks=re.compile(rf"(?:^|\s+)(?:{_THANKS})$|^(?:go|come|and|then|so)$"),
     opening=re.compile(r"^(?:first of all|firstly|first|to begin with|to start)\s+|\s+first$"),
     closing=re.compile(
         r"^(?:finally|lastly|last|at last|in the end)\s+|\s+(?:at the end|last|afterwards)$"

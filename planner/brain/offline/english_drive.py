@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from re import Match
 
-from planner.brain.offline.acts import WHERE_ARE_YOU, missing
+from planner.brain.offline.acts import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
 from planner.brain.offline.english_words import GO, THE
 from planner.brain.offline.grammar import (
     QUOTE,
@@ -14,6 +14,7 @@ from planner.brain.offline.grammar import (
     drive_to,
     home,
     lacks,
+    on_topic,
     route,
     rule,
     say,
@@ -72,10 +73,19 @@ def _come_here(found: Match[str], reading: Reading) -> Meaning:
     return missing(WHERE_ARE_YOU, found[0], reading)
 
 
+def _leave(found: Match[str], reading: Reading) -> Meaning:
+    return missing(WHERE_TO, reading.marked.restore(found[0]), reading)
+
+
+def _how_long(found: Match[str], reading: Reading) -> Meaning:
+    return missing(HOW_LONG, found[0], reading)
+
+
 TALK: tuple[Rule, ...] = (
     rule(_WHERE, about(Topic.WHERE)),
     rule(_PLACES, about(Topic.PLACES)),
     rule(_HELP, about(Topic.HELP)),
+    rule(r"(?P<topic>.+)", on_topic),
     rule(
         r"hello|hi|hey|good (?:morning|afternoon|evening|day)|hello there|howdy|greetings",
         about(Topic.HELLO),
@@ -106,6 +116,11 @@ RULES: tuple[Rule, ...] = (
         wait,
     ),
     rule(r"(?:stop|wait|stay|remain)(?: there| put)", stand),
+    rule(
+        r"(?:wait|stay|hang on|hold on)(?: (?:here|there|for (?:me|us|him|her|them)|a bit|a while|"
+        r"a moment))?",
+        _how_long,
+    ),
     rule(rf"(?:say|announce|tell (?:me|us|them|everyone))(?: out loud)? ?(?P<quote>{QUOTE})", say),
     rule(
         r"say (?P<words>(?!something\b|anything\b|nothing\b)[^\ue000-\ue8ff]+?)(?: to (?:me|us|"
@@ -166,5 +181,6 @@ RULES: tuple[Rule, ...] = (
         drive_to,
     ),
     rule(rf"{GO} (?P<place>(?:near|next to|by|beside|close to|up to) .+)", drive_to),
+    rule(rf"(?:leave|exit|get out of|go out of) {THE}{MARK}", _leave),
     rule(rf"(?:in|at|inside) (?P<place>{THE}{MARK})", set_out),
 )

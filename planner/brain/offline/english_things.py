@@ -14,7 +14,8 @@ from planner.brain.offline.meaning import Meaning, Problem, Reading, Rule, Steps
 _THING = r"[a-z0-9 '/\u3400-\u9fff-]+?"
 _ANY_THING = rf"(?:{_THING}|{THE}{MARK})"
 _FIND = (
-    r"(?:find|locate|look (?:around )?for|search for|seek|spot|pinpoint|identify|detect|hunt for|"
+    r"(?:find(?! out)|locate|look (?:around )?for|search for|seek|spot|pinpoint|identify|detect|"
+    r"hunt for|"
     r"see (?:if you can|whether you can) find|try to find|discover|show)(?: me| us)?"
 )
 _LOOK = (
@@ -24,12 +25,13 @@ _LOOK = (
     r"around))?|"
     r"explore|see|photograph|take (?:a )?(?:photo|picture|pictures|photos)(?: of)?|keep an eye on)"
 )
+_LOOK_VERB = (
+    r"(?:tell (?:me|us)|say|find out|see|check|look|report|show me|let me know|let us know)(?: me)?"
+)
 _ASKS = (
-    r"(?:(?:tell (?:me|us)|say|find out|see|check|look|report|show me|let me know|"
-    r"let us know)(?: me)? )?"
-    r"(?:what|which|who|whose|whether|that|the (?:name|pose|gender|age|colou?r|number|size|height|"
-    r"position|state|"
-    r"clothes|posture|mood|weight|shape))"
+    rf"(?:(?:{_LOOK_VERB} )?(?:what|which|who|whose)|{_LOOK_VERB} (?:whether|if|that|how|where|"
+    r"the (?:name|pose|"
+    r"gender|age|colou?r|number|size|height|position|state|clothes|posture|mood|weight|shape)))"
 )
 _THERE_IS = r"(?:is there|are there|do you see|can you see|did you see|is|are|has|have|do you find)"
 
@@ -122,7 +124,10 @@ RULES: tuple[Rule, ...] = (
         rf"{_FIND} (?P<what>{_THING}) (?:in|inside|at|on) (?P<nowhere>(?:the|my|our) [a-z0-9' -]+)",
         _find_in_unknown,
     ),
-    rule(rf"(?:{_ASKS}|{_THERE_IS})\b.*?{_MUST}(?: [a-z' -]+)?", _look),
+    rule(rf"(?:{_ASKS}|{_THERE_IS})\b[^\ue000-\ue7ff]*?{_MUST}(?: [a-z' -]+)?", _look),
+    rule(
+        rf"(?:{_ASKS}|{_THERE_IS})\b(?P<how>) (?P<at>{THE}{MARK})(?P<at_there>)? [a-z' -]+", _look
+    ),
     rule(
         rf"{_LOOK}(?: (?:the|a|an|all|for|who|what)\b[a-z0-9' -]*?)?{_MUST}(?: [a-z' -]+)?", _look
     ),

@@ -6,8 +6,9 @@ from planner.brain.offline.lexicon import MARK, NAME
 
 THE = r"(?:the |a |an |my |our |your |this |that )?"
 GO = (
-    r"(?:go|drive|move|head|walk|navigate|travel|proceed|run|roll|come|return|get|continue|"
-    r"make your way)"
+    r"(?:go|drive|move|head|walk|navigate|travel|proceed|run|roll|come|return|get|continue|pop|"
+    r"swing|nip|hop|"
+    r"step|make your way)"
     r"(?: (?:back|over|straight|directly|on|down|up|out|along|ahead|right|off))?"
 )
 PREP = (
@@ -16,7 +17,10 @@ PREP = (
 _SPOT = rf"{THE}{MARK}(?: room| area)?(?: (?:in|of) {THE}{MARK})?"
 # Words that no description of a person or thing goes past: another phrase begins there.
 WORD = r"(?!(?:to|in|at|on|from|for|and|into|onto|with|near|by|back|then|you|me)\b)[a-z0-9'/-]+"
-DESCRIPTION = r"[a-z0-9 '/-]+?"
+_DESCRIBES = (
+    r"(?!(?:into|from)\b|to (?!(?:the|their|his|her) (?:left|right)))[a-z0-9'/\u3400-\u9fff-]+"
+)
+DESCRIPTION = rf"(?:{_DESCRIBES} )*?{_DESCRIBES}"
 _WHO = (
     r"(?:person|people|man|men|woman|women|boy|girl|child|children|kid|elder|guest|lady|ladies|"
     r"gentleman|gentlemen|guy|visitor|patient|customer|human|stranger|baby|host|friend|operator|"
@@ -28,7 +32,6 @@ PERSON = (
     r"another )?"
     rf"(?:{WORD} ){{0,3}}?{_WHO}(?: {DESCRIPTION})?)"
 )
-FROM_TO_END = r"(?:\bto\b|\bfrom\b)"
 
 
 def loc(name: str) -> str:

@@ -24,7 +24,7 @@ from planner.brain.offline.meaning import (
 )
 from planner.brain.offline.numbers import seconds
 from planner.brain.offline.places import go_to
-from planner.brain.offline.talk import Topic
+from planner.brain.offline.talk import Topic, topic_of
 from planner.plan import Code, ComeBack, GoTo, Patrol, ReturnHome, Say, Wait
 
 FIRST_QUOTE = 0xF800
@@ -43,6 +43,7 @@ class Grammar:
 
     vetoes: tuple[tuple[Code, Pattern[str]], ...]
     asked: Pattern[str]  # an order in the form of a question; group 1 is the order
+    joint: Pattern[str]  # what ends a clause without a word; group 1 stays
     clause_end: Pattern[str]
     courtesy: Pattern[str]  # at the start of a clause
     thanks: Pattern[str]  # at the end of a clause
@@ -52,7 +53,7 @@ class Grammar:
 
     def clauses(self, text: str) -> list[Clause]:
         """Cut a marked sentence into clauses; those of mere courtesy are dropped."""
-        order = self.asked.sub(r"\1", text)
+        order = self.joint.sub(r"\1,", self.asked.sub(r"\1", text))
         parts = [self.plain(part) for part in self.clause_end.split(order)]
         kept = [part for part in parts if part]
         last = len(kept) - 1
@@ -128,6 +129,9 @@ def next_place(found: Match[str], reading: Reading) -> Meaning | None:
     """Read a bare place after a go-to clause as the next place; elsewhere offer it."""
     phrase = found["place"]
     meaning = go_to(phrase, reading)
+    again = re.match(r"(?:back )?(?:to|into) ", phrase)
+    if again and reading.going:
+        return go_to(phrase[again.end() :], reading)
     if reading.going and isinstance(meaning, Steps):
         goals = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
         patrols = reading.scene.kind == "patrol" and goals
@@ -172,6 +176,12 @@ def say(found: Match[str], reading: Reading) -> Meaning:
     if not 1 <= len(words) <= 500:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     return Steps((Say(text=words),))
+
+
+def on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
+    """Read a clause that is a question the robot can answer by itself."""
+    topic = topic_of(found["topic"])
+    return None if topic in (None, Topic.SELF) else About(topic)
 
 
 def about(topic: Topic) -> Build:

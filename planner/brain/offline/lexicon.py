@@ -30,7 +30,11 @@ NAME = rf"[{chr(FIRST_NAME)}-{chr(FIRST_NAME + NAMES - 1)}]"
 _RESERVED = frozenset({"home", "base", "家", "here", "there", "it", "back"})
 _PIECE = re.compile(r"[a-z0-9']+|\S")
 _TYPO_LETTERS = 6  # shorter words have too many neighbours that are words: desk/deck, couch/coach
-_NEAR = 60.0  # of 100; below it two names only share letters
+_SLIPS = (
+    re.compile(r"(?<![a-z'])[a-z]{3,} [a-z]{3,}(?![a-z'])"),
+    re.compile(r"(?<![a-z'])[a-z]{5,}(?![a-z'])"),
+)
+_NEAR = 66.0  # of 100; below it two names only share letters
 _TYPO_ROOM = 3  # no other place may be this near
 
 
@@ -92,6 +96,21 @@ class Lexicon:
                 copied = end
             at = max(after, at + 1)
         return Marked("".join(out) + text[copied:], tuple(mentions))
+
+    def mark_slips(self, marked: Marked) -> Marked:
+        """Replace misspelt place names as well, where one can mean nothing else."""
+        mentions = list(marked.mentions)
+        text = marked.text
+        for pattern in _SLIPS:
+            text = pattern.sub(lambda found: self._slip(found[0], mentions), text)
+        return Marked(text, tuple(mentions))
+
+    def _slip(self, written: str, mentions: list[Mention]) -> str:
+        place = self.typo(written) if len(mentions) < MARKS else None
+        if place is None:
+            return written
+        mentions.append(Mention((place,), written))
+        return chr(FIRST_MARK + len(mentions) - 1)
 
     def _match(self, text: str, pieces: list[tuple[int, int]], at: int) -> int:
         """Return the piece after the longest name that starts here, or `at` where none does."""

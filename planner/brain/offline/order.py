@@ -28,6 +28,7 @@ _ZH = (
     re.compile(r"(?P<late>.+?)[,。;]?(?:但是?)?在?(?:此|这|那)之前,?(?:先)?(?P<early>.+)"),
     re.compile(r"(?:在)?(?P<late>.+?)(?:之前|以前),?(?:请|要)?(?:先)?(?P<early>.+)"),
     re.compile(r"(?P<late>.+?)[,。;]?但是?先(?P<early>.+)"),
+    re.compile(r"最后(?P<late>.+?)[,。;]先(?P<early>.+)"),
 )
 _BARE = re.compile(rf"(?:(?:the|my|our) )?{MARK}")
 _GERUNDS = {

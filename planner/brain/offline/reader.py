@@ -12,16 +12,19 @@ from dataclasses import replace
 from datetime import datetime
 
 from planner.brain.offline.chinese import CHINESE
+from planner.brain.offline.chinese_drive import TALK as ZH_TALK
 from planner.brain.offline.compose import Setting, compose, unsafe, veto
 from planner.brain.offline.english import ENGLISH
+from planner.brain.offline.english_drive import TALK
 from planner.brain.offline.grammar import Grammar
 from planner.brain.offline.guard import EXAMPLE, refuse_bad_text
 from planner.brain.offline.lexicon import MARK, Marked, lexicon_of
-from planner.brain.offline.meaning import Meaning, Problem, Reading, Scene, Steps
+from planner.brain.offline.meaning import About, Meaning, Problem, Reading, Scene, Steps, read_by
 from planner.brain.offline.normalise import language_of, normalise
 from planner.brain.offline.order import in_order
 from planner.brain.offline.people import mark_people
 from planner.brain.offline.quotes import take_quotes
+from planner.brain.offline.spelling import mend, words_of
 from planner.brain.offline.unsafe import TAMPERING, broken_rule
 from planner.brain.stoplane import is_stop
 from planner.plan import (
@@ -43,7 +46,10 @@ from planner.plan import (
 
 _OTHER = rf"(?:{MARK}|[\u3400-\u9fff])"
 _SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
+_BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
 _LATIN = re.compile(r"[a-z]")
+
+_SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
 
 
 class Context(Frozen):
@@ -69,7 +75,8 @@ def plan(
         return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
     apart, quotes = take_quotes(text)
     lexicon = lexicon_of(vocabulary)
-    marked = mark_people(lexicon.mark(normalise(apart)), apart)
+    found = lexicon.mark(mend(normalise(apart), _SPELT))
+    marked = mark_people(lexicon.mark_slips(found), apart)
     language = context.language or language_of(text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now)
     vetoed = _vetoed(marked, setting)
@@ -81,7 +88,11 @@ def plan(
         _within(meaning, context.runnable)
         for meaning in _meanings(ordered, reading, language_of(text))
     ]
-    if not meanings:
+    if not meanings:  # mere courtesy: it may still be a greeting or thanks
+        bare = _BORDERS.sub("", marked.text)
+        polite = read_by((*TALK, *ZH_TALK), bare, reading)
+        if isinstance(polite, About):
+            return compose([polite], bare, setting)
         return Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example=EXAMPLE))
     return compose(meanings, marked.restore(marked.text), setting)
 

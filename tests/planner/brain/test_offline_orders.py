@@ -134,7 +134,7 @@ MOTION = {
     "look for a red cup in the kitchen": "kitchen find=red cup@kitchen",
     "how many people are in the bedroom": "bedroom count=people@bedroom",
     "去客厅看看有没有人": "living_room find=人@living_room",
-    "从卧室出发，去书房看一下情况": "bedroom study look=去书房看一下情况@study",
+    "从卧室出发，去书房看一下情况": "bedroom study look=看一下情况@study",
 }
 
 STILL = {
@@ -219,7 +219,8 @@ STILL = {
     "wait 3 hours": "refuse bad_plan",
     "stop": "refuse stopped",
     "停": "refuse stopped",
-    "hello": "refuse empty_goal",
+    "hello": "answer: Hello. Tell me where to go.",
+    "thank you": "answer: You are welcome.",
     "请": "refuse empty_goal",
     "": "refuse empty_goal",
     "  \n ": "refuse empty_goal",
