@@ -4,6 +4,7 @@ import "uplot/dist/uPlot.min.css";
 import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/panels.css";
+import "./styles/places.css";
 import "./styles/map.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
@@ -13,9 +14,21 @@ import { startLanguage } from "./i18n";
 import { fetchGrid, fetchPlaces } from "./net/api";
 import { EventSocket } from "./net/socket";
 import { startToken, tokenNeeded } from "./net/token";
-import { began, grid, open, places, receive, startClock, wantsSnapshot } from "./state/store";
+import {
+  began,
+  grid,
+  mostTaught,
+  open,
+  places,
+  placesVersion,
+  receive,
+  startClock,
+  taught,
+  wantsSnapshot,
+} from "./state/store";
 import { listen } from "./stop/keys";
 import { startStopper, stop } from "./stop/stopper";
+import type { Known } from "./wire/types";
 
 const RETRY_MS = 2000;
 
@@ -40,6 +53,25 @@ effect(() => {
 });
 socket.connect();
 
+let knownVersion = 0;
+
+function learnPlaces(known: Known): void {
+  knownVersion = known.version;
+  places.value = known.places;
+  taught.value = known.taught;
+  mostTaught.value = known.most;
+}
+
+effect(() => {
+  const version = placesVersion.value;
+  if (grid.peek() !== null && version !== knownVersion) void again();
+});
+
+/** Load the places once more; what fails is tried at the next change or connection. */
+async function again(): Promise<void> {
+  await fetchPlaces().then(learnPlaces, () => undefined);
+}
+
 let loading = false;
 void load(); // beside the socket's opening, not after it
 
@@ -49,7 +81,7 @@ async function load(): Promise<void> {
   loading = true;
   try {
     const [site, cells] = await Promise.all([fetchPlaces(), fetchGrid()]);
-    places.value = site;
+    learnPlaces(site);
     grid.value = cells;
   } catch {
     if (open.value || tokenNeeded.value) setTimeout(() => void load(), RETRY_MS);

@@ -1,5 +1,5 @@
 /** Hold a status, a robot and goals as the planner sends them. */
-import type { Goal, Robot, Status } from "../src/wire/types";
+import type { Goal, Robot, Status, Usage } from "../src/wire/types";
 
 const still = { v_mps: 0, w_radps: 0 };
 
@@ -57,6 +57,18 @@ export const about = {
   limits: { max_speed_mps: 0.5, max_turn_radps: 1 },
 };
 
+const amounts = { calls: 3, prompt_tokens: 900, reply_tokens: 100, seconds: 4.2, money: 0.02 };
+
+export const usage: Usage = {
+  model: "m",
+  resets_in_s: 60,
+  currency: "USD",
+  today: amounts,
+  day_limits: { calls: 20, prompt_tokens: 9000, reply_tokens: 1000, seconds: 60, money: null },
+  under_way: 0,
+  refused: null,
+};
+
 export const snapshot = (seq = 1): object => ({
   seq,
   kind: "snapshot",
@@ -65,4 +77,6 @@ export const snapshot = (seq = 1): object => ({
   about,
   path: null,
   scan: [100, 200],
+  usage,
+  places_version: 0,
 });

@@ -5,6 +5,7 @@ import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
+import { picked, picking } from "../state/picking";
 import { about, age, grid, isBusy, pageFresh, path, places, robot, scan } from "../state/store";
 import type { Place } from "../wire/types";
 import { type Point, resolve } from "./resolve";
@@ -47,6 +48,8 @@ function follow(view: MapView): (() => void)[] {
     effect(() => {
       if (about.value) drawing.showBody(about.value.base.radius_m);
     }),
+    effect(() => drawing.showPicked(picked.value)),
+    effect(() => view.showPicking(picking.value)),
     effect(() => drawing.showPath(path.value, !pageFresh.value)),
     effect(() => drawing.showScan(scan.value, !fresh(age("scan")))),
     effect(() => drawing.showRobot(robot.value?.status?.base_in_map ?? null, !fresh(poseAge()))),
@@ -61,6 +64,11 @@ function poseAge(): number | null {
 
 function clicked(point: Point, view: MapView): void {
   choice.value = null;
+  if (picking.value) {
+    picked.value = point;
+    picking.value = false;
+    return;
+  }
   const place = resolve(places.value, point);
   if (place === null) {
     tell(t("map.nothing"));

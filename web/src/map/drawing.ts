@@ -3,7 +3,7 @@
  * Leaflet scales it; nothing here knows pixels.
  */
 import type { Grid, Path, Pose, Scan } from "../wire/types";
-import { unwound } from "./resolve";
+import { type Point, unwound } from "./resolve";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -37,16 +37,25 @@ export class Drawing {
   private readonly scan = make("path", { class: "scan" });
   private readonly path = make("path", { class: "way" });
   private readonly goal = make("circle", { class: "way-end", r: "0.14" });
+  private readonly picked = make("circle", { class: "picked", r: "0.2" });
   private readonly robot = make("g", { class: "robot" });
   private degrees = 0;
 
   constructor() {
     const up = make("g", { transform: "scale(1,-1)" });
-    up.append(this.zones, this.fence, this.scan, this.path, this.goal, this.robot);
+    up.append(this.zones, this.fence, this.scan, this.path, this.goal, this.picked, this.robot);
     this.svg.append(up);
     this.showBody(0.3);
     this.showRobot(null, true);
     this.showPath(null);
+    this.showPicked(null);
+  }
+
+  /** Mark the point at which a place is to be taught. */
+  showPicked(point: Point | null): void {
+    this.picked.style.display = point ? "" : "none";
+    this.picked.setAttribute("cx", String(point?.x ?? 0));
+    this.picked.setAttribute("cy", String(point?.y ?? 0));
   }
 
   /** Cover a map, in metres. */

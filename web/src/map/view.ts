@@ -92,6 +92,11 @@ export class MapView {
     this.zoom = L.control.zoom({ zoomInTitle, zoomOutTitle, position: "topright" }).addTo(this.map);
   }
 
+  /** Show that the next click gives a point and no goal. */
+  showPicking(on: boolean): void {
+    this.place.classList.toggle("picking", on);
+  }
+
   /** Return where a point of the map is in the view [px]. */
   pixel({ x, y }: Point): { left: number; top: number } {
     const at = this.map.latLngToContainerPoint([y, x]);

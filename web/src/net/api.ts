@@ -1,5 +1,5 @@
 /** Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. */
-import type { Bilingual, Goal, Grid, Place } from "../wire/types";
+import type { Bilingual, Goal, Grid, Known, Pose, Taught } from "../wire/types";
 import type { OperatorProof } from "./proof";
 import { authorization, tokenNeeded } from "./token";
 
@@ -18,7 +18,7 @@ const TIMEOUT_MS = 8000;
 type Json = { readonly [key: string]: unknown };
 
 export async function call(
-  method: "GET" | "POST",
+  method: "GET" | "POST" | "DELETE",
   path: string,
   body?: object | ArrayBuffer,
   headers: Record<string, string> = {},
@@ -110,8 +110,21 @@ export async function operate(kind: Act, operator: OperatorProof | null): Promis
   await call("POST", `/v1/${kind}`, { source: "page", ...withProof(operator) });
 }
 
-export async function fetchPlaces(): Promise<readonly Place[]> {
-  return ((await call("GET", "/v1/places")) as { places: Place[] }).places;
+export async function fetchPlaces(): Promise<Known> {
+  return (await call("GET", "/v1/places")) as Known;
+}
+
+export type Names = { readonly en?: string; readonly zh?: string };
+export type Point = Pick<Pose, "x_m" | "y_m">;
+
+/** Teach a place: at a point of the map, or where the robot stands. */
+export async function teachPlace(name: Names, point: Point | null): Promise<Taught> {
+  const body = { name, source: "page", ...(point ? { point } : {}) };
+  return (await call("POST", "/v1/places", body)) as Taught;
+}
+
+export async function forgetPlace(id: string): Promise<void> {
+  await call("DELETE", `/v1/places/${encodeURIComponent(id)}`);
 }
 
 export async function fetchGrid(): Promise<Grid> {

@@ -1,11 +1,12 @@
 /** Gather what a person needs to drive: the goal box, what runs, what waits, what was before. */
 import { t, word } from "../i18n";
-import { act, give, moveFirst } from "../state/acts";
+import { act, doInstead, give, moveBy } from "../state/acts";
 import { age, pageFresh, sortedGoals } from "../state/store";
 import type { Goal } from "../wire/types";
 import { GoalBox } from "./GoalBox";
 import { seconds } from "./format";
 import { Ended, GoalCard, PlannedBy, Steps } from "./GoalCard";
+import { Meter } from "./Meter";
 import { MindLine } from "./MindLine";
 import { reasonWords } from "./steps";
 
@@ -28,13 +29,18 @@ export function DriveTab() {
           <GoalCard key={goal.id} goal={goal} />
         ))}
       </section>
-      {queued.length > 0 && <Queue goals={queued} />}
+      {queued.length > 0 && <Queue goals={queued} running={current.find(runs)} />}
+      <Meter />
       {past.length > 0 && <Past goals={past.slice(0, SHOWN_PAST)} />}
     </>
   );
 }
 
-function Queue({ goals }: { goals: readonly Goal[] }) {
+const runs = (goal: Goal): boolean => goal.state === "running";
+
+type QueueProps = { readonly goals: readonly Goal[]; readonly running: Goal | undefined };
+
+function Queue({ goals, running }: QueueProps) {
   return (
     <section
       class={`card ${pageFresh.value ? "" : "stale"}`}
@@ -56,10 +62,24 @@ function Queue({ goals }: { goals: readonly Goal[] }) {
               {index > 0 && (
                 <button
                   type="button"
-                  aria-label={t("goal.first")}
-                  onClick={() => void moveFirst(goal)}
+                  aria-label={t("goal.sooner")}
+                  onClick={() => void moveBy(goal, -1)}
                 >
                   ↑
+                </button>
+              )}
+              {index < goals.length - 1 && (
+                <button
+                  type="button"
+                  aria-label={t("goal.later")}
+                  onClick={() => void moveBy(goal, 1)}
+                >
+                  ↓
+                </button>
+              )}
+              {running && (
+                <button type="button" onClick={() => void doInstead(goal, running)}>
+                  {t("goal.instead")}
                 </button>
               )}
               {goal.reason === "held" && (

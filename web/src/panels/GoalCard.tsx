@@ -3,8 +3,10 @@ import { useSignal } from "@preact/signals";
 import { say, t, word } from "../i18n";
 import { act, answer } from "../state/acts";
 import type { Goal, Outcome, Step, Tag } from "../wire/types";
+import { DraftOf } from "./Draft";
 import { fixed } from "./format";
 import { brainName, needed, reasonWords, stepWords } from "./steps";
+import { verdict } from "./verdict";
 
 const MARKS: { readonly [state: string]: string } = {
   pending: "○",
@@ -25,6 +27,7 @@ export function GoalCard({ goal }: { goal: Goal }) {
         <span class={`chip state-${goal.state}`}>{word("state", goal.state)}</span>
       </header>
       {goal.reason && !asks && <p class="reason">{reasonWords(goal.reason)}</p>}
+      <DraftOf goal={goal} />
       {goal.plan && goal.plan.steps.length > 0 && <Steps steps={goal.plan.steps} />}
       {asks && <Question goal={goal} />}
       {goal.outcome && !asks && <Ended outcome={goal.outcome} />}
@@ -46,12 +49,7 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
             {stepWords(step)}
             <span class="unseen"> ({word("state", step.state)})</span>
             {step.reason && <span class="reason"> {reasonWords(step.reason)}</span>}
-            {typeof step.residual_m === "number" && (
-              <span class="fine">
-                {" "}
-                {t("step.left", { metres: fixed(step.residual_m, 2, "m") })}
-              </span>
-            )}
+            {verdict(step).length > 0 && <span class="fine"> {verdict(step).join(" · ")}</span>}
           </span>
         </li>
       ))}
@@ -62,9 +60,10 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
 function Question({ goal }: { goal: Goal }) {
   const reply = useSignal("");
   const plan = goal.plan;
+  const question = plan?.text ?? goal.outcome?.message ?? null; // a plan's own, or a step's
   return (
     <div class="clarify">
-      {plan?.text && <p dir="auto">{say(plan.text)}</p>}
+      {question && <p dir="auto">{say(question)}</p>}
       <div class="buttons">
         {(plan?.options ?? []).map((option) => (
           <button

@@ -5,12 +5,14 @@ import { useRef } from "preact/hooks";
 import { t } from "../i18n";
 import { DriveTab } from "./DriveTab";
 import { LogTab } from "./LogTab";
+import { PlacesTab } from "./PlacesTab";
 import { RobotTab } from "./RobotTab";
 
-type TabId = "drive" | "robot" | "log";
+type TabId = "drive" | "places" | "robot" | "log";
 
 const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "drive", View: DriveTab },
+  { id: "places", View: PlacesTab },
   { id: "robot", View: RobotTab },
   { id: "log", View: LogTab },
 ];

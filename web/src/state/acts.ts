@@ -6,13 +6,17 @@ import {
   ApiError,
   actOnGoal,
   answerGoal,
+  forgetPlace,
   type GoalVerb,
   giveGoal,
   moveGoal,
+  type Names,
   operate,
+  type Point,
+  teachPlace,
 } from "../net/api";
 import { prove, proveGoal } from "../net/proof";
-import type { Goal } from "../wire/types";
+import type { Goal, Taught } from "../wire/types";
 import { learn, sortedGoals, status } from "./store";
 
 export type Note = { readonly id: number; readonly text: string; readonly bad: boolean };
@@ -60,9 +64,37 @@ export function answer(goal: Goal, text: string): Promise<boolean> {
   return attempt(() => answerGoal(goal.id, text, proveGoal(status.value)));
 }
 
-export function moveFirst(goal: Goal): Promise<boolean> {
+/** Put a queued goal one place nearer to its turn, or farther from it. */
+export function moveBy(goal: Goal, by: -1 | 1): Promise<boolean> {
+  const { queued } = sortedGoals.value;
+  const index = queued.findIndex((one) => one.id === goal.id);
+  const before = queued[by < 0 ? index - 1 : index + 2];
+  return attempt(() => moveGoal(goal.id, before?.id ?? null));
+}
+
+/** Do a queued goal in place of the running one. */
+export async function doInstead(goal: Goal, running: Goal): Promise<boolean> {
   const next = sortedGoals.value.queued[0];
-  return attempt(() => moveGoal(goal.id, next && next.id !== goal.id ? next.id : null));
+  if (next && next.id !== goal.id) {
+    if (!(await attempt(() => moveGoal(goal.id, next.id)))) return false;
+  }
+  return act(running, "cancel");
+}
+
+export function teach(name: Names, point: Point | null): Promise<boolean> {
+  return attempt(async () => {
+    const place = await teachPlace(name, point);
+    tell(t("places.kept", { name: say(place.name) }));
+    return undefined;
+  });
+}
+
+export function forget(place: Taught): Promise<boolean> {
+  return attempt(async () => {
+    await forgetPlace(place.id);
+    tell(t("places.gone", { name: say(place.name) }));
+    return undefined;
+  });
 }
 
 export function order(kind: Act): Promise<boolean> {

@@ -2,7 +2,7 @@
  * Hold what the page knows, and how each frame changes it. Pure: told the time, knows no socket and
  * no screen. What an unknown or broken frame may change is a counter.
  */
-import type { About, Frame, Goal, Path, Robot, Scan } from "../wire/types";
+import type { About, Draft, Frame, Goal, Path, Robot, Scan, Usage } from "../wire/types";
 import { type Moment, since } from "./moment";
 
 export const MAX_GOALS = 60;
@@ -23,6 +23,9 @@ export type Model = {
   readonly robot: Robot | null;
   readonly robotAt: Moment | null;
   readonly goals: readonly Goal[]; // newest first
+  readonly drafts: readonly Draft[]; // of goals that are thought about now
+  readonly usage: Usage | null;
+  readonly placesVersion: number; // changes when a place is taught or forgotten
   readonly about: About | null;
   readonly path: Path | null;
   readonly scan: Scan;
@@ -39,6 +42,9 @@ export const EMPTY: Model = {
   robot: null,
   robotAt: null,
   goals: [],
+  drafts: [],
+  usage: null,
+  placesVersion: 0,
   about: null,
   path: null,
   scan: [],
@@ -77,6 +83,9 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         robot: frame.robot,
         robotAt: now,
         goals: newestFirst(frame.goals),
+        drafts: thoughtAbout(model.drafts, frame.goals),
+        usage: frame.usage,
+        placesVersion: frame.places_version,
         about: frame.about,
         path: frame.path,
         scan: frame.scan,
@@ -90,7 +99,17 @@ function take(model: Model, frame: Frame, now: Moment): Model {
     case "scan":
       return { ...model, scan: frame.scan, scanAt: now };
     case "goal":
-      return { ...model, goals: withGoal(model.goals, frame.goal) };
+      return {
+        ...model,
+        goals: withGoal(model.goals, frame.goal),
+        drafts: thoughtAbout(model.drafts, [frame.goal]),
+      };
+    case "thinking":
+      return { ...model, drafts: withDraft(model.drafts, frame.draft) };
+    case "usage":
+      return { ...model, usage: frame.usage };
+    case "places":
+      return { ...model, placesVersion: frame.version };
     case "gap":
       return { ...model, gaps: model.gaps + 1, wantsSnapshot: true };
     case "stopped":
@@ -118,6 +137,22 @@ function logged(
   const id = (model.log[0]?.id ?? 0) + 1;
   const entry: LogEntry = { id, at: now.wallMs, kind, code, text };
   return { ...model, log: [entry, ...model.log].slice(0, MAX_LOG) };
+}
+
+const MAX_DRAFTS = 8;
+const MAX_SHOWN = 4000;
+
+function withDraft(drafts: readonly Draft[], draft: Draft): readonly Draft[] {
+  const short = { ...draft, text: draft.text.slice(-MAX_SHOWN) };
+  return [short, ...drafts.filter((one) => one.goal !== draft.goal)].slice(0, MAX_DRAFTS);
+}
+
+/** Drop the drafts of goals that went on; one that is thought about again is told anew. */
+function thoughtAbout(drafts: readonly Draft[], goals: readonly Goal[]): readonly Draft[] {
+  const done = new Set(goals.filter((goal) => goal.state !== "planning").map((goal) => goal.id));
+  return drafts.some((draft) => done.has(draft.goal))
+    ? drafts.filter((draft) => !done.has(draft.goal))
+    : drafts;
 }
 
 export function withGoal(goals: readonly Goal[], goal: Goal): readonly Goal[] {

@@ -1,7 +1,7 @@
 /** Hold the page's signals: the one place that components read and the socket writes. */
 import { batch, computed, signal } from "@preact/signals";
 import { decode } from "../wire/decode";
-import type { Goal, Grid, Place } from "../wire/types";
+import type { Goal, Grid, Place, Taught } from "../wire/types";
 import { busy, sorted } from "./goals";
 import { History } from "./history";
 import { advance, ageOf, connected, EMPTY, type Model, withGoal } from "./model";
@@ -13,6 +13,8 @@ const model = signal<Model>(EMPTY);
 export const now = signal<Moment>(moment());
 export const open = signal(false); // the socket is open
 export const places = signal<readonly Place[]>([]);
+export const taught = signal<readonly Taught[]>([]);
+export const mostTaught = signal(0);
 export const grid = signal<Grid | null>(null);
 export const history = new History();
 
@@ -20,6 +22,9 @@ export const robot = computed(() => model.value.robot);
 export const mind = computed(() => model.value.robot?.brain ?? null);
 export const status = computed(() => model.value.robot?.status ?? null);
 export const goals = computed(() => model.value.goals);
+export const drafts = computed(() => model.value.drafts);
+export const usage = computed(() => model.value.usage);
+export const placesVersion = computed(() => model.value.placesVersion);
 export const about = computed(() => model.value.about);
 export const path = computed(() => model.value.path);
 export const scan = computed(() => model.value.scan);

@@ -2,7 +2,7 @@
  * Turn what came over the socket into a frame, or nothing. Half frames, unknown kinds and numbers
  * that are not finite are no frames; whoever calls counts them.
  */
-import type { BridgeEvent, Frame, Goal, Path, Robot, Scan, Status } from "./types";
+import type { BridgeEvent, Draft, Frame, Goal, Path, Robot, Scan, Status, Usage } from "./types";
 
 type Bag = { readonly [key: string]: unknown };
 
@@ -104,6 +104,28 @@ export function isGoal(value: unknown): value is Goal {
   );
 }
 
+const isDraft = (value: Bag): boolean =>
+  text(value.goal) &&
+  text(value.text) &&
+  all(value.steps, (one) => bag(one) && text(one.kind) && textOrNull(one.place ?? null));
+
+const AMOUNTS = ["calls", "prompt_tokens", "reply_tokens", "seconds", "money"] as const;
+
+function isUsage(value: unknown): value is Usage {
+  if (!bag(value)) return false;
+  const { today, day_limits: most, refused } = value;
+  return (
+    textOrNull(value.model) &&
+    textOrNull(value.currency) &&
+    finite(value.resets_in_s) &&
+    finite(value.under_way) &&
+    bag(today) &&
+    bag(most) &&
+    AMOUNTS.every((what) => finite(today[what]) && finiteOrNull(most[what])) &&
+    (refused === null || (bag(refused) && text(refused.code) && words(refused.message)))
+  );
+}
+
 const isPath = (value: unknown): value is Path | null =>
   value === null ||
   (bag(value) && text(value.goal) && finite(value.leg) && all(value.points, point));
@@ -132,7 +154,9 @@ export function decode(data: unknown): Frame | null {
         all(came.goals, isGoal) &&
         isAbout(came.about) &&
         isPath(came.path) &&
-        isScan(came.scan)
+        isScan(came.scan) &&
+        isUsage(came.usage) &&
+        finite(came.places_version)
         ? (came as Frame)
         : null;
     case "robot":
@@ -143,6 +167,12 @@ export function decode(data: unknown): Frame | null {
       return isScan(came.scan) ? { seq, kind: "scan", scan: came.scan } : null;
     case "goal":
       return isGoal(change.goal) ? { seq, kind: "goal", goal: change.goal } : null;
+    case "thinking":
+      return isDraft(change) ? { seq, kind: "thinking", draft: change as unknown as Draft } : null;
+    case "usage":
+      return isUsage(came.usage) ? { seq, kind: "usage", usage: came.usage } : null;
+    case "places":
+      return finite(came.version) ? { seq, kind: "places", version: came.version } : null;
     case "say":
       return text(change.text) ? { seq, kind: "say", text: change.text } : null;
     case "act":

@@ -89,7 +89,16 @@ export type Step = {
   readonly angle_rad: number | null;
   readonly distance_m: number | null;
   readonly state: string;
+  readonly reached: Spot | null;
   readonly residual_m: number | null;
+  readonly residual_rad: number | null;
+  readonly moved_m: number | null;
+  readonly turned_rad: number | null;
+  readonly visited: number | null;
+  readonly answer: string | null;
+  readonly left_m: number | null;
+  readonly left_rad: number | null;
+  readonly left_s: number | null;
   readonly reason: string | null;
 };
 
@@ -143,6 +152,35 @@ export type Goal = {
   readonly updated: string;
 };
 
+/** What a model has cost; null limits are none. */
+export type Usage = {
+  readonly model: string | null;
+  readonly resets_in_s: number;
+  readonly currency: string | null;
+  readonly today: Amounts;
+  readonly day_limits: { readonly [what in keyof Amounts]: number | null };
+  readonly under_way: number;
+  readonly refused: { readonly code: string; readonly message: Bilingual } | null;
+};
+
+export type Amounts = {
+  readonly calls: number;
+  readonly prompt_tokens: number;
+  readonly reply_tokens: number;
+  readonly seconds: number;
+  readonly money: number;
+};
+
+/** What a brain has written of a plan so far: shown, never obeyed. */
+export type Draft = {
+  readonly goal: string;
+  readonly text: string;
+  readonly steps: readonly DraftStep[];
+};
+
+/** A step as a brain writes it: what is not set is not there. */
+export type DraftStep = Pick<Step, "kind"> & Partial<Step>;
+
 export type About = {
   readonly base: {
     readonly wheel_radius_m: number;
@@ -176,11 +214,16 @@ export type Frame = { readonly seq: number } & (
       readonly about: About;
       readonly path: Path | null;
       readonly scan: Scan;
+      readonly usage: Usage;
+      readonly places_version: number;
     }
   | { readonly kind: "robot"; readonly robot: Robot }
   | { readonly kind: "path"; readonly path: Path | null }
   | { readonly kind: "scan"; readonly scan: Scan }
   | { readonly kind: "goal"; readonly goal: Goal }
+  | { readonly kind: "thinking"; readonly draft: Draft }
+  | { readonly kind: "usage"; readonly usage: Usage }
+  | { readonly kind: "places"; readonly version: number }
   | { readonly kind: "say"; readonly text: string }
   | { readonly kind: "act"; readonly accepted: boolean; readonly code: string }
   | { readonly kind: "bridge"; readonly event: BridgeEvent }
@@ -196,6 +239,25 @@ export type Place = {
   readonly name: Bilingual;
   readonly polygon: readonly (readonly [number, number])[] | null;
   readonly pose: Pose;
+};
+
+/** A place that a person taught; `why_not` where it can't be driven to. */
+export type Taught = {
+  readonly id: string;
+  readonly name: Bilingual;
+  readonly pose: Pose;
+  readonly map_id: string;
+  readonly by: string;
+  readonly taught: string;
+  readonly why_not: string | null;
+  readonly message: Bilingual | null;
+};
+
+export type Known = {
+  readonly version: number;
+  readonly places: readonly Place[];
+  readonly taught: readonly Taught[];
+  readonly most: number;
 };
 
 type Outline = readonly (readonly [number, number])[];
