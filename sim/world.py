@@ -7,8 +7,9 @@ beyond the step. Frame: ``map`` is the world frame.
 from __future__ import annotations
 
 import logging
+from copy import copy
 from math import atan2
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import mujoco
 import numpy as np
@@ -51,12 +52,22 @@ class World:
         grips = ("floor", "wheel_left", "wheel_right")
         self._grips = [self._model.geom(name).id for name in grips]
         self._left_dof = int(self._model.jnt_dofadr[self._wheels[0]])
-        # Views into MuJoCo's memory: reading them costs no call.
+        self._look()
+
+    def _look(self) -> None:
+        """Take views into MuJoCo's memory: reading them costs no call."""
         self._qpos: NDArray[np.float64] = self._data.qpos
         self._qvel: NDArray[np.float64] = self._data.qvel
         self._ctrl: NDArray[np.float64] = self._data.ctrl
         self._act: NDArray[np.float64] = self._data.act
         self._touching: Any = self._data.contact
+
+    def __deepcopy__(self, _memo: dict[int, Any]) -> Self:
+        """Return a world that goes on from here by itself."""
+        other = copy(self)
+        vars(other).update(_model=copy(self._model), _data=copy(self._data))
+        other._look()  # noqa: SLF001  # one of us
+        return other
 
     def step(self, left_radps: float, right_radps: float, *, braked: bool, steps: int) -> None:
         """Advance by whole physics steps under one wish for the wheels; braked ignores the wish."""

@@ -1,0 +1,25 @@
+"""Copy a whole world, so that many trials begin at one moment and only one has driven there.
+
+Copies go on exactly as the first would have. What never changes is shared: the site, messages sent.
+"""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from lockstep.world import World
+
+W = TypeVar("W", bound="World")
+
+
+def forked(world: W) -> W:
+    """Return a world that goes on from here by itself.
+
+    To be called where the planner waits for nothing: not for a route, a plan or an answer, for
+    what it waits for would be told to the first world.
+    """
+    scene = world.scene
+    shared = (scene, scene.site, scene.router, scene.fence, *world.commands, *world.statuses)
+    return deepcopy(world, {id(one): one for one in shared})
