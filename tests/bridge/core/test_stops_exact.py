@@ -35,7 +35,7 @@ def stop_of(since_s: float, **more: object) -> Stopping:
     return replace(stop, **more)  # type: ignore[arg-type]  # names of its fields
 
 
-def standing(start: str = "stopping_by_row", **more: object) -> Tick:
+def standing(start: str = "stopping_by_row", /, **more: object) -> Tick:
     """Return a tick in which the robot has stood for 0.2 s and is told to stand."""
     tick = tick_of(reached(start))
     tick.s.drive.still_since_s = tick.now_s - 0.2
