@@ -72,7 +72,7 @@ describe("the meter", () => {
   it("says what was spent of how much, in both languages", () => {
     expect(meterWords(usage)).toBe("3 of 20 calls · 1,000 tokens · 4 of 60 s · 0.02 USD");
     language.value = "zh";
-    expect(meterWords(usage)).toContain("调用 3（上限 20） 次");
+    expect(meterWords(usage)).toContain("调用 3/20 次");
   });
 
   it("is full where the tightest limit is", () => {

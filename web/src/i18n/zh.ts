@@ -143,7 +143,7 @@ export const zh: Record<Key, string> = {
   "meter.title": "今日模型用量",
   "meter.asking": "请求中",
   "meter.share": "今日预算已用比例",
-  "meter.of": "{spent}（上限 {most}）",
+  "meter.of": "{spent}/{most}",
   "meter.calls": "调用 {n} 次",
   "meter.tokens": "{n} 个词元",
   "meter.seconds": "{n} 秒",
