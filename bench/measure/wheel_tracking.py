@@ -54,9 +54,9 @@ class Drive:
     seconds: float
 
 
-def drive(hardware: Hardware, seed: int, *, control: bool) -> Drive:
+def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START) -> Drive:
     """Drive to the living room once."""
-    world = Together(seed=seed, start=START, robot=described(control=control), hardware=hardware)
+    world = Together(seed=seed, start=start, robot=described(control=control), hardware=hardware)
     base = world.scene.robot.base
     goal = world.say(GOAL)
     world.run_until(lambda w: w.status.mode is Mode.ACTIVE, LIMIT_S)

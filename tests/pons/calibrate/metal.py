@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, cast
+from functools import cache
+from typing import cast
 
 from lockstep import Together
+from lockstep.forked import forked
 from pons.calibrate.findings import Finding
 from pons.calibrate.flow import Plan, calibrate
 from pons.calibrate.rig import Rig
 from sim import Hardware
-from wire import RobotDescription
+from wire import Pose2, RobotDescription
 from wire.keys import Party
 from wire.session import Session
 
@@ -30,25 +32,30 @@ def believed(**drive: float) -> RobotDescription:
     )
 
 
+@cache
+def _ready(robot: RobotDescription, hardware: Hardware, start: Pose2 | None) -> Together:
+    return Together(robot=robot, hardware=hardware, start=start)
+
+
 @dataclass
 class Bench:
     """Join a world, a rig and what was said."""
 
     robot: RobotDescription = field(default_factory=believed)
     hardware: Hardware = TRUE
-    world_parts: dict[str, Any] = field(default_factory=dict)
+    start: Pose2 | None = None
     said: list[str] = field(default_factory=list)
     tape_m: list[float] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.world = Together(robot=self.robot, hardware=self.hardware, **self.world_parts)
+        self.world = forked(_ready(self.robot, self.hardware, self.start))
         operator = cast("Session", self.world.bus.port(Party.OPERATOR))
         judge = cast("Session", self.world.bus.port(Party.JUDGE))
         self.rig = Rig(operator, judge, lambda: self.world.now_s, self.world.tick)
 
     def calibrate(self, plan: Plan | None = None) -> dict[str, Finding]:
-        """Go through it, briefly."""
-        wanted = plan or Plan(None, shuttles=1, turns=2)
+        """Go through it, as briefly as may be."""
+        wanted = plan or Plan(None, shuttles=1, turns=1)
         found = calibrate(
             self.rig, self.robot, wanted, "now", self.said.append, lambda: self.tape_m.pop(0)
         )

@@ -57,7 +57,7 @@ def test_a_person_measures_with_a_tape() -> None:
         return round(apart_m, 2)  # as a tape is read
 
     bench.tape_m = _Tape(tape)
-    found = bench.calibrate(Plan("measured", shuttles=1, turns=2))
+    found = bench.calibrate(Plan("measured", shuttles=1, turns=1))
     assert found["base.wheel_radius_m"].value == pytest.approx(0.1, rel=0.015)
     assert "a person's measure of distances and the lidar in turns" in (
         found["base.wheel_radius_m"].evidence
@@ -111,7 +111,7 @@ def test_a_pressed_stop_is_left_alone() -> None:
 
 
 def test_too_little_room_is_said_with_figures() -> None:
-    bench = Bench(world_parts={"start": TIGHT})
+    bench = Bench(start=TIGHT)
     with pytest.raises(CalibrationRefused, match=r"turning needs 0\.35 m") as refused:
         bench.calibrate()
     assert refused.value.code == "no_room"
