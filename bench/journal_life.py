@@ -15,6 +15,7 @@ import signal
 import sys
 import threading
 import time
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
 from math import hypot
@@ -28,7 +29,7 @@ from bench.paper import Body, PaperBridge
 from lockstep.scene import SITES
 from planner.brain import ScriptedBrain, ThinkRequest, Thought
 from planner.link import Link
-from planner.mission import Clocks, MissionJournal, Missions
+from planner.mission import BadState, Clocks, MissionJournal, Missions
 from planner.mission.hub import Hub
 from planner.plan import ENDED, Ask, GoalState, Move, Say, StepPlan, Turn
 from planner.route import RoutePoint, RouteRequest, RouteResult
@@ -166,10 +167,11 @@ async def _live(folder: Path, life: int, body: Body, diary: Diary) -> None:
     while any(missions.goal(i).state not in ENDED for i in given):
         for goal in reversed(missions.goals()):
             held = goal.state is GoalState.QUEUED and goal.reason == "held"
-            if goal.state is GoalState.PAUSED or held:
-                await missions.resume(goal.id, act=next(acts))
-            elif goal.state is GoalState.NEEDS_CLARIFICATION:
-                await missions.answer(goal.id, "yes", act=next(acts))
+            with suppress(BadState):  # it went on while we asked for another
+                if goal.state is GoalState.PAUSED or held:
+                    await missions.resume(goal.id, act=next(acts))
+                elif goal.state is GoalState.NEEDS_CLARIFICATION:
+                    await missions.answer(goal.id, "yes", act=next(acts))
         await asyncio.sleep(0.005)
     await missions.close()
 

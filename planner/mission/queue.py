@@ -10,7 +10,7 @@ from planner.mission.effects import DropBrain
 from planner.mission.records import Mission
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended, failure
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message
+from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""
@@ -79,6 +79,8 @@ def pause_running(turn: Turn, reason: str) -> None:
     """Stand still and keep the running mission's place; those who wait are kept waiting."""
     mission = settle_walk(turn)
     if mission is not None:
+        if reason == PauseReason.TELEOP.value:  # from now on another hand moves the robot
+            mission = turn.put(mission, began_at=None)
         turn.put(mission, state=GoalState.PAUSED, reason=reason, outcome=_hint(reason))
         turn.set(running=None)
     hold_queue(turn)

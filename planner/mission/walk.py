@@ -6,8 +6,7 @@ pose lies inside the room's outline. Nothing moves or speaks before the journal 
 
 from __future__ import annotations
 
-from math import cos, sin
-
+from planner.mission.amounts import measure_from, settle_amounts
 from planner.mission.effects import SayAloud
 from planner.mission.failing import fail_step, think
 from planner.mission.legs import RETRY_S, ask_route, lost_route
@@ -28,21 +27,18 @@ from planner.mission.skills import (
     Think,
     act_of,
 )
-from planner.mission.skills.move import along
-from planner.mission.skills.turn import turned_rad
 from planner.mission.turn import Turn
 from planner.mission.verdict import MOTION, accepted_at, ended, spot_at, success
 from planner.plan import Code, GoalState, Outcome, StepState, message, same
 from planner.world.polygon import contains
 from wire import Pose2
 
-BY_AMOUNT = frozenset({"turn", "move"})
-"""Steps that are measured from where they began."""
-
 
 def start_next(turn: Turn) -> None:
     """Give the robot to the next in the queue, as long as it is free."""
     while (mission := next_up(turn)) is not None:
+        settle_amounts(turn, _pose(turn))
+        mission = turn.book.missions[mission.id]
         turn.set(queue=tuple(i for i in turn.book.queue if i != mission.id), running=mission.id)
         turn.put(mission, state=GoalState.RUNNING, reason=None, outcome=None)
         begin_step(turn)
@@ -65,31 +61,8 @@ def begin_step(turn: Turn) -> None:
         turn.set(walk=None)
         pause_running(turn, cause)
         return
-    mission = _measure_from(turn, mission)
+    mission = measure_from(turn, mission, _pose(turn))
     _carry_out(turn, mission, act_of(scene_of(turn, mission)))
-
-
-def _measure_from(turn: Turn, mission: Mission) -> Mission:
-    """Note where a step that is measured began; after an interruption believe the map for the gap.
-
-    Where the beginning is not known any more (another map), it is what odometry says before here.
-    """
-    step, pose = mission.now, _pose(turn)
-    if step is None or pose is None or step.kind not in BY_AMOUNT:
-        return mission
-    done = mission.done
-    if mission.began_at is None:
-        ahead_m, turned = (0.0, done) if step.kind == "turn" else (done, 0.0)
-        began = (
-            pose.x_m - ahead_m * cos(pose.yaw_rad),
-            pose.y_m - ahead_m * sin(pose.yaw_rad),
-            pose.yaw_rad - turned,
-        )
-        return turn.put(mission, began_at=began)
-    began_at = Pose2(*mission.began_at)
-    if step.kind == "turn":
-        return turn.put(mission, done=turned_rad(pose, began_at, done))
-    return turn.put(mission, done=along(pose, began_at)[0])
 
 
 def scene_of(turn: Turn, mission: Mission) -> Scene:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from planner.mission.events import Pause, Resume
 from planner.mission.view import goal_of, progress_of
 from planner.plan import Move, StepPlan, Wait
 from tests.planner.mission.driving import FAILED, SUCCEEDED, standing_still
-from tests.planner.mission.lockstep import Together
+from tests.planner.mission.lockstep import Together, go
 from wire import Pose2
 
 
@@ -86,3 +87,27 @@ def test_what_is_left_is_shown_while_it_runs_and_gone_after(world: Together) -> 
     assert progress is not None
     assert progress["left_s"] == pytest.approx(7.0, abs=1.0)
     assert world.goal(goal).state is not FAILED
+
+
+@pytest.mark.parametrize("crash", [False, True])
+def test_what_is_left_of_a_move_is_left_from_where_others_drove_the_robot(crash: bool) -> None:
+    world = Together()
+    world.run(0.2)
+    goal = moving(world)
+    gone_m = world.bridge.pose.x_m
+    if crash:
+        world.bridge.horizon = None
+        world = world.restart()
+        world.run(0.5)
+        world.act()
+    else:
+        world.event(Pause(goal))
+    world.run(0.5)
+    other = world.give(go("hall"))
+    world.run_until(other, SUCCEEDED)
+    here_m = world.bridge.pose.x_m
+    assert abs(here_m - gone_m) > 0.2
+    world.event(Resume(goal))
+    done = world.run_until(goal, SUCCEEDED)
+    assert world.bridge.pose.x_m - here_m == pytest.approx(2.0 - gone_m, abs=0.06)
+    assert done.steps[0].moved_m == pytest.approx(2.0, abs=0.06)

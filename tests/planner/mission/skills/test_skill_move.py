@@ -7,7 +7,6 @@ from math import pi
 import pytest
 
 from planner.mission.skills import Cannot, Done, Drive, Later, Way, act_of, no_room
-from planner.plan import Code
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2
 
@@ -27,15 +26,6 @@ def test_it_aims_along_the_heading_at_which_it_began(distance_m: float) -> None:
         assert goal == pytest.approx((1.0, 2.0 + distance_m, pi / 2))
         assert act.limit_m is not None
         assert act.limit_m <= abs(distance_m) + 0.5
-
-
-@pytest.mark.parametrize("pose", [Pose2(0.2, 0.4, 0.0), Pose2(0.2, 0.0, 1.0)])
-def test_a_robot_carried_off_its_line_goes_no_further(pose: Pose2) -> None:
-    act = move(1.0, pose=pose, done=0.2)
-    assert isinstance(act, Cannot)
-    assert (act.code, act.reason) == (Code.NOT_REACHED, "carried_away")
-    assert act.said is not None
-    assert "0.20 m forward" in act.said.en
 
 
 @pytest.mark.parametrize(
