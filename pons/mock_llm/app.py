@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import itertools
 import json
-from collections import Counter
+import time
+from collections import Counter, deque
 from collections.abc import Callable
 from typing import Any
 
@@ -21,6 +22,7 @@ from pons.mock_llm.switches import Switches
 from pons.mock_llm.world import request_of
 
 MAX_BODY = 4_000_000
+KEPT = 1000
 EVENTS = "text/event-stream"
 
 
@@ -33,6 +35,8 @@ class Mock:
         self.left = switches.times
         self.served: Counter[str] = Counter()
         self.hostile = itertools.count()
+        self.wrote_s: deque[float] = deque(maxlen=KEPT)
+        """When the last token of each stream was sent, on the monotonic clock of this machine."""
         self.ending: Callable[[], bool] = lambda: False
         """Tells that the server is asked to end, so that what hangs lets go."""
 
@@ -52,7 +56,12 @@ class Mock:
     def report(self) -> dict[str, Any]:
         """Return switches and counts."""
         shown = self.switches.model_dump(mode="json")
-        return {"switches": shown, "calls": self.calls, "served": dict(self.served)}
+        counts = {"calls": self.calls, "served": dict(self.served)}
+        return {"switches": shown, **counts, "wrote_s": list(self.wrote_s)}
+
+    def wrote(self) -> None:
+        """Note that a stream's last token is out."""
+        self.wrote_s.append(time.monotonic())
 
 
 def build(switches: Switches | None = None) -> FastAPI:
@@ -140,7 +149,7 @@ async def _answer(
             return streams.Cut(streams.half(raw), json_type)
     plainly = fault in ("plain", "not_json", "no_choices", "error_200", "packed")
     if body.get("stream") is True and not plainly:
-        events = streams.events(whole, fault, rate, ending)
+        events = streams.events(whole, fault, rate, ending, mock.wrote)
         if fault == "stream_breaks":
             return streams.Cut(events, EVENTS)
         return StreamingResponse(events, media_type=EVENTS)

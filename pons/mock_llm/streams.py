@@ -74,9 +74,13 @@ async def half(raw: bytes) -> AsyncIterator[bytes]:
 
 
 async def events(
-    whole: dict[str, Any], fault: str | None, tokens_per_s: float | None, ending: Ending
+    whole: dict[str, Any],
+    fault: str | None,
+    tokens_per_s: float | None,
+    ending: Ending,
+    wrote: Callable[[], None] = lambda: None,
 ) -> AsyncIterator[bytes]:
-    """Send a reply as a stream of deltas, one token each."""
+    """Send a reply as a stream of deltas, one token each; ``wrote`` hears that the last is out."""
     deltas = list(_deltas(whole["choices"][0]["message"], fault))
     pause_s = 0.0 if tokens_per_s is None else 1.0 / tokens_per_s
     line_end = "\r\n" if fault == "stream_comments" else "\n"
@@ -93,6 +97,7 @@ async def events(
                 yield bad
             return
         yield _event(whole, line_end, delta)
+    wrote()
     while fault == "stream_endless" and not ending():
         yield _event(whole, line_end, {"content": " " * CHUNK})
         await asyncio.sleep(0)
