@@ -12,6 +12,13 @@ from pons.settings import BadSetting, Settings, load, port_of
 EXIT_USAGE = 2
 MOCK_LLM = "mock-llm"
 CONFORMANCE = "conformance"
+EVAL = "eval"
+_APART = {
+    CONFORMANCE: "play broken brains at a simulated bridge",
+    EVAL: "score what a brain plans, on sentences",
+    MOCK_LLM: "serve a model that is none, with faults",
+}
+"""They read their own words."""
 LONGEST_FAULT_S = 3600.0
 
 
@@ -52,10 +59,8 @@ def parser() -> argparse.ArgumentParser:
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
     _replay(words)
-    words.add_parser(
-        CONFORMANCE, help="play broken brains at a simulated bridge: conformance --help"
-    )
-    words.add_parser(MOCK_LLM, help="serve a model that is none, with faults: mock-llm --help")
+    for name, what in _APART.items():
+        words.add_parser(name, help=f"{what}: {name} --help")
     return top
 
 
@@ -148,6 +153,10 @@ def main(arguments: list[str] | None = None) -> int:
             from pons.conformance import main as conformance
 
             return conformance(settings, words[1:])
+        if words[:1] == [EVAL]:  # likewise; it starts nothing
+            from pons.evals.command import main as evaluate
+
+            return evaluate(settings, words[1:])
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)

@@ -44,21 +44,41 @@ class Verdict:
         return not self.fault and not self.wrong
 
     @property
-    def code(self) -> str:
-        """Return the outcome's code, or its kind where it has none."""
-        return str(getattr(self.made, "code", self.made.kind))
+    def why(self) -> str:
+        """Say what is wrong, in one line."""
+        return "; ".join((*([self.fault] if self.fault else []), *self.wrong))
+
+    @property
+    def kind_and_code(self) -> str:
+        """Return what came, in a word or two, or the steps of a plan."""
+        if isinstance(self.made, StepPlan):
+            return " > ".join(_short(step.model_dump()) for step in self.made.steps)
+        return f"{self.made.kind} {getattr(self.made, 'code', '')}".strip()
 
 
 async def score(
     suite: Suite, brain: Brain, clock: Callable[[], float] = time.perf_counter
 ) -> tuple[Verdict, ...]:
-    """Return a verdict for every sentence, in order."""
-    return tuple([await _one(case, suite.world, brain, clock) for case in suite.cases])
+    """Return a verdict for every sentence, in order; each is a goal of its own to a budget.
+
+    Raises:
+        OutOfBudget: a model may not be asked any more.
+    """
+    verdicts = []
+    for number, case in enumerate(suite.cases):
+        verdicts.append(await _one(case, suite.world, brain, clock, f"eval-{number}"))
+    return tuple(verdicts)
 
 
-async def _one(case: Case, world: World, brain: Brain, clock: Callable[[], float]) -> Verdict:
+async def _one(
+    case: Case, world: World, brain: Brain, clock: Callable[[], float], goal: str
+) -> Verdict:
     asked = ThinkRequest(
-        text=case.text, vocabulary=world.vocabulary, room=world.room, runnable=EVERY_KIND
+        text=case.text,
+        vocabulary=world.vocabulary,
+        room=world.room,
+        runnable=EVERY_KIND,
+        goal=goal,
     )
     began, calls, tokens = clock(), 0, 0
     made: Made
@@ -104,6 +124,10 @@ def _wrong(case: Case, made: Made, world: World) -> tuple[str, ...]:
         return ("moves where nothing may move",)
     fits = case.wanted is not None and case.wanted.fits(made)  # a name misspelt on purpose
     return () if fits else wrong_motions(made, case.text, world.vocabulary)
+
+
+def _short(step: dict[str, object]) -> str:
+    return " ".join(str(value) for value in step.values() if value is not None)
 
 
 def _no(code: Code, **facts: str) -> Refuse:

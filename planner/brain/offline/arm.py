@@ -78,7 +78,7 @@ def lacks_arm(found: Match[str], reading: Reading) -> Meaning:
 def _english(text: str, reading: Reading) -> tuple[Step, ...]:
     rest = _EN_VERB.sub("", text)
     if rest == text:
-        return ()
+        return _go_and_see(text, reading)
     thing = _EN_THING.match(rest)
     if thing is None or thing["what"].split()[-1] in _NO_THING:
         return _go_and_see(text, reading)

@@ -52,7 +52,8 @@ RULES: tuple[Rule, ...] = (
         _count,
     ),
     rule(
-        rf"(?:{_SEE})?{_AT}(?:{_SEE})?(?:一共|总共|现在)?(?:有)?(?:几|多少){_UNIT}(?P<what>{THING})",
+        rf"(?:{_SEE})?{_AT}(?:{_SEE})?(?:一共|总共|现在)?(?:有|坐着|站着|躺着|摆着|放着|停着|坐了|"
+        rf"站了)?(?:几|多少){_UNIT}(?P<what>{THING})",
         _count,
     ),
     rule(rf"{_AT}{_FIND}(?P<what>{THING})", _find),

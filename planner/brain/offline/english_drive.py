@@ -105,7 +105,8 @@ RULES: tuple[Rule, ...] = (
         home,
     ),
     rule(
-        r"(?:(?:come|go|get|drive|head|walk|move|return|turn|navigate) )?back(?: again)?"
+        r"(?:(?:come|go|get|drive|head|walk|move|return|turn|navigate) )?(?:straight |"
+        r"right )?back(?: again)?"
         rf"(?: (?:here|to (?:me|us|{_ORIGIN})))?"
         rf"|return(?: (?:here|to (?:me|us|{_ORIGIN})))?|(?:go|drive|move|walk) to {_ORIGIN}",
         come_back,
@@ -140,6 +141,11 @@ RULES: tuple[Rule, ...] = (
     rule(rf"(?:{_HEAD} )?(?:for )?{_WAY}(?: (?:for|by|about))*(?: {EN_LENGTH})?", move),
     rule(rf"(?P<way>reverse|back up)(?: (?:for|by|about))*(?: {EN_LENGTH})?", move),
     rule(rf"{_SPIN} (?:by |about )?{EN_ANGLE}(?: {_SIDE})?", turn),
+    rule(
+        rf"(?:{_SPIN}|make|do) (?:a )?(?:(?P<quarter>quarter)|(?P<about>half))[ -](?:turn|"
+        rf"circle)(?: {_SIDE})?",
+        turn,
+    ),
     rule(rf"{_SPIN} {_SIDE}(?: (?:by |about )?{EN_ANGLE})?", turn),
     rule(rf"{_SPIN} (?P<about>around|about|round)(?: (?:by )?{EN_ANGLE})?|make a u-?turn", turn),
     rule(

@@ -11,7 +11,9 @@ from planner.brain.offline.grammar import rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Rule, Steps
 
-_THING = r"[a-z0-9 '/\u3400-\u9fff-]+?"
+_TWORD = r"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/\u3400-\u9fff-]+"
+_THING = rf"(?:{THE})?(?:{_TWORD} )*?{_TWORD}"
+_COUNTED = r"[a-z0-9 '/-]+?"
 _ANY_THING = rf"(?:{_THING}|{THE}{MARK})"
 _FIND = (
     r"(?:find(?! out)|locate|look (?:around )?for|search for|seek|spot|pinpoint|identify|detect|"
@@ -94,7 +96,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(
         r"(?:(?:tell (?:me|us)|say|report|find out|check|let me know|"
-        rf"see) )?how many (?P<what>{_THING})"
+        rf"see) )?how many (?P<what>{_COUNTED})"
         r"(?: (?:there are|are there|are|is|do you see|can you see|you see|"
         rf"were))?(?: there)?{_MUST}"
         r"(?: (?:who |that )?(?:(?:there )?are )?(?P<how>[a-z' -]+?))?",
@@ -102,13 +104,13 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(
         r"(?:(?:tell (?:me|us)|say|report|find out|check|let me know|"
-        rf"see) )?how many (?P<what>{_THING})"
+        rf"see) )?how many (?P<what>{_COUNTED})"
         r"(?: (?:there are|are there|are|do you see|can you see|you see))?(?: (?P<at_there>there|"
         r"here))?(?P<at>)?",
         _count,
     ),
     rule(
-        rf"count(?: up)?(?: the number of| how many)? (?P<what>{_THING})(?: (?:you (?:see|find)|"
+        rf"count(?: up)?(?: the number of| how many)? (?P<what>{_COUNTED})(?: (?:you (?:see|find)|"
         r"there are|are|that are))?"
         rf"{_AT}",
         _count,

@@ -13,6 +13,7 @@ from re import Match, Pattern
 
 from pydantic import ValidationError
 
+from planner.brain.offline.acts import look
 from planner.brain.offline.meaning import (
     About,
     Clause,
@@ -132,6 +133,8 @@ def next_place(found: Match[str], reading: Reading) -> Meaning | None:
     again = re.match(r"(?:back )?(?:to|into) ", phrase)
     if again and reading.going:
         return go_to(phrase[again.end() :], reading)
+    if reading.scene.kind == "look" and isinstance(meaning, Steps):
+        return look(phrase, phrase, reading)
     if reading.going and isinstance(meaning, Steps):
         goals = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
         patrols = reading.scene.kind == "patrol" and goals

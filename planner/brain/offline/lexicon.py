@@ -188,6 +188,21 @@ def _one_slip(written: str, name: str) -> bool:
 
 
 @lru_cache(maxsize=16)
+def _built(vocabulary: Vocabulary) -> Lexicon:
+    return Lexicon(vocabulary)
+
+
+_KEPT: dict[int, tuple[Vocabulary, Lexicon]] = {}
+"""By identity: comparing two vocabularies costs more than reading a sentence."""
+
+
 def lexicon_of(vocabulary: Vocabulary) -> Lexicon:
     """Return the lexicon of a vocabulary, built once."""
-    return Lexicon(vocabulary)
+    kept = _KEPT.get(id(vocabulary))
+    if kept is not None and kept[0] is vocabulary:
+        return kept[1]
+    lexicon = _built(vocabulary)
+    if len(_KEPT) >= 16:
+        _KEPT.clear()
+    _KEPT[id(vocabulary)] = (vocabulary, lexicon)
+    return lexicon

@@ -28,7 +28,8 @@ def turn(found: Match[str], reading: Reading) -> Meaning:
     elif groups.get("whole"):
         angle = 2 * pi
     else:
-        angle = pi / 2 if side and not groups.get("about") else pi
+        quarter = groups.get("quarter") or side
+        angle = pi / 2 if quarter and not groups.get("about") else pi
     if angle is None:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     right = side.startswith(_RIGHT)

@@ -23,6 +23,7 @@ class Topic(Enum):
     NAME = "name"
     SELF = "self"
     TEAM = "team"
+    MAKER = "maker"
     MOOD = "mood"
     JOKE = "joke"
     TIME = "time"
@@ -54,7 +55,7 @@ _EN: tuple[tuple[Topic, str], ...] = (
     (
         Topic.JOKE,
         (
-            r"(?:me )?(?:a|another|one|some) (?:good |funny |short )?(?:joke|story|riddle)s?|"
+            r"(?:me )?(?:a|another|one|some|any) (?:good |funny |short )?(?:joke|story|riddle)s?|"
             r"something funny"
         ),
     ),
@@ -80,9 +81,14 @@ _EN: tuple[tuple[Topic, str], ...] = (
     (
         Topic.WEATHER,
         (
-            r"(?:the |what the |how the )?(?:weather|forecast)(?: (?:is|like|report))*(?: (?:today|"
+            r"(?:the |what the |how the |how is the |what is the )?(?:weather|forecast)(?: (?:is|"
+            r"like|report))*(?: (?:today|"
             r"outside|tomorrow))?"
         ),
+    ),
+    (
+        Topic.MAKER,
+        r"who (?:built|made|created|programmed|designed) you|your (?:maker|creator|inventor)",
     ),
     (Topic.MOOD, (r"how (?:are you|you are|do you feel|is it going)(?: (?:doing|today|feeling))*")),
 )
@@ -110,6 +116,10 @@ _ZH: tuple[tuple[Topic, str], ...] = (
         (r"今天(?:是)?(?:几号|多少号|几月几号|什么日子|(?:的)?日期)(?:是什么)?|日期"),
     ),
     (Topic.WEATHER, (r"(?:今天|明天|现在|外面)?(?:的)?天气(?:怎么样|如何|好吗|预报)?")),
+    (
+        Topic.MAKER,
+        r"(?:是)?谁(?:造|做|创造|发明|设计|开发)(?:了|出)?(?:的)?你(?:的)?|你是谁(?:造|做|开发)的",
+    ),
     (Topic.MOOD, (r"你(?:今天)?(?:还)?(?:好吗|怎么样|好不好|累吗|开心吗)")),
 )
 
@@ -124,6 +134,10 @@ _SAID = {
     Topic.TEAM: (
         "Nobody told me the name of a team; I am Pons.",
         "没有人告诉我团队的名字；我是 Pons。",
+    ),
+    Topic.MAKER: (
+        "The people of the Pons project built me.",
+        "我是 Pons 项目的人做出来的。",
     ),
     Topic.MOOD: ("I have no moods, and I am ready to drive.", "我没有心情好坏，随时可以出发。"),
     Topic.JOKE: (
@@ -154,9 +168,17 @@ def _whole(rows: tuple[tuple[Topic, str], ...]) -> re.Pattern[str]:
 _EN_TOPIC, _ZH_TOPIC = _whole(_EN), _whole(_ZH)
 
 
+_ASKED = re.compile(
+    r"^(?:what is|what are|do you (?:know|have)|have you got|(?:do you )?(?:want to )?tell me|"
+    r"tell us|"
+    r"i want to know|can you tell me|any|i would like to (?:know|hear)) "
+)
+
+
 def topic_of(words: str) -> Topic | None:
     """Return the topic that a phrase names, in either language."""
-    found = _EN_TOPIC.fullmatch(words) or _ZH_TOPIC.fullmatch(words)
+    plain = _ASKED.sub("", words)
+    found = _EN_TOPIC.fullmatch(words) or _EN_TOPIC.fullmatch(plain) or _ZH_TOPIC.fullmatch(words)
     return Topic(found.lastgroup) if found and found.lastgroup else None
 
 

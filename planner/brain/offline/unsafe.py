@@ -71,7 +71,8 @@ HARM = (
         r"edge|balcony|"
         r"cliff|kerb|curb|escalator)|(?:into|in) (?:the )?(?:pool|water|fire|pond|river|bathtub|"
         r"lake))\b",
-        r"(?:下|上|爬)楼(?:梯)?|(?:冲|开|掉)(?:下|进|到)(?:楼梯|水|泳池|池塘|火)|跳下",
+        r"(?:下|上|爬)楼(?:梯)?|楼梯(?:上)?(?:开|冲|滚|爬|走)|(?:冲|开|掉)(?:下|进|到)(?:楼梯|水|"
+        r"泳池|池塘|火)|跳下",
     ),
 )
 

@@ -1,0 +1,99 @@
+"""Be ``pons eval``: read the words, choose the brain, score, show. Nothing moves."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from planner.brain import Brain, OfflineBrain, OutOfBudget
+from planner.world.errors import SiteError
+from pons.evals.cases import MissingSuite, Suite
+from pons.evals.matchers import BadMatcher
+from pons.evals.report import as_json, content, passed, table
+from pons.evals.score import Verdict, score
+from pons.evals.suites import DATA, HOME_SITE, known, load
+from wire import Misconfigured
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+
+REACHED, MISSED, REFUSED = 0, 1, 2
+
+
+def main(settings: Settings, words: list[str]) -> int:
+    """Score a brain on a suite: 0 the goal is reached, 1 it is not, 2 nothing could be asked."""
+    said = _parser().parse_args(words)
+    try:
+        suites = load(said.suite, said.data, said.site)
+        results = asyncio.run(_all(settings, suites, said.model, yes=said.yes))
+    except (MissingSuite, BadMatcher, SiteError) as wrong:
+        print(f"pons eval: {wrong}", file=sys.stderr)
+        return REFUSED
+    except Misconfigured as wrong:
+        print(f"pons eval: {wrong.code}: {wrong}", file=sys.stderr)
+        return REFUSED
+    except OutOfBudget as spent:
+        print(f"pons eval: {spent.said.en}", file=sys.stderr)
+        return REFUSED
+    name, scored = results
+    if said.json:
+        print(as_json(content(s.name, name, v) for s, v in zip(suites, scored, strict=True)))
+    else:
+        shown = (table(s.name, name, v) for s, v in zip(suites, scored, strict=True))
+        print("\n\n".join(shown))
+    return REACHED if all(map(passed, scored)) else MISSED
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="pons eval",
+        description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
+    )
+    parser.add_argument("suite", help=f"{', '.join(known())}, or a .tsv file")
+    parser.add_argument(
+        "--model",
+        nargs="?",
+        const="",
+        metavar="NAME@URL",
+        help="ask a model: the owner's, or NAME, URL or NAME@URL; else the offline brain",
+    )
+    parser.add_argument("--yes", action="store_true", help="a model elsewhere may be asked")
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--data", type=Path, default=DATA, help="folder of the orders of others")
+    parser.add_argument("--site", type=Path, default=HOME_SITE, help="whose names ours use")
+    return parser
+
+
+async def _all(
+    settings: Settings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
+) -> tuple[str, list[tuple[Verdict, ...]]]:
+    if model is None:
+        return await _scored(suites, OfflineBrain())
+    from planner.brain.endpoint import Address, EndpointBrain
+    from planner.budget import Ledger, Purse
+    from pons.modelchoice import chosen
+
+    owner, whom = chosen(model, settings.home, os.environ)
+    address = Address.parse(whom.url)
+    count = sum(len(suite.cases) for suite in suites)
+    if not address.local and not yes:
+        detail = f"{count} sentences would be sent to {address.host}; if that is meant, say --yes"
+        raise Misconfigured("model_offhost", detail)
+    purse = Purse(owner.budget, Ledger(settings.home), model=whom.name, most_reply=whom.max_tokens)
+    brain = EndpointBrain(
+        whom.model_copy(update={"allow_offhost": True}), settings.home, meter=purse
+    )
+    try:
+        return await _scored(suites, brain)
+    finally:
+        await brain.close()
+        purse.close()
+
+
+async def _scored(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[tuple[Verdict, ...]]]:
+    tag = brain.tag
+    return f"{tag.name} {tag.version}", [await score(suite, brain) for suite in suites]

@@ -1,0 +1,138 @@
+"""Show how a brain did on a suite: a table for people, one JSON object for programs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pons.evals.score import Verdict
+
+GOAL = 0.95
+"""Of the sentences of a suite, with no wrong motion at all."""
+ALL = "all"
+_KINDS = ("plan", "clarify", "refuse", "answer")
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Sum up one group of sentences."""
+
+    group: str
+    split: str
+    count: int
+    right: int
+    wrong_motions: int
+    kinds: tuple[int, int, int, int]  # plans, questions, refusals, answers
+
+    @property
+    def share(self) -> float:
+        """Return the share of allowed outcomes."""
+        return self.right / self.count
+
+
+def lines(verdicts: Sequence[Verdict]) -> list[Line]:
+    """Return one line for each group and split, then the sums."""
+    groups = sorted({verdict.case.group for verdict in verdicts})
+    splits = sorted({verdict.case.split for verdict in verdicts}, reverse=True)
+    found = []
+    for group in (*groups, ALL):
+        for split in (*splits, ALL) if len(splits) > 1 else (ALL,):
+            chosen = [v for v in verdicts if _in(v, group, split)]
+            found += [_line(group, split, chosen)] if chosen else []
+    return found
+
+
+def passed(verdicts: Sequence[Verdict]) -> bool:
+    """Tell whether a suite reaches the goal: enough right, nothing moved wrongly."""
+    right = sum(verdict.right for verdict in verdicts)
+    return right >= GOAL * len(verdicts) and not any(verdict.wrong for verdict in verdicts)
+
+
+def table(name: str, brain: str, verdicts: Sequence[Verdict]) -> str:
+    """Return the table of a suite, with every sentence that went wrong."""
+    rows = [f"{name}: {len(verdicts)} sentences, planned by {brain}", ""]
+    rows.append(
+        f"{'group':18}{'split':10}{'n':>5}{'right':>7}{'':>8}{'wrong motion':>14}  plan/ask/no/tell"
+    )
+    rows += [_row(line) for line in lines(verdicts)]
+    p50, p99 = _times_ms(verdicts)
+    rows += ["", f"seconds a sentence: p50 {p50 / 1e3:.4f}, p99 {p99 / 1e3:.4f}"]
+    faults = [verdict for verdict in verdicts if not verdict.right]
+    rows += ["", "not right:"] if faults else []
+    rows += [f"  {v.case.group}: {v.case.text}\n    {v.kind_and_code}; {v.why}" for v in faults]
+    return "\n".join(rows)
+
+
+def content(name: str, brain: str, verdicts: Sequence[Verdict]) -> dict[str, Any]:
+    """Return the same as plain data."""
+    p50, p99 = _times_ms(verdicts)
+    return {
+        "suite": name,
+        "brain": brain,
+        "passed": passed(verdicts),
+        "calls": sum(verdict.calls for verdict in verdicts),
+        "tokens": sum(verdict.tokens for verdict in verdicts),
+        "ms": {"p50": round(p50, 3), "p99": round(p99, 3)},
+        "groups": [_plain(line) for line in lines(verdicts)],
+        "failures": [_failure(verdict) for verdict in verdicts if not verdict.right],
+    }
+
+
+def as_json(results: Iterable[dict[str, Any]]) -> str:
+    """Write results for a program."""
+    return json.dumps({"suites": list(results)}, ensure_ascii=False, indent=2)
+
+
+def _in(verdict: Verdict, group: str, split: str) -> bool:
+    return group in (ALL, verdict.case.group) and split in (ALL, verdict.case.split)
+
+
+def _line(group: str, split: str, chosen: Sequence[Verdict]) -> Line:
+    kinds = [sum(v.made.kind == kind for v in chosen) for kind in _KINDS]
+    return Line(
+        group,
+        split,
+        len(chosen),
+        sum(verdict.right for verdict in chosen),
+        sum(bool(verdict.wrong) for verdict in chosen),
+        (kinds[0], kinds[1], kinds[2], kinds[3]),
+    )
+
+
+def _row(line: Line) -> str:
+    kinds = "/".join(map(str, line.kinds))
+    return (
+        f"{line.group:18}{line.split:10}{line.count:5}{line.right:7}{line.share:8.1%}"
+        f"{line.wrong_motions:14}  {kinds}"
+    )
+
+
+def _plain(line: Line) -> dict[str, Any]:
+    named = dict(zip(_KINDS, line.kinds, strict=True))
+    return {
+        "group": line.group,
+        "split": line.split,
+        "count": line.count,
+        "right": line.right,
+        "wrong_motions": line.wrong_motions,
+        "outcomes": named,
+    }
+
+
+def _failure(verdict: Verdict) -> dict[str, Any]:
+    return {
+        "text": verdict.case.text,
+        "group": verdict.case.group,
+        "made": verdict.made.model_dump(mode="json"),
+        "why": verdict.why,
+        "wrong_motions": list(verdict.wrong),
+    }
+
+
+def _times_ms(verdicts: Sequence[Verdict]) -> tuple[float, float]:
+    times = sorted(verdict.seconds * 1e3 for verdict in verdicts)
+    if not times:
+        return 0.0, 0.0
+    return times[len(times) // 2], times[min(len(times) - 1, int(len(times) * 0.99))]

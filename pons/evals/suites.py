@@ -1,0 +1,45 @@
+"""Know which suites there are, by name: ours beside this file, others' where their data lies."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pons.evals.cases import MissingSuite, Suite, read_tsv
+from pons.evals.outside import chinese, gpsr
+from pons.evals.world import site_world
+
+OURS = Path(__file__).parent / "suites"
+HOME_SITE = Path(__file__).parents[2] / "sites" / "home"
+DATA = Path(__file__).parents[3] / "shared" / "data" / "commands"
+"""Where the orders of others lie, beside a checkout; --data names another folder."""
+SETS = {"home": ("home_en", "home_zh"), "outside": ("gpsr", "zh")}
+
+
+def known() -> tuple[str, ...]:
+    """Return the names of suites and of sets of them."""
+    return (*SETS, *(path.stem for path in sorted(OURS.glob("*.tsv"))), "gpsr", "zh")
+
+
+def load(name: str, data: Path = DATA, site: Path = HOME_SITE) -> tuple[Suite, ...]:
+    """Return the suites of a name, or of a file of our form.
+
+    Args:
+        name: one of `known`, or the path of a .tsv file.
+        data: the folder of the orders of others.
+        site: the site whose names our own suites use.
+
+    Raises:
+        MissingSuite: no such suite, or its data is not here.
+        SiteError: the site can't be read.
+        BadMatcher: a line of the suite can't be read.
+    """
+    return tuple(_one(part, data, site) for part in SETS.get(name, (name,)))
+
+
+def _one(name: str, data: Path, site: Path) -> Suite:
+    if name in ("gpsr", "zh"):
+        return (gpsr(data) if name == "gpsr" else chinese(data)).halved()
+    path = Path(name) if name.endswith(".tsv") else OURS / f"{name}.tsv"
+    if not path.is_file():
+        raise MissingSuite(f"no suite {name!r}; known: {', '.join(known())}, or a .tsv file")
+    return read_tsv(path, site_world(site, room="study"))

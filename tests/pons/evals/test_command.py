@@ -1,0 +1,77 @@
+"""Check `pons eval` from its words to its table, its JSON and its exit status."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from pathlib import Path
+
+import pytest
+
+from planner.brain import BrainDown, PlanRejected, ScriptedBrain
+from planner.plan import GoTo, StepPlan
+from pons.__main__ import main
+from pons.evals.report import passed
+from pons.evals.score import score
+from pons.evals.suites import load
+
+SUITE = """# split, group, sentence, expectation
+tuned\tdrive\tgo to the kitchen\tgo kitchen
+held\tdrive\t去书房\tgo study
+tuned\tno\tdo not go to the kitchen\tstill negated
+"""
+
+
+@pytest.fixture
+def suite(tmp_path: Path) -> str:
+    path = tmp_path / "mine.tsv"
+    path.write_text(SUITE, encoding="utf-8")
+    return str(path)
+
+
+def test_our_own_suites_reach_the_goal(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["eval", "home"]) == 0
+    shown = capsys.readouterr().out
+    assert "home_en: " in shown
+    assert "held out" in shown
+
+
+def test_results_as_json(suite: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["eval", suite, "--json"]) == 0
+    (result,) = json.loads(capsys.readouterr().out)["suites"]
+    assert (result["suite"], result["passed"], result["failures"]) == ("mine", True, [])
+    sums = [line for line in result["groups"] if line["group"] == "all"]
+    assert {line["split"]: line["count"] for line in sums} == {"tuned": 2, "held out": 1, "all": 3}
+
+
+def test_a_suite_below_the_goal_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    hard = tmp_path / "hard.tsv"
+    hard.write_text("tuned\tdrive\tgo to the moon\tgo kitchen\n", encoding="utf-8")
+    assert main(["eval", str(hard)]) == 1
+    assert "go to the moon" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["nothing"], ["gpsr", "--data", "nowhere"], ["zh", "--data", "nowhere"]],
+    ids=lambda words: words[0],
+)
+def test_what_is_not_there_is_said(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["eval", *words]) == 2
+    assert "pons eval: " in capsys.readouterr().err
+
+
+def test_a_model_elsewhere_needs_a_yes(suite: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["eval", suite, "--model", "some@https://model.example/v1"]) == 2
+    assert "3 sentences would be sent to model.example" in capsys.readouterr().err
+
+
+def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
+    """A wrong drive, no plan and no answer are three faults; only the first would have moved."""
+    (ours,) = load(suite)
+    drive = StepPlan(steps=(GoTo(place="study"),))
+    brain = ScriptedBrain(replies=[drive, PlanRejected("no"), BrainDown("503")])
+    verdicts = asyncio.run(score(ours, brain))
+    assert [verdict.right for verdict in verdicts] == [False, False, False]
+    assert [bool(verdict.wrong) for verdict in verdicts] == [True, False, False]
+    assert not passed(verdicts)
