@@ -55,6 +55,7 @@ def parser() -> argparse.ArgumentParser:
     fenced = words.add_parser("fence", help="show, propose, accept or reject a fence")
     fenced.add_argument("act", choices=("show", "propose", "accept", "reject"))
     fenced.add_argument("what", nargs="?", help="a file to propose, or a proposal's id")
+    _places(words)
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
@@ -94,6 +95,13 @@ def _replay(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     again.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
     again.add_argument("--json", action="store_true", help="with --with-model")
     again.add_argument("--yes", action="store_true", help="with --with-model: do not ask")
+
+
+def _places(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    word = words.add_parser("places", help="list the places, remember one here, forget one")
+    word.add_argument("act", nargs="?", choices=("list", "remember", "forget"), default="list")
+    word.add_argument("name", nargs="?", help="its name")
+    word.add_argument("--zh", metavar="NAME", help="its Chinese name, beside or alone")
 
 
 def _calibrate(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -194,7 +202,7 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
     return goals.act(settings, said.word, said.goal)
 
 
-_TOOLS = frozenset({"doctor", "why", "braking", "fence", "calibrate", "fault", "replay"})
+_TOOLS = frozenset({"doctor", "why", "braking", "fence", "places", "calibrate", "fault", "replay"})
 
 
 def _tool(settings: Settings, said: argparse.Namespace) -> int:
@@ -230,6 +238,10 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
         from pons import fence
 
         return fence.run(settings, said.act, said.what)
+    if said.word == "places":
+        from pons import places
+
+        return places.run(settings, said.act, said.name, chinese=said.zh)
     if said.word == "fault":
         from pons import fault
 

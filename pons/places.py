@@ -1,0 +1,80 @@
+"""Teach the robot places and forget them: ``pons places [list] | remember NAME | forget NAME``.
+
+Talks to the planner alone: it knows where the robot stands, and what may be a name.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+
+from pons.http import PlannerDown, Refused, call
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+
+EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
+PATH = "/v1/places"
+
+
+def run(settings: Settings, act: str, name: str | None, *, chinese: str | None = None) -> int:
+    """Do one of list, remember, forget; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
+    if act != "list" and name is None and (chinese is None or act == "forget"):
+        print(f"no_name: say which place to {act}", file=sys.stderr)
+        return EXIT_USAGE
+    try:
+        if act == "remember":
+            _remember(settings, name, chinese)
+        elif act == "forget":
+            _forget(settings, name or "")
+        else:
+            _list(settings)
+    except Refused as refused:
+        told = " ".join(refused.told.values())
+        print(f"refused: {refused}" + (f"\n{told}" if told else ""), file=sys.stderr)
+        return EXIT_REFUSED
+    except PlannerDown as trouble:
+        print(f"{trouble} Is `pons up` running?", file=sys.stderr)
+        return EXIT_DOWN
+    return EXIT_DONE
+
+
+def _list(settings: Settings) -> None:
+    known = call(settings, "GET", PATH)
+    own = [place for place in known["places"] if place["id"] not in _ids(known["taught"])]
+    for place in own:
+        print(f"{place['id']:<24} {_names(place)}")
+    for place in known["taught"]:
+        why = f"; not used: {place['message']['en']}" if place["why_not"] else ""
+        print(f"{place['id']:<24} {_names(place)}  {_origin(place)}{why}")
+    here = sum(place["why_not"] != "other_map" for place in known["taught"])
+    print(f"{here} of {known['most']} taught on this map")
+
+
+def _remember(settings: Settings, name: str | None, chinese: str | None) -> None:
+    given = {"en": name, "zh": chinese}
+    names = {language: said for language, said in given.items() if said is not None}
+    place = call(settings, "POST", PATH, {"name": names, "source": "cli"})
+    print(f"remembered {place['id']}: {_names(place)}  {_origin(place)}")
+
+
+def _forget(settings: Settings, name: str) -> None:
+    place = call(settings, "DELETE", f"{PATH}/{quote(name, safe='')}")
+    print(f"forgotten {place['id']}: {_names(place)}")
+
+
+def _ids(taught: list[dict[str, Any]]) -> set[str]:
+    return {place["id"] for place in taught if not place["why_not"]}
+
+
+def _names(place: dict[str, Any]) -> str:
+    en, zh = place["name"]["en"], place["name"]["zh"]
+    return str(en) if en == zh else f"{en} / {zh}"
+
+
+def _origin(place: dict[str, Any]) -> str:
+    """Say where and by whom a place was taught; the minute is enough."""
+    pose, when = place["pose"], place["taught"][:16].replace("T", " ")
+    at = f"({pose['x_m']:.2f}, {pose['y_m']:.2f}) m"
+    return f"at {at}, map {place['map_id']}, taught by {place['by']} on {when} UTC"
