@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, cast
 from bench import endpoint
 from bench.measure import (
     brain_silent,
+    brains_compared,
     clone_to_url,
     codec_fuzz,
     core_step,
@@ -45,6 +46,7 @@ ALL: tuple[Measure, ...] = cast(
         footprint,
         goal_to_waypoint,
         endpoint,
+        brains_compared,
         streaming,
         voice,
         page,
