@@ -64,7 +64,8 @@ class Walked:
         by_line = self.lines.get(name, {})
         keys = {key for line in lines for key in by_line.get(line, ()) if key in self.items}
         before = self.noticed[function]
-        return sorted(keys, key=lambda key: (-before[key], self.order[key]))
+        own = {key for key in keys if f"_{name}" in self.items[key].path.stem}
+        return sorted(keys, key=lambda key: (-before[key], key not in own, self.order[key]))
 
     def _measured(self) -> tuple[dict[str, float], Lines]:
         took: dict[str, float] = {}

@@ -96,9 +96,7 @@ def _begin_stop(tick: Tick, action: Action, why: str, cause: Cause, *, reset_nee
     s = tick.s
     by_row = isinstance(cause, Action)
     if s.mode is Mode.STOPPING:
-        escalate(tick, action, why, reset_needed=reset_needed)
-        if s.stopping is not None and not by_row:
-            s.stopping = replace(s.stopping, resumes=False)
+        escalate(tick, action, why, reset_needed=reset_needed)  # what grows harder never goes on
         return
     s.stopping = Stopping(
         action=action,

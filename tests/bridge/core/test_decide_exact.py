@@ -198,3 +198,6 @@ def test_who_stands_at_the_end_has_arrived(
     arrive(tick, at_end=at_end)
     assert tick.s.mode is mode
     assert tick.s.leg.reached is (mode is Mode.HOLD and start == "active")
+    if mode is Mode.HOLD:
+        why = "reached" if start == "active" else "released"
+        assert tick.events[-1] == ("mode", f"ACTIVE HOLD {why}")

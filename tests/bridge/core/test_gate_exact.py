@@ -6,11 +6,17 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.gate import _note, look, reconsider, scan_age_s, through
+from bridge.core.braking import reaction_s
+from bridge.core.fence import build_fence
+from bridge.core.fencegate import fence_scale
+from bridge.core.gate import _inside_fence, _note, look, reconsider, scan_age_s, through
+from bridge.core.kinematics import scaled
 from bridge.core.obstaclegate import look_m
 from bridge.core.scanpicture import ScanPicture
 from bridge.core.state import Gate
+from bridge.core.state_braking import Learnt
 from bridge.core.tick import Tick
+from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import STILL, Mode, Twist2
@@ -195,3 +201,28 @@ def test_a_scan_is_as_old_as_its_row_judges() -> None:
     assert free is not None
     assert free.s_m == look_m(ROBOT)
     assert tick.s.mode is Mode.ACTIVE
+
+
+@pytest.mark.parametrize("learnt", [Learnt(), Learnt(lag_more_s=0.2, decel_share=0.5)])
+@pytest.mark.parametrize("start", ["active", "teleop"])
+@pytest.mark.parametrize("v_mps", [0.4, 0.1, -0.4])
+def test_the_fence_counts_what_was_learnt_of_the_brakes(
+    learnt: Learnt, start: str, v_mps: float
+) -> None:
+    tick = tick_of(reached(start))
+    edge_m = reached(start).here.x_m + 0.16
+    square = ((-5.0, -5.0), (edge_m, -5.0), (edge_m, 5.0), (-5.0, 5.0))
+    fence = build_fence(MAP_ID, (square,))
+    tick.config, tick.robot_in_map = replace(tick.config, fence=fence), reached(start).here
+    tick.s.learnt, tick.s.motion.bound_by = learnt, "robot"
+    twist = Twist2(v_mps, 0.0)
+    reaction = reaction_s(0.0, 0.1, ROBOT.drive.lag_s + learnt.lag_more_s, ROBOT.limits)
+    scale = fence_scale(
+        fence, reached(start).here, twist, ROBOT.base, ROBOT.limits, reaction, learnt.decel_share
+    )
+    if scale < 1.0 and start == "teleop":
+        scale = max(scale, min(1.0, 0.2 / abs(v_mps)))
+    assert _inside_fence(tick, twist) == scaled(twist, scale)
+    assert tick.s.motion.bound_by == ("robot" if v_mps < 0.0 else "fence")
+    tick.config = replace(tick.config, fence=None)
+    assert _inside_fence(tick, twist) is twist

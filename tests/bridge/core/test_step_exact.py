@@ -7,12 +7,15 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import Inbox, initial
+from bridge.core.drive_out import followed
 from bridge.core.state import Gate
+from bridge.core.step import _reconsider
 from bridge.core.stick import CAUSAL_S
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
-from wire import IDENTITY, Mode
+from tests.bridge.core.test_quick_core import tick_of
+from wire import IDENTITY, STILL, Mode
 
 
 def test_a_run_begins_in_its_first_epoch_with_its_first_nonce() -> None:
@@ -132,3 +135,16 @@ def test_who_has_arrived_leaves_active_in_the_same_tick() -> None:
     world.until(Mode.HOLD, 3.0)
     assert world.state.source == ""
     assert world.here != IDENTITY
+
+
+def test_to_ask_what_would_be_asked_follows_nothing() -> None:
+    tick = tick_of(reached("hold_granted"))
+    tick.s.leg = replace(reached("turning").state.leg, sent_s=tick.now_s)
+    tick.s.gate = Gate(blocked=True)
+    tick.robot_in_map = IDENTITY
+    before = tick.s.motion.follow
+    assert followed(tick)[0] != STILL
+    assert tick.s.motion.follow != before, "asked by itself it would turn from now on"
+    tick.s.motion.follow = before
+    _reconsider(tick)
+    assert tick.s.motion.follow is before

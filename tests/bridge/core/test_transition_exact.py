@@ -14,7 +14,7 @@ from bridge.core.tick import Tick
 from bridge.core.transition import escalate, go, profile_of
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
-from wire import STILL, Action, Held, HeldReason, Mode
+from wire import STILL, Action, Held, HeldReason, Mode, Twist2
 
 LATER_S = 0.5
 
@@ -146,8 +146,11 @@ HELD = Held(reason=HeldReason.STOP, id="s1")
 def test_a_protective_stop_ramps_where_there_is_torque(start: str, held: Held | None) -> None:
     tick = later(start)
     tick.s.held = held
-    source, had = tick.s.source, tick.s.motion.limiter
     powered = tick.powered
+    if not powered:  # nothing of a motion is left in these modes, and nothing may come back
+        tick.s.motion.limiter = LimiterState(Twist2(0.1, 0.0))
+        tick.s.stopping = Stopping(Action.HOLD2, "old", 0.0, NO_STOP, "W", resumes=True)
+    source, had = tick.s.source, tick.s.motion.limiter
     go(tick, Request.ESTOP, "estop")
     plan = plan_stop(had, ROBOT.base, ROBOT.limits, Profile.FASTEST)
     if powered:

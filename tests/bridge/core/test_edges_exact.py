@@ -1,0 +1,237 @@
+"""Stand exactly on the edge of each window: what began at 0 s is judged when its window is over.
+
+Elsewhere tests keep a millionth away from an edge; here the very number counts, so that no ``<``
+can become ``<=`` unseen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from bridge.core import (
+    decide,
+    detect_loop,
+    gate,
+    latch,
+    legs,
+    manners,
+    operator,
+    ownership,
+    stick,
+    stops,
+)
+from bridge.core.arming import ready_lacks, reset_lacks
+from bridge.core.detect_brain import brain, commands
+from bridge.core.inbox import LoopFacts
+from bridge.core.state import Gate, RowUp
+from bridge.core.state_orders import External
+from bridge.core.stopcurve import too_long
+from bridge.core.tick import Tick
+from tests.bridge.core.reached import reached
+from tests.bridge.core.test_quick_core import ROBOT, tick_of
+from tests.bridge.core.test_stops_exact import PLAN, stop_of
+from wire import Mode
+
+Judge = Callable[[Tick], object]
+
+
+def rows(detector: Callable[[Tick, list[tuple[str, str]]], None]) -> Callable[[Tick], list[str]]:
+    def judge(tick: Tick) -> list[str]:
+        dirty: list[tuple[str, str]] = []
+        detector(tick, dirty)
+        return [name for name, _ in dirty]
+
+    return judge
+
+
+def owner(echo_s: float, used_s: float | None = None) -> Judge:
+    """Let the owner have shown so much; a status of 0 s is what it has seen last."""
+
+    def judge(tick: Tick) -> object:
+        tick.s.ownership = replace(tick.s.ownership, echo_s=echo_s, used_s=used_s)
+        tick.s.leg = replace(tick.s.leg, horizon=None)
+        return rows(brain)(tick)
+
+    return judge
+
+
+def followed(tick: Tick) -> object:
+    tick.s.leg = replace(tick.s.leg, sent_s=0.0)
+    return [legs.callable_horizon(tick), *rows(commands)(tick)]
+
+
+def external(tick: Tick) -> object:
+    tick.s.leg = replace(tick.s.leg, horizon=None)
+    tick.s.external = External(0.1, 0.0, dead_man=True, sent_s=0.0)
+    return rows(commands)(tick)
+
+
+def spent_bucket(tick: Tick) -> object:
+    tick.s.leg = replace(tick.s.leg, horizon=None)
+    tick.s.bad_bucket = 5.0
+    return rows(commands)(tick)
+
+
+def alive(tick: Tick) -> object:
+    tick.s.ownership = replace(tick.s.ownership, echo_s=0.0)
+    return ownership.alive(tick)
+
+
+def cleaned(tick: Tick) -> object:
+    tick.s.rows = {"LIDAR_STALE.0": RowUp(0.0, 0.0, "old")}
+    latch.update(tick, [])
+    return list(tick.s.rows)
+
+
+def renewed(tick: Tick) -> object:
+    tick.s.operator = replace(tick.s.operator, nonce_made_s=0.0)
+    before = tick.s.operator.nonce_no
+    operator.renew_nonce(tick)
+    return tick.s.operator.nonce_no - before
+
+
+def old_nonce(tick: Tick) -> object:
+    tick.s.operator = replace(tick.s.operator, old_nonce_no=0, old_until_s=tick.now_s)
+    text = operator.nonce_text(tick, 0)
+    return list(operator.bad_proof(tick, "arm", "a1", text, authentic=True))
+
+
+def held(received_s: float, sent_s: float) -> Judge:
+    def judge(tick: Tick) -> object:
+        tick.s.stick = replace(tick.s.stick, received_s=received_s, sent_s=sent_s)
+        stick.watch(tick)
+        return tick.s.mode
+
+    return judge
+
+
+def arming(**state: object) -> Judge:
+    def judge(tick: Tick) -> object:
+        tick.s.drive.still_since_s, tick.s.drive.received_s = tick.now_s - 9.0, tick.now_s
+        if "pressed_s" in state:
+            tick.s.stick = replace(tick.s.stick, pressed_s=0.0)
+        if "row" in state:
+            tick.s.rows = {str(state["row"]): RowUp(0.0, 0.0, "seen")}
+        return [code for code, _ in ready_lacks(tick)]
+
+    return judge
+
+
+def reset(**state: object) -> Judge:
+    def judge(tick: Tick) -> object:
+        tick.s.drive.still_since_s, tick.s.drive.received_s = tick.now_s - 9.0, tick.now_s
+        tick.s.buttons = replace(tick.s.buttons, pressed_s=0.0 if "pressed_s" in state else None)
+        tick.s.rows = {str(state["row"]): RowUp(0.0, 0.0, "seen")} if "row" in state else {}
+        return [code for code, _ in reset_lacks(tick)]
+
+    return judge
+
+
+def measured(tick: Tick) -> object:
+    tick.s.drive.received_s = 0.0
+    return not stops._unmeasured(tick)
+
+
+def slow(tick: Tick) -> object:
+    tick.s.drive.still_since_s = None
+    tick.s.stopping = stop_of(-1.0, slow_since_s=0.0)
+    tick.s.odometry = replace(tick.s.odometry, measured=reached("active").state.odometry.measured)
+    return stops._failure(tick)
+
+
+def shut(tick: Tick) -> object:
+    yaw_rad = tick.s.odometry.base_in_odom.yaw_rad
+    tick.s.gate = Gate(shut_since_s=0.0, shut_yaw_rad=yaw_rad)
+    gate._note(tick, shut=True)
+    return tick.s.gate.blocked
+
+
+def late(count: int, within: str) -> Judge:
+    def judge(tick: Tick) -> object:
+        if within == "late_at_s":
+            tick.s.loop = replace(tick.s.loop, late_at_s=(0.0,) * count)
+            tick.inbox = replace(tick.inbox, loop=LoopFacts(late_s=1.0))
+        else:
+            tick.s.loop = replace(tick.s.loop, gaps_at_s=(0.0,) * count)
+            tick.dt_s = 0.2
+        return rows(detect_loop.loop)(tick)
+
+    return judge
+
+
+def waits(must_stop: bool) -> Judge:
+    def judge(tick: Tick) -> object:
+        tick.s.waits_since_s = 0.0
+        tick.s.rows = {"LIDAR_STALE.0": RowUp(0.0, 0.0, "old")}
+        tick.s.gate = Gate(blocked=not must_stop)
+        decide._tire(tick, must_stop=must_stop)
+        return tick.s.grants.mission
+
+    return judge
+
+
+CASES: tuple[tuple[str, float, Judge, object], ...] = (
+    ("active", 0.15, owner(echo_s=0.0), []),
+    ("active", 0.3, owner(echo_s=0.0), ["BRAIN_LATE.0"]),
+    ("active", 5.0, owner(echo_s=0.0), ["BRAIN_LOST.0"]),
+    ("active", 1.0, owner(echo_s=1.0, used_s=0.0), []),
+    ("active", 0.5, followed, [True]),
+    ("active", 0.25, external, []),
+    ("active", 0.25, spent_bucket, ["CMD_BAD.0"]),
+    ("active", 0.3, alive, True),
+    ("active", 1.0, cleaned, []),
+    ("disarmed", 60.0, renewed, 1),
+    ("disarmed", 10.0, old_nonce, []),
+    ("teleop", 0.25, held(0.0, 0.25), Mode.TELEOP),
+    ("teleop", 0.4, held(0.4, 0.0), Mode.TELEOP),
+    ("disarmed", 0.25, arming(pressed_s=0.0), ["stick_not_neutral"]),
+    ("disarmed", 2.0, arming(row="RUNAWAY.0"), ["runaway"]),
+    ("fault", 2.0, reset(pressed_s=0.0), []),
+    ("fault", 2.0, reset(row="RUNAWAY.0"), []),
+    ("stopping_by_row", 0.25, measured, True),
+    ("stopping_by_row", 0.15, slow, "stop_too_slow"),
+    ("active", 0.5, shut, True),
+    ("active", 1.0, late(4, "late_at_s"), ["LOOP_LATE.0"]),
+    ("active", 10.0, late(2, "gaps_at_s"), ["LOOP_LATE.1", "LOOP_LATE.2"]),
+    ("hold_granted", 30.0, waits(True), None),
+    ("hold_granted", 300.0, waits(False), None),
+)
+
+
+@pytest.mark.parametrize(("start", "now_s", "judge", "expected"), CASES)
+def test_on_the_edge(start: str, now_s: float, judge: Judge, expected: object) -> None:
+    tick = tick_of(reached(start))
+    tick.now_s = now_s
+    assert judge(tick) == expected
+
+
+def test_a_stop_as_long_as_it_may_be_is_not_too_long() -> None:
+    lag_s = ROBOT.drive.lag_s
+    most_s = 1.5 * (PLAN.duration_s + lag_s) + 0.3
+    assert not too_long(PLAN, most_s, lag_s)
+
+
+def test_a_full_bucket_stays_full_and_an_empty_one_empty() -> None:
+    tick = tick_of(reached("active"))
+    tick.s.bad_bucket = 10.0
+    manners.bad(tick, "x")
+    assert tick.s.bad_bucket == 10.0
+
+
+@pytest.mark.parametrize(("sent_s", "lateness"), [(0.0, "before_jump"), (0.1, None)])
+def test_a_message_of_the_very_moment_of_a_jump_is_of_before(
+    sent_s: float, lateness: str | None
+) -> None:
+    tick = tick_of(reached("active"))
+    tick.now_s = 0.5
+    tick.s.pose = replace(tick.s.pose, jumped_s=0.0)
+    horizon = tick.s.leg.horizon
+    assert horizon is not None
+    assert horizon.ttl_s == 0.5
+    assert legs._late(tick, horizon, sent_s) == lateness
+    tick.s.pose = replace(tick.s.pose, jumped_s=None)
+    assert legs._late(tick, horizon, 0.0) is None
+    assert legs._late(tick, horizon, -1e-9) == "too_old"
