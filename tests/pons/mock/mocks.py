@@ -19,20 +19,21 @@ START_LIMIT_S = 20.0
 class RunningMock:
     """Be one mock that listens."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, client: httpx.Client) -> None:
         self.url = url
+        self._client = client
         self._root = url.removesuffix("/v1")
 
     def set(self, **switches: Any) -> dict[str, Any]:
         """Change how it behaves."""
-        reply = httpx.post(f"{self._root}/mock", json=switches, trust_env=False)
+        reply = self._client.post(f"{self._root}/mock", json=switches)
         assert reply.status_code == 200, reply.text
         found: dict[str, Any] = reply.json()
         return found
 
     def report(self) -> dict[str, Any]:
         """Return what it has served."""
-        found: dict[str, Any] = httpx.get(f"{self._root}/mock", trust_env=False).json()
+        found: dict[str, Any] = self._client.get(f"{self._root}/mock").json()
         return found
 
 
@@ -49,9 +50,12 @@ def running_mock(switches: Switches | None = None) -> Iterator[RunningMock]:
         port = ears.getsockname()[1]
         thread = threading.Thread(target=server.run, kwargs={"sockets": [ears]}, daemon=True)
         thread.start()
+        # Certificates would cost 0.1 s for each client, and none is looked at here.
+        client = httpx.Client(trust_env=False, verify=False)
         try:
-            yield RunningMock(f"http://127.0.0.1:{port}/v1")
+            yield RunningMock(f"http://127.0.0.1:{port}/v1", client)
         finally:
+            client.close()
             server.should_exit = True
             thread.join(START_LIMIT_S)
             assert not thread.is_alive()
