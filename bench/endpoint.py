@@ -1,6 +1,6 @@
 """Measure what a model's endpoint costs beside the call itself, and a stop while the model hangs.
 
-The mock model runs in a process of its own and answers at once. `plan` is a mission's own thinking
+The endpoint runs in a process of its own and answers at once. `plan` is a mission's own thinking
 (prompt, call, validation) beside the bare httpx call with the same body, turn by turn; `in the
 planner` is the real planner's own record, from a goal's acceptance to its plan.
 """
@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 
+from bench.atonce import counts, hang, instant
 from bench.lab import until
 from bench.report import Row, row_of
 from bench.robot import SLOW, Robot, free_port
@@ -68,7 +69,7 @@ def measure(lab: Lab) -> list[Row]:
     refused = [run["refused"] for run in whole]
     said = f"{QUEUED - max(refused, default=0)} think, {max(refused, default=0)} get queue_full"
     return [
-        row_of("bare httpx call", "ms", "", bare, "same body, same mock"),
+        row_of("bare httpx call", "ms", "", bare, "same body, same endpoint"),
         row_of("accepted -> validated plan", "ms", "p50 <= 8, p99 <= 25", plan, "thinking alone"),
         row_of("what thinking adds", "ms", "", added, "pair by pair"),
         row_of("accepted -> validated plan, in the planner", "ms", "p50 <= 8, p99 <= 25", inside,
@@ -109,14 +110,8 @@ def _answers(port: int) -> bool:
         return False
 
 
-def _switch(url: str, **switches: Any) -> dict[str, Any]:
-    reply = httpx.post(url.replace("/v1", "/mock"), json=switches, trust_env=False)
-    found: dict[str, Any] = reply.raise_for_status().json()
-    return found
-
-
 def _plans(lab: Lab) -> dict[str, list[float]]:
-    with lab.folder() as home, mock_model(home) as url:
+    with lab.folder() as home, instant(home) as url:
         return asyncio.run(_pairs(home, url))
 
 
@@ -151,7 +146,7 @@ def _robot(lab: Lab) -> dict[str, Any]:
     """Measure in the real system."""
     with ExitStack() as stack:
         home = stack.enter_context(lab.folder())
-        url = stack.enter_context(mock_model(home))
+        url = stack.enter_context(instant(home))
         stack.enter_context(_environment(PONS_MODEL_URL=url, PONS_MODEL="mock"))
         robot = Robot(home, "two_room")
         bridge = robot.children["bridge"]
@@ -159,10 +154,10 @@ def _robot(lab: Lab) -> dict[str, Any]:
         stack.enter_context(robot)
         robot.make_ready()
         robot.forget()
-        before = _switch(url)["calls"]
+        before = counts(url)["calls"].get("mock", 0)
         inside_ms = [_planned_ms(robot) for _ in range(lab.count(IN_PLANNER, 4 * IN_PLANNER))]
-        calls = _switch(url)["calls"] - before
-        _switch(url, fault="hang")
+        calls = counts(url)["calls"]["mock"] - before
+        hang(url)
         asked_s, refused = [], 0
         for number in range(STOPS):
             lab.say(f"stop {number + 1}/{STOPS}")

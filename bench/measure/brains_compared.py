@@ -12,26 +12,22 @@ import os
 import statistics
 import subprocess
 import sys
-import time
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import httpx
-
+from bench.atonce import counts, instant
 from bench.endpoint import ORDER
 from bench.instant import PLAN
-from bench.lab import Missed, until
+from bench.lab import Missed
 from bench.peers.environment import NoPeers, peers_python
 from bench.report import Row, row_of
-from bench.robot import free_port
 from planner.brain import ThinkRequest
 from planner.brain.prompt import Prompt
 from planner.brain.schema import step_models
 from planner.mission.facts import vocabulary_of
 from planner.plan import Language
 from planner.world import Site
-from pons.processes import Child
 from pons.settings import CHECKOUT
 
 if TYPE_CHECKING:
@@ -45,7 +41,6 @@ LONG_ONLY = True
 ROUNDS = 12
 EACH = 40
 WARM = 20
-PATIENCE_S = 60.0
 SITE = CHECKOUT / "sites" / "home"
 OURS = ("bench.peers.bare_httpx", "bench.peers.ours")
 PEERS = ("bench.peers.pydantic_ai_agent", "bench.peers.langchain_agent")
@@ -163,33 +158,6 @@ def _contender(python: Path, module: str, facts: Path, folder: Path) -> Iterator
     finally:
         process.kill()
         process.communicate()
-
-
-@contextmanager
-def instant(folder: Path) -> Iterator[str]:
-    """Run the endpoint that answers at once; yield its base URL."""
-    port = free_port()
-    child = Child("instant", ["bench.instant", "--port", str(port)], folder / "instant.log")
-    child.start(time.monotonic())
-    url = f"http://127.0.0.1:{port}/v1"
-    try:
-        until(lambda: _answers(url), PATIENCE_S, "the instant endpoint", 0.05)
-        yield url
-    finally:
-        child.stop(4.0)
-
-
-def counts(url: str) -> dict[str, Any]:
-    """Return calls and characters by model."""
-    found: dict[str, Any] = httpx.get(url.replace("/v1", "/counts"), trust_env=False).json()
-    return found
-
-
-def _answers(url: str) -> bool:
-    try:
-        return bool(counts(url) is not None)
-    except httpx.HTTPError:
-        return False
 
 
 def _facts(folder: Path, url: str) -> Path:
