@@ -38,6 +38,10 @@ MAP_CHANGED = Bilingual(
     en="The map has changed since: places are found on the new one, but there is no way back.",
     zh="地图已更换：地点以新地图为准，但无法返回原来的位置。",
 )
+HOW_FAR_UNKNOWN = Bilingual(
+    en="The map has changed since: how far this step had come is not known, so I stay here.",
+    zh="地图已更换：无法得知这一步完成了多少，所以不动。",
+)
 IN_HAND = frozenset(
     {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
 )
@@ -245,8 +249,11 @@ def restart(turn: Turn, event: Restarted) -> None:
 
 def _forget_poses(turn: Turn, mission: Mission) -> None:
     """Drop where a goal began on another map: a point of that map is nowhere on this one."""
-    if mission.map_id:
-        mission = turn.put(mission, accepted_at=None, began_at=None)
+    if mission.map_id and mission.began_at is not None:  # better unfinished than done twice
+        said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
+        finish(turn, mission, GoalState.FAILED, said, "map_changed")
+    elif mission.map_id:
+        mission = turn.put(mission, accepted_at=None)
         if mission.state is GoalState.PAUSED:
             said = Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED)
             turn.put(mission, outcome=said)

@@ -110,3 +110,19 @@ def test_a_pause_before_the_question_was_said_asks_it_silently() -> None:
     world.disk = True
     world.event(Journalled(world.book.written))
     assert (world.goal(goal).state, world.said) == (ASKS, [])
+
+
+@pytest.mark.parametrize("asks", [False, True])
+def test_forget_that_means_what_thinks_or_asks_where_nothing_runs(
+    world: Together, asks: bool
+) -> None:
+    paused = world.give(go("hall"))
+    world.event(Pause(paused))
+    first = world.give(PLAN if asks else None)
+    if asks:
+        world.run_until(first, ASKS)
+    second = world.give(go("kitchen"), replace=True)
+    assert world.goal(first).state is CANCELLED
+    assert world.goal(paused).state is PAUSED, "what a person paused keeps its place"
+    assert world.dropped == ([] if asks else [first])
+    world.run_until(second, SUCCEEDED)
