@@ -1,0 +1,231 @@
+"""Hold which horizon is followed, what it leaves of the one before, and when a leg is done."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from bridge.core import external, legs
+from bridge.core.legs import hear_waypoints, judge_arrival, residual
+from bridge.core.pursuit import NEW, FollowState
+from bridge.core.state_orders import External
+from bridge.core.tick import Tick
+from tests.bridge.core.fake_planner import MAP_ID
+from tests.bridge.core.reached import reached
+from tests.bridge.core.test_quick_core import tick_of
+from wire import STILL, Owner, Pose2, Twist2, Velocity, Waypoint, Waypoints
+
+FOLLOWED = FollowState(0.4, turning=True, settled=True, tries=2)
+
+
+def driving() -> Tick:
+    """Return a tick of a robot on its way, at (1, 0) of its map."""
+    tick = tick_of(reached("active"))
+    tick.robot_in_map = Pose2(1.0, 0.0, 0.0)
+    tick.s.motion.follow = FOLLOWED
+    tick.s.bad_bucket = 3.0
+    return tick
+
+
+def horizon(tick: Tick, *xs: float, **more: object) -> Waypoints:
+    seq = (tick.s.ownership.waypoints_seq or 0) + 1
+    points = tuple(Waypoint(x_m=x, y_m=0.0, speed_mps=0.3) for x in xs)
+    made = {
+        "planner_id": "p1", "epoch": tick.epoch, "seq": seq, "seen": tick.s.voice.status_seq,
+        "mission": "m1", "leg": 1, "map_id": MAP_ID, "ttl_s": 0.5, "points": points,
+        "final": False,
+    }  # fmt: skip
+    return Waypoints.model_validate(made | more)
+
+
+@pytest.mark.parametrize(
+    ("more", "code", "score", "refusal"),
+    [
+        ({"planner_id": "p2"}, "not_owner", 3.0, None),
+        ({"mission": "m2"}, "no_grant", 3.0, None),
+        ({"seq": 1}, "seq_backwards", 4.0, None),
+        ({"leg": 0}, "old_leg", 3.0, None),
+        ({"map_id": "b" * 16}, "wrong_map", 4.0, "wrong_map"),
+        ({"points": (Waypoint(x_m=3.0, y_m=0.0, speed_mps=0.3),)}, "first_point_far", 4.0,
+         "first_point_far"),
+    ],
+)  # fmt: skip
+def test_what_is_not_followed_leaves_what_is(
+    more: dict[str, object], code: str, score: float, refusal: str | None
+) -> None:
+    tick = driving()
+    before = tick.s.leg
+    hear_waypoints(tick, horizon(tick, 1.1, 1.2, **more))
+    assert tick.reasons == [code]
+    assert tick.s.bad_bucket == score
+    assert tick.s.leg == replace(before, refusal=refusal)
+    assert tick.s.motion.follow == FOLLOWED
+
+
+def test_the_same_number_again_and_another_brain_are_not_followed() -> None:
+    tick = driving()
+    hear_waypoints(tick, horizon(tick, 1.1, 1.2, seq=tick.s.ownership.waypoints_seq))
+    assert (tick.reasons, tick.s.bad_bucket) == (["repeated"], 3.0)
+    tick = driving()
+    owner = Owner(planner_id="p1", kind="external")
+    tick.s.ownership = replace(tick.s.ownership, owner=owner)
+    hear_waypoints(tick, horizon(tick, 1.1, 1.2))
+    assert tick.reasons == ["no_grant"]
+
+
+def test_every_fault_is_told_but_scored_once() -> None:
+    tick = driving()
+    hear_waypoints(tick, horizon(tick, 3.0, 3.9))
+    assert tick.reasons == ["first_point_far", "bad_spacing"]
+    assert tick.s.bad_bucket == 4.0
+    assert tick.s.leg.refusal == "first_point_far"
+    tick = driving()
+    tick.robot_in_map = None
+    hear_waypoints(tick, horizon(tick, 1.1, 1.2))
+    assert (tick.reasons, tick.s.bad_bucket, tick.s.leg.refusal) == (["no_pose"], 3.0, "no_pose")
+    tick = driving()
+    tick.robot_in_map = None
+    hear_waypoints(tick, horizon(tick))
+    assert tick.reasons == [], "no points need no pose"
+
+
+@pytest.mark.parametrize(
+    ("had_horizon", "had_goal", "final", "follow"),
+    [
+        (True, None, False, FollowState(turning=True)),
+        (True, 1.2, False, FollowState(0.0, turning=True, settled=True, tries=2)),
+        (True, 1.2, True, FollowState(0.0, turning=True, settled=True, tries=2)),
+        (True, 9.0, True, FollowState(turning=True)),
+        (True, 9.0, False, FollowState(0.0, turning=True, settled=True, tries=2)),
+        (False, 1.2, True, NEW),
+    ],
+)
+def test_a_horizon_of_the_same_leg_goes_on_where_the_last_one_was(
+    had_horizon: bool, had_goal: float | None, final: bool, follow: FollowState
+) -> None:
+    tick = driving()
+    goal = None if had_goal is None else Waypoint(x_m=had_goal, y_m=0.0, speed_mps=0.3)
+    kept = tick.s.leg.horizon if had_horizon else None
+    tick.s.leg = replace(tick.s.leg, goal=goal, horizon=kept, refusal="wrong_map")
+    new = horizon(tick, 1.1, 1.2, final=final)
+    hear_waypoints(tick, new)
+    leg = tick.s.leg
+    assert tick.s.motion.follow == follow
+    assert (leg.horizon, leg.refusal, leg.sent_s) == (new, None, tick.s.voice.ring[-1])
+    assert leg.goal == (new.points[-1] if final else goal)
+    assert leg.path is not None
+    assert leg.path.length_m == pytest.approx(0.1)
+    assert tick.s.bad_bucket == 2.0
+    assert tick.s.ownership.waypoints_seq == new.seq
+
+
+def test_a_new_leg_begins_with_nothing_of_the_old() -> None:
+    tick = driving()
+    tick.s.leg = replace(tick.s.leg, reached=True, goal=Waypoint(x_m=9.0, y_m=0.0, speed_mps=0.3))
+    hear_waypoints(tick, horizon(tick, 1.1, 1.2, leg=2))
+    leg = tick.s.leg
+    assert (leg.leg, leg.mission, leg.reached, leg.goal) == (2, "m1", False, None)
+    assert tick.s.motion.follow == NEW
+    hear_waypoints(tick, horizon(tick, 3.0, 3.1, leg=3))
+    leg = tick.s.leg
+    assert (leg.leg, leg.refusal, leg.horizon, leg.path) == (3, "first_point_far", None, None)
+
+
+@pytest.mark.parametrize(
+    ("points", "final", "at_end", "stands", "arrived", "reached_leg"),
+    [
+        (True, True, True, True, True, True),
+        (True, True, True, False, False, False),
+        (True, True, False, True, False, False),
+        (True, False, True, True, False, False),
+        (False, False, False, True, True, False),
+        (False, True, True, False, False, False),
+    ],
+)
+def test_a_leg_is_done_where_it_ends_and_stands(
+    points: bool, final: bool, at_end: bool, stands: bool, arrived: bool, reached_leg: bool
+) -> None:
+    tick = driving()
+    tick.s.drive.still_since_s = tick.now_s if stands else None
+    new = horizon(tick, *((1.1, 1.2) if points else ()), final=final)
+    tick.s.leg = replace(tick.s.leg, horizon=new)
+    assert judge_arrival(tick, at_end=at_end) is arrived
+    assert tick.s.leg.reached is reached_leg
+    assert tick.events == [("reached", "m1 leg 1")] * reached_leg
+    tick.s.leg = replace(tick.s.leg, horizon=None)
+    assert not judge_arrival(tick, at_end=True)
+
+
+def test_what_is_left_is_told_where_it_is_known() -> None:
+    tick = driving()
+    goal = Waypoint(x_m=4.0, y_m=4.0, speed_mps=0.3, heading_rad=0.5)
+    tick.s.leg = replace(tick.s.leg, goal=goal)
+    assert residual(tick) == pytest.approx((5.0, 0.5))
+    tick.robot_in_map = None
+    assert residual(tick) == (0.0, 0.0)
+    tick = driving()
+    tick.s.leg = replace(tick.s.leg, goal=None)
+    assert residual(tick) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("against", ["", "none", "empty", "reached", "mission"])
+def test_a_horizon_calls_only_where_it_asks_for_motion(against: str) -> None:
+    tick = driving()
+    new = horizon(tick, *(() if against == "empty" else (1.1, 1.2)))
+    tick.s.leg = replace(
+        tick.s.leg,
+        horizon=None if against == "none" else new,
+        reached=against == "reached",
+        sent_s=tick.now_s,
+    )
+    if against == "mission":
+        tick.s.grants = replace(tick.s.grants, mission="m2")
+    assert legs.callable_horizon(tick) is (against == "")
+
+
+def test_another_brain_is_followed_as_its_hand_says() -> None:
+    for held, asked in ((True, Twist2(0.2, 0.1)), (False, STILL)):
+        tick = tick_of(reached("active_external"))
+        tick.s.bad_bucket = 3.0
+        last = tick.s.ownership.external_seq
+        assert last is not None
+        said = Velocity(source_id="x1", epoch=tick.epoch, seq=last + 1, dead_man=held,
+                        seen=tick.s.voice.status_seq, v_mps=0.2, w_radps=0.1)  # fmt: skip
+        external.hear_external(tick, said)
+        sent_s = tick.s.voice.ring[-1]
+        assert tick.s.external == External(asked.v_mps, asked.w_radps, held, sent_s)
+        assert (tick.s.ownership.external_seq, tick.s.bad_bucket) == (last + 1, 2.0)
+        assert external.wanted(tick) == asked
+        for age_s, calls in ((0.25, held), (0.2501, False)):
+            tick.s.external = replace(tick.s.external, sent_s=0.0)
+            tick.now_s = age_s
+            assert external.calls(tick) is calls
+        tick.s.external = None
+        assert external.wanted(tick) == STILL
+        assert not external.calls(tick)
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "score"),
+    [("mission", "no_grant", 3.0), ("kind", "no_grant", 3.0), ("back", "seq_backwards", 4.0),
+     ("again", "repeated", 3.0)],
+)  # fmt: skip
+def test_another_brain_is_not_followed_without_its_rights(
+    change: str, code: str, score: float
+) -> None:
+    tick = tick_of(reached("active_external"))
+    tick.s.bad_bucket = 3.0
+    before, last = tick.s.external, tick.s.ownership.external_seq
+    assert last is not None
+    if change == "mission":
+        tick.s.grants = replace(tick.s.grants, mission=None)
+    elif change == "kind":
+        owner = Owner(planner_id="x1", kind="planner")
+        tick.s.ownership = replace(tick.s.ownership, owner=owner)
+    seq = {"back": last - 1, "again": last}.get(change, last + 1)
+    said = Velocity(source_id="x1", epoch=tick.epoch, seq=seq, dead_man=True,
+                    seen=tick.s.voice.status_seq, v_mps=0.2, w_radps=0.1)  # fmt: skip
+    external.hear_external(tick, said)
+    assert (tick.reasons, tick.s.bad_bucket) == ([code], score)
+    assert tick.s.external == before
