@@ -9,7 +9,7 @@ from math import cos, hypot, sin
 from typing import TYPE_CHECKING, Any
 
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge
-from wire import Mode, Pose2, Record, Status, Waypoints, wrap
+from wire import LegReport, Mode, Pose2, Record, Status, Waypoints, wrap
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 FIELDS = ("x_m", "y_m", "yaw_rad", "turned_rad", "gone_m", "seq", "writes")
 SPEED_MPS, TURN_RADPS = 0.5, 1.0
 FRAME = struct.Struct(f"{len(FIELDS)}d")
+TEXT = 256
+"""Bytes of text behind the numbers."""
 
 
 class Body:
     """Hold where the robot is and how far it came, in memory that forked processes share."""
 
     def __init__(self) -> None:
-        object.__setattr__(self, "_memory", mmap.mmap(-1, FRAME.size))
+        object.__setattr__(self, "_memory", mmap.mmap(-1, FRAME.size + TEXT))
         self.x_m, self.y_m = 1.5, 2.0
 
     def __getattr__(self, name: str) -> float:
@@ -35,6 +37,17 @@ class Body:
         values = list(FRAME.unpack(self._memory[: FRAME.size]))
         values[FIELDS.index(name)] = float(value)
         self._memory[: FRAME.size] = FRAME.pack(*values)
+
+    @property
+    def leg(self) -> LegReport | None:
+        """Return the leg that the bridge remembers: it outlives planners, too."""
+        text = bytes(self._memory[FRAME.size :]).rstrip(b"\0")
+        return LegReport.model_validate_json(text) if text else None
+
+    def keep_leg(self, leg: LegReport | None) -> None:
+        """Remember the newest leg."""
+        text = leg.model_dump_json().encode() if leg is not None else b""
+        self._memory[FRAME.size :] = text.ljust(TEXT, b"\0")
 
     if TYPE_CHECKING:
         _memory: mmap.mmap
@@ -51,6 +64,8 @@ class PaperBridge(FakeBridge):
     def of(cls, body: Body, on_leg: Callable[[str, int], None]) -> PaperBridge:
         """Return a bridge that was up before this planner: what comes now is another brain."""
         bridge = cls(body=body, on_leg=on_leg, seq=int(body.seq), last_owner="before")
+        if (leg := body.leg) is not None:
+            bridge.leg = leg.model_copy(update={"following": False})
         bridge.pose = Pose2(body.x_m, body.y_m, body.yaw_rad)
         return bridge
 
@@ -69,6 +84,8 @@ class PaperBridge(FakeBridge):
         before = self.horizon
         super().hear(message)
         taken = self.horizon is message and before is not message
+        if self.leg is not None and self.leg != self.body.leg:
+            self.body.keep_leg(self.leg)
         if taken and isinstance(message, Waypoints) and message.points:
             self.on_leg(message.mission, message.leg)
 
@@ -86,6 +103,7 @@ class PaperBridge(FakeBridge):
         body.turned_rad += step
         if horizon.final and not self.ahead and abs(left_rad - step) < 0.01:
             self.leg = self.leg.model_copy(update={"reached": True, "following": False})
+            self.body.keep_leg(self.leg)
             self.horizon, self.mode = None, Mode.HOLD
             return 0.0
         return float(moved) + abs(step)
