@@ -187,7 +187,11 @@ RULES: tuple[Rule, ...] = (
         r"about|their|his|her) .+)",
         _ask,
     ),
-    rule(rf"(?:tell|inform|remind) (?P<who>{PERSON}){_AT} (?:that )?(?P<words>[^,]+)", _tell_words),
+    rule(
+        rf"(?:tell|inform|remind) (?P<who>{PERSON}){_AT} (?:that )?(?P<words>(?!(?:in|at|on|near|"
+        r"by|from) )[^,]+)",
+        _tell_words,
+    ),
     rule(
         rf"(?:chat|talk|converse|have a (?:chat|talk|conversation))(?: (?:with|to) {_WHO}{_AT})?",
         _no_dialogue,

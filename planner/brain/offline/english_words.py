@@ -20,17 +20,17 @@ WORD = r"(?!(?:to|in|at|on|from|for|and|into|onto|with|near|by|back|then|you|me)
 _DESCRIBES = (
     r"(?!(?:into|from)\b|to (?!(?:the|their|his|her) (?:left|right)))[a-z0-9'/\u3400-\u9fff-]+"
 )
-DESCRIPTION = rf"(?:{_DESCRIBES} )*?{_DESCRIBES}"
+DESCRIPTION = rf"(?:{_DESCRIBES} )*?{_DESCRIBES}(?<! in)(?<! at)(?<! on)(?<! near)(?<! by)"
 _WHO = (
     r"(?:person|people|man|men|woman|women|boy|girl|child|children|kid|elder|guest|lady|ladies|"
     r"gentleman|gentlemen|guy|visitor|patient|customer|human|stranger|baby|host|friend|operator|"
     r"user|owner|colleague|student|teacher|doctor|nurse|adult|male|female|family)s?"
 )
 PERSON = (
-    rf"(?:{NAME}|him|her|them|(?:every|any|some)(?:one|body)(?: {DESCRIPTION})?"
+    rf"(?:{NAME}|him|her|them|(?:every|any|some)(?:one|body)(?: {DESCRIPTION})??"
     r"|(?:all (?:of )?(?:the )?|every |each |the |a |an |any |some |my |our |your |that |this |"
     r"another )?"
-    rf"(?:{WORD} ){{0,3}}?{_WHO}(?: {DESCRIPTION})?)"
+    rf"(?:{WORD} ){{0,3}}?{_WHO}(?: {DESCRIPTION})??)"
 )
 
 

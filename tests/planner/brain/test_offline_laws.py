@@ -9,11 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rapidfuzz.fuzz import partial_ratio
 
-from planner.brain.offline import plan
+from planner.brain.offline import Context
+from planner.brain.offline import plan as plan_in
 from planner.brain.offline.normalise import squash
 from planner.plan import (
     DRIVES,
+    EVERY_KIND,
     PLAN,
+    Answer,
     Bilingual,
     Clarify,
     Entry,
@@ -21,6 +24,7 @@ from planner.plan import (
     Refuse,
     StepPlan,
     Vocabulary,
+    places_of,
 )
 
 SPEC = {
@@ -97,6 +101,14 @@ WORDS = [
     *(spelling for spellings in SPEC.values() for spelling in spellings),
 ]
 PARTS = [
+    *(
+        "find the cup",
+        "look for Mary in the study",
+        "follow her",
+        "take him to the bed",
+        "turn left",
+    ),
+    *("跟着他", "找杯子", "看看", "带小明去", "左转", "before ", "after ", "之前"),
     *("go to the kitchen", "drive to the couch", "visit the study", "the bedroom", "go home"),
     *("come back", "wait 5 seconds", "from the lounge", ", ", " and ", " then ", ". ", "first "),
     *(
@@ -115,6 +127,11 @@ PARTS = [
 ]
 
 
+def plan(text: str, home: Vocabulary) -> StepPlan | Answer | Clarify | Refuse:
+    """Plan for a robot that can do every kind of step: the most that could move it."""
+    return plan_in(text, home, Context(runnable=EVERY_KIND))
+
+
 def names(place: str, text: str) -> bool:
     """Tell whether a text names a place: a spelling in full, or with one letter wrong."""
     plain = squash(text)
@@ -128,14 +145,14 @@ def assert_law(text: str) -> None:
     made = plan(text, HOME)
     assert PLAN.validate_json(PLAN.dump_json(made)) == made
     for step in made.steps if isinstance(made, StepPlan) else ():
-        if isinstance(step, GoTo):
-            assert names(step.place, text), f"{text!r} does not name {step.place}"
+        for place in places_of(step):
+            assert names(place, text), f"{text!r} does not name {place}"
     if isinstance(made, StepPlan):
         assert not re.search("don't|别|\\bor\\b", text), f"{text!r} is no plain order"
 
 
 @given(st.text(max_size=300))
-@settings(max_examples=150)
+@settings(max_examples=120)
 def test_random_text_names_where_it_goes(text: str) -> None:
     assert_law(text)
 
@@ -144,7 +161,7 @@ def test_random_text_names_where_it_goes(text: str) -> None:
     st.lists(st.sampled_from(WORDS), max_size=14) | st.lists(st.sampled_from(PARTS), max_size=7),
     st.sampled_from([" ", ""]),
 )
-@settings(max_examples=400)
+@settings(max_examples=120)
 def test_random_orders_name_where_they_go(words: list[str], gap: str) -> None:
     assert_law(gap.join(words))
 
@@ -153,7 +170,7 @@ def test_random_orders_name_where_they_go(words: list[str], gap: str) -> None:
     st.lists(st.sampled_from(WORDS), max_size=14) | st.lists(st.sampled_from(PARTS), max_size=7),
     st.sampled_from([" ", ""]),
 )
-@settings(max_examples=400)
+@settings(max_examples=120)
 def test_places_are_visited_in_the_order_of_the_sentence(words: list[str], gap: str) -> None:
     text = gap.join(words)
     made = plan(text, HOME)
@@ -172,7 +189,7 @@ def test_places_are_visited_in_the_order_of_the_sentence(words: list[str], gap: 
 
 
 @given(st.sampled_from(VALID), st.integers(0, 40), st.sampled_from(EN_NO + ZH_NO))
-@settings(max_examples=400)
+@settings(max_examples=120)
 def test_a_negation_put_anywhere_between_words_stops_all_motion(
     text: str, at: int, word: str
 ) -> None:
@@ -187,13 +204,13 @@ def test_a_negation_put_anywhere_between_words_stops_all_motion(
 
 
 @given(st.sampled_from(VALID), st.integers(0, 60), st.sampled_from(WORDS + EN_NO))
-@settings(max_examples=300)
+@settings(max_examples=120)
 def test_a_word_put_anywhere_still_names_every_place(text: str, at: int, word: str) -> None:
     assert_law(f"{text[:at]} {word} {text[at:]}")
 
 
 @given(st.sampled_from(VALID), st.data())
-@settings(max_examples=200)
+@settings(max_examples=120)
 def test_a_letter_changed_anywhere_still_names_every_place(text: str, data: st.DataObject) -> None:
     at = data.draw(st.integers(0, len(text) - 1))
     letter = data.draw(st.sampled_from("abcdeiknostuy 不别厨书房室，"))
