@@ -19,17 +19,19 @@ from hypothesis import HealthCheck, settings
 ROOT = Path(__file__).resolve().parents[1]
 CHILD_GRACE_S = 5.0
 
-# CI repeats the same examples so that a red run can be run again; a developer's run looks further.
+# CI repeats the same examples so that a red run can be run again; a developer's run looks further,
+# and `make laws` furthest: the laws that state no number of their own try 2 000 examples each.
 # No deadline: a busy machine must not fail a law.
 settings.register_profile(
     "ci",
     deadline=None,
     derandomize=True,
-    max_examples=100,
+    max_examples=50,
     print_blob=True,
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.register_profile("dev", deadline=None, max_examples=50)
+settings.register_profile("laws", deadline=None, max_examples=2_000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci" if os.environ.get("CI") else "dev"))
 
 
