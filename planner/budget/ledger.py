@@ -9,6 +9,7 @@ from __future__ import annotations
 import logging
 import os
 import re
+import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from datetime import date, timedelta
 from pathlib import Path
@@ -24,6 +25,7 @@ LOOK_BACK_DAYS = 8
 """How old a goal's first spending may be to be remembered by a new process."""
 KEPT_DAYS = 92
 MAX_GOALS = 20_000
+SYNC_EVERY_S = 1.0
 _NAME = re.compile(r"(\d{4}-\d\d-\d\d)\.jsonl")
 
 
@@ -41,6 +43,7 @@ class Ledger:
         self._current: Page | None = None
         self._syncing: Future[None] | None = None
         self._syncer = ThreadPoolExecutor(1, "spent")
+        self._synced_s = float("-inf")
         try:
             self._pages = {day: Page(self._path(day)) for day in self._found()}
         except OSError as error:
@@ -79,17 +82,31 @@ class Ledger:
         """Return what a goal has spent, as of the last look at a day."""
         return self._goals.get(goal[:MAX_ID], Spent())
 
-    def append(self, day: date, goal: str, change: Spent) -> None:
-        """Keep a change; on return it outlives this process, and soon a power cut.
+    def append(self, day: date, goal: str, change: Spent, *, sync: bool) -> None:
+        """Keep a change; on return it outlives this process.
+
+        Args:
+            day: whose page.
+            goal: whose spending.
+            change: what to add.
+            sync: have it outlive a power cut soon as well, without waiting for that.
 
         Raises:
             OSError: it can't be kept.
         """
         page = self._page(day)
         page.append(goal, change)
-        if self._syncing is None or self._syncing.done():
-            self._syncing = self._syncer.submit(_sync, page.file)
+        if sync:
+            self._sync_soon(page)
         self.of_day(day)
+
+    def _sync_soon(self, page: Page) -> None:
+        """Have a page synced beside the call; at most once a second, as cards wear out."""
+        now_s = time.monotonic()
+        busy = self._syncing is not None and not self._syncing.done()
+        if not busy and now_s - self._synced_s >= SYNC_EVERY_S:
+            self._synced_s = now_s
+            self._syncing = self._syncer.submit(_sync, page.file)
 
     def set_aside(self, after: date) -> None:
         """Let days that have not come yet count no more. Raises OSError."""
@@ -107,7 +124,9 @@ class Ledger:
 
     def _page(self, day: date) -> Page:
         """Return a day's page; of all the others no file stays open."""
-        page = self._pages.setdefault(day, Page(self._path(day)))
+        page = self._pages.get(day)
+        if page is None:
+            page = self._pages[day] = Page(self._path(day))
         if self._current is not None and self._current is not page:
             self._leave(self._current)
         self._current = page

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from planner.budget.spent import Spent
 
-MAX_FILE_BYTES = 64_000_000
+MAX_READ_BYTES = 64_000_000
 MAX_ID = 80
 _FIELDS = ("calls", "prompt_tokens", "reply_tokens", "seconds", "money")
 _UNREADABLE = Spent(calls=1)
@@ -48,9 +48,10 @@ class Page:
         self._open(make=False)
         if self._file < 0:
             return []
-        more = os.pread(self._file, MAX_FILE_BYTES, self._read)
-        if not more:
+        size = os.fstat(self._file).st_size - self._read
+        if size <= 0:
             return []
+        more = os.pread(self._file, min(size, MAX_READ_BYTES), self._read)
         self._read += len(more)
         whole, _, self._rest = (self._rest + more).rpartition(b"\n")
         lines = [_read_line(line) for line in whole.split(b"\n") if line.strip()]

@@ -80,7 +80,7 @@ class Purse:
             over = self._over(day, goal, worst)
             if over is not None:
                 raise self._refuse(refusal(over, self._days.resets_in_s(), self._currency))
-            self._ledger.append(day, goal, worst)
+            self._ledger.append(day, goal, worst, sync=True)
         except OSError as error:
             log.warning("what the model costs can't be written: %s", error.strerror)
             raise self._refuse(OutOfBudget("it can't be written down", UNWRITABLE)) from None
@@ -98,7 +98,7 @@ class Purse:
         self._under_way -= 1
         self.changes += 1
         try:
-            self._ledger.append(call.day, call.goal, came_to - call.counted)
+            self._ledger.append(call.day, call.goal, came_to - call.counted, sync=False)
         except OSError as error:  # it stays counted at its worst
             log.warning("what a call came to can't be written: %s", error.strerror)
 
