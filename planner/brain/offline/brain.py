@@ -6,6 +6,7 @@ from collections.abc import Callable
 from datetime import datetime
 
 from planner.brain.draft import Hear
+from planner.brain.offline.again import rest_of
 from planner.brain.offline.reader import Context, plan
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.plan import BrainTag
@@ -37,4 +38,5 @@ class OfflineBrain:
             now=self._clock(),
             runnable=request.runnable,
         )
-        return Thought(plan=plan(request.text, request.vocabulary, context), brain=TAG)
+        made = plan(request.text, request.vocabulary, context)
+        return Thought(plan=rest_of(made, request.observed), brain=TAG)

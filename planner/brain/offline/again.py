@@ -1,0 +1,32 @@
+"""Think again after something came of the steps: what is left of the same plan, and nothing twice.
+
+A grammar has no second idea. It never orders a step again that is over, and says so where the rest
+is not its own plan's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planner.brain.protocol import Observation
+from planner.plan import Answer, Bilingual, Clarify, Code, Refuse, StepPlan, message
+
+_NO_OTHER_WAY = Bilingual(en="the built-in brain knows no other way", zh="内置大脑没有别的办法")
+
+
+def rest_of(
+    plan: StepPlan | Answer | Clarify | Refuse, observed: Sequence[Observation]
+) -> StepPlan | Answer | Clarify | Refuse:
+    """Return what is left of a sentence's plan after what was observed."""
+    if not observed or not isinstance(plan, StepPlan):
+        return plan
+    kinds = [step.kind for step in plan.steps]
+    walked = [seen.step for seen in observed]
+    if kinds[: len(walked)] != walked:  # another brain's plan was walked
+        return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=_NO_OTHER_WAY))
+    failed = observed[-1].result == "failed"
+    left = plan.steps[len(walked) - int(failed) :]
+    if left:
+        return StepPlan(steps=left)
+    told = [seen.detail for seen in observed if seen.step != "decide"] or [_NO_OTHER_WAY]
+    return Answer(text=told[-1])
