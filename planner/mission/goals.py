@@ -42,6 +42,9 @@ HOW_FAR_UNKNOWN = Bilingual(
     en="The map has changed since: how far this step had come is not known, so I stay here.",
     zh="地图已更换：无法得知这一步完成了多少，所以不动。",
 )
+LEGS_UNWRITTEN = 100
+"""More legs than a planner can have streamed and not yet written when it died: the bridge latches
+what was reached by leg, so no number is ever streamed twice."""
 IN_HAND = frozenset(
     {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
 )
@@ -241,7 +244,8 @@ def restart(turn: Turn, event: Restarted) -> None:
     for mission in missions.values():
         if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
             reason = PauseReason.PLANNER_RESTARTED.value
-            turn.put(mission, state=GoalState.PAUSED, reason=reason)
+            leg = mission.leg + LEGS_UNWRITTEN
+            turn.put(mission, state=GoalState.PAUSED, reason=reason, leg=leg)
         if not mission.ended and mission.map_id != turn.book.facts.map_id:
             _forget_poses(turn, turn.book.missions[mission.id])
     hold_queue(turn)
