@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import AsyncIterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -185,6 +186,12 @@ class FakeBudget:
         )
 
 
+@cache
+def two_room() -> Site:
+    """Read the site once: it is frozen, and two hundred tests begin with it."""
+    return Site.load(ROOT / "sites" / "two_room")
+
+
 class FakeServices:
     """Hold one of each."""
 
@@ -194,6 +201,6 @@ class FakeServices:
         self.ears = FakeEars()
         self.budget = FakeBudget()
         self.brain: Brain = OfflineBrain()
-        self.site = Site.load(ROOT / "sites" / "two_room")
+        self.site = two_room()
         self.memory = Memory(self.site)
         self.fences = FenceProposals(Path("/nowhere"))
