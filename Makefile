@@ -16,7 +16,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants enumerate check fmt docs bench bench-long lock clean
+.PHONY: help setup dev core page run test e2e coverage mutants laws enumerate check fmt docs bench bench-long lock clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -39,18 +39,20 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 # the files that tell some are read, for reading all tests costs seconds. A story waits most of its
 # time: unit tests take what is left of the processors then, and no more (nice).
 WHOLE := tests/e2e/test_model.py tests/e2e/test_calibrate.py
-ALONE := tests/e2e/test_conformance.py tests/web
+ALONE := tests/e2e/test_conformance.py
 STORIES = $(filter-out $(WHOLE) $(ALONE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
-test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 7 min on 2 cores)
+test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (5 min at most on 2 quiet cores)
 	@exec $(BIN)/python scripts/at_once.py \
 	  nice -n 19 $(BIN)/python -m pytest -n logical --maxprocesses 4 -m "not e2e and not home" $(ARGS) \
 	  ++ scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, broken brains, and the page in Chromium
-	@scripts/stories.sh -m "e2e or home" tests/e2e/test_home_tour.py $(WHOLE) $(ARGS)
-	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a browser or a flood takes what a second robot needs
+	@exec $(BIN)/python scripts/at_once.py \
+	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py tests/e2e/test_calibrate.py $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m e2e tests/web tests/e2e/test_model.py $(ARGS)
+	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a flood takes what a second robot needs
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
 # that the others don't.
@@ -64,6 +66,9 @@ coverage: $(DEV) ## branch coverage of wire and bridge/core; fails under 100 % a
 
 mutants: $(DEV) ## change bridge/core one thing at a time: do tests notice? hours; resumable; ARGS="--sample 20"
 	@exec nice -n 10 $(BIN)/python scripts/mutants.py $(ARGS)
+
+laws: $(DEV) ## every law with 2 000 fresh examples, where `make test` tries 50; minutes
+	@HYPOTHESIS_PROFILE=laws $(BIN)/python -m pytest -q -n logical -m "hypothesis and not e2e" --timeout 600 $(ARGS)
 
 enumerate: $(DEV) ## every mode by all sets of up to three rows: 136 000 steps, minutes
 	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/test_enumerated.py $(ARGS)

@@ -4,9 +4,12 @@
 # seconds; a story that fails twice is red.
 set -uo pipefail
 
-set -- -o cache_dir=.pytest_cache/stories "$@" # unit tests that run beside remember their own failures
+# What failed is kept apart: unit tests and other stories may run beside these.
+memory=$(mktemp -d)
+trap 'rm -rf "$memory"' EXIT
+set -- -o cache_dir="$memory" "$@"
 .venv/bin/python -m pytest -n logical --maxprocesses 2 --dist loadfile "$@"
 code=$?
 [ "$code" = 1 ] || exit "$code" # 1: tests failed; all else (Ctrl-C, bad usage) is not tried again
 echo "stories: some failed; each of those is told once more, alone. Failing again is red."
-exec .venv/bin/python -m pytest "$@" --last-failed --last-failed-no-failures none
+.venv/bin/python -m pytest "$@" --last-failed --last-failed-no-failures none
