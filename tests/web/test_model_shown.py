@@ -43,6 +43,21 @@ def test_stop_stops_while_the_model_hangs(
     robot.judge.assert_never_moves(0.5)
 
 
+def test_a_plan_is_seen_as_it_is_written(
+    robot: Robot, model: RunningMock, open_page: OpenPage
+) -> None:
+    page = open_page()
+    model.set(tokens_per_s=15)
+    planned = give(page, "wait 0.1 seconds then wait 0.2 seconds")
+    draft = page.locator(f"#now .goal[data-goal='{planned}'] .draft")
+    draft.locator(".step", has_text="Wait 0 s").first.wait_for()
+    asked = give(page, "where are you?")
+    assert "I am in" in ended(page, asked)
+    ended(page, planned)
+    draft.wait_for(state="detached")
+    page.locator("#meter", has_text="calls").wait_for()
+
+
 @pytest.mark.parametrize(
     ("locale", "stands_in", "rests"),
     [

@@ -103,9 +103,9 @@ function Past({ goals }: { goals: readonly Goal[] }) {
     <section class="card" aria-labelledby="past-title" id="past">
       <h2 id="past-title">{t("goal.past")}</h2>
       <ul class="past">
-        {goals.map((goal) => (
+        {goals.map((goal, index) => (
           <li key={goal.id} data-goal={goal.id} data-state={goal.state}>
-            <details>
+            <details open={index === 0 && goal.outcome?.code === "answered"}>
               <summary>
                 <span class={`chip state-${goal.state}`}>{word("state", goal.state)}</span>
                 <span class="said clip" dir="auto">
