@@ -71,6 +71,8 @@ class Planner:
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
         radius_m = self.description.base.radius_m
         self.memory = Memory(self.site, TaughtPlaces.in_home(where.home), radius_m=radius_m)
+        if self._model is not None:
+            self._model.warm(self.memory.vocabulary)
         self.ears = VoiceWorker(self._spoken())
         self.memory.listen(lambda: self.ears.know(self._spoken()))
         link = Link(WireBus(self._session), self.description)

@@ -27,7 +27,7 @@ from planner.brain.meter import Meter, thinking_about
 from planner.brain.prompt import Prompt
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.brain.schema import schema_of
-from planner.plan import PLAN, Bilingual, BrainTag, Code, Refuse, message, same
+from planner.plan import PLAN, Bilingual, BrainTag, Code, Refuse, Vocabulary, message, same
 from planner.settings import ModelSettings
 from wire import Misconfigured
 
@@ -85,6 +85,10 @@ class EndpointBrain:
     def tag(self) -> BrainTag:
         """Return the model's name, and the prompt it is asked with."""
         return self._tag
+
+    def warm(self, vocabulary: Vocabulary) -> None:
+        """Render the prompt of this closed world, so that the first goal need not wait for it."""
+        self._prompt.messages(ThinkRequest(text="", vocabulary=vocabulary))
 
     async def close(self) -> None:
         """Give the connections back."""
