@@ -9,16 +9,15 @@ import pytest
 from planner.brain import BrainDown, OfflineBrain, ScriptedBrain, ThinkRequest
 from planner.brain.protocol import Observation
 from planner.mission.effects import AskBrain
+from planner.mission.events import Planned
 from planner.mission.thinking import thinker
 from planner.plan import (
     EVERY_KIND,
     Answer,
     Clarify,
     Code,
-    GoTo,
     Language,
     Refuse,
-    Say,
     StepPlan,
     Vocabulary,
     same,
@@ -123,7 +122,11 @@ def test_without_a_camera_the_camera_is_what_is_missing(
 
 def test_a_model_that_is_down_is_told_in_both_languages(home: Vocabulary) -> None:
     ask = AskBrain("g1", "sing me a sonnet", Language.EN, None)
-    planned = asyncio.run(thinker(ScriptedBrain([BrainDown("503")]), home)(ask))
+
+    async def story() -> Planned:
+        return await thinker(ScriptedBrain([BrainDown("503")]), home)(ask)
+
+    planned = asyncio.run(story())
     assert planned.failure is not None
     assert planned.failure.code is Code.MODEL_UNAVAILABLE
     assert planned.failure.message.en.startswith("The planning model does not answer")
@@ -175,4 +178,4 @@ def test_the_clock_is_told_and_a_step_says_it(home: Vocabulary) -> None:
     assert "When you asked it was" in answer.text.en
     made = think("go to the kitchen and tell me a joke", home)
     assert isinstance(made, StepPlan)
-    assert [type(step) for step in made.steps] == [GoTo, Say]
+    assert [step.kind for step in made.steps] == ["go_to", "say"]
