@@ -30,7 +30,7 @@ ROUNDS_S = (0.02, 0.05, 0.1, 0.3, 1.0, 10.0)
 """What a test may take in each round of walking all lines."""
 CHEAP = 0.1
 """Tests that take this share of it come before, whatever they walk."""
-SLOWER, GRACE_S = 10.0, 1.0
+SLOWER, GRACE_S = 10.0, 0.4
 """A test that takes so many times its own processor time, and this more, hangs."""
 Lines = dict[str, dict[int, list[str]]]
 """Module, line, keys of the tests that walk it."""

@@ -33,7 +33,7 @@ from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from tests.bridge.core.test_stops_exact import PLAN, stop_of
-from wire import Mode
+from wire import Mode, Pose2
 
 Judge = Callable[[Tick], object]
 
@@ -149,6 +149,13 @@ def shut(tick: Tick) -> object:
     return tick.s.gate.blocked
 
 
+def turned_away(tick: Tick) -> object:
+    tick.s.odometry = replace(tick.s.odometry, base_in_odom=Pose2(0.0, 0.0, 0.05))
+    tick.s.gate = Gate(shut_since_s=0.0, shut_yaw_rad=0.0)
+    gate._note(tick, shut=True)
+    return tick.s.gate.shut_since_s
+
+
 def late(count: int, within: str) -> Judge:
     def judge(tick: Tick) -> object:
         if within == "late_at_s":
@@ -194,6 +201,7 @@ CASES: tuple[tuple[str, float, Judge, object], ...] = (
     ("stopping_by_row", 0.25, measured, True),
     ("stopping_by_row", 0.15, slow, "stop_too_slow"),
     ("active", 0.5, shut, True),
+    ("active", 0.2, turned_away, 0.2),
     ("active", 1.0, late(4, "late_at_s"), ["LOOP_LATE.0"]),
     ("active", 10.0, late(2, "gaps_at_s"), ["LOOP_LATE.1", "LOOP_LATE.2"]),
     ("hold_granted", 30.0, waits(True), None),

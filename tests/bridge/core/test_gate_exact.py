@@ -46,7 +46,7 @@ def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: boo
 def test_standstill_passes_and_forgets() -> None:
     tick = driving()
     assert through(tick, STILL) == STILL
-    assert (tick.s.motion.free_m, tick.room_m, tick.s.gate.shut_since_s) == (None, None, None)
+    assert (tick.s.motion.free_m, tick.room_m, tick.s.gate) == (None, None, Gate())
 
 
 def test_without_a_scan_nothing_passes() -> None:

@@ -72,3 +72,32 @@ def test_what_a_wheel_that_stays_as_it_is_did_before_hurries_no_other() -> None:
     after = shaped(Twist2(0.25, 0.2), LimiterState(Twist2(0.2, 0.0), -1.0, 0.0))
     right = after.sent.v_mps + 0.25 * after.sent.w_radps
     assert right - 0.2 == pytest.approx(2.0 * DT * DT)
+
+
+def test_a_wheel_that_stays_lets_the_other_slow_quickly() -> None:
+    # rims at 0.25 and 0.25 m/s, wanted 0.25 and 0.05: 10 m/s3, not 2
+    after = shaped(Twist2(0.15, -0.4), LimiterState(Twist2(0.25, 0.0)))
+    assert after.sent.v_mps + 0.25 * after.sent.w_radps == pytest.approx(0.25 - 10.0 * DT * DT)
+    assert after.sent.v_mps - 0.25 * after.sent.w_radps == pytest.approx(0.25)
+
+
+def test_the_jerk_counts_where_the_room_is_just_enough() -> None:
+    last = Twist2(0.3, 0.0)
+    needs_m = stopping_m(last, 0.0, BASE, LIMITS, DT)
+    for room_m, slowed_mps in ((needs_m, 10.0 * DT * DT), (needs_m * 0.999, 1.0 * DT)):
+        after = shape(Twist2(0.0, 0.0), LimiterState(last), BASE, LIMITS, DT, room_m=room_m)
+        assert 0.3 - after.sent.v_mps == pytest.approx(slowed_mps)
+
+
+@pytest.mark.parametrize(
+    ("dt_s", "period_s", "length_s"),
+    [(0.6, 1.0, 0.6), (1.05, 1.05, 0.02), (0.01, 0.0, 0.01), (0.3, -1.0, 0.02)],
+)
+def test_a_period_is_one_of_at_most_a_second(dt_s: float, period_s: float, length_s: float) -> None:
+    assert tick_length(dt_s, period_s) == length_s
+
+
+def test_a_tick_that_can_make_the_whole_change_makes_it_exactly() -> None:
+    memory = LimiterState(Twist2(0.001, 0.0), -1.0, -1.0)
+    assert shaped(Twist2(0.0, 0.0), memory).sent == Twist2(0.0, 0.0)
+    assert shaped(Twist2(0.001, 0.0), memory) == LimiterState(Twist2(0.001, 0.0))
