@@ -10,10 +10,8 @@ from planner.brain.offline import Context, plan
 from planner.plan import (
     EVERY_KIND,
     Answer,
-    Bilingual,
     Clarify,
     Code,
-    Entry,
     Language,
     Refuse,
     StepPlan,
@@ -321,38 +319,3 @@ def test_an_unknown_place_is_told_with_what_is_near_and_what_exists(home: Vocabu
     assert [option.text for option in made.options] == ["go to the kitchen, then come back"]
     assert "Did you mean kitchen?" in made.question.en
     assert "玄关" in made.question.zh
-
-
-def test_a_name_of_two_places_is_asked_about() -> None:
-    rooms = [
-        Entry(id=f"bedroom_{n}", kind="room", name=Bilingual(en="bedroom", zh="卧室"))
-        for n in (1, 2)
-    ]
-    made = plan("去卧室", Vocabulary(entries=tuple(rooms)))
-    assert isinstance(made, Clarify)
-    assert made.code is Code.AMBIGUOUS
-    for option in made.options:
-        assert isinstance(plan(option.text, Vocabulary(entries=tuple(rooms))), StepPlan)
-
-
-@pytest.mark.parametrize("vocabulary", [Vocabulary(), Vocabulary(entries=())])
-def test_an_empty_world_goes_nowhere(vocabulary: Vocabulary) -> None:
-    made = plan("go to the kitchen", vocabulary)
-    assert isinstance(made, Clarify)
-    assert "none" in made.question.en
-
-
-def test_a_brain_that_does_not_know_where_it_is_says_so(home: Vocabulary) -> None:
-    made = plan("where are you", home)
-    assert made == Answer(
-        text=Bilingual(en="I don't know where I am yet.", zh="我还不知道自己在哪里。")
-    )
-
-
-def test_every_spelling_of_every_place_is_understood(home: Vocabulary) -> None:
-    for entry in home.entries:
-        for spelling in entry.spellings:
-            for text in (f"go to the {spelling}", f"去{spelling}"):
-                made = plan(text, home)
-                assert isinstance(made, StepPlan), text
-                assert [getattr(step, "place", None) for step in made.steps] == [entry.id], text

@@ -1,0 +1,51 @@
+"""Check the offline brain in other worlds: names of two places, no places, no pose, every alias."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.brain.offline import plan
+from planner.plan import (
+    Answer,
+    Bilingual,
+    Clarify,
+    Code,
+    Entry,
+    StepPlan,
+    Vocabulary,
+)
+
+
+def test_a_name_of_two_places_is_asked_about() -> None:
+    rooms = [
+        Entry(id=f"bedroom_{n}", kind="room", name=Bilingual(en="bedroom", zh="卧室"))
+        for n in (1, 2)
+    ]
+    made = plan("去卧室", Vocabulary(entries=tuple(rooms)))
+    assert isinstance(made, Clarify)
+    assert made.code is Code.AMBIGUOUS
+    for option in made.options:
+        assert isinstance(plan(option.text, Vocabulary(entries=tuple(rooms))), StepPlan)
+
+
+@pytest.mark.parametrize("vocabulary", [Vocabulary(), Vocabulary(entries=())])
+def test_an_empty_world_goes_nowhere(vocabulary: Vocabulary) -> None:
+    made = plan("go to the kitchen", vocabulary)
+    assert isinstance(made, Clarify)
+    assert "none" in made.question.en
+
+
+def test_a_brain_that_does_not_know_where_it_is_says_so(home: Vocabulary) -> None:
+    made = plan("where are you", home)
+    assert made == Answer(
+        text=Bilingual(en="I don't know where I am yet.", zh="我还不知道自己在哪里。")
+    )
+
+
+def test_every_spelling_of_every_place_is_understood(home: Vocabulary) -> None:
+    for entry in home.entries:
+        for spelling in entry.spellings:
+            for text in (f"go to the {spelling}", f"去{spelling}"):
+                made = plan(text, home)
+                assert isinstance(made, StepPlan), text
+                assert [getattr(step, "place", None) for step in made.steps] == [entry.id], text
