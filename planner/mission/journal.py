@@ -8,11 +8,13 @@ Knows no event loop: ``JournalWriter`` calls it from its one thread.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import sqlalchemy as sa
 from pydantic import ValidationError
+from sqlalchemy.dialects import postgresql, sqlite
 
 from planner.mission.effects import Journal
 from planner.mission.records import MAX_ENDED, Mission
@@ -85,6 +87,9 @@ class MissionJournal:
             Misconfigured: it can't be opened, or another version wrote it.
         """
         self._engine = sa.create_engine(url)
+        self._queue: tuple[str, ...] | None = None  # as it is on disk; None: not known
+        self._put_mission = _upsert_of(_missions, self._engine.dialect.name)
+        self._put_fact = _upsert_of(_facts, self._engine.dialect.name)
         if self._engine.dialect.name == "sqlite":
             sa.event.listen(self._engine, "connect", _sqlite_pragmas)
         try:
@@ -102,13 +107,15 @@ class MissionJournal:
 
     def write(self, entries: tuple[Journal, ...], keys: tuple[GoalKey, ...] = ()) -> None:
         """Write entries, in order, in one transaction; on return they are on disk."""
+        queue = self._queue
         with self._engine.begin() as connection:
             for entry in entries:
-                self._append(connection, entry)
+                self._append(connection, entry, queue)
+                queue = entry.queue
             for key in keys:
-                connection.execute(
-                    sa.insert(_keys).values(key=key.key, body=key.body, goal=key.goal)
-                )
+                row = {"key": key.key, "body": key.body, "goal": key.goal}
+                connection.execute(_ADD_KEY, row)
+        self._queue = queue
 
     def load(self) -> Kept:
         """Read what a new process needs: all open missions, the newest ended ones, the keys.
@@ -138,29 +145,23 @@ class MissionJournal:
         """Give the connections back."""
         self._engine.dispose()
 
-    def _append(self, connection: sa.Connection, entry: Journal) -> None:
+    def _append(
+        self, connection: sa.Connection, entry: Journal, before: tuple[str, ...] | None
+    ) -> None:
         for mission in entry.missions:
             record = mission.model_dump_json()
-            connection.execute(
-                sa.insert(_transitions).values(
-                    mission=mission.id,
-                    state=mission.state.value,
-                    at_unix_s=mission.updated_unix_s,
-                    record=record,
-                )
-            )
-            row = {"order": mission.order, "ended": mission.state in ENDED, "record": record}
-            self._upsert(connection, _missions, "id", mission.id, row)
-        self._upsert(connection, _facts, "name", "queue", {"value": json.dumps(entry.queue)})
-
-    @staticmethod
-    def _upsert(
-        connection: sa.Connection, table: sa.Table, key: str, value: str, row: dict[str, object]
-    ) -> None:
-        """Update, or insert where there is none: one writer, so nobody comes in between."""
-        done = connection.execute(sa.update(table).where(table.c[key] == value).values(**row))
-        if done.rowcount == 0:
-            connection.execute(sa.insert(table).values(**{key: value}, **row))
+            row = {
+                "mission": mission.id,
+                "state": mission.state.value,
+                "at_unix_s": mission.updated_unix_s,
+                "record": record,
+            }
+            connection.execute(_ADD_TRANSITION, row)
+            ended = mission.state in ENDED
+            newest = {"id": mission.id, "order": mission.order, "ended": ended, "record": record}
+            self._put_mission(connection, newest)
+        if entry.queue != before:
+            self._put_fact(connection, {"name": "queue", "value": json.dumps(entry.queue)})
 
     def _mission(self, record: str) -> Mission:
         try:
@@ -179,6 +180,48 @@ class MissionJournal:
                 raise Misconfigured(
                     "journal_version", f"the journal has schema {found}, expected {SCHEMA}"
                 )
+
+
+_Put = Callable[[sa.Connection, dict[str, object]], object]
+
+# Built once: putting a statement together costs as much as running it.
+_ADD_TRANSITION = sa.insert(_transitions)
+_ADD_KEY = sa.insert(_keys)
+
+
+def _upsert_of(table: sa.Table, dialect: str) -> _Put:
+    """Return how to insert a row or put it in the place of the one with its key."""
+    [key] = table.primary_key.columns
+    others = [column.name for column in table.columns if column is not key]
+    whole = _in_one(table, key, others, dialect)
+    if whole is not None:
+        return lambda connection, row: connection.execute(whole, row)
+    update = sa.update(table).where(key == sa.bindparam("its_key"))
+    update = update.values({name: sa.bindparam(name) for name in others})
+    add = sa.insert(table)
+
+    def put(connection: sa.Connection, row: dict[str, object]) -> None:
+        """Update, or insert where there is none: one writer, so nobody comes in between."""
+        rest = {name: row[name] for name in others}
+        if connection.execute(update, {"its_key": row[key.name], **rest}).rowcount == 0:
+            connection.execute(add, row)
+
+    return put
+
+
+def _in_one(
+    table: sa.Table, key: sa.Column[str], others: list[str], dialect: str
+) -> sa.Insert | None:
+    """Return the one statement that inserts or replaces, where the database has one."""
+    if dialect == "sqlite":
+        lite = sqlite.insert(table)
+        taken = {name: lite.excluded[name] for name in others}
+        return lite.on_conflict_do_update(index_elements=[key], set_=taken)
+    if dialect == "postgresql":
+        post = postgresql.insert(table)
+        taken = {name: post.excluded[name] for name in others}
+        return post.on_conflict_do_update(index_elements=[key], set_=taken)
+    return None
 
 
 def _sqlite_pragmas(connection: object, record: object) -> None:

@@ -12,9 +12,10 @@ from pathlib import Path
 
 import pytest
 import sqlalchemy as sa
+from sqlalchemy.dialects.postgresql.base import PGDialect
 
 from planner.mission.effects import Journal
-from planner.mission.journal import GoalKey, MissionJournal
+from planner.mission.journal import GoalKey, MissionJournal, _facts, _in_one, _upsert_of
 from planner.mission.records import MAX_ENDED, Mission
 from planner.mission.writer import JournalWriter, Wanted
 from planner.plan import Code, GoalState, Language, Outcome, message
@@ -48,6 +49,48 @@ def test_the_newest_record_comes_back_and_every_transition_stays(tmp_path: Path)
         states = connection.execute(sa.text("select mission, state from transitions order by seq"))
         assert [tuple(r) for r in states] == [("a", "queued"), ("a", "running"), ("b", "queued")]
     engine.dispose()
+
+
+def test_the_queue_is_written_when_it_changes_within_a_batch_and_after_a_failure(
+    tmp_path: Path,
+) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+
+    def kept() -> tuple[str, ...]:
+        return journal.load().queue
+
+    one = mission("a", 1)
+    journal.write((Journal(1, (one,), ("a",)),))
+    journal.write((Journal(2, (one,), ("a", "b")), Journal(3, (one,), ("a",))))
+    assert kept() == ("a",)
+    key = GoalKey("k", "f", "a")
+    journal.write((), (key,))
+    with pytest.raises(sa.exc.IntegrityError):
+        journal.write((Journal(4, (one,), ("c",)),), (key,))
+    assert kept() == ("a",)
+    journal.write((Journal(4, (one,), ("c",)),))
+    assert kept() == ("c",)
+    journal.close()
+
+
+@pytest.mark.parametrize("dialect", ["sqlite", "another"])
+def test_a_row_is_put_in_the_place_of_the_one_with_its_key(dialect: str, tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    put = _upsert_of(_facts, dialect)
+    with journal._engine.begin() as connection:
+        for value in ("1", "2"):
+            put(connection, {"name": "n", "value": value})
+        rows = connection.execute(sa.select(_facts.c.value).where(_facts.c.name == "n")).all()
+    journal.close()
+    assert [row.value for row in rows] == ["2"]
+
+
+def test_postgres_has_the_one_statement_too() -> None:
+    [key] = _facts.primary_key.columns
+    made = _in_one(_facts, key, ["value"], "postgresql")
+    assert made is not None
+    dialect = PGDialect()  # type: ignore[no-untyped-call]  # sqlalchemy's own
+    assert "ON CONFLICT (name) DO UPDATE" in str(made.compile(dialect=dialect))
 
 
 def test_all_open_missions_come_back_and_only_the_newest_ended(tmp_path: Path) -> None:
