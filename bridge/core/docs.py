@@ -88,6 +88,15 @@ name in this table to exist.
 """
 
 
+_PROOF = """\
+## Who tests the tests
+
+`make coverage` asks for every line and branch of `wire` and `bridge/core`. `make mutants` changes the
+core one thing at a time, a bound, a sign, a number, a statement left out, and sees whether a test
+fails. What has been tried, and each mutant that lives with the reason why: [mutants.md](mutants.md).
+"""
+
+
 _BRAKING = f"""\
 ## Braking
 
@@ -118,8 +127,8 @@ def safety_md() -> str:
         f"| {mode.value} | {_cause(cause)} | {to.value} |\n"
         for (mode, cause), to in TRANSITIONS.items()
     )
-    parts = (_MODES + modes, "".join(_rows()), _GATES, _BRAKING, "".join(_hazards()), _sentences())
-    return "\n".join((_HEAD.format(actions=actions), *parts))
+    tables = (_MODES + modes, "".join(_rows()), _GATES, _BRAKING, "".join(_hazards()))
+    return "\n".join((_HEAD.format(actions=actions), *tables, _PROOF, _sentences()))
 
 
 def _cause(cause: object) -> str:

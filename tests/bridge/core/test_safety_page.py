@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -20,3 +21,9 @@ def test_it_is_printed_written_and_checked(
     assert docs.main(["--check"]) == 0
     assert docs.main([]) == 0
     assert capsys.readouterr().out == page.read_text("utf-8")
+
+
+def test_what_it_links_to_exists() -> None:
+    links = re.findall(r"\]\(([^)#:]+)", docs.safety_md())
+    assert "mutants.md" in links
+    assert [link for link in links if not (docs.PATH.parent / link).exists()] == []
