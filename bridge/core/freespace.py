@@ -29,6 +29,8 @@ SECTOR_M = 2.0
 """How far the sector reaches in which beams must have come back, however far one looks."""
 MOVED_M = 1.0
 """A scan taken further away says nothing of here; LIDAR_STALE holds the robot long before."""
+_TIGHTEST_PER_M = 1e9
+"""No wheels drive it; a circle of no radius would divide by zero."""
 _STRAIGHT_PER_M = 1e-3  # 2 mm beside a straight line after 2 m
 _ROUNDING_RAD = 1e-6
 _STEPS_M = (0.02, 0.05)  # where clearance is looked at again
@@ -81,6 +83,8 @@ def free_length(
         points = picture.points(disc + moved + _BEAD_M)
         return FreeLength(reach_m, True, True, _touches(picture, points, robot, moved, disc))
     curve = w / abs(v)
+    if not abs(curve) <= _TIGHTEST_PER_M:
+        return NOTHING_KNOWN
     start = robot if v > 0.0 else Pose2(robot.x_m, robot.y_m, robot.yaw_rad + pi)
     known, covered = _seen(picture, start, curve, disc, moved)
     if not covered:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, hypot, inf, pi, sin, tau
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from bridge.core.braking import path_decel_mps2, reaction_s, speed_scale, speed_within
@@ -230,6 +230,8 @@ def test_a_picture_from_elsewhere_says_nothing() -> None:
 
 
 @given(st.floats(), st.floats(), st.floats(-2, 2), st.floats(-2, 2), st.floats(-7, 7))
+@example(0.5, 8.98846567431158e307, 0.0, 0.0, 0.0)  # w / v is infinite
+@example(0.5, 8.9e307, 0.0, 0.0, 0.0)
 def test_no_motion_raises(v: float, w: float, x: float, y: float, yaw: float) -> None:
     made = picture(wall(IDENTITY, 0.5, 1.0))
     free = free_length(made, Pose2(x, y, yaw), Twist2(v, w), RADIUS)
