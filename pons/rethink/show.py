@@ -13,7 +13,7 @@ from pons.rethink.recorded import Recorded
 from pons.rethink.think import Again, Spending
 
 LIMITS = (
-    "Sentences were thought about with the places of the site as they are now. A drive is one in "
+    "Sentences were thought about with the site's own places as they are now. A drive is one in "
     "lockstep: the real bridge core and the simulated robot in the site's own map, from where the "
     "robot stood; the people and things of that day are not in it."
 )
