@@ -187,6 +187,6 @@ def test_a_word_more_before_a_sentence_makes_it_another(
 
 
 @settings(max_examples=50)
-@given(st.text(max_size=60))
+@given(st.text("conti uremb,.?!'…İßﬁ继续忘了去这里叫，。？「\u200b\u202e\ue000\n", max_size=60))
 def test_any_text_is_read_the_same_twice(text: str) -> None:
     assert intent_of(text) == intent_of(text)
