@@ -6,10 +6,7 @@ Never returns what is no plan of the closed vocabulary, and never asks a third t
 from __future__ import annotations
 
 import asyncio
-import importlib
-import importlib.util
 import logging
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -157,14 +154,3 @@ def _declined(words: str, request: ThinkRequest) -> Refuse:
     rule = Bilingual(en=f"the model declined: {told}", zh=f"模型拒绝了：{told}")
     said = message(Code.UNSAFE, part=same(clean(request.text)[:60]), rule=rule)
     return Refuse(code=Code.UNSAFE, reason=said)
-
-
-def warm_up() -> None:
-    """Load what httpx loads at its first call (0.15 s), so that no goal pays for it.
-
-    httpcore looks for sniffio at each of its locks; where that is not installed, each look searches
-    the whole path (0.5 ms a call). None in ``sys.modules`` is Python's word for "there is none".
-    """
-    importlib.import_module("anyio._backends._asyncio")
-    if "sniffio" not in sys.modules and importlib.util.find_spec("sniffio") is None:
-        sys.modules["sniffio"] = None  # type: ignore[assignment]  # docs.python.org, "The module cache"

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import socket
 import time
 from typing import Any
 
@@ -17,7 +16,7 @@ import httpx
 
 from planner.brain.endpoint.address import Address
 from planner.brain.endpoint.assemble import Assembly
-from planner.brain.endpoint.metered import Metered
+from planner.brain.endpoint.connection import opened
 from planner.brain.endpoint.names import Names, Target
 from planner.brain.endpoint.reading import StreamBroken, Told, read
 from planner.brain.endpoint.secret import Secret
@@ -25,22 +24,6 @@ from planner.brain.endpoint.status import Again
 from planner.brain.errors import BrainDown
 from planner.brain.meter import Meter
 from planner.settings import ModelSettings
-
-KEEPALIVE_S = 600.0
-"""A connection is kept through idle minutes; one that the server has closed is noticed and opened
-anew, and one that a router on the way forgot is noticed by the probes."""
-PROBES = tuple(
-    (level, int(getattr(socket, name)), value)
-    for level, name, value in (
-        (socket.SOL_SOCKET, "SO_KEEPALIVE", 1),
-        (socket.IPPROTO_TCP, "TCP_KEEPIDLE", 30),  # [s]; Linux
-        (socket.IPPROTO_TCP, "TCP_KEEPALIVE", 30),  # [s]; macOS
-        (socket.IPPROTO_TCP, "TCP_KEEPINTVL", 10),  # [s]
-        (socket.IPPROTO_TCP, "TCP_KEEPCNT", 3),
-        (socket.IPPROTO_TCP, "TCP_NODELAY", 1),
-    )
-    if hasattr(socket, name)
-)
 
 
 class _Unconnected(Exception):
@@ -63,29 +46,7 @@ class Client:
     ) -> None:
         self.secret = Secret(settings.key.get_secret_value() if settings.key is not None else "")
         self._names = Names(address)
-        inner = transport or httpx.AsyncHTTPTransport(
-            trust_env=False,
-            verify=address.url.startswith("https:"),  # certificates cost 0.1 s and 10 MB to load
-            limits=httpx.Limits(
-                max_connections=settings.parallel + 2,
-                max_keepalive_connections=settings.parallel,
-                keepalive_expiry=KEEPALIVE_S,
-            ),
-            socket_options=PROBES,
-        )
-        self._http = httpx.AsyncClient(
-            headers={
-                "Accept": "application/json, text/event-stream",
-                "Accept-Encoding": "identity",  # a small body must not unpack into a large one
-                "Content-Type": "application/json",
-                "User-Agent": "pons",
-                **self.secret.header,
-            },
-            follow_redirects=False,
-            trust_env=False,
-            transport=inner if meter is None else Metered(inner, meter),
-            timeout=httpx.Timeout(settings.timeout_s, connect=settings.connect_timeout_s),
-        )
+        self._http = opened(address, settings, self.secret.header, transport, meter)
 
     async def close(self) -> None:
         """Give the connections back."""

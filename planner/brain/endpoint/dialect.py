@@ -20,6 +20,7 @@ LADDER = tuple(Mode)
 """Strictest first."""
 
 Body = dict[str, Any]
+_TOO_LONG = re.compile(r"context (?:length|window|size)|maximum context|prompt is too long")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +58,8 @@ class Dialect:
             complaint: the server's words, in small letters.
             quiet: the fields that switch thoughts off here.
         """
+        if _TOO_LONG.search(complaint):
+            return  # a shorter way of asking would pass for once, and be remembered for all
         if self.temperature and "temperature" in complaint:
             yield replace(self, temperature=False)
         if "max_completion_tokens" in complaint or "max_tokens" in complaint:

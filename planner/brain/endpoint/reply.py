@@ -12,13 +12,12 @@ from typing import Any
 
 from pydantic_core import from_json
 
+from planner.brain.endpoint.complaint import complaint_of
 from planner.brain.errors import BrainDown
 from planner.brain.schema import NAME
 
 MAX_TOKENS = 10_000_000
 _DECLINED = "The model declined."
-_FILTERED = frozenset({"content_filter", "data_inspection_failed"})
-"""What Azure and DashScope answer with 400 where a filter of theirs refuses an order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,32 +79,6 @@ def read_json(raw: bytes) -> Any:
         return from_json(raw, allow_inf_nan=False)
     except ValueError:
         return None
-
-
-def complaint_of(content: object) -> str:
-    """Return a server's words about an error, in one short line."""
-    words = content
-    for _ in range(3):
-        if not isinstance(words, dict):
-            break
-        words = words.get("error") or words.get("message") or words.get("detail") or ""
-    return " ".join(str(words)[:400].split())
-
-
-def generated_by(content: object) -> str | None:
-    """Return what the model wrote where a server refuses it as an error of its own, or None."""
-    written = _error(content).get("failed_generation")
-    return written if isinstance(written, str) else None
-
-
-def declined_by(content: object) -> bool:
-    """Tell whether a filter of the server's refused the order itself."""
-    return _error(content).get("code") in _FILTERED
-
-
-def _error(content: object) -> dict[str, Any]:
-    error = content.get("error") if isinstance(content, dict) else None
-    return error if isinstance(error, dict) else {}
 
 
 def _text(message: dict[str, Any]) -> tuple[str, str | None]:

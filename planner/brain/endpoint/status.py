@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import httpx
 
-from planner.brain.endpoint.reply import complaint_of, declined_by, generated_by
+from planner.brain.endpoint.complaint import complaint_of, declined_by, generated_by
 from planner.brain.errors import BrainDown
 
 BUSY = frozenset({408, 409, 425, 429})

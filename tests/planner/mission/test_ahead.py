@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import AsyncIterator
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,10 +13,14 @@ import pytest
 from planner.brain.draft import Draft
 from planner.mission.ahead import KEPT_S, RouteAhead
 from planner.mission.hearing import TELL_S, Hearing
+from planner.mission.hub import Subscription
 from planner.mission.records import Book
-from planner.plan import GoTo, ReturnHome, Step, Wait
+from planner.plan import GoalState, GoTo, ReturnHome, Step, Wait
 from planner.route import RouteFailure, RoutePoint, RouteRequest, RouteResult
+from planner.world import Site
 from tests.planner.mission.fakes import FACTS, status
+from tests.planner.mission.live import KITCHEN as KITCHEN_PLAN
+from tests.planner.mission.live import StraightRouter, planner, run
 from wire import Pose2, Twist2
 
 HERE = Pose2(0.0, 0.0, 0.0)
@@ -127,3 +133,42 @@ def test_a_draft_is_told_at_once_then_now_and_then_and_its_steps_are_expected() 
         "steps": [{"kind": "go_to", "place": "kitchen"}],
     }
     assert expected == [GO]
+
+
+class CountingRouter(StraightRouter):
+    """Count the ways that were searched."""
+
+    searched = 0
+
+    async def route(self, request: RouteRequest) -> RouteResult:
+        self.searched += 1
+        return await super().route(request)
+
+
+@pytest.mark.parametrize(("drafted", "searches"), [("kitchen", 1), ("living_room", 2)])
+def test_a_draft_is_shown_and_the_robot_moves_by_the_whole_plan_alone(
+    drafted: str, searches: int, tmp_path: Path, site: Site
+) -> None:
+    """A draft that names another place than the plan in the end leads nowhere."""
+    router, draft = CountingRouter(), Draft(text="{", steps=(GoTo(place=drafted),))
+
+    async def story() -> None:
+        async with planner(tmp_path, site, KITCHEN_PLAN, router=router) as together:
+            together.brain.drafts, together.brain.delay_s = (draft,), 0.02
+            async with together.missions.subscribe() as changes:
+                goal = await together.missions.submit("go to the kitchen")
+                done = await together.reach(goal.id, GoalState.SUCCEEDED)
+                shown = [change async for _, change in until_running(changes)]
+            assert done.plan is not None
+            assert [step.place for step in done.plan.steps] == ["kitchen"]
+            assert [each["text"] for each in shown if each["type"] == "thinking"] == ["{"]
+
+    run(story())
+    assert router.searched == searches
+
+
+async def until_running(changes: Subscription) -> AsyncIterator[tuple[int, dict[str, Any]]]:
+    async for change in changes:
+        yield change
+        if change[1]["type"] == "goal" and change[1]["goal"]["state"] == "running":
+            return

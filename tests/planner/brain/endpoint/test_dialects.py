@@ -75,6 +75,22 @@ def test_what_a_500_says_of_itself_is_no_word_about_the_mode(
     assert [rung(body) for body in server.bodies] == ["json_schema"] * 2
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        "the request exceeds the available context size, try increasing it",
+        "This model's maximum context length is 4096 tokens; response_format, max_tokens",
+    ],
+)
+def test_an_order_that_is_too_long_makes_no_server_simple(
+    words: str, home: Vocabulary, tmp_path: Path
+) -> None:
+    server = Server(refused(words), lambda: wrote(GO))
+    with pytest.raises(BrainDown) as down:
+        think(brain(server, tmp_path), home)
+    assert (down.value.why, len(server.requests)) == ("bad_request", 1)
+
+
 def test_complaints_that_contradict_each_other_come_to_an_end(
     home: Vocabulary, tmp_path: Path
 ) -> None:

@@ -181,6 +181,27 @@ def test_a_certificate_that_nobody_vouches_for_is_refused(home: Vocabulary, tmp_
         assert wire.asked == [], "the key must not leave before the server is known"
 
 
+def test_the_name_stands_in_the_handshake_of_a_pinned_call(
+    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The certificate is held against the name, though the call goes to an address."""
+    context = self_signed(tmp_path)
+    if context is None:
+        pytest.skip("openssl is not installed: no certificate can be made")
+    named: list[object] = []
+    context.sni_callback = lambda _socket, name, _context: named.append(name)
+    with serving(said(completion(GO)), context) as wire:
+
+        async def look(*_: object, **__: object) -> list[tuple[object, ...]]:
+            return [(socket.AF_INET, socket.SOCK_STREAM, 6, "", ("127.0.0.1", wire.port))]
+
+        monkeypatch.setattr(asyncio.BaseEventLoop, "getaddrinfo", look)
+        url = f"https://models.example:{wire.port}/v1"
+        made = EndpointBrain(settings(url=url, allow_offhost=True, timeout_s=5.0), tmp_path)
+        assert _thought(made, home)[0] == "unreachable"
+        assert (named, wire.asked) == (["models.example"], [])
+
+
 # asyncio itself forgets the transport whose handshake failed so early; the collector closes it.
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
