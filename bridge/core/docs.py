@@ -91,9 +91,10 @@ name in this table to exist.
 _PROOF = """\
 ## Who tests the tests
 
-`make coverage` asks for every line and branch of `wire` and `bridge/core`. `make mutants` changes the
-core one thing at a time, a bound, a sign, a number, a statement left out, and sees whether a test
-fails. What has been tried, and each mutant that lives with the reason why: [mutants.md](mutants.md).
+`make coverage` asks for every line and branch of `wire` and `bridge/core`. `make mutants` changes
+the core one thing at a time, a bound, a sign, a number, a statement left out, and sees whether a
+test fails. What has been tried, and each mutant that lives with the reason why:
+[mutants.md](mutants.md).
 """
 
 

@@ -119,7 +119,15 @@ def test_way_and_time_are_metered_where_a_brain_causes_them(
     tick.dt_s = 1e3
     grants.meter(tick, before)
     left = tick.s.grants
-    assert min(left.metres, left.seconds, left.operator_metres, left.operator_seconds) >= 0.0
+    if metered:
+        assert (left.metres, left.operator_metres) == (0.0, 0.0), "and no less than nothing"
+    if operator_seconds < 100.0:
+        assert (left.seconds, left.operator_seconds) == (0.0, 0.0)
+    if before.stopping is not None:
+        before.stopping = None
+        had = tick.s.grants
+        grants.meter(tick, before)
+        assert tick.s.grants is had, "nobody's stop is nobody's way"
 
 
 @pytest.mark.parametrize(
