@@ -132,7 +132,11 @@ def test_all_can_be_reached_by_keyboard(robot: Robot, open_page: OpenPage) -> No
     assert {"stop", "goal-text", "tab-drive"} <= reached
     page.focus("#tab-drive")
     page.keyboard.press("ArrowRight")
-    page.locator("#orders-title").wait_for()
+    page.locator("#teach-title").wait_for()
+    page.focus("#teach-en")  # a name and Enter are enough: the rest of a place is where it stands
+    page.keyboard.type("stop")
+    page.keyboard.press("Enter")
+    page.locator("#announcer", has_text="read as an order").wait_for()
 
 
 TAG = '<img src=x onerror="document.title=`owned`"><script>document.title="owned"</script>'
@@ -144,6 +148,11 @@ def spoiled(robot: Robot) -> dict[str, Any]:
     content: dict[str, Any] = robot.system.http("GET", "/v1/places").body
     for place, name in zip(content["places"], NAMES * 4, strict=False):
         place["name"] = {"en": name, "zh": name}
+    place = {**content["places"][0], "map_id": "0" * 16, "by": TAG, "taught": "none"}
+    content["taught"] = [
+        {**place, "id": f"t{n}", "name": {"en": name, "zh": TAG}, "why_not": None, "message": None}
+        for n, name in enumerate(NAMES)
+    ]
     return content
 
 
@@ -170,6 +179,11 @@ def test_names_of_any_kind_are_text(
     click_at(page, robot.judge.truth.base_in_map.x_m, robot.judge.truth.base_in_map.y_m)
     page.locator("#now .goal, #past .said").first.wait_for()
     assert_fits(page)
+    page.click("#tab-places")
+    page.locator("#taught li").nth(len(NAMES) - 1).wait_for()
+    assert_fits(page)
+    assert page.title() != "owned"
+    assert page.locator("#page img[src=x], #page script").count() == 0
 
 
 @pytest.mark.parametrize("text", [TAG, NAMES[1], "x" * 500], ids=["html", "emoji", "long"])
