@@ -46,16 +46,22 @@ class Events:
     def _take(self, line: bytes) -> Iterator[Any]:
         if line.startswith(b"data:"):
             self._data.append(line[5:].strip())
-            whole = len(self._data) == 1 and _json(self._data[0]) is not None
-            if not whole and self._data != [DONE]:
-                return  # an event may be cut into several lines
-        elif line or not self._data:
-            return  # another field, a comment, or one empty line more
-        data, self._data = b"\n".join(self._data), []
+            if len(self._data) == 1:  # nearly always the whole event, whatever line follows
+                yield from self._event(whole=False)
+        elif not line and self._data:
+            yield from self._event(whole=True)
+
+    def _event(self, *, whole: bool) -> Iterator[Any]:
+        """Yield what stands in the event's lines; one that goes on is no JSON yet."""
+        data = b"\n".join(self._data)
+        value = None if data == DONE else _json(data)
         if data == DONE:
             self.done = True
-        elif data:
-            yield _json(data)
+        elif value is not None or (whole and data):
+            yield value
+        elif not whole:
+            return
+        self._data = []
 
 
 def _json(raw: bytes) -> Any:
