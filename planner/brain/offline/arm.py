@@ -64,6 +64,28 @@ _NO_THING = frozenset(
         "drinks",
         "snacks",
         "the",
+        "off",
+        "out",
+        "lost",
+        "easy",
+        "home",
+        "time",
+        "break",
+        "care",
+        "seat",
+        "nap",
+        "on",
+        "away",
+        "down",
+        "up",
+        "hand",
+        "back",
+        "turn",
+        "over",
+        "rid",
+        "going",
+        "started",
+        "ready",
     )
 )
 
@@ -98,7 +120,7 @@ def _chinese(text: str, reading: Reading) -> tuple[Step, ...]:
     thing = _ZH_THING.fullmatch(text)
     if (
         thing is None
-        or any(char in thing["what"] for char in "它他她我你门灯窗饭菜地")
+        or any(char in thing["what"] for char in "它他她我你门灯窗饭菜地带送")
         or not thing["what"]
     ):
         return _only_there(thing["src"] if thing else None, reading)

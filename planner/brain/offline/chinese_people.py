@@ -59,7 +59,7 @@ def _present(found: Match[str], reading: Reading) -> Meaning:
 
 def _tell_words(found: Match[str], reading: Reading) -> Meaning:
     words = reading.marked.restore(found["words"])
-    return meet(found["who"], where(found, "at"), reading, words[:500])
+    return meet(found["who"], where(found, "at2") or where(found, "at"), reading, words[:500])
 
 
 def _quote_to(found: Match[str], reading: Reading) -> Meaning:
@@ -109,7 +109,8 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"{_AT}(?:告诉|对|跟|和|向|通知){_WHO}(?:说|讲|喊)?[:]?(?P<quote>{QUOTE})", _quote_to),
     rule(
-        rf"{_AT}(?:告诉|通知|提醒|叫|让|请|对|跟){_WHO}(?:说|讲)?(?:一下|一声)?(?P<words>[^,]+)",
+        rf"{_AT}(?:告诉|通知|提醒|叫|让|请|对|跟){_AT2}{_WHO}(?:说|讲)?(?:一下|"
+        r"一声)?(?P<words>[^,]+)",
         _tell_words,
     ),
     rule(

@@ -48,12 +48,12 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(
         rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT})(?:里面?|上面?|"
-        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{_UNIT}(?P<what>{THING})",
+        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{_UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),
     rule(
         rf"(?:{_SEE})?{_AT}(?:{_SEE})?(?:一共|总共|现在)?(?:有|坐着|站着|躺着|摆着|放着|停着|坐了|"
-        rf"站了)?(?:几|多少){_UNIT}(?P<what>{THING})",
+        rf"站了)?(?:几|多少){_UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),
     rule(rf"{_AT}{_FIND}(?P<what>{THING})", _find),
@@ -61,7 +61,11 @@ RULES: tuple[Rule, ...] = (
     rule(rf"(?:把)?(?P<what>{THING})(?:给我)?找(?:出来|到)", _find),
     rule(rf"(?:{_SEE}){_MUST}{_IS_THERE}(?P<what>{THING})", _find),
     rule(rf"{_MUST}(?:{_SEE})?{_IS_THERE}(?P<what>(?!什么|事|问题|异常|情况){THING})", _find),
-    rule(rf"(?:{_SEE})(?:谁|什么)?(?:人)?{_MUST}(?:[^,]*)", _look),
+    rule(
+        rf"(?:{_SEE})?有?(?:几|多少){_UNIT}(?P<what>(?!岁|点){THING}){_MUST}",
+        _count,
+    ),
+    rule(rf"(?:(?:{_SEE})(?:谁|什么)?(?:人)?|谁){_MUST}(?:[^,]*)", _look),
     rule(rf"{_MUST}(?:{_SEE})(?:[^,\ue000-\ue8ff]*)", _look),
     rule(
         rf"{_MUST}(?:有(?:什么|谁|哪些)|(?:是|在)?(?:什么|怎么样|干净|整洁|安全|空的?|开着|"

@@ -85,6 +85,10 @@ TALK: tuple[Rule, ...] = (
     rule(_WHERE, about(Topic.WHERE)),
     rule(_PLACES, about(Topic.PLACES)),
     rule(_HELP, about(Topic.HELP)),
+    rule(
+        r"(?:describe|introduce|present) yourself|tell (?:me|us) about yourself|what are you",
+        about(Topic.SELF),
+    ),
     rule(r"(?P<topic>.+)", on_topic),
     rule(
         r"hello|hi|hey|good (?:morning|afternoon|evening|day)|hello there|howdy|greetings",
@@ -156,7 +160,7 @@ RULES: tuple[Rule, ...] = (
     rule(
         r"(?:patrol|tour|make (?:a|your) rounds? (?:of|through|in)|do (?:a|your) rounds? (?:of|"
         r"through|in)|"
-        r"visit in turn|go (?:around|through)) (?:through |around |in |"
+        r"visit in turn) (?:through |around |in |"
         rf"between )?(?P<place>{THE}{MARK})(?: {TIMES})?",
         patrol,
     ),

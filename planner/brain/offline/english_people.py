@@ -25,7 +25,7 @@ _FIND = (
     r"see|"
     r"visit|approach|get acquainted with|get to know|talk to|speak (?:to|with)|go (?:up )?to|"
     r"move to|drive to|"
-    r"come to|join|call on|go and see|look after)"
+    r"come to|join|call on|go and see)"
 )
 _GREET = (
     r"(?:greet|welcome|say (?:hello|hi|good (?:morning|evening|afternoon|night)|welcome|"

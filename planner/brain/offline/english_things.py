@@ -13,12 +13,12 @@ from planner.brain.offline.meaning import Meaning, Problem, Reading, Rule, Steps
 
 _TWORD = r"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/\u3400-\u9fff-]+"
 _THING = rf"(?:{THE})?(?:{_TWORD} )*?{_TWORD}"
-_COUNTED = r"[a-z0-9 '/-]+?"
-_ANY_THING = rf"(?:{_THING}|{THE}{MARK})"
+_COUNTED = r"(?!(?:on|to|down|up|me|in|with|from)\b)[a-z0-9 '/-]+?"
+_ANY_THING = rf"(?!(?:what|who|whether|if|how|that|which|where|why)\b)(?:{_THING}|{THE}{MARK})"
 _FIND = (
     r"(?:find(?! out)|locate|look (?:around )?for|search for|seek|spot|pinpoint|identify|detect|"
     r"hunt for|"
-    r"see (?:if you can|whether you can) find|try to find|discover|show)(?: me| us)?"
+    r"see (?:if you can|whether you can) find|try to find|discover)(?: me| us)?"
 )
 _LOOK = (
     r"(?:look around|look(?: (?:at|in|inside|into|around|over))?|check(?: (?:on|out|in))?|inspect|"
@@ -34,6 +34,11 @@ _ASKS = (
     rf"(?:(?:{_LOOK_VERB} )?(?:what|which|who|whose)|{_LOOK_VERB} (?:whether|if|that|how|where|"
     r"the (?:name|pose|"
     r"gender|age|colou?r|number|size|height|position|state|clothes|posture|mood|weight|shape)))"
+)
+_STATE = (
+    r"(?:still |really |already )?(?:open|closed|shut|on|off|empty|clean|dirty|tidy|messy|locked|"
+    r"unlocked|free|occupied|"
+    r"ready|charging|lit|dark|running|made|set|full|taken|busy|safe|clear|warm|cold|wet)"
 )
 _THERE_IS = r"(?:is there|are there|do you see|can you see|did you see|is|are|has|have|do you find)"
 
@@ -128,7 +133,9 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"(?:{_ASKS}|{_THERE_IS})\b[^\ue000-\ue7ff]*?{_MUST}(?: [a-z' -]+)?", _look),
     rule(
-        rf"(?:{_ASKS}|{_THERE_IS})\b(?P<how>) (?P<at>{THE}{MARK})(?P<at_there>)? [a-z' -]+", _look
+        rf"(?:{_LOOK_VERB} (?:if|whether) |is |are )(?P<at>{THE}{MARK})(?P<at_there>)? (?:is |"
+        rf"are )?{_STATE}",
+        _look,
     ),
     rule(
         rf"{_LOOK}(?: (?:the|a|an|all|for|who|what)\b[a-z0-9' -]*?)?{_MUST}(?: [a-z' -]+)?", _look

@@ -20,6 +20,10 @@ _EN = (
     re.compile(r"(?P<late>.+?)[,.;] ?(?:but |and )?before (?:that|this|it),? (?P<early>.+)"),
     re.compile(r"(?P<early>.+?),? (?:but |and )?before (?P<late>(?!that\b|this\b|it\b).+)"),
     re.compile(rf"{_POLITE}after (?P<early>[^,]+), ?(?P<late>.+)"),
+    re.compile(
+        rf"{_POLITE}after (?P<early>[^,]*?{MARK}) (?P<late>(?:go|drive|come|visit|find|look|check|"
+        r"return|turn|head)\b.+)"
+    ),
     re.compile(r"(?P<late>[^,;.]+?),? (?:but |and |only )?after (?P<early>[^,;.]+)"),
     re.compile(r"(?P<late>.+?),? (?:but|and) first,? (?P<early>.+)"),
     re.compile(r"(?P<late>.+)[,;.] ?(?:but |and )?(?P<early>[^,;.]+?) first"),

@@ -57,4 +57,5 @@ def _unnamed(phrase: str, reading: Reading) -> Meaning:
     meant = reading.lexicon.typo(name)
     if meant is not None:
         return Steps((GoTo(place=meant),))
+    name = reading.marked.restore(name)
     return Problem(Code.UNKNOWN_PLACE, name, places=reading.lexicon.near(name), name=name)

@@ -82,17 +82,17 @@ def plan(
     vetoed = _vetoed(marked, setting)
     if vetoed is not None:
         return vetoed
+    bare = _BORDERS.sub("", marked.text)
+    topic = read_by((*TALK, *ZH_TALK), bare, Reading(marked, lexicon, vocabulary, language))
+    if isinstance(topic, About):
+        return compose([topic], bare, setting)
     ordered = replace(marked, text=in_order(marked.text))
     reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now)
     meanings = [
         _within(meaning, context.runnable)
         for meaning in _meanings(ordered, reading, language_of(text))
     ]
-    if not meanings:  # mere courtesy: it may still be a greeting or thanks
-        bare = _BORDERS.sub("", marked.text)
-        polite = read_by((*TALK, *ZH_TALK), bare, reading)
-        if isinstance(polite, About):
-            return compose([polite], bare, setting)
+    if not meanings:
         return Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example=EXAMPLE))
     return compose(meanings, marked.restore(marked.text), setting)
 

@@ -24,6 +24,7 @@ class Topic(Enum):
     SELF = "self"
     TEAM = "team"
     MAKER = "maker"
+    AGE = "age"
     MOOD = "mood"
     JOKE = "joke"
     TIME = "time"
@@ -44,7 +45,8 @@ _EN: tuple[tuple[Topic, str], ...] = (
     (
         Topic.NAME,
         (
-            r"(?:your|the robot's) name|what you are called|how are you called|who you are|"
+            r"(?:your|the robot's) name|what (?:you are|are you) called|how are you called|"
+            r"who you are|"
             r"who are you"
         ),
     ),
@@ -90,6 +92,7 @@ _EN: tuple[tuple[Topic, str], ...] = (
         Topic.MAKER,
         r"who (?:built|made|created|programmed|designed) you|your (?:maker|creator|inventor)",
     ),
+    (Topic.AGE, r"how old (?:are you|you are)|your age"),
     (Topic.MOOD, (r"how (?:are you|you are|do you feel|is it going)(?: (?:doing|today|feeling))*")),
 )
 _ZH: tuple[tuple[Topic, str], ...] = (
@@ -120,6 +123,7 @@ _ZH: tuple[tuple[Topic, str], ...] = (
         Topic.MAKER,
         r"(?:是)?谁(?:造|做|创造|发明|设计|开发)(?:了|出)?(?:的)?你(?:的)?|你是谁(?:造|做|开发)的",
     ),
+    (Topic.AGE, r"你?(?:今年)?(?:几岁|多大)(?:了)?"),
     (Topic.MOOD, (r"你(?:今天)?(?:还)?(?:好吗|怎么样|好不好|累吗|开心吗)")),
 )
 
@@ -138,6 +142,10 @@ _SAID = {
     Topic.MAKER: (
         "The people of the Pons project built me.",
         "我是 Pons 项目的人做出来的。",
+    ),
+    Topic.AGE: (
+        "I am as old as my software: young, and updated now and then.",
+        "我和我的软件一样年轻，偶尔会更新。",
     ),
     Topic.MOOD: ("I have no moods, and I am ready to drive.", "我没有心情好坏，随时可以出发。"),
     Topic.JOKE: (
@@ -169,7 +177,8 @@ _EN_TOPIC, _ZH_TOPIC = _whole(_EN), _whole(_ZH)
 
 
 _ASKED = re.compile(
-    r"^(?:what is|what are|do you (?:know|have)|have you got|(?:do you )?(?:want to )?tell me|"
+    r"^(?:what is|what are|check|do you (?:know|have)|have you got|"
+    r"(?:do you )?(?:want to )?tell me|"
     r"tell us|"
     r"i want to know|can you tell me|any|i would like to (?:know|hear)) "
 )
