@@ -13,7 +13,7 @@ from bridge.core.tick import Tick
 from bridge.core.verdicts import refuse_openly
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import tick_of
-from wire import PROTOCOL, Grant, Held, HeldReason, Hello, Owner
+from wire import PROTOCOL, Grant, Heartbeat, Held, HeldReason, Hello, Owner
 
 
 def at(start: str) -> Tick:
@@ -76,7 +76,9 @@ def test_an_owner_is_taken_and_another_one_holds(last: str | None) -> None:
     tick = at("hold")
     tick.s.ownership = Ownership(last_owner_id=last, echo_s=None, waypoints_seq=7, external_seq=7)
     epoch = tick.s.epoch_no
+    refuse_openly(tick, "hello", "p2", "not_standing", "for a test")
     ownership.hear_hello(tick, hello(tick))
+    assert tick.s.operator.refusals == ()
     sent_s = tick.s.voice.ring[-1]
     owner = Owner(planner_id="p2", kind="planner")
     assert tick.s.ownership == Ownership(owner, "p2", sent_s, sent_s, None, None)
@@ -115,6 +117,8 @@ def test_a_hello_is_refused_for_one_reason_each(
     ownership.hear_hello(tick, hello(tick, **change))
     assert tick.reasons == codes
     assert (tick.s.ownership == owned) is bool(codes)
+    shown = [f"hello_{one.answer.code}" for one in tick.s.operator.refusals]
+    assert shown == [code for code in codes if code != "hello_stale"]
 
 
 def test_the_owners_own_hello_shows_that_it_lives() -> None:
@@ -124,3 +128,25 @@ def test_the_owners_own_hello_shows_that_it_lives() -> None:
     ownership.hear_hello(tick, hello(tick, planner_id="p1"))
     assert tick.s.ownership == replace(before, echo_s=tick.s.voice.ring[-1])
     assert tick.reasons == []
+
+
+@pytest.mark.parametrize(
+    ("had_s", "back", "rightful", "used"),
+    [
+        (None, 0, True, True),
+        (0.0, 0, True, True),
+        (1e9, 0, True, False),
+        (0.0, -1, True, False),  # of a status that was never sent
+        (0.0, 0, False, False),
+    ],
+)
+def test_what_a_brain_has_used_only_grows_newer(
+    had_s: float | None, back: int, rightful: bool, used: bool
+) -> None:
+    tick = at("active")
+    tick.s.ownership = replace(tick.s.ownership, used_s=had_s)
+    newest = tick.s.voice.status_seq
+    epoch = tick.epoch if rightful else "old-1"
+    beat = Heartbeat(planner_id="p1", epoch=epoch, seen=newest, used=newest - back)
+    ownership.hear_heartbeat(tick, beat)
+    assert tick.s.ownership.used_s == (tick.s.voice.ring[-1] if used else had_s)

@@ -108,7 +108,7 @@ def test_a_horizon_of_the_same_leg_goes_on_where_the_last_one_was(
     goal = None if had_goal is None else Waypoint(x_m=had_goal, y_m=0.0, speed_mps=0.3)
     kept = tick.s.leg.horizon if had_horizon else None
     tick.s.leg = replace(tick.s.leg, goal=goal, horizon=kept, refusal="wrong_map")
-    new = horizon(tick, 1.1, 1.2, final=final)
+    new = horizon(tick, 1.1, 1.15, 1.2, final=final)
     hear_waypoints(tick, new)
     leg = tick.s.leg
     assert tick.s.motion.follow == follow

@@ -99,5 +99,15 @@ def test_a_period_is_one_of_at_most_a_second(dt_s: float, period_s: float, lengt
 
 def test_a_tick_that_can_make_the_whole_change_makes_it_exactly() -> None:
     memory = LimiterState(Twist2(0.001, 0.0), -1.0, -1.0)
-    assert shaped(Twist2(0.0, 0.0), memory).sent == Twist2(0.0, 0.0)
+    after = shaped(Twist2(0.0, 0.0), memory)
+    assert after.sent == Twist2(0.0, 0.0)
+    assert (after.left_mps2, after.right_mps2) == pytest.approx((-0.1, -0.1))
     assert shaped(Twist2(0.001, 0.0), memory) == LimiterState(Twist2(0.001, 0.0))
+
+
+def test_brakes_that_are_not_1_mps2_take_their_time_of_a_tick() -> None:
+    # 3 mm/s take 5 ms at 0.6 m/s2; the 5 ms left give 2.5 mm/s the other way at 0.5 m/s2
+    robot = RobotDescription.model_validate({"limits": {"max_decel_mps2": 0.6}})
+    memory = LimiterState(Twist2(0.003, 0.0), -9.0, -9.0)
+    after = shape(Twist2(-0.5, 0.0), memory, BASE, robot.limits, DT)
+    assert after.sent.v_mps == pytest.approx(-0.0025)
