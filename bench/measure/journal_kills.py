@@ -13,13 +13,14 @@ import sys
 import time
 from math import hypot
 from random import Random
+from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 from bench.figures import none_in
 from bench.lab import Missed, until
 from bench.report import Row
 from bench.robot import Robot
-from pons.http import PlannerDown, call
+from pons.http import PlannerDown, Refused, call
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -92,8 +93,10 @@ def _planner(lab: Lab, index: int) -> dict[str, Any]:
         accepted: dict[str, str] = {}
         wal = home / "missions.db-wal"
         seen, at = _changed(wal), random.randint(1, MOST_WRITES)
-        _give(robot, accepted)
+        giving = Thread(target=_give, args=(robot, accepted))
+        giving.start()
         killed = _kill_at(robot, wal, seen, at)
+        giving.join()
         unasked = _restart(robot) if killed else 0
         _give(robot, accepted)
         _go_on(robot, set(accepted.values()))
@@ -119,7 +122,7 @@ def _give(robot: Robot, accepted: dict[str, str]) -> None:
         try:
             goal = call(robot.settings, "POST", "/v1/goals", {"text": text},
                         headers={"Idempotency-Key": key})  # fmt: skip
-        except PlannerDown:
+        except (PlannerDown, Refused):
             return
         accepted[key] = str(goal["id"])
 
@@ -154,7 +157,7 @@ def _restart(robot: Robot) -> int:
     return 0
 
 
-def _go_on(robot: Robot, goals: set[str], limit_s: float = 60.0) -> None:
+def _go_on(robot: Robot, goals: set[str], limit_s: float = 90.0) -> None:
     """Resume whatever is paused or kept waiting until all goals have ended."""
     end_s = time.monotonic() + limit_s
     states: dict[str, dict[str, Any]] = {}
@@ -162,11 +165,14 @@ def _go_on(robot: Robot, goals: set[str], limit_s: float = 60.0) -> None:
         states = {i: robot.goal(i) for i in goals}
         if all(g["state"] in ENDED for g in states.values()):
             return
+        if any(g.get("reason") == "disarmed" for g in states.values()):
+            robot.make_ready()  # a machine that stalls us all for long disarms the bridge
         for i, goal in states.items():
             if goal["state"] == "paused" or goal.get("reason") == "held":
                 call(robot.settings, "POST", f"/v1/goals/{i}/resume", {})
         time.sleep(0.2)
-    raise Missed(f"goals did not end: {[g['state'] for g in states.values()]}")
+    where = [f"{g['state']} {g.get('reason')}" for g in states.values()]
+    raise Missed(f"goals did not end: {where}; {robot.describe()}")
 
 
 def _pose(robot: Robot) -> Pose2:
