@@ -230,6 +230,8 @@ class Missions:
         if is_stop(text):
             await self.stop("answer")
             return self.goal(goal_id)
+        if (error := refusal(self._book, Reply(goal_id, text))) is not None:
+            raise error
         intent = intent_of(text)
         if isinstance(intent, TakeBack):
             return await self.cancel(goal_id)

@@ -6,7 +6,10 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
+import pytest
+
 from planner.brain.scripted import Reply
+from planner.mission import BadState
 from planner.mission.memory import Lesson, Memory
 from planner.plan import Bilingual, Clarify, Code, Goal, GoalState, GoTo, StepPlan
 from planner.world import Site, TaughtPlaces
@@ -147,6 +150,8 @@ def test_an_answer_may_take_the_question_back(tmp_path: Path) -> None:
             assert same.state is GoalState.NEEDS_CLARIFICATION
             taken_back = await together.missions.answer(goal.id, "never mind")
             assert taken_back.state is GoalState.CANCELLED
+            with pytest.raises(BadState):  # nothing is asked any more
+                await together.missions.answer(goal.id, "where are you?")
 
     run(story())
 
