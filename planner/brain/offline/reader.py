@@ -74,20 +74,39 @@ def plan(
     if is_stop(text):  # the stop lane comes first; should one get here, it stays a stop
         return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
     apart, quotes = take_quotes(text)
+    said = normalise(apart)
+    made = _understood(said, text, apart, quotes, vocabulary, context)
+    if isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD:
+        mended = mend(said, _SPELT)  # only now: "the green cup" is no "greet"
+        if mended != said:
+            second = _understood(mended, text, apart, quotes, vocabulary, context)
+            lost = isinstance(second, Clarify) and second.code is Code.NOT_UNDERSTOOD
+            return made if lost else second
+    return made
+
+
+def _understood(
+    said: str,
+    text: str,
+    apart: str,
+    quotes: tuple[str, ...],
+    vocabulary: Vocabulary,
+    context: Context,
+) -> StepPlan | Answer | Clarify | Refuse:
+    """Read a normalised sentence once."""
     lexicon = lexicon_of(vocabulary)
-    found = lexicon.mark(mend(normalise(apart), _SPELT))
-    marked = mark_people(lexicon.mark_slips(found), apart)
+    marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
     language = context.language or language_of(text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now)
     vetoed = _vetoed(marked, setting)
     if vetoed is not None:
         return vetoed
     bare = _BORDERS.sub("", marked.text)
-    topic = read_by((*TALK, *ZH_TALK), bare, Reading(marked, lexicon, vocabulary, language))
+    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now)
+    topic = read_by((*TALK, *ZH_TALK), bare, reading)
     if isinstance(topic, About):
         return compose([topic], bare, setting)
     ordered = replace(marked, text=in_order(marked.text))
-    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now)
     meanings = [
         _within(meaning, context.runnable)
         for meaning in _meanings(ordered, reading, language_of(text))

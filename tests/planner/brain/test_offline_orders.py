@@ -126,6 +126,12 @@ MOTION = {
     "左转": "turn=90",
     "follow me": "find=person follow=person",
     "find the red cup": "find=red cup",
+    "find the green cup in the kitchen": "kitchen find=green cup@kitchen",
+    "naviagte to the kitchen": "kitchen",
+    "folow the man in the kitchen": "kitchen find=man@kitchen follow=man",
+    "meet Mary at the sofa, follow her, and take her back": (
+        "sofa find=Mary@sofa follow=Mary say=Please come with me. sofa"
+    ),
     "what do you see?": "look=what do you see",
     "看看有没有人": "find=人",
     "go to the kitchen and look for a red cup": "kitchen find=red cup@kitchen",
@@ -142,6 +148,7 @@ STILL = {
     "回来": "clarify ambiguous",
     "go to the kitchen and fly": "clarify not_understood",
     "go to the kitchen door": "clarify not_understood",
+    "go to the sofa and follow her": "clarify incomplete",
     "go behind the sofa": "clarify not_understood",
     "go near the kitchen": "clarify not_understood",
     "drive into the sofa": "clarify not_understood",
