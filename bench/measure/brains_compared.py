@@ -61,6 +61,10 @@ def measure(lab: Lab) -> list[Row]:
     if missing:
         note = f"the peers can't be installed here: {missing}"
         rows.append(Row("pydantic-ai, langchain", "ms", "", value="not measured", note=note))
+    rows += [
+        row_of(f"CPU a goal: {name}", "ms", "", one["cpu_ms"], "mean of each round")
+        for name, one in run.items()
+    ]
     for name, one in run.items():
         told = f"{one['characters_per_call'] / 4:.0f} at 4 characters each"
         rows.append(
@@ -92,13 +96,13 @@ def _run(lab: Lab, peers: Path | None) -> dict[str, Any]:
             for python, module in pythons
         ]
         for one in all_:
-            one.turn(WARM)
+            one.turn(WARM)  # not counted
         before = counts(url)
         for number in range(ROUNDS):
             lab.say(f"round {number + 1}/{ROUNDS}")
             for at in range(len(all_)):
                 one = all_[(at + number) % len(all_)]
-                one.rounds_ms.append(one.turn(EACH))
+                one.round(EACH)
         return {one.name: _told(one, before, counts(url)) for one in all_}
 
 
@@ -108,6 +112,7 @@ def _told(one: Contender, before: dict[str, Any], after: dict[str, Any]) -> dict
     characters = after["bytes"][name] - before["bytes"][name]
     return {
         "rounds_ms": one.rounds_ms,
+        "cpu_ms": one.cpu_ms,
         "versions": one.versions,
         "calls_per_goal": calls / goals,
         "characters_per_call": characters / max(1, calls),
@@ -122,14 +127,21 @@ class Contender:
         hello = self._line()
         self.name, self.versions = hello["name"], hello["versions"]
         self.rounds_ms: list[list[float]] = []
+        self.cpu_ms: list[float] = []
 
-    def turn(self, count: int) -> list[float]:
-        """Have it plan so many times; return how long each took [ms]."""
+    def round(self, count: int) -> None:
+        """Take a turn and keep its times."""
+        turn = self.turn(count)
+        self.rounds_ms.append(turn["took_ms"])
+        self.cpu_ms.append(turn["cpu_ms"])
+
+    def turn(self, count: int) -> dict[str, Any]:
+        """Have it plan so many times; return how long each took, and the CPU of one [ms]."""
         if self._process.stdin is not None:
             self._process.stdin.write(f"{count}\n")
             self._process.stdin.flush()
-        took: list[float] = self._line()
-        return took
+        turn: dict[str, Any] = self._line()
+        return turn
 
     def _line(self) -> Any:
         line = self._process.stdout.readline() if self._process.stdout is not None else ""

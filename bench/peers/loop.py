@@ -20,9 +20,10 @@ def take_turns(name: str, versions: dict[str, str], once: Callable[[], Awaitable
 async def _turns(name: str, versions: dict[str, str], once: Callable[[], Awaitable[None]]) -> None:
     print(json.dumps({"name": name, "versions": versions}), flush=True)
     while line := sys.stdin.readline():
-        took_ms = []
+        took_ms, cpu_s = [], time.process_time()
         for _ in range(int(line)):
             began_s = time.perf_counter()
             await once()
             took_ms.append((time.perf_counter() - began_s) * 1e3)
-        print(json.dumps(took_ms), flush=True)
+        cpu_ms = (time.process_time() - cpu_s) * 1e3 / len(took_ms)
+        print(json.dumps({"took_ms": took_ms, "cpu_ms": cpu_ms}), flush=True)
