@@ -111,3 +111,12 @@ def test_brakes_that_are_not_1_mps2_take_their_time_of_a_tick() -> None:
     memory = LimiterState(Twist2(0.003, 0.0), -9.0, -9.0)
     after = shape(Twist2(-0.5, 0.0), memory, BASE, robot.limits, DT)
     assert after.sent.v_mps == pytest.approx(-0.0025)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_either_way_slowing_is_quick_and_speeding_up_gentle(sign: float) -> None:
+    memory = LimiterState(Twist2(0.3 * sign, 0.0))
+    slowed = shaped(Twist2(0.1 * sign, 0.0), memory)
+    assert slowed.sent.v_mps == pytest.approx(sign * (0.3 - 10.0 * DT * DT))
+    faster = shaped(Twist2(0.5 * sign, 0.0), memory)
+    assert faster.sent.v_mps == pytest.approx(sign * (0.3 + 2.0 * DT * DT))
