@@ -30,24 +30,41 @@ from planner.mission.records import Book, Mission
 from planner.mission.reducer import advance, wish
 from planner.mission.table import ALLOWED, refusal
 from planner.plan import (
+    Ask,
     Code,
+    Decide,
     GoalState,
     GoTo,
     Language,
     Outcome,
+    Patrol,
     Say,
     StepPlan,
     StepState,
+    Turn,
     Wait,
     message,
 )
+from planner.plan import Move as MoveStep
 from tests.planner.mission.fakes import FACTS, row, status
 from wire import Action, Held, HeldReason, LegReport, Mode, Pose2, Twist2
 
 IDS = ("g1", "g2", "g3")
 ids = st.sampled_from(IDS)
 plans = st.lists(
-    st.sampled_from([GoTo(place="kitchen"), GoTo(place="hall"), Say(text="hi"), Wait(seconds=0.3)]),
+    st.sampled_from(
+        [
+            GoTo(place="kitchen"),
+            GoTo(place="hall"),
+            Say(text="hi"),
+            Wait(seconds=0.3),
+            Turn(angle_rad=4.0),
+            MoveStep(distance_m=-1.0),
+            Patrol(places=("hall", "kitchen")),
+            Ask(question="who?"),
+            Decide(question="what now?"),
+        ]
+    ),
     min_size=1,
     max_size=3,
 ).map(lambda steps: StepPlan(steps=tuple(steps)))
