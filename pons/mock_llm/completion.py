@@ -20,7 +20,7 @@ def completion(body: dict[str, Any], text: str | None, fault: str | None = None)
     called = "tool_calls" in message
     finish = "length" if fault == "length" else "tool_calls" if called else "stop"
     prompt = len(json.dumps(body.get("messages", ""), ensure_ascii=False)) // CHARACTERS_PER_TOKEN
-    wrote = len(text or "") // CHARACTERS_PER_TOKEN
+    wrote = min(len(text or "") // CHARACTERS_PER_TOKEN, _most(body))
     return {
         "id": f"chatcmpl-{time.monotonic_ns():x}",
         "object": "chat.completion",
@@ -33,6 +33,12 @@ def completion(body: dict[str, Any], text: str | None, fault: str | None = None)
             "total_tokens": prompt + wrote,
         },
     }
+
+
+def _most(body: dict[str, Any]) -> int:
+    """Return how many tokens the client wants at most: no server bills more than that."""
+    asked = [body.get(name) for name in ("max_tokens", "max_completion_tokens")]
+    return min((most for most in asked if isinstance(most, int) and most > 0), default=1_000_000)
 
 
 def _message(body: dict[str, Any], text: str | None, fault: str | None) -> dict[str, Any]:
