@@ -13,7 +13,7 @@ from bridge.core.state import RowUp
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import tick_of
-from wire import Held, HeldReason, Mode, Velocity
+from wire import Held, HeldReason, Mode, OpKind, Stop, Velocity
 
 EPS = 1e-6
 HELD = Held(reason=HeldReason.STOP, id="s1")
@@ -201,3 +201,102 @@ def test_a_stick_steers_while_it_is_fresh(
         assert (tick.s.mode, tick.s.stick.source_id) == (Mode.HOLD, None)
         assert tick.s.stick.pressed_s is not None
         assert tick.s.held == Held(reason=HeldReason.TELEOP, id="stick")
+
+
+def test_many_stops_at_once_are_one_change_of_epoch_and_a_verdict_each() -> None:
+    tick = at("active")
+    epoch, nonce = tick.s.epoch_no, tick.s.operator.nonce_no
+    tick.inbox = replace(tick.inbox, stops=(Stop(id="s1", source="a"), Stop(id="s2", source="b")))
+    operator.hear_stops(tick)
+    assert (tick.s.epoch_no, tick.s.mode, tick.stopped) == (epoch + 1, Mode.STOPPING, True)
+    told = [(one.answer.id, one.answer.code) for one in tick.s.operator.answers[-2:]]
+    assert told == [("s1", "ok"), ("s2", "ok")]
+    assert tick.s.held == Held(reason=HeldReason.STOP, id="s2")
+    assert (tick.s.operator.nonce_no, tick.s.operator.old_nonce_no) == (nonce + 1, None)
+    tick.stopped = False
+    before = tick.s.operator
+    operator.hear_stops(tick)
+    assert not tick.stopped, "said again it changes nothing"
+    assert tick.s.operator == before
+
+
+@pytest.mark.parametrize(("start", "kind"), [("disarmed", "arm"), ("estopped", "reset")])
+def test_an_act_needs_a_proof_and_spends_it(start: str, kind: OpKind) -> None:
+    for authentic, code in ((False, "bad_proof"), (True, "ok")):
+        world = reached(start)
+        nonce = world.state.operator.nonce_no
+        request_id = world.op(kind, authentic=authentic)
+        tick = tick_of(world)
+        operator.hear_op(tick, world.extra.ops[0])
+        world.state = tick.s
+        assert world.verdict(request_id) == code
+        spent = f"{nonce} {kind} {request_id}" in tick.s.operator.accepted
+        assert spent is authentic
+        assert tick.s.operator.nonce_no == nonce + authentic
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"epoch": "b0-99"}, "old_epoch"),
+        ({"seen": 999_999}, "teleop_stale"),
+        ({"source_id": "other"}, "stick_taken"),
+        ({"seq": 0}, "seq_backwards"),
+        ({}, None),
+    ],
+)
+def test_a_stick_is_heard_where_it_may_be(changes: dict[str, object], reason: str | None) -> None:
+    tick = at("teleop")
+    tick.s.stick = replace(tick.s.stick, seq=5, pressed_s=None)
+    tick.s.bad_bucket = 3.0
+    held = tick.s.stick.source_id
+    said = velocity(tick, 0.1, source_id=held, seq=6).model_copy(update=changes)
+    stick.hear_teleop(tick, said)
+    assert tick.reasons == ([] if reason is None else [reason])
+    assert tick.s.stick.pressed_s == tick.now_s, "somebody holds it, whatever it says"
+    steers = reason is None
+    assert (tick.s.stick.v_mps == 0.1) is steers
+    assert tick.s.bad_bucket == {None: 2.0, "seq_backwards": 4.0}.get(reason, 3.0)
+
+
+def test_on_the_edge_of_its_age_a_stick_is_heard() -> None:
+    for age_s, heard in ((0.4, True), (0.4001, False)):
+        tick = at("teleop")
+        ring = tick.s.voice.ring
+        tick.s.voice = replace(tick.s.voice, ring=(*ring[:-1], 0.0))
+        tick.now_s = age_s
+        tick.s.stick = replace(tick.s.stick, seq=5)
+        stick.hear_teleop(tick, velocity(tick, 0.1, source_id=tick.s.stick.source_id, seq=6))
+        assert (tick.reasons == []) is heard
+
+
+def test_letting_go_holds_and_the_hand_must_begin_anew() -> None:
+    tick = at("teleop")
+    source, epoch = tick.s.stick.source_id, tick.s.epoch_no
+    tick.s.held = None
+    tick.s.stick = replace(tick.s.stick, pressed_s=1.0)
+    stick.hear_teleop(tick, velocity(tick, 0.3, source_id=source, dead_man=False))
+    assert tick.s.mode is Mode.HOLD
+    assert tick.s.held == Held(reason=HeldReason.TELEOP, id=str(source))
+    assert (tick.s.stick.source_id, tick.s.stick.ready, tick.s.stick.pressed_s) == (None, (), 1.0)
+    assert tick.s.stick.released == (source,)
+    stick.hear_teleop(tick, velocity(tick, 0.0, source_id=source))
+    assert tick.moving, "released, then neutral, in the taking itself"
+    assert tick.s.epoch_no == epoch + 1
+    assert not tick.s.grants.since_arm
+
+
+def test_a_stick_that_nobody_holds_any_more_ends_no_mode() -> None:
+    tick = at("active")
+    tick.s.stick = replace(tick.s.stick, source_id="s", received_s=0.0)
+    stick.watch(tick)
+    assert (tick.s.mode, tick.s.held, tick.s.stick.source_id) == (Mode.ACTIVE, None, None)
+
+
+def test_taking_over_forgets_that_a_grant_was_given() -> None:
+    tick = at("hold_granted")
+    assert tick.s.grants.since_arm
+    stick.hear_teleop(tick, velocity(tick, dead_man=False))
+    stick.hear_teleop(tick, velocity(tick))
+    assert (tick.s.mode, tick.s.grants.since_arm) == (Mode.TELEOP, False)
+    assert tick.s.grants.mission is None
