@@ -123,7 +123,7 @@ RULES: tuple[Rule, ...] = (
         _follow,
     ),
     rule(
-        rf"{_AT}{_FIND}{_AT2}(?:还?有没有|是否有|是不是有|有无)?{_WHO}(?:在家?|了)?",
+        rf"{_AT}{_FIND}{_AT2}(?:还?有没有|是否有|是不是有|有无)?{_WHO}(?:在家?|在不在|在没在|了)?",
         _meet_somewhere,
     ),
     rule(

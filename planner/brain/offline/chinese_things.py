@@ -56,6 +56,11 @@ RULES: tuple[Rule, ...] = (
         rf"站了)?(?:几|多少){_UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),
+    rule(
+        rf"(?:{_SEE})(?P<what>{THING})(?:在不在|是不是在|是否在)(?P<at>{SPOT})(?:里面?|上面?|那里|"
+        r"旁边)?",
+        _find,
+    ),
     rule(rf"{_AT}{_FIND}(?P<what>{THING})", _find),
     rule(rf"{_FIND}{_MUST}(?P<what>{THING})", _find),
     rule(rf"(?:把)?(?P<what>{THING})(?:给我)?找(?:出来|到)", _find),

@@ -148,5 +148,10 @@ RULES: tuple[Rule, ...] = (
         rf"{_LOOK})\b[a-z0-9' -]*",
         _look_here,
     ),
+    rule(
+        r"(?:is|are) (?:the|a|an|any|there|some(?:one|body)|any(?:one|body))\b[a-z0-9' -]*?"
+        r"(?: in (?:the|this) room)?",
+        _look_here,
+    ),
     rule(rf"(?P<what>.+?){_AT}", _next_thing),
 )

@@ -21,6 +21,7 @@ _ONE_SCRIPT = str.maketrans(_PAIRS[::2], _PAIRS[1::2])
 
 _CJK = r"[\u3400-\u9fff。、]"
 _CJK_GAP = re.compile(rf"(?<={_CJK})\s+|\s+(?={_CJK})")
+_IN_BRACKETS = re.compile(r"\(([^()\d]+)\)")
 _HYPHEN = re.compile(r"(?<=[a-z])[-_](?=[a-z])")
 _CONTRACTIONS = (
     (re.compile(r"\bcan'?t\b"), "can not"),
@@ -42,7 +43,9 @@ def normalise(text: str) -> str:
     plain = _HYPHEN.sub(" ", shown.translate(_ONE_SCRIPT))
     for pattern, words in _CONTRACTIONS:
         plain = pattern.sub(words, plain)
-    return " ".join(_CJK_GAP.sub("", plain).split())
+    whole = " ".join(_CJK_GAP.sub("", plain).split())
+    inside = _IN_BRACKETS.fullmatch(whole)
+    return inside[1] if inside else whole
 
 
 def squash(name: str) -> str:

@@ -157,9 +157,14 @@ _WHETHER = re.compile(
 )
 
 
+_A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
+"""看看她在不在: to be looked at, no negation."""
+
+
 def asks_whether(text: str) -> str:
     """Return the text without the "if" of a question that looking answers: no condition."""
-    return _WHETHER.sub(lambda found: found[1] or "有", text)
+    plain = _A_NOT_A.sub(r"\1\2", text)
+    return _WHETHER.sub(lambda found: found[1] or "有", plain)
 
 
 def _meanings(marked: Marked, reading: Reading, language: Language) -> list[Meaning]:
