@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.braking import reaction_s
+from bridge.core.contactgate import contact_gate
 from bridge.core.fence import build_fence
 from bridge.core.fencegate import fence_scale
 from bridge.core.gate import _inside_fence, _note, look, reconsider, scan_age_s, through
@@ -226,3 +227,21 @@ def test_the_fence_counts_what_was_learnt_of_the_brakes(
     assert tick.s.motion.bound_by == ("robot" if v_mps < 0.0 else "fence")
     tick.config = replace(tick.config, fence=None)
     assert _inside_fence(tick, twist) is twist
+
+
+@pytest.mark.parametrize(
+    ("asked", "passed"),
+    [
+        (Twist2(-0.05, 0.1), Twist2(-0.05, 0.1)),
+        (Twist2(-0.2, 0.0), Twist2(-0.1, 0.0)),
+        (Twist2(-0.2, 0.2), Twist2(-0.1, 0.1)),
+        (Twist2(-0.1, 0.6), Twist2(-0.05, 0.3)),
+        (Twist2(0.0, 0.1), Twist2(0.0, 0.1)),
+        (Twist2(0.0, -0.6), Twist2(0.0, -0.3)),
+        (STILL, STILL),
+    ],
+)
+def test_away_from_a_contact_one_creeps(asked: Twist2, passed: Twist2) -> None:
+    state = driving(bumper_front=True).s.drive.newest
+    got = contact_gate(state, asked)
+    assert (got.v_mps, got.w_radps) == pytest.approx((passed.v_mps, passed.w_radps))

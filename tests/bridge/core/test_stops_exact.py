@@ -23,6 +23,7 @@ from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import STILL, Action, Mode, Twist2
+from wire.robot import Limits
 
 EPS = 1e-6
 LAG_S = ROBOT.drive.lag_s
@@ -225,3 +226,37 @@ def test_too_long_is_half_as_long_again_and_a_little() -> None:
     assert not too_long(PLAN, most_s - EPS, LAG_S)
     assert too_long(PLAN, most_s + EPS, LAG_S)
     assert too_long(PLAN, nan, LAG_S)
+
+
+SLOW = Limits(max_decel_mps2=0.8, stop_jerk_mps3=4.0)
+
+
+@pytest.mark.parametrize("accel", [(0.0, 0.0), (-0.3, -0.5), (0.4, -0.2), (-9.0, -9.0)])
+@pytest.mark.parametrize("sent", [Twist2(0.5, 0.0), Twist2(0.02, 0.0), Twist2(0.2, 0.6)])
+def test_a_plan_takes_off_the_whole_speed_and_keeps_its_bounds(
+    sent: Twist2, accel: tuple[float, float]
+) -> None:
+    plan = plan_stop(LimiterState(sent, *accel), ROBOT.base, SLOW, Profile.STOP)
+    half = ROBOT.base.wheel_separation_m / 2
+    assert plan.rim_mps == pytest.approx(sent.v_mps + half * sent.w_radps)
+    rising = (plan.first_mps2 + plan.peak_mps2) / 2 * plan.rise_s
+    taken = rising + plan.peak_mps2 * (plan.flat_s + plan.fall_s / 2)
+    assert taken == pytest.approx(plan.rim_mps)
+    assert plan.rise_s == pytest.approx((plan.peak_mps2 - plan.first_mps2) / 4.0)
+    assert plan.fall_s == pytest.approx(plan.peak_mps2 / 4.0)
+    assert plan.first_mps2 <= plan.peak_mps2 <= 0.8
+    assert (plan.peak_mps2 == 0.8) is (sent.v_mps > 0.1)
+    braking = max(0.0, -accel[1], -accel[0] if sent.v_mps > half * sent.w_radps else accel[0])
+    most = (2 * 4.0 * plan.rim_mps) ** 0.5
+    assert plan.first_mps2 == pytest.approx(min(braking, 0.8, most))
+
+
+def test_the_hardest_plan_is_one_flat_ramp_and_wild_speeds_have_none() -> None:
+    sent = Twist2(0.5, 0.4)
+    hard = ROBOT.limits.hardest_decel_mps2
+    plan = plan_stop(LimiterState(sent, -0.5, -0.5), ROBOT.base, ROBOT.limits, Profile.FASTEST)
+    assert plan == StopPlan(sent, 0.6, hard, hard, 0.0, 0.6 / hard, 0.0)
+    for rim_mps, planless in ((1000.0, False), (1000.1, True), (nan, True), (0.0, True)):
+        wild = LimiterState(Twist2(rim_mps, 0.0))
+        made = plan_stop(wild, ROBOT.base, ROBOT.limits, Profile.STOP)
+        assert (made == NO_STOP) is planless
