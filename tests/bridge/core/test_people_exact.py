@@ -206,11 +206,14 @@ def test_a_stick_steers_while_it_is_fresh(
 def test_many_stops_at_once_are_one_change_of_epoch_and_a_verdict_each() -> None:
     tick = at("active")
     epoch, nonce = tick.s.epoch_no, tick.s.operator.nonce_no
-    tick.inbox = replace(tick.inbox, stops=(Stop(id="s1", source="a"), Stop(id="s2", source="b")))
+    tick.inbox = replace(
+        tick.inbox,
+        stops=(Stop(id="s0", source="a"), Stop(id="s1", source="a"), Stop(id="s2", source="b")),
+    )
     operator.hear_stops(tick)
     assert (tick.s.epoch_no, tick.s.mode, tick.stopped) == (epoch + 1, Mode.STOPPING, True)
-    told = [(one.answer.id, one.answer.code) for one in tick.s.operator.answers[-2:]]
-    assert told == [("s1", "ok"), ("s2", "ok")]
+    told = [(one.answer.id, one.answer.code) for one in tick.s.operator.answers[-3:]]
+    assert told == [("s0", "ok"), ("s1", "ok"), ("s2", "ok")]
     assert tick.s.held == Held(reason=HeldReason.STOP, id="s2")
     assert (tick.s.operator.nonce_no, tick.s.operator.old_nonce_no) == (nonce + 1, None)
     tick.stopped = False
