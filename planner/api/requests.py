@@ -36,7 +36,8 @@ class NewGoal(Body):
     confirm: bool = False
     """Show the plan and wait for a yes before the first step."""
     replace: bool = False
-    """Forget the running goal and the queue."""
+    """Once understood, end the running goal (where none runs, the one that thinks or asks) and go
+    first; what is paused or queued keeps its place."""
     operator: OperatorProof | None = None
     """On a robot of metal: a proof of kind resume, which clears what a stop has held."""
 
