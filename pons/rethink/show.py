@@ -18,6 +18,11 @@ LIMITS = (
     "robot stood; the people and things of that day are not in it."
 )
 
+LIMITS_ZH = (
+    "重新思考时使用场地现有的地点。“仿真行驶”使用真实的安全桥核心与仿真机器人，"
+    "地图为场地自身地图，从机器人当时的位置出发，不含当天的人和物品。"
+)
+
 
 def verdict(again: Again) -> str:
     """Say what would have become of the model's decision."""
@@ -52,7 +57,7 @@ def table(recorded: Recorded, found: Sequence[Again], cost: Spending, model: str
         if said := verdict(again):
             lines.append(f"  -> {said}")
     lines.append(_summary(recorded, found, cost))
-    lines.append(LIMITS)
+    lines += [_summary_zh(found, cost), LIMITS, LIMITS_ZH]
     return "\n".join(lines)
 
 
@@ -117,3 +122,14 @@ def _summary(recorded: Recorded, found: Sequence[Again], cost: Spending) -> str:
             "be read"
         )
     return "\n".join(parts)
+
+
+def _summary_zh(found: Sequence[Again], cost: Spending) -> str:
+    n = _counts(found)
+    return (
+        f"{len(found)} 条指令：{n['same']} 条相同，{n['words']} 条仅措辞不同，"
+        f"{n['differs']} 条不同，{n['none']} 条没有计划；"
+        f"{n['refused_by_validation']} 条会被校验拒绝，"
+        f"{n['driven']} 条做了仿真行驶，其中安全桥干预 {n['bound_by_the_bridge']} 条，"
+        f"违反运动规则 {n['laws_broken']} 条；共 {cost.calls} 次调用"
+    )

@@ -152,7 +152,8 @@ def test_the_command_tells_what_differs_and_what_would_have_stopped_it(
         assert main([*words, "--json"]) == 1
         shown = json.loads(capsys.readouterr().out)
         assert main([*words, "--most", "0"]) == 0
-        assert "0 sentences" in capsys.readouterr().out
+        assert "0 sentences" in (said := capsys.readouterr().out)
+        assert "0 条指令" in said
         mock.set(fault="hallucinate")
         assert main([*words, "--most", "1"]) == 1
         assert "without a plan" in capsys.readouterr().out
