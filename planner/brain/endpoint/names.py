@@ -28,6 +28,8 @@ class Target:
     url: str
     headers: dict[str, str] = field(default_factory=dict)
     extensions: dict[str, Any] = field(default_factory=dict)
+    ip: str = ""
+    """Empty where nothing was looked up."""
 
 
 class Names:
@@ -53,6 +55,8 @@ class Names:
         if wrong is not None:
             told = f"{self._address.host} resolves to {wrong}, which is never asked"
             raise BrainDown(told, why="refused_address")
+        # Names of large services turn their addresses round at each look; a connection is kept.
+        found.sort(key=lambda ip: ip != self._targets[0].ip)
         self._targets = tuple(map(self._pinned, found[:MAX_TRIED]))
         self._resolved_s = now_s
         return self._targets
@@ -83,4 +87,5 @@ class Names:
             self._address.url.replace(f"://{host}:{port}", f"://{shown}:{port}", 1),
             {"Host": host if port == usual else f"{host}:{port}"},
             {"sni_hostname": host},
+            ip,
         )

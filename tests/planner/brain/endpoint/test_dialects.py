@@ -197,20 +197,24 @@ def test_an_address_that_takes_no_connection_is_passed_over(
 def test_the_address_that_answered_comes_first_and_a_number_is_not_looked_up(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    asked = resolving(monkeypatch, ["203.0.113.7", "203.0.113.8"])
+    seven, eight = "203.0.113.7", "203.0.113.8"
+    asked = resolving(monkeypatch, [seven, eight], [seven, eight], [eight])
 
     async def story() -> None:
         names = Names(Address.parse("http://models.example/v1"))
         _, second = await names.targets()
         names.answered(second)
         assert (await names.targets())[0] is second
+        monkeypatch.setattr("planner.brain.endpoint.names.RESOLVED_FOR_S", -1.0)
+        assert [each.ip for each in await names.targets()] == [eight, seven]
+        assert [each.ip for each in await names.targets()] == [eight]
         local = Names(Address.parse("http://127.0.0.1:1/v1"))
         assert [each.url for each in await local.targets()] == [
             "http://127.0.0.1:1/v1/chat/completions"
         ]
 
     asyncio.run(story())
-    assert asked == ["models.example"]
+    assert asked == ["models.example"] * 3
 
 
 def test_a_mode_of_the_owner_is_kept_whatever_is_remembered(
