@@ -13,6 +13,8 @@ from bridge.core.state import Stopping
 from bridge.core.stopcurve import (
     NO_STOP,
     StopPlan,
+    _against,
+    _braking,
     plan_stop,
     planned,
     planned_rim_mps,
@@ -260,3 +262,18 @@ def test_the_hardest_plan_is_one_flat_ramp_and_wild_speeds_have_none() -> None:
         wild = LimiterState(Twist2(rim_mps, 0.0))
         made = plan_stop(wild, ROBOT.base, ROBOT.limits, Profile.STOP)
         assert (made == NO_STOP) is planless
+
+
+@pytest.mark.parametrize(
+    ("speed", "accel", "braking"),
+    [(0.5, -1.0, 1.0), (0.5, 1.0, -1.0), (-0.5, 1.0, 1.0), (-0.5, -1.0, -1.0), (0.0, 1.0, 0.0),
+     (0.0, -1.0, 0.0)],
+)  # fmt: skip
+def test_braking_is_what_goes_against_the_speed(speed: float, accel: float, braking: float) -> None:
+    assert _against(speed, accel) == braking
+
+
+@pytest.mark.parametrize("accel", [(0.3, 0.0), (0.0, -0.3), (0.3, -0.1)])
+def test_each_wheel_brakes_its_own_way(accel: tuple[float, float]) -> None:
+    # the left wheel at -0.025 m/s, the right one at 0.225 m/s
+    assert _braking(LimiterState(Twist2(0.1, 0.5), *accel), ROBOT.base) == pytest.approx(0.3)
