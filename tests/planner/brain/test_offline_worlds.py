@@ -49,3 +49,20 @@ def test_every_spelling_of_every_place_is_understood(home: Vocabulary) -> None:
                 made = plan(text, home)
                 assert isinstance(made, StepPlan), text
                 assert [getattr(step, "place", None) for step in made.steps] == [entry.id], text
+
+
+def test_a_typo_that_fits_two_places_asks() -> None:
+    rooms = tuple(
+        Entry(id=name, kind="room", name=Bilingual(en=name, zh=zh))
+        for name, zh in (("storeroom", "储藏室"), ("storerooms", "仓库"))
+    )
+    for text in ("go to the storerom", "find the cup in the storerom"):
+        made = plan(text, Vocabulary(entries=rooms))
+        assert isinstance(made, Clarify), text
+        assert made.code in (Code.UNKNOWN_PLACE, Code.AMBIGUOUS)
+    asked = plan("go to the storerom", Vocabulary(entries=rooms))
+    assert isinstance(asked, Clarify)
+    assert {option.text for option in asked.options} == {
+        "go to the storeroom",
+        "go to the storerooms",
+    }
