@@ -119,3 +119,9 @@ def test_a_correction_ends_at_its_bound_and_what_is_no_number_brakes(
     integral: float, off: float, spare: float, expected: tuple[float, float]
 ) -> None:
     assert _corrected(integral, off, spare, 0.01, ROBOT.drive) == pytest.approx(expected)
+
+
+def test_points_in_one_place_are_passed_over() -> None:
+    points = tuple(Waypoint(x_m=x, y_m=0.0, speed_mps=0.4) for x in (0.0, 0.0, 0.1, 0.1, 0.2))
+    path = prepare(points, ROBOT.limits)
+    assert _progress(path, 0.0, Pose2(0.17, 0.01, 0.0)) == pytest.approx(0.17)
