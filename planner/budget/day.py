@@ -1,8 +1,8 @@
 """Tell which UTC day spending counts to, by our own wall clock. A clock that steps back gives none.
 
 The newest day ever seen stays the day while the clock says an older one. A clock that leapt ahead
-by mistake would shut the budget until that date comes, so a day's running on our monotonic clock
-while the wall clock stays behind ends that day as well.
+by mistake would shut the budget until that date comes, so a day's running without a restart, on our
+monotonic clock, while the wall clock stays behind ends that day as well.
 """
 
 from __future__ import annotations
