@@ -1,16 +1,21 @@
 """Choose the model that a tool is to ask: the owner's own, or one named on the command line.
 
-``NAME``, ``URL`` or ``NAME@URL``. What is not named is the owner's. The owner's key goes to the
-owner's host alone; another host's key comes from PONS_MODEL_KEY.
+``NAME``, ``URL`` or ``NAME@URL``. What is not named is the owner's. Where the URL is of another
+host than the owner's settings lead to, what was set for that host stays behind: the key,
+PONS_MODEL_KEY too, `extra_body` and the leave to send sentences away. Another host's key is given
+together with PONS_MODEL_URL, or where no host is set at all.
 """
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from pathlib import Path
 
-from planner.settings import ModelSettings, Settings, load_settings
+from planner.settings import ModelSettings, Settings, load_settings, place_of, same_place
 from wire import Misconfigured
+
+log = logging.getLogger(__name__)
 
 _SCHEMES = ("http://", "https://")
 HOW = "NAME, URL or NAME@URL"
@@ -28,11 +33,20 @@ def chosen(word: str, home: Path, environment: Mapping[str, str]) -> tuple[Setti
         Misconfigured: ``model_not_set``: nothing says which; and all of ``load_settings``.
     """
     name, url = split(word)
+    elsewhere = _elsewhere(url, home, environment)
     named = dict(environment)
     if url:
         named["PONS_MODEL_URL"] = url
     if name:
         named["PONS_MODEL"] = name
+    if elsewhere:
+        named["PONS_MODEL_ALLOW_OFFHOST"] = "0"
+        if named.pop("PONS_MODEL_KEY", ""):
+            log.warning(
+                "PONS_MODEL_KEY is not used: it belongs to another host than %s; "
+                "if it is this one's, set PONS_MODEL_URL to it as well",
+                url,
+            )
     try:
         settings = load_settings(home, named)
     except Misconfigured as wrong:
@@ -47,7 +61,16 @@ def chosen(word: str, home: Path, environment: Mapping[str, str]) -> tuple[Setti
     if url:  # what the owner's model costs says nothing about another
         budget = settings.budget.model_copy(update={"price": None})
         settings = settings.model_copy(update={"budget": budget})
+    if elsewhere:
+        model = model.model_copy(update={"extra_body": {}})
+        settings = settings.model_copy(update={"model": model})
     return settings, model
+
+
+def _elsewhere(url: str, home: Path, environment: Mapping[str, str]) -> bool:
+    """Tell whether a URL is of another host than the one the owner set everything for."""
+    owners = place_of(home, environment)
+    return bool(url and owners) and not same_place(owners, url)
 
 
 def split(word: str) -> tuple[str, str]:

@@ -3,7 +3,7 @@
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Limits, Price
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
-from planner.settings.owner import FILE, Settings, load_settings
+from planner.settings.owner import FILE, Settings, load_settings, place_of, same_place
 from planner.settings.presets import PRESETS, Mode, Preset, PresetName, TokensField
 
 __all__ = [
@@ -23,4 +23,6 @@ __all__ = [
     "Settings",
     "TokensField",
     "load_settings",
+    "place_of",
+    "same_place",
 ]

@@ -58,6 +58,18 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
     return settings
 
 
+def place_of(home: Path, environment: Mapping[str, str]) -> str:
+    """Return the URL that file and environment lead to, empty where to none; no key is read.
+
+    Raises:
+        Misconfigured: ``settings_unreadable``, ``settings_malformed``.
+    """
+    model = _tables(home / FILE).get("model")
+    table = {k: v for k, v in model.items() if k != "key"} if isinstance(model, dict) else {}
+    preset, url = (environment.get(f"PONS_MODEL_{n}", "") for n in ("PRESET", "URL"))
+    return _place(_at_another_place(table, preset, url))
+
+
 def _tables(path: Path) -> dict[str, Any]:
     if not path.exists():
         return {}
@@ -149,7 +161,7 @@ def _at_another_place(model: dict[str, Any], preset: str, url: str) -> dict[str,
         moved.pop("url", None)  # it was the file's server; the preset brings its own
     if url:
         moved["url"] = url
-    if "key" in moved and not _same_place(_place(model), _place(moved)):
+    if "key" in moved and not same_place(_place(model), _place(moved)):
         # The key belongs to the host that it was written down for.
         log.warning("the key in %s is not used: the environment names another host", FILE)
         del moved["key"]
@@ -163,7 +175,8 @@ def _place(model: dict[str, Any]) -> str:
     return str(model.get("url", known))
 
 
-def _same_place(one: str, other: str) -> bool:
+def same_place(one: str, other: str) -> bool:
+    """Tell whether two URLs lead to one scheme, host and port; what is no URL leads nowhere."""
     try:
         a, b = urlsplit(one), urlsplit(other)
         return (a.scheme, a.hostname, a.port) == (b.scheme, b.hostname, b.port)
@@ -190,7 +203,7 @@ def _need_key(model: ModelSettings | None) -> None:
     known = model.known if model is not None else None
     if model is None or known is None or not known.key_name or model.key is not None:
         return
-    if _same_place(model.url, known.url):
+    if same_place(model.url, known.url):
         raise Misconfigured(
             "model_key",
             f"{model.preset} wants a key: put key_file, or key_env = {known.key_name!r}, into "
