@@ -39,7 +39,8 @@ class Page:
         for name in _FIELDS:
             if value := round(getattr(change, name), 9):
                 record[name] = value
-        line = (json.dumps(record) + "\n").encode()
+        begin = "\n" if self._cut_off() else ""  # a full disk cut the line before, anybody's
+        line = f"{begin}{json.dumps(record)}\n".encode()
         if os.write(self._file, line) != len(line):
             raise OSError(errno.ENOSPC, "the line was cut off")
 
@@ -71,9 +72,13 @@ class Page:
         self.path.parent.mkdir(parents=True, exist_ok=True)
         flags = os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC
         self._file = os.open(self.path, flags, 0o600)
-        size = os.fstat(self._file).st_size
-        if size and os.pread(self._file, 1, size - 1) != b"\n":  # a crash cut the last line off
+        if self._cut_off():  # by a crash
             os.write(self._file, b"\n")
+
+    def _cut_off(self) -> bool:
+        """Tell whether the last line has no end, so that another would be glued to it."""
+        size = os.fstat(self._file).st_size
+        return size > 0 and os.pread(self._file, 1, size - 1) != b"\n"
 
 
 def _read_line(line: bytes) -> Line:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, date, datetime
@@ -252,6 +253,34 @@ def test_a_disk_that_is_full_refuses_the_call_and_says_so(
         monkeypatch.undo()
         call(kept)
         assert kept.usage().refused is None
+
+
+@pytest.mark.parametrize("mine", [False, True])
+@pytest.mark.parametrize("settling", [False, True])
+def test_a_line_that_a_full_disk_cut_spoils_no_other(
+    settling: bool, mine: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write = os.write
+    (tmp_path / FOLDER).mkdir()
+    (tmp_path / FOLDER / f"{TODAY}.jsonl").write_text("")
+    with purse(tmp_path, Time()) as kept, purse(tmp_path, Time()) as other:
+        next_ = kept if mine else other
+        assert other.usage() == kept.usage()
+        with thinking_about("g0"):
+            bill = kept.open(20) if settling else None
+        assert other.usage().today == kept.usage().today
+        monkeypatch.setattr("planner.budget.page.os.write", lambda f, line: write(f, line[:9]))
+        if bill is not None:
+            bill.close(30, 5)  # stays at its worst
+        else:
+            with pytest.raises(OutOfBudget):
+                call(kept, "g0")
+        monkeypatch.undo()
+        call(next_, "g1")
+        usage = kept.usage("g1")
+        assert usage.goal is not None
+        assert (usage.goal.calls, usage.goal.prompt_tokens, usage.goal.reply_tokens) == (1, 20, 5)
+        assert (usage.today.calls, usage.today.reply_tokens) == ((3, 15) if settling else (2, 5))
 
 
 def test_a_folder_that_cannot_be_read_refuses_to_start(tmp_path: Path) -> None:
