@@ -109,16 +109,17 @@ class Client:
             if assembly.begun:
                 raise StreamBroken(type(error).__name__) from None
             # A connection that idled may have been closed by the server; a new one may be well.
-            return Again(_down("server_error", error), lost=True)
+            return Again(self._down("server_error", error), lost=True)
         except (httpx.ConnectError, httpx.ConnectTimeout) as error:
-            raise _Unconnected(_down("unreachable", error)) from None
+            raise _Unconnected(self._down("unreachable", error)) from None
         except httpx.TimeoutException as error:
-            raise _down("timeout", error) from None
+            raise self._down("timeout", error) from None
         except httpx.TransportError as error:
-            raise _down("unreachable", error) from None
+            raise self._down("unreachable", error) from None
         except (httpx.HTTPError, httpx.InvalidURL, ValueError) as error:
-            raise _down("bad_reply", error) from None
+            raise self._down("bad_reply", error) from None
 
-
-def _down(why: str, error: Exception) -> BrainDown:
-    return BrainDown(f"{type(error).__name__}: {str(error)[:200]}", why=why)
+    def _down(self, why: str, error: Exception) -> BrainDown:
+        """Return a failure; the words of an error may quote what the server sent."""
+        told = self.secret.struck_quoted(str(error))[:200]
+        return BrainDown(f"{type(error).__name__}: {told}", why=why)

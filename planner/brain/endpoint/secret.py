@@ -22,6 +22,10 @@ class Secret:
         """Return a text without the key."""
         return text.replace(self._key, _STRUCK) if self._key else text
 
+    def struck_quoted(self, text: str) -> str:
+        """Return a text without the key, which may stand in it as Python quotes bytes."""
+        return self.struck(self.struck(text).replace("\\\\", "\\").replace("\\'", "'"))
+
     def struck_bytes(self, raw: bytes) -> bytes:
         """Return bytes without the key."""
         return raw.replace(self._key.encode("ascii"), _STRUCK.encode()) if self._key else raw

@@ -15,7 +15,7 @@ import pytest
 from planner.brain import BrainDown, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.plan import Vocabulary
-from tests.planner.brain.endpoint.servers import GO, settings, think
+from tests.planner.brain.endpoint.servers import GO, KEY, settings, think
 from tests.planner.brain.endpoint.sockets import (
     CHUNK,
     END_S,
@@ -119,6 +119,23 @@ def test_every_server_ends_typed(
     with serving(script) as wire:
         assert ended(wire.port, home, tmp_path) == end
         assert wire.asked, "nobody asked"
+
+
+@pytest.mark.parametrize(
+    "echo",
+    [b"Authorization: Bearer %s\r\n\r\n", b"HTTP/1.1 200 OK\r\nAuthorization Bearer %s\r\n\r\n"],
+)
+@pytest.mark.parametrize("key", [KEY, "sk-odd\\'key\"" * 12])
+def test_a_key_echoed_as_a_broken_head_is_struck(
+    echo: bytes, key: str, home: Vocabulary, tmp_path: Path
+) -> None:
+    with serving(said(echo % key.encode())) as wire:
+        url = f"http://127.0.0.1:{wire.port}/v1"
+        made = EndpointBrain(settings(url=url, key=key, timeout_s=1.5), tmp_path)
+        why, words = _thought(made, home)
+    assert (why, "RemoteProtocolError" in words) == ("server_error", True)
+    assert "***" in words
+    assert key[:6] not in words
 
 
 def test_a_connection_is_used_again_and_one_that_was_closed_is_opened_anew(
