@@ -6,6 +6,7 @@ import argparse
 import asyncio
 import os
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,7 @@ from planner.world.errors import SiteError
 from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
 from pons.evals.report import as_json, content, passed, table
-from pons.evals.score import Verdict, score
+from pons.evals.score import Verdict, score_each
 from pons.evals.suites import DATA, HOME_SITE, known, load
 from wire import Misconfigured
 
@@ -24,28 +25,35 @@ if TYPE_CHECKING:
 REACHED, MISSED, REFUSED = 0, 1, 2
 
 
+@dataclass(frozen=True, slots=True)
+class Scored:
+    """Hold what came of one suite."""
+
+    name: str
+    verdicts: tuple[Verdict, ...]
+    left: int
+    """Sentences not asked: the budget was up."""
+
+
 def main(settings: Settings, words: list[str]) -> int:
     """Score a brain on a suite: 0 the goal is reached, 1 it is not, 2 nothing could be asked."""
     said = _parser().parse_args(words)
     try:
         suites = load(said.suite, said.data, said.site)
-        results = asyncio.run(_all(settings, suites, said.model, yes=said.yes))
+        brain, scored = asyncio.run(_all(settings, suites, said.model, yes=said.yes))
     except (MissingSuite, BadMatcher, SiteError) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
         return REFUSED
     except Misconfigured as wrong:
         print(f"pons eval: {wrong.code}: {wrong}", file=sys.stderr)
         return REFUSED
-    except OutOfBudget as spent:
-        print(f"pons eval: {spent.said.en}", file=sys.stderr)
+    if not any(one.verdicts for one in scored) and any(one.left for one in scored):
         return REFUSED
-    name, scored = results
     if said.json:
-        print(as_json(content(s.name, name, v) for s, v in zip(suites, scored, strict=True)))
+        print(as_json(content(one.name, brain, one.verdicts, one.left) for one in scored))
     else:
-        shown = (table(s.name, name, v) for s, v in zip(suites, scored, strict=True))
-        print("\n\n".join(shown))
-    return REACHED if all(map(passed, scored)) else MISSED
+        print("\n\n".join(table(one.name, brain, one.verdicts, one.left) for one in scored))
+    return REACHED if all(passed(one.verdicts, one.left) for one in scored) else MISSED
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -70,7 +78,7 @@ def _parser() -> argparse.ArgumentParser:
 
 async def _all(
     settings: Settings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
-) -> tuple[str, list[tuple[Verdict, ...]]]:
+) -> tuple[str, list[Scored]]:
     if model is None:
         return await _scored(suites, OfflineBrain())
     from planner.brain.endpoint import Address, EndpointBrain
@@ -94,6 +102,17 @@ async def _all(
         purse.close()
 
 
-async def _scored(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[tuple[Verdict, ...]]]:
-    tag = brain.tag
-    return f"{tag.name} {tag.version}", [await score(suite, brain) for suite in suites]
+async def _scored(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[Scored]]:
+    """Score to the end of the suites or of the budget: what was paid for is kept."""
+    verdicts: list[list[Verdict]] = [[] for _ in suites]
+    try:
+        for suite, mine in zip(suites, verdicts, strict=True):
+            async for verdict in score_each(suite, brain):
+                mine.append(verdict)
+    except OutOfBudget as spent:
+        print(f"pons eval: {spent.said.en}", file=sys.stderr)
+    scored = [
+        Scored(suite.name, tuple(mine), len(suite.cases) - len(mine))
+        for suite, mine in zip(suites, verdicts, strict=True)
+    ]
+    return f"{brain.tag.name} {brain.tag.version}", scored

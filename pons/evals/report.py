@@ -44,15 +44,17 @@ def lines(verdicts: Sequence[Verdict]) -> list[Line]:
     return found
 
 
-def passed(verdicts: Sequence[Verdict]) -> bool:
-    """Tell whether a suite reaches the goal: enough right, nothing moved wrongly."""
+def passed(verdicts: Sequence[Verdict], left: int = 0) -> bool:
+    """Tell whether a suite reaches the goal: all asked, enough right, nothing moved wrongly."""
     right = sum(verdict.right for verdict in verdicts)
-    return right >= GOAL * len(verdicts) and not any(verdict.wrong for verdict in verdicts)
+    enough = right >= GOAL * len(verdicts) and not any(verdict.wrong for verdict in verdicts)
+    return enough and left == 0
 
 
-def table(name: str, brain: str, verdicts: Sequence[Verdict]) -> str:
+def table(name: str, brain: str, verdicts: Sequence[Verdict], left: int = 0) -> str:
     """Return the table of a suite, with every sentence that went wrong."""
-    rows = [f"{name}: {len(verdicts)} sentences, planned by {brain}", ""]
+    not_asked = f", {left} more not asked" if left else ""
+    rows = [f"{name}: {len(verdicts)} sentences, planned by {brain}{not_asked}", ""]
     rows.append(
         f"{'group':18}{'split':10}{'n':>5}{'right':>7}{'':>8}{'wrong motion':>14}  plan/ask/no/tell"
     )
@@ -65,13 +67,14 @@ def table(name: str, brain: str, verdicts: Sequence[Verdict]) -> str:
     return "\n".join(rows)
 
 
-def content(name: str, brain: str, verdicts: Sequence[Verdict]) -> dict[str, Any]:
+def content(name: str, brain: str, verdicts: Sequence[Verdict], left: int = 0) -> dict[str, Any]:
     """Return the same as plain data."""
     p50, p99 = _times_ms(verdicts)
     return {
         "suite": name,
         "brain": brain,
-        "passed": passed(verdicts),
+        "passed": passed(verdicts, left),
+        "not_asked": left,
         "calls": sum(verdict.calls for verdict in verdicts),
         "tokens": sum(verdict.tokens for verdict in verdicts),
         "ms": {"p50": round(p50, 3), "p99": round(p99, 3)},

@@ -7,10 +7,10 @@ kind of step, and no step moves to what the sentence does not name.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 
-from planner.brain import Brain, BrainDown, PlanRejected, ThinkRequest, is_stop
+from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest, is_stop
 from planner.plan import (
     EVERY_KIND,
     Code,
@@ -59,15 +59,26 @@ class Verdict:
 async def score(
     suite: Suite, brain: Brain, clock: Callable[[], float] = time.perf_counter
 ) -> tuple[Verdict, ...]:
-    """Return a verdict for every sentence, in order; each is a goal of its own to a budget.
+    """Return a verdict for every sentence, in order.
 
     Raises:
         OutOfBudget: a model may not be asked any more.
     """
-    verdicts = []
+    return tuple([verdict async for verdict in score_each(suite, brain, clock)])
+
+
+async def score_each(
+    suite: Suite, brain: Brain, clock: Callable[[], float] = time.perf_counter
+) -> AsyncGenerator[Verdict]:
+    """Yield the verdicts one by one; each sentence of each run is a goal of its own to a budget.
+
+    Raises:
+        OutOfBudget: a model may not be asked any more.
+    """
+    run = time.time_ns()
     for number, case in enumerate(suite.cases):
-        verdicts.append(await _one(case, suite.world, brain, clock, f"eval-{number}"))
-    return tuple(verdicts)
+        goal = f"eval-{run}-{number}-{suite.name}"  # long ids are cut, so a suite's name is last
+        yield await _one(case, suite.world, brain, clock, goal)
 
 
 async def _one(
@@ -80,19 +91,26 @@ async def _one(
         runnable=EVERY_KIND,
         goal=goal,
     )
-    began, calls, tokens = clock(), 0, 0
-    made: Made
+    began = clock()
     if is_stop(case.text):  # as at run time: a stop asks no brain
-        made = _no(Code.STOPPED)
-    else:
-        try:
-            thought = await brain.think(asked)
-            made, calls, tokens = thought.plan, thought.calls, thought.tokens
-        except PlanRejected as rejected:
-            made = _no(Code.BAD_PLAN, why=str(rejected)[:200])
-        except BrainDown:
-            made = _no(Code.MODEL_UNAVAILABLE)
-    return judge(case, made, world, clock() - began, calls, tokens)
+        return judge(case, _no(Code.STOPPED), world, clock() - began)
+    try:
+        thought = await brain.think(asked)
+    except OutOfBudget:
+        raise
+    except PlanRejected as rejected:
+        made = _no(Code.BAD_PLAN, why=str(rejected)[:200])
+        return _nothing(case, made, f"no plan: {rejected}", clock() - began)
+    except BrainDown as down:
+        return _nothing(
+            case, _no(Code.MODEL_UNAVAILABLE), f"no answer: {down.why}", clock() - began
+        )
+    return judge(case, thought.plan, world, clock() - began, thought.calls, thought.tokens)
+
+
+def _nothing(case: Case, made: Refuse, fault: str, seconds: float) -> Verdict:
+    """Return the verdict over no decision: a fault, whatever is expected of the sentence."""
+    return Verdict(case, made, fault[:200], (), seconds)
 
 
 def judge(

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import asyncio
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from planner.brain import BrainDown, PlanRejected, ScriptedBrain
+from planner.budget.page import MAX_ID
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
+from pons.evals.cases import Case
+from pons.evals.laws import LAWS
+from pons.evals.matchers import wanted
 from pons.evals.report import passed
 from pons.evals.score import score
 from pons.evals.suites import load
+from tests.pons.mock.mocks import running_mock
 
 SUITE = """# split, group, sentence, expectation
 tuned\tdrive\tgo to the kitchen\tgo kitchen
@@ -64,6 +70,45 @@ def test_what_is_not_there_is_said(words: list[str], capsys: pytest.CaptureFixtu
 def test_a_model_elsewhere_needs_a_yes(suite: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["eval", suite, "--model", "some@https://model.example/v1"]) == 2
     assert "3 sentences would be sent to model.example" in capsys.readouterr().err
+
+
+def test_a_spent_budget_keeps_what_was_scored(
+    suite: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    (tmp_path / "settings.toml").write_text("[budget.day]\ncalls = 2\n")
+    with running_mock() as mock:
+        words = ["eval", suite, "--json", "--model", f"m@{mock.url}"]
+        assert main(words) == 1
+        shown = capsys.readouterr()
+        [result] = json.loads(shown.out)["suites"]
+        assert (result["passed"], result["not_asked"], result["failures"]) == (False, 1, [])
+        assert "2 of 2 calls" in shown.err
+        assert main(words) == 2
+        assert capsys.readouterr().out == ""
+
+
+def test_each_sentence_of_each_run_is_a_goal_of_its_own(tmp_path: Path) -> None:
+    path = tmp_path / f"{'long' * 30}.tsv"
+    path.write_text(SUITE, encoding="utf-8")
+    (ours,) = load(str(path))
+    brain = ScriptedBrain(replies=[BrainDown("503")])
+    for _ in range(2):
+        asyncio.run(score(ours, brain))
+    assert len({request.goal[:MAX_ID] for request in brain.asked}) == 6
+
+
+@pytest.mark.parametrize("trouble", [PlanRejected("no"), BrainDown("503")], ids=["plan", "answer"])
+def test_no_decision_is_right_nowhere(suite: str, trouble: Exception) -> None:
+    (ours,) = load(suite)
+    texts = ("do not go to the kitchen", "go to the moon")
+    cases = (
+        Case(texts[0], "no", wanted=wanted("still | refuse bad_plan | refuse model_unavailable")),
+        Case(texts[1], "reject", law=LAWS["reject"]),
+    )
+    verdicts = asyncio.run(score(replace(ours, cases=cases), ScriptedBrain(replies=[trouble])))
+    assert [v.fault.split(":")[0] in ("no plan", "no answer") for v in verdicts] == [True, True]
+    assert not any(verdict.right for verdict in verdicts)
 
 
 def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
