@@ -11,13 +11,13 @@ import uuid
 from typing import Any
 
 from planner.brain.intents import Cancel as TakeBack
-from planner.brain.intents import Doing, Replace, Where, intent_of
+from planner.brain.intents import Replace, intent_of, stays_put, stops
 from planner.brain.intents import Resume as GoOn
 from planner.brain.protocol import Brain
-from planner.brain.stoplane import is_stop
 from planner.link import Identity, Link, StopResult
 from planner.mission.accept import body_of, language_of
 from planner.mission.ahead import RouteAhead
+from planner.mission.asking import asks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine, Leg
 from planner.mission.errors import (
@@ -158,7 +158,7 @@ class Missions:
         """
         said = language or language_of(text)
         intent = intent_of(text)
-        if is_stop(text) or (isinstance(intent, Replace) and is_stop(intent.rest)):
+        if stops(text):
             return await self._stop_goal(text, said, source)
         body = body_of(text, said, confirm, replace)
         if (known := self._known(idempotency_key, body)) is not None:
@@ -224,19 +224,27 @@ class Missions:
         return await self._command(Confirm(goal_id), act)
 
     async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
-        """Answer a goal's question; an order to stop stops, and a question of one's own is answered
-        beside it. Raises UnknownGoal, BadState.
+        """Answer a goal's question; an order to stop stops, whatever the goal's state.
+
+        What is said to the planner itself ("where are you", "hold on") is done beside the question,
+        which stays open: no sentence that needs no proof is ever taken as the answer.
+
+        Raises:
+            UnknownGoal, BadState: as named.
         """
-        if is_stop(text):
+        intent = intent_of(text)
+        if stops(text):
             await self.stop("answer")
+            if isinstance(intent, Replace):
+                self._obey(Cancel(goal_id))
             return self.goal(goal_id)
         if (error := refusal(self._book, Reply(goal_id, text))) is not None:
             raise error
-        intent = intent_of(text)
         if isinstance(intent, TakeBack):
             return await self.cancel(goal_id)
-        if isinstance(intent, Where | Doing):
-            await self.submit(text)
+        own_question = asks(self._book.missions[goal_id])  # "go on" may be its answer
+        if stays_put(text) or (isinstance(intent, GoOn) and not own_question):
+            await self.submit(text, act=act)
             return self.goal(goal_id)
         if isinstance(intent, Replace):
             taken_back = await self.cancel(goal_id)

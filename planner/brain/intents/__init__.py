@@ -16,7 +16,7 @@ from planner.brain.intents.kinds import (
 )
 from planner.brain.intents.names import name_reads_as_order
 from planner.brain.intents.reader import intent_of
-from planner.brain.intents.still import stays_put
+from planner.brain.intents.still import stays_put, stops
 
 __all__ = [
     "Cancel",
@@ -31,4 +31,5 @@ __all__ = [
     "intent_of",
     "name_reads_as_order",
     "stays_put",
+    "stops",
 ]

@@ -34,8 +34,9 @@ RESUME = re.compile(
     r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going)(?: again)?"
 )
 PAUSE = re.compile(
-    rf"pause (?:for now|here|for {_BRIEF}|{_BRIEF}|this|{_THE_TASK}|what you are doing)"
-    rf"|(?:hold on|hang on)(?: (?:a|one) (?:moment|second|sec|minute))?|{_BRIEF}"
+    rf"pause (?:for(?: now)?|here|for {_BRIEF}|{_BRIEF}|this|{_THE_TASK}|what you are doing)"
+    r"|(?:hold on|hang on)(?: (?:a|one) (?:moment|second|sec|minute))?"
+    r"|(?:a|one|just a) (?:moment|sec)"
     r"|just a (?:second|minute)|give me a (?:moment|second|sec|minute)|take a break"
 )
 CANCEL = re.compile(

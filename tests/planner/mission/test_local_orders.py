@@ -8,10 +8,22 @@ from pathlib import Path
 
 import pytest
 
+from planner.brain.intents import stays_put
 from planner.brain.scripted import Reply
-from planner.mission import BadState
+from planner.mission import BadState, JournalDown
+from planner.mission.loop import Loop
 from planner.mission.memory import Lesson, Memory
-from planner.plan import Bilingual, Clarify, Code, Goal, GoalState, GoTo, StepPlan
+from planner.plan import (
+    ENDED,
+    Ask,
+    Bilingual,
+    Clarify,
+    Code,
+    Goal,
+    GoalState,
+    GoTo,
+    StepPlan,
+)
 from planner.world import Site, TaughtPlaces
 from tests.planner.mission import live
 from tests.planner.mission.live import KITCHEN, LiveBridge, Together, run
@@ -193,5 +205,73 @@ def test_a_place_that_is_moved_on_the_way_is_driven_to_where_it_is_now(tmp_path:
             await missions.memory.teach(Lesson("corner", pose=now))
             await together.reach(goal.id, GoalState.SUCCEEDED)
             assert abs(bridge.pose.y_m - now.y_m) < 0.1
+
+    run(story())
+
+
+ASKS_FIRST = StepPlan(steps=(Ask(question="Shall I drive there?"), GoTo(place="kitchen")))
+WHICH = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
+
+
+@pytest.mark.parametrize("plan", [ASKS_FIRST, WHICH])
+def test_what_is_said_to_the_planner_itself_is_no_answer(
+    tmp_path: Path, plan: StepPlan | Clarify
+) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, plan, KITCHEN) as together:
+            missions = together.missions
+            goal = await missions.submit(TO_KITCHEN)
+            await together.reach(goal.id, GoalState.NEEDS_CLARIFICATION)
+            for said in ("hold on", "等一下", "pause for now", "remember this as corner", "status"):
+                assert stays_put(said), "so no operator's proof is asked for"
+                assert (await missions.answer(goal.id, said)).state is GoalState.NEEDS_CLARIFICATION
+            await together.until(lambda: len(missions.memory.taught) == 1)
+            await together.until(lambda: all(g.state in ENDED for g in missions.goals()[:-1]))
+            assert missions.goal(goal.id).state is GoalState.NEEDS_CLARIFICATION
+            assert together.bridge.waypoints == []
+
+    run(story())
+
+
+@pytest.mark.parametrize(("plan", "answers"), [(ASKS_FIRST, True), (WHICH, False)])
+def test_go_on_answers_a_plans_own_question_and_no_other(
+    tmp_path: Path, plan: StepPlan | Clarify, answers: bool
+) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, plan) as together:
+            goal = await together.missions.submit(TO_KITCHEN)
+            await together.reach(goal.id, GoalState.NEEDS_CLARIFICATION)
+            await together.missions.answer(goal.id, "yes, go on")
+            if answers:
+                await together.reach(goal.id, GoalState.SUCCEEDED)
+                return
+            beside = together.missions.goals()[0]
+            assert (
+                told(await together.reach(beside.id, GoalState.SUCCEEDED))[:16]
+                == "There is nothing"
+            )
+            assert together.missions.goal(goal.id).state is GoalState.NEEDS_CLARIFICATION
+
+    run(story())
+
+
+@pytest.mark.parametrize("asks", [True, False])
+def test_a_stop_within_an_answer_waits_for_no_disk_and_no_question(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, asks: bool
+) -> None:
+    async def full(_: object) -> None:
+        raise JournalDown("disk full")
+
+    async def story() -> None:
+        async with planner(tmp_path, WHICH if asks else KITCHEN) as together:
+            missions = together.missions
+            goal = await missions.submit(TO_KITCHEN)
+            await together.reach(
+                goal.id, GoalState.NEEDS_CLARIFICATION if asks else GoalState.RUNNING
+            )
+            monkeypatch.setattr(Loop, "settled", full)
+            answered = await missions.answer(goal.id, "forget that, stop")
+            assert answered.state is GoalState.CANCELLED
+            assert together.bridge.held is not None
 
     run(story())
