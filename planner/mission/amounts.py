@@ -2,21 +2,29 @@
 
 Law: what is left is left from where the robot stands when its goal goes on, wherever others drove
 it meanwhile. So the amount is settled as soon as an interrupted robot stands, or when another goal
-takes it: by the map from where the step began, with odometry counting whole turns.
+takes it: by the map from where the step began, with odometry counting whole turns. Where a hand
+steered first, the map says nothing of the step any more: what odometry counted stands.
 """
 
 from __future__ import annotations
 
 from math import cos, sin
 
+from planner.mission.queue import finish, standing_hold
 from planner.mission.records import Mission
 from planner.mission.skills.move import along
 from planner.mission.skills.turn import turned_rad
 from planner.mission.turn import Turn
-from wire import Pose2
+from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason
+from wire import Mode, Pose2, Status
 
 BY_AMOUNT = frozenset({"turn", "move"})
 """Steps that are measured from where they began."""
+STEERED = Bilingual(
+    en="Somebody steered the robot while its planner was down: how far this step had come is not "
+    "known, so I stay here.",
+    zh="规划程序中断期间有人手动驾驶过机器人：无法得知这一步完成了多少，所以不动。",
+)
 
 
 def measure_from(turn: Turn, mission: Mission, pose: Pose2 | None) -> Mission:
@@ -47,3 +55,24 @@ def settle_amounts(turn: Turn, pose: Pose2 | None) -> None:
         elif step is not None and step.kind == "move":
             done = along(pose, Pose2(*mission.began_at))
         turn.put(mission, done=round(done, 5), began_at=None)
+
+
+def hand_steers(turn: Turn, status: Status) -> bool:
+    """Tell whether a hand steers now, or has and no person has acted since."""
+    return status.mode is Mode.TELEOP or standing_hold(turn) == PauseReason.TELEOP.value
+
+
+def forget_beginnings(turn: Turn) -> None:
+    """Measure no step across a way that a hand steered.
+
+    What odometry counted until the pause is done. A planner that died counted nothing: how far its
+    step came is not known, and better unfinished than done twice.
+    """
+    for mission in tuple(turn.book.missions.values()):
+        if mission.began_at is None or mission.ended:
+            continue
+        if mission.reason == PauseReason.PLANNER_RESTARTED.value:
+            said = Outcome(code=Code.NOT_REACHED, message=STEERED)
+            finish(turn, mission, GoalState.FAILED, said, "steered_meanwhile")
+        else:
+            turn.put(mission, began_at=None)

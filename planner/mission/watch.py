@@ -6,7 +6,7 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
-from planner.mission.amounts import settle_amounts
+from planner.mission.amounts import forget_beginnings, hand_steers, settle_amounts
 from planner.mission.asking import end_unanswered
 from planner.mission.failing import fail_step
 from planner.mission.legs import ask_route, detour_if_due, lost_route
@@ -48,7 +48,9 @@ def on_status(turn: Turn, status: Status, off_path: bool, left_m: float | None) 
     turn.set(status=status, status_s=turn.now_s)
     if standing_hold(turn) is not None:
         hold_queue(turn)
-    if standing(status) and status.mode is not Mode.TELEOP:
+    if hand_steers(turn, status):
+        forget_beginnings(turn)
+    elif standing(status):
         settle_amounts(turn, status.base_in_map)
     if turn.running is None:
         return

@@ -6,10 +6,10 @@ import pytest
 
 from planner.mission.events import Pause, Resume
 from planner.mission.view import goal_of, progress_of
-from planner.plan import Move, StepPlan, Wait
-from tests.planner.mission.driving import FAILED, SUCCEEDED, standing_still
+from planner.plan import Code, Move, StepPlan, Wait
+from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.lockstep import Together, go
-from wire import Pose2
+from wire import HeldReason, Mode, Pose2
 
 
 def moving(world: Together, distance_m: float = 2.0) -> str:
@@ -111,3 +111,39 @@ def test_what_is_left_of_a_move_is_left_from_where_others_drove_the_robot(crash:
     done = world.run_until(goal, SUCCEEDED)
     assert world.bridge.pose.x_m - here_m == pytest.approx(2.0 - gone_m, abs=0.06)
     assert done.steps[0].moved_m == pytest.approx(2.0, abs=0.06)
+
+
+@pytest.mark.parametrize("seen", [True, False])
+def test_what_a_hand_steers_while_the_pose_is_lost_is_no_part_of_the_move(
+    world: Together, seen: bool
+) -> None:
+    goal = moving(world)
+    world.bridge.localized = False
+    world.bridge.hold(HeldReason.FAULT)
+    world.run(0.5)
+    assert world.goal(goal).state is PAUSED
+    gone_m = world.bridge.pose.x_m
+    if seen:
+        world.bridge.mode = Mode.TELEOP
+        world.run(0.2)
+    world.bridge.pose, world.bridge.localized = Pose2(2.0, 0.0, 0.0), True
+    world.bridge.hold(HeldReason.TELEOP, "h2")
+    world.run(0.5)
+    world.event(Resume(goal))
+    world.act()
+    world.run_until(goal, SUCCEEDED)
+    assert world.bridge.pose.x_m == pytest.approx(2.0 + 2.0 - gone_m, abs=0.1)
+
+
+def test_what_a_hand_steers_while_no_planner_lives_leaves_the_move_unknown(world: Together) -> None:
+    goal = moving(world)
+    world.bridge.pose = Pose2(2.0, 0.0, 0.0)
+    world.bridge.hold(HeldReason.TELEOP)
+    after = world.restart()
+    after.run(0.5)
+    mission = after.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "steered_meanwhile")
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.NOT_REACHED
+    after.act()
+    assert standing_still(after)
