@@ -1,7 +1,7 @@
 """Find the one JSON object in what a model wrote. Text in, objects out; knows no plan.
 
 Models wrap their JSON in code fences, in thoughts and in prose, and write it twice. Nothing is
-mended here: what is cut off or holds NaN is no JSON.
+mended here: what is cut off, holds NaN or a key twice is no JSON.
 """
 
 from __future__ import annotations
@@ -14,10 +14,8 @@ MAX_CHARACTERS = 64_000
 """Of what is no thought. A plan of 20 steps has under 16 000; the bound keeps reading quick."""
 MAX_STARTS = 40
 """Braces at which an object is looked for."""
-MAX_FENCES = 16
 
 _TAG = re.compile(r"<(/?)(?:think|thinking|reasoning|thought)>", re.IGNORECASE)
-_FENCE = "```"
 _MEANT = re.compile(r'\{\s*["{\[}]')  # "{name}" in prose is no object, '{"kind' is
 
 
@@ -25,7 +23,15 @@ def _no_constant(name: str) -> float:
     raise ValueError(f"{name} is no JSON number")
 
 
-_DECODER = json.JSONDecoder(parse_constant=_no_constant)
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object; of two values for one key neither is what was meant."""
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a key stands twice in one object")
+    return found
+
+
+_DECODER = json.JSONDecoder(parse_constant=_no_constant, object_pairs_hook=_once)
 
 
 class NoObject(Exception):
@@ -41,9 +47,7 @@ def one_object(text: str) -> dict[str, Any]:
     spoken = without_thoughts(text)
     if len(spoken) > MAX_CHARACTERS:
         raise NoObject(f"the reply has {len(spoken)} characters; at most {MAX_CHARACTERS} are read")
-    blocks = spoken.split(_FENCE, MAX_FENCES)[1:-1:2]
-    fenced = [found for block in blocks for found in _objects(block)]
-    found = fenced or _objects(spoken)
+    found = _objects(spoken)  # a fence says nothing: what is refused beside it counts as well
     distinct = [each for i, each in enumerate(found) if each not in found[:i]]
     if not distinct:
         raise NoObject(_why_none(text, spoken))
@@ -101,4 +105,4 @@ def _why_none(text: str, spoken: str) -> str:
         return "the reply holds thoughts alone and no JSON object"
     if "{" not in spoken:
         return "the reply holds no JSON object"
-    return "the reply's JSON is cut off, too deep or malformed"
+    return "the reply's JSON is cut off, too deep, malformed or repeats a key"

@@ -30,6 +30,7 @@ from pons.mock_llm.replies import GARBAGE, HOSTILE_COUNT, hallucinated, hostile
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import GO
 
+NO = '{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}'
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
 
 
@@ -67,6 +68,13 @@ def test_one_plan_is_found_in_what_surrounds_it(text: str) -> None:
         "<think>" + GO,
         '{"note":"never do this","example":' + GO + ',"more":',
         '{"kind":"refuse","code":"unsafe","en":"no" oops ' + GO,
+        f"{NO}\n```json\n{GO}\n```",
+        f"```json\n{GO}\n```\n{NO}",
+        f"```\n{NO}\n```\n```\n{GO}\n```",
+        f"```\n{GO}\n```\n" + GO[:-3],
+        '{"kind":"refuse",' + GO[1:],
+        GO[:-3] + ',"place":"study"}]}',
+        '{"kind":"refuse","kind":"answer","en":"no","zh":"不"}',
         '{"kind":"plan"}',
         '{"kind":"plan","steps":[]}',
         '{"kind":"plan","steps":"kitchen"}',
