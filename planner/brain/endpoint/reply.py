@@ -65,9 +65,9 @@ def read_reply(content: object) -> Reply:
     refusal = message.get("refusal")
     if isinstance(refusal, str) and refusal.strip():
         return Reply("", refusal=refusal, tokens=usage)
-    text, trouble = _text(message)
-    if finish in ("content_filter", "refusal") and not text.strip():
+    if finish in ("content_filter", "refusal"):  # whatever was written until then
         return Reply("", refusal=_DECLINED, tokens=usage)
+    text, trouble = _text(message)
     if finish == "length":
         trouble = "the reply was cut off at the token limit; reply shorter, without thoughts"
     return Reply(text, trouble=trouble, tokens=usage)

@@ -92,9 +92,11 @@ def test_a_model_that_declines_is_a_refusal(home: Vocabulary, tmp_path: Path) ->
     assert isinstance(plan, Refuse)
     assert plan.code is Code.UNSAFE
     assert "I can't do that." in plan.reason.en
-    filtered = answer({"choices": [{"message": {"content": None},
-                                    "finish_reason": "content_filter"}]})  # fmt: skip
-    assert think(brain(Server(filtered), tmp_path), home).plan.kind == "refuse"
+    for finish in ("content_filter", "refusal"):
+        for content in (None, GO):  # what was written before a filter stepped in counts for nothing
+            choice = {"message": {"content": content}, "finish_reason": finish}
+            server = Server(answer({"choices": [choice]}))
+            assert think(brain(server, tmp_path), home).plan.kind == "refuse"
 
 
 def test_a_reply_that_was_cut_off_is_told_so(home: Vocabulary, tmp_path: Path) -> None:
