@@ -33,6 +33,8 @@ CANCEL = re.compile(
     r"|当我没说|(?:取消|撤销)(?:它|这个|那个)|我改主意了"
 )
 TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|不对|换个?(?:任务|计划|目标|地方)|改(?:计划|主意)了?")
+DENIES = GOES_ON = re.compile(r"(?!)")
+"""What denies the whole sentence is no taking back in Chinese: 别去了 ends what was."""
 UNPUNCTUATED = re.compile(
     r"(?:算了|不用去了|别去了|不要去了|不去了)(?:还是)?(?=(?:去|回|来|到|过来|前往|返回|开到|走到))"
 )

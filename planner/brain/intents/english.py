@@ -49,6 +49,9 @@ CANCEL = re.compile(
 )
 TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
 """What may stand before the order that comes in place of the current one."""
+DENIES = re.compile(r"(?:don't|do not) (?:go|bother)\b.*|drop (?:it|this|that one)")
+"""Of these, what means the whole sentence where it goes on with "and": "don't go and turn left"."""
+GOES_ON = re.compile(r"(?:and|or|then)\b")
 UNPUNCTUATED = re.compile(
     r"(?:forget (?:that|it)|never ?mind(?: that)?|scratch that)(?: and)?"
     r" (?=(?:go|come|drive|move|return|head|wait|turn|patrol) )"

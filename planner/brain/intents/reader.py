@@ -161,8 +161,16 @@ def _replacing(said: _Said, grammar: ModuleType) -> Intent | None:
     for cut in islice(_SEPARATOR.finditer(said.folded), 2):  # behind a courtesy at most
         first = _plain(said.part(0, cut.start()), grammar)
         if grammar.TAKEN_BACK.fullmatch(first.folded.replace(" ", _gap(grammar))):
+            if grammar.DENIES.fullmatch(first.folded) and _goes_on(said, cut, grammar):
+                return None
             return _replace(said.part(cut.end(), len(said.folded)), now=True)
     return None
+
+
+def _goes_on(said: _Said, cut: re.Match[str], grammar: ModuleType) -> bool:
+    """Tell whether a clause is joined to the next: then "don't" may well mean both."""
+    joined = said.folded[cut.start() :].lstrip(_END)
+    return grammar.GOES_ON.match(joined) is not None
 
 
 def _gap(grammar: ModuleType) -> str:
