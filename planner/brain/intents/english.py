@@ -92,5 +92,8 @@ NO_NAME = re.compile(
     r"|in|at|on|for|by|being|is|are|was|something|anything|nothing|that|this|there)\b.*"
     r"|.*\b(?:and|or|then|to|from|if|when|until|before|after|because|not|is|are|please)\b.*"
     r"|.*[,;:.!?].*"
+    r"|(?:off|out of)[ -](?:limits|bounds).*|no[ -]go\b.*|forbidden.*|prohibited.*"
+    r"|danger(?:ous)?(?: (?:zone|area|spot|place|for .*))?"
 )
-"""What a sentence goes on with where no name stands: "remember this as you drive"."""
+"""What a sentence goes on with where no name stands: "remember this as you drive". And what says to
+keep out: a taught place is one to drive to."""
