@@ -116,7 +116,8 @@ class Client:
             raise self._down("timeout", error) from None
         except httpx.TransportError as error:
             raise self._down("unreachable", error) from None
-        except (httpx.HTTPError, httpx.InvalidURL, ValueError) as error:
+        except (httpx.HTTPError, httpx.InvalidURL, ValueError, TypeError, AttributeError) as error:
+            # Whatever a reply trips over here is the server's: the offline brain must answer.
             raise self._down("bad_reply", error) from None
 
     def _down(self, why: str, error: Exception) -> BrainDown:

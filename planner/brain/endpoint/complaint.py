@@ -26,7 +26,8 @@ def generated_by(content: object) -> str | None:
 
 def declined_by(content: object) -> bool:
     """Tell whether a filter of the server's refused the order itself."""
-    return _error(content).get("code") in _FILTERED
+    code = _error(content).get("code")
+    return isinstance(code, str) and code in _FILTERED
 
 
 def _error(content: object) -> dict[str, Any]:

@@ -53,6 +53,10 @@ ERROR = {"error": {"message": "mock"}}
         (lambda: answer({"choices": {"0": {}}}), "bad_reply", 1),
         (lambda: answer({"choices": [{"message": "hi"}]}), "bad_reply", 1),
         (lambda: answer(ERROR), "server_error", 1),
+        (lambda: answer({"error": {"code": ["x"]}}, 400), "bad_request", 4),
+        (lambda: answer({"error": {"code": {"content_filter": 1}}}, 422), "bad_request", 4),
+        (TypeError("unhashable type: 'list'"), "bad_reply", 1),
+        (AttributeError("'int' object has no attribute 'get'"), "bad_reply", 1),
         (
             lambda: raw(b"data: {}\n\n", headers={"content-type": "text/event-stream"}),
             "bad_reply",
