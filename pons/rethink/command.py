@@ -17,7 +17,7 @@ from pons.modelchoice import chosen
 from pons.rethink.drive import drive
 from pons.rethink.recorded import NoJournal, Recorded, read
 from pons.rethink.show import content, table
-from pons.rethink.think import CALLS_EACH, Again, think_again
+from pons.rethink.think import Again, most_calls, think_again
 from pons.spending import agreed
 from wire import Misconfigured
 
@@ -88,9 +88,10 @@ def _driven(found: list[Again], where: Settings, most: int) -> list[Again]:
 
 def _bill(recorded: Recorded, model: ModelSettings, host: str) -> str:
     count = len(recorded.decisions)
+    calls = most_calls(count)
     return (
         f"{count} recorded sentences of people will be sent to {model.name} at {host}, which is "
-        f"not this machine: at most {CALLS_EACH * count} calls.\n"
+        f"not this machine: at most {calls} calls.\n"
         f"将把 {count} 条录下的指令发送给 {host} 上的 {model.name}，"
-        f"最多 {CALLS_EACH * count} 次调用。"
+        f"最多 {calls} 次调用。"
     )

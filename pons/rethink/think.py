@@ -24,6 +24,8 @@ from pons.rethink.recorded import Decision
 
 CALLS_EACH = 2
 """A call and its repair."""
+PROBES = 8
+"""Calls more, in which a server that is met for the first time may refuse a way of asking."""
 MOST_TOKENS = 100_000_000
 GOAL = "replay"
 
@@ -56,6 +58,11 @@ class Spending:
     """Sentences not thought about: the budget was up."""
 
 
+def most_calls(sentences: int) -> int:
+    """Return the calls that so many sentences may cost: what is promised is what is allowed."""
+    return CALLS_EACH * sentences + PROBES
+
+
 async def think_again(
     decisions: Sequence[Decision],
     site: Site,
@@ -69,10 +76,12 @@ async def think_again(
     Raises:
         Misconfigured: the model may not be asked, or the budget can't be read.
     """
-    most = max(1, CALLS_EACH * len(decisions))
     budget = BudgetSettings(
         goal=GoalLimits(
-            calls=2 * most, prompt_tokens=MOST_TOKENS, reply_tokens=MOST_TOKENS, seconds=1e6
+            calls=most_calls(len(decisions)),
+            prompt_tokens=MOST_TOKENS,
+            reply_tokens=MOST_TOKENS,
+            seconds=1e6,
         ),
         day=settings.budget.day,
         price=settings.budget.price,

@@ -29,8 +29,8 @@ from pons.evals.world import World
 
 MOST_CALLS = 40
 MOST_S = 60.0
-MOST_TOKENS = 10_000_000
-"""Calls and seconds end an exam, and the owner's day; its tokens are counted and shown."""
+PROMPT_TOKENS = 3000
+"""What a call may send, taken over all calls: some 1 700, and in a repair the reply once more."""
 GOAL = "exam"
 
 
@@ -88,8 +88,8 @@ async def examine(
     budget = BudgetSettings(
         goal=GoalLimits(
             calls=caps.calls,
-            prompt_tokens=MOST_TOKENS,
-            reply_tokens=MOST_TOKENS,
+            prompt_tokens=caps.calls * PROMPT_TOKENS,
+            reply_tokens=caps.calls * model.max_tokens,
             seconds=caps.seconds,
         ),
         day=settings.budget.day,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain.endpoint import Address
 from planner.budget.spent import cost
-from pons.doctor.exam.ask import Caps, examine
+from pons.doctor.exam.ask import PROMPT_TOKENS, Caps, examine
 from pons.doctor.exam.grade import grade
 from pons.doctor.exam.show import content, table
 from pons.modelchoice import chosen
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 EXIT = {"A": 0, "B": 0, "C": 1, "D": 2, "F": 2}
 """As for the rest of the doctor: 0 well, 1 less well, 2 not fit to plan."""
 REFUSED = 2
-PROMPT_TOKENS = 1500
-"""What a call sends at most with this exam's world, schema included twice."""
 
 
 def run(
@@ -59,8 +57,8 @@ def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> st
     )
     return (
         f"The exam asks {model.name} at {host}, which is not this machine: at most {caps.calls} "
-        f"calls in {caps.seconds:.0f} s, about {sent} tokens sent and at most {written} written "
+        f"calls in {caps.seconds:.0f} s, at most {sent} tokens sent and {written} written "
         f"({money}). Only the exam's own sentences are sent.\n"
         f"考试将调用 {host} 上的 {model.name}：最多 {caps.calls} 次、{caps.seconds:.0f} 秒，"
-        f"约发送 {sent}、最多生成 {written} 个 token。只发送考题本身。"
+        f"最多发送 {sent}、生成 {written} 个 token。只发送考题本身。"
     )

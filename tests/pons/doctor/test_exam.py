@@ -10,12 +10,21 @@ from pathlib import Path
 
 import pytest
 
-from planner.budget import Ledger
+from planner.budget import Ledger, Purse
 from planner.budget.day import utc_date
-from planner.settings import FILE, BudgetSettings, DayLimits, ModelSettings, Settings, load_settings
+from planner.budget.purse import OpenCall
+from planner.settings import (
+    FILE,
+    BudgetSettings,
+    DayLimits,
+    GoalLimits,
+    ModelSettings,
+    Settings,
+    load_settings,
+)
 from pons.__main__ import main
 from pons.doctor.exam import command, show
-from pons.doctor.exam.ask import Caps, examine
+from pons.doctor.exam.ask import PROMPT_TOKENS, Caps, examine
 from pons.doctor.exam.grade import grade
 from pons.doctor.exam.questions import QUESTIONS, WORLD, Part
 from pons.doctor.exam.record import Exam, Marked, Result, Rung
@@ -112,6 +121,26 @@ def test_the_command_shows_a_table_and_json(
     assert "0.0000 EUR" in table
 
 
+def test_no_call_of_an_exam_passes_what_was_said_to_be_the_most(
+    mock: RunningMock, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sent, limits = list[int](), list[GoalLimits]()
+
+    class Noted(Purse):
+        def open(self, prompt_tokens: int) -> OpenCall:
+            limits.append(self._budget.goal)
+            sent.append(prompt_tokens)
+            return super().open(prompt_tokens)
+
+    monkeypatch.setattr("pons.doctor.exam.ask.Purse", Noted)
+    for fault in (None, "garbage"):  # with garbage, each second call is a repair
+        mock.set(fault=fault)
+        taken(mock, tmp_path)
+    assert max(sent) <= PROMPT_TOKENS
+    assert limits[0].prompt_tokens == Caps().calls * PROMPT_TOKENS
+    assert limits[0].reply_tokens == Caps().calls * ModelSettings(url=mock.url, name="m").max_tokens
+
+
 def test_elsewhere_it_says_what_it_will_spend_and_spends_nothing_unasked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -128,7 +157,13 @@ def test_elsewhere_it_says_what_it_will_spend_and_spends_nothing_unasked(
     assert main(["doctor", "--model"]) == command.REFUSED
     said = capsys.readouterr()
     assert said.out == ""
-    for words in ("model.example", "40 calls", "60000 tokens", "at most 2.60 USD", "not_agreed"):
+    for words in (
+        "model.example",
+        "40 calls",
+        "at most 120000 tokens",
+        "at most 3.20 USD",
+        "not_agreed",
+    ):
         assert words in said.err
     assert main(["doctor", "--model", "--yes"]) == command.EXIT["F"]
     assert main(["doctor", "--model", "http://169.254.169.254/v1", "--yes"]) == command.REFUSED

@@ -26,6 +26,7 @@ from planner.plan import (
     plan_record,
     same,
 )
+from planner.settings import BudgetSettings
 from pons.__main__ import main
 from pons.rethink.compare import Difference, difference, told
 from pons.rethink.drive import Driven, drive
@@ -34,6 +35,7 @@ from pons.rethink.show import verdict
 from pons.rethink.think import Again
 from pons.settings import CHECKOUT
 from tests.pons.mock.mocks import running_mock
+from wire import Misconfigured
 
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
@@ -181,6 +183,25 @@ def test_people_s_words_go_nowhere_unasked(
     assert "model_offhost" in capsys.readouterr().err
     assert main(["replay", str(home), str(home), "--with-model", "m"]) == 2
     assert "one_journal" in capsys.readouterr().err
+
+
+def test_as_many_calls_are_allowed_as_were_agreed_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    allowed = list[int]()
+
+    def refused(budget: BudgetSettings, *_: object, **__: object) -> None:
+        allowed.append(budget.goal.calls)
+        raise Misconfigured("budget_unreadable", "as this test wants it")
+
+    home = journal(tmp_path / "h", *(mission(g, "go to the kitchen", KITCHEN) for g in "abc"))
+    monkeypatch.setenv("PONS_HOME", str(tmp_path / "mine"))
+    monkeypatch.setattr("pons.rethink.think.Purse", refused)
+    words = ["replay", str(home), "--with-model", "m@https://model.example/v1", "--yes"]
+    assert main(words) == 2
+    said = capsys.readouterr().err
+    assert f"at most {allowed[0]} calls" in said
+    assert f"最多 {allowed[0]} 次" in said
 
 
 def test_each_end_of_a_decision_is_told(tmp_path: Path) -> None:
