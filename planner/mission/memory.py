@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from itertools import chain, count
 from typing import Any, Protocol, TypeVar
 
 from planner.brain.intents import name_reads_as_order
@@ -289,7 +290,9 @@ class Memory:
         taken |= {kept.id for kept in self._kept if self._here(kept)}
         if slug[:1].isalpha() and names.en.isascii() and slug not in taken:
             return slug
-        return f"taught_{hashlib.sha256(squash(names.zh).encode()).hexdigest()[:8]}"
+        coded = f"taught_{hashlib.sha256(squash(names.zh).encode()).hexdigest()[:8]}"
+        numbered = (f"{coded}_{number}" for number in count(2))
+        return next(free for free in chain((coded,), numbered) if free not in taken)
 
     async def _change(self, places: tuple[TaughtPlace, ...]) -> None:
         if self._store is None:

@@ -101,6 +101,17 @@ def test_the_same_name_again_moves_the_place_and_keeps_its_id(tmp_path: Path) ->
     assert teach(again, "reading corner").id == gone.id
 
 
+def test_a_name_whose_place_was_renamed_gets_an_id_of_its_own(tmp_path: Path) -> None:
+    kept, ids = memory(tmp_path), []
+    for _ in range(3):
+        place, new = asyncio.run(kept.teach(Lesson(zh="阅读角")))
+        assert new
+        ids.append(place.id)
+        teach(kept, zh=f"书角{'一二三'[len(ids) - 1]}", place_id=place.id)
+    assert len(set(ids)) == 3
+    assert [shown.place.id for shown in memory(tmp_path).taught] == ids
+
+
 @pytest.mark.parametrize(
     ("names", "code"),
     [
