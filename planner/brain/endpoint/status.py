@@ -21,6 +21,8 @@ _MODES = re.compile(
     r"response_format|json_schema|json_object|json schema|tool_choice|structured.?output|guided_"
     r"|grammar|\btools?\b.{0,40}support|support.{0,40}\btools?\b|requested parameters"
 )
+_NO_MODEL = re.compile(r"\bmodel\b.{0,60}\b(?:not exist|not found|does not exist|doesn't exist)")
+"""What DeepSeek and others answer with 400: no simpler body would find the model."""
 
 
 class BadRequest(Exception):
@@ -60,7 +62,11 @@ def judged(response: httpx.Response, content: object, said: str) -> Again:
         raise BrainDown(said, why="bad_key")
     if status in BUSY:
         return Again(BrainDown(said, why="rate_limited"), _wait_s(response))
-    if status in (400, 422) or _MODES.search(said.lower()):
+    words = said.lower()
+    modes = _MODES.search(words) is not None
+    if status in (400, 422) and _NO_MODEL.search(words) and not modes:
+        raise BrainDown(said, why="unknown_model")
+    if status in (400, 422) or modes:
         raise BadRequest(said, generated_by(content), declined_by(content))
     if status in (404, 405, 410):
         raise BrainDown(said, why="unknown_model")

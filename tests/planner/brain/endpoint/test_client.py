@@ -55,6 +55,10 @@ ERROR = {"error": {"message": "mock"}}
         (lambda: answer(ERROR), "server_error", 1),
         (lambda: answer({"error": {"code": ["x"]}}, 400), "bad_request", 4),
         (lambda: answer({"error": {"code": {"content_filter": 1}}}, 422), "bad_request", 4),
+        (lambda: answer({"error": {"message": "Model Not Exist"}}, 400), "unknown_model", 1),
+        (lambda: answer({"error": "The model `m` does not exist"}, 422), "unknown_model", 1),
+        (lambda: answer({"error": "model 'm' not found, try pulling it"}, 400), "unknown_model", 1),
+        (lambda: answer({"error": "this model: response_format not found"}, 400), "bad_request", 4),
         (TypeError("unhashable type: 'list'"), "bad_reply", 1),
         (AttributeError("'int' object has no attribute 'get'"), "bad_reply", 1),
         (
