@@ -5,7 +5,7 @@ The robot stands and is free for other goals meanwhile; who waits behind the ask
 
 from __future__ import annotations
 
-from planner.mission.queue import enqueue, finish, note_step, release_queue
+from planner.mission.queue import enqueue, finish, note_step, release_answered
 from planner.mission.records import Mission
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended
@@ -29,7 +29,7 @@ def asks(mission: Mission) -> bool:
 def take_answer(turn: Turn, mission: Mission, text: str) -> None:
     """Write the answer into its step, and go on first of all who wait."""
     mission = note_step(turn, mission, state=StepState.SUCCEEDED, answer=text[:MAX_ANSWER])
-    release_queue(turn)
+    release_answered(turn)
     enqueue(turn, next_step(turn, turn.put(mission, outcome=None)), first=True)
 
 

@@ -14,6 +14,7 @@ from planner.mission.queue import (
     pardon,
     pause_planning,
     pause_running,
+    release_answered,
     release_queue,
 )
 from planner.mission.records import Mission
@@ -159,7 +160,7 @@ def _bad_plan(why: str) -> Outcome:
 def ready(turn: Turn, mission: Mission) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
     if mission.begun:  # it was asked under way, and goes on where it stood
-        release_queue(turn)
+        release_answered(turn)
         enqueue(turn, mission, first=True)
         return
     if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
@@ -201,14 +202,14 @@ def pause(turn: Turn, mission: Mission) -> None:
     elif mission.state is GoalState.PLANNING:
         pause_planning(turn, mission, reason)
     else:
-        turn.put(mission, held=True)
+        turn.put(mission, held=True, kept=True)
 
 
 def resume(turn: Turn, mission: Mission) -> None:
     """Go on with a paused goal and let the queue go on; or let one that is kept waiting go."""
     pardon(turn)
     if mission.state is GoalState.QUEUED:
-        turn.put(mission, held=False)
+        turn.put(mission, held=False, kept=False)
         return
     release_queue(turn)
     if mission.plan is None or not mission.steps:

@@ -1,7 +1,8 @@
 """Keep the queue: who has the robot, who waits, who is kept waiting until a person acts.
 
 One mission runs at a time. A pause frees the robot but keeps those waiting where they are; only a
-goal that a person gives afterwards, or a resume, goes on.
+goal that a person gives afterwards, or a resume, goes on. Who waits for an answer alone goes on
+with the answer, too.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ PARDON_S = 2.0
 def enqueue(turn: Turn, mission: Mission, *, first: bool = False) -> None:
     """Let a planned mission wait for the robot."""
     waiting = tuple(i for i in turn.book.queue if i != mission.id)
-    turn.put(mission, state=GoalState.QUEUED, reason=None, held=False)
+    turn.put(mission, state=GoalState.QUEUED, reason=None, held=False, kept=False)
     turn.set(queue=(mission.id, *waiting) if first else (*waiting, mission.id))
 
 
@@ -32,8 +33,8 @@ def hold_queue(turn: Turn) -> None:
     """Keep everyone who waits now waiting until a person acts."""
     for mission_id in turn.book.queue:
         mission = turn.book.missions[mission_id]
-        if not mission.held:
-            turn.put(mission, held=True)
+        if not (mission.held and mission.kept):
+            turn.put(mission, held=True, kept=True)
 
 
 def release_queue(turn: Turn) -> None:
@@ -41,6 +42,14 @@ def release_queue(turn: Turn) -> None:
     for mission_id in turn.book.queue:
         mission = turn.book.missions[mission_id]
         if mission.held:
+            turn.put(mission, held=False, kept=False)
+
+
+def release_answered(turn: Turn) -> None:
+    """Let those take their turns who waited for an answer and for nothing else."""
+    for mission_id in turn.book.queue:
+        mission = turn.book.missions[mission_id]
+        if mission.held and not mission.kept:
             turn.put(mission, held=False)
 
 
@@ -92,7 +101,9 @@ def step_aside(
     """Leave the robot standing and free while a person is asked; who waits is kept waiting."""
     turn.set(running=None, walk=None)
     turn.put(mission, state=state, reason=reason, outcome=said)
-    hold_queue(turn)
+    for mission_id in turn.book.queue:
+        if not turn.book.missions[mission_id].held:
+            turn.put(turn.book.missions[mission_id], held=True)
 
 
 def _hint(reason: str) -> Outcome | None:
@@ -146,7 +157,9 @@ def finish(
             for s in plan.steps
         )  # fmt: skip
         plan = plan.model_copy(update={"steps": steps})
-    turn.put(mission, state=state, outcome=outcome, reason=reason, plan=plan, held=False)
+    turn.put(
+        mission, state=state, outcome=outcome, reason=reason, plan=plan, held=False, kept=False
+    )
     dequeue(turn, mission.id)
     if turn.book.running == mission.id:
         turn.set(running=None, walk=None)

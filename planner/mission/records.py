@@ -53,6 +53,8 @@ class Mission(Frozen):
     replace: bool = False
     held: bool = False
     """Queued, and kept there until a person resumes or cancels it."""
+    kept: bool = False
+    """It is held by more than a question of the goal before it: no answer lets it go."""
     map_id: str = ""
     """The map that every pose here is on; empty in records of older programs."""
     step: int = 0

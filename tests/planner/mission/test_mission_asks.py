@@ -74,6 +74,34 @@ def test_a_stop_while_it_asks_needs_no_more_than_the_answer_to_go_on(world: Toge
     world.run_until(goal, SUCCEEDED)
 
 
+@pytest.mark.parametrize("what", ["stop", "bridge", "pause", "restart"])
+def test_an_answer_lets_nobody_go_whom_more_than_the_question_keeps(
+    world: Together, what: str
+) -> None:
+    goal = world.give(PLAN)
+    waiting = world.give(go("hall"))
+    world.run_until(goal, ASKS)
+    if what == "restart":
+        world = world.restart()
+        world.run(0.2)
+    elif what == "pause":
+        world.event(Pause(waiting))
+    else:
+        if what == "stop":
+            world.event(Stopped("test"))
+        world.bridge.hold(HeldReason.STOP)
+        world.run(0.2)
+    fresh = world.give(go("dock"), operator=False)
+    world.event(Reply(goal, "me"))
+    world.act()
+    world.run_until(goal, SUCCEEDED)
+    world.run_until(fresh, SUCCEEDED)
+    assert standing_still(world)
+    assert world.goal(waiting).held
+    world.event(Resume(waiting))
+    world.run_until(waiting, SUCCEEDED)
+
+
 def test_a_question_can_be_cancelled(world: Together) -> None:
     goal = asking(world)
     world.event(Cancel(goal))
