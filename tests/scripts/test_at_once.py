@@ -52,8 +52,8 @@ def test_one_that_fails_fails_all_but_stops_none(repository: Path, codes: tuple[
 
 def test_an_interrupt_ends_both_and_is_told(repository: Path) -> None:
     wait = (
-        "import time; print('up', flush=True)\n"
-        "try: time.sleep(60)\n"
+        "import time\n"
+        "try: print('up', flush=True); time.sleep(60)\n"
         "except KeyboardInterrupt: print('ended')"
     )
     with subprocess.Popen(
