@@ -90,6 +90,7 @@ class MissionJournal:
         self._queue: tuple[str, ...] | None = None  # as it is on disk; None: not known
         self._put_mission = _upsert_of(_missions, self._engine.dialect.name)
         self._put_fact = _upsert_of(_facts, self._engine.dialect.name)
+        self._put_key = _upsert_of(_keys, self._engine.dialect.name, _keys.c.key)
         if self._engine.dialect.name == "sqlite":
             sa.event.listen(self._engine, "connect", _sqlite_pragmas)
         try:
@@ -113,8 +114,8 @@ class MissionJournal:
                 self._append(connection, entry, queue)
                 queue = entry.queue
             for key in keys:
-                row = {"key": key.key, "body": key.body, "goal": key.goal}
-                connection.execute(_ADD_KEY, row)
+                # A request that got a 503 for a slow disk comes again, with its key, as a new goal.
+                self._put_key(connection, {"key": key.key, "body": key.body, "goal": key.goal})
         self._queue = queue
 
     def load(self) -> Kept:
@@ -186,13 +187,18 @@ _Put = Callable[[sa.Connection, dict[str, object]], object]
 
 # Built once: putting a statement together costs as much as running it.
 _ADD_TRANSITION = sa.insert(_transitions)
-_ADD_KEY = sa.insert(_keys)
 
 
-def _upsert_of(table: sa.Table, dialect: str) -> _Put:
-    """Return how to insert a row or put it in the place of the one with its key."""
-    [key] = table.primary_key.columns
-    others = [column.name for column in table.columns if column is not key]
+def _upsert_of(table: sa.Table, dialect: str, unique: sa.Column[str] | None = None) -> _Put:
+    """Return how to insert a row or put it in the place of the one with its key.
+
+    ``unique`` is that key where it is not the primary one, which the database then gives.
+    """
+    [primary] = table.primary_key.columns
+    key = unique if unique is not None else primary
+    others = [
+        column.name for column in table.columns if column is not key and column is not primary
+    ]
     whole = _in_one(table, key, others, dialect)
     if whole is not None:
         return lambda connection, row: connection.execute(whole, row)

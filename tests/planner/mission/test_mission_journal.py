@@ -9,13 +9,14 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import cast
 
 import pytest
 import sqlalchemy as sa
 from sqlalchemy.dialects.postgresql.base import PGDialect
 
 from planner.mission.effects import Journal
-from planner.mission.journal import GoalKey, MissionJournal, _facts, _in_one, _upsert_of
+from planner.mission.journal import GoalKey, MissionJournal, _facts, _in_one, _keys, _upsert_of
 from planner.mission.records import MAX_ENDED, Mission
 from planner.mission.writer import JournalWriter, Wanted
 from planner.plan import Code, GoalState, Language, Outcome, message
@@ -63,10 +64,9 @@ def test_the_queue_is_written_when_it_changes_within_a_batch_and_after_a_failure
     journal.write((Journal(1, (one,), ("a",)),))
     journal.write((Journal(2, (one,), ("a", "b")), Journal(3, (one,), ("a",))))
     assert kept() == ("a",)
-    key = GoalKey("k", "f", "a")
-    journal.write((), (key,))
+    bad = GoalKey("k", "f", cast("str", None))
     with pytest.raises(sa.exc.IntegrityError):
-        journal.write((Journal(4, (one,), ("c",)),), (key,))
+        journal.write((Journal(4, (one,), ("c",)),), (bad,))
     assert kept() == ("a",)
     journal.write((Journal(4, (one,), ("c",)),))
     assert kept() == ("c",)
@@ -83,6 +83,18 @@ def test_a_row_is_put_in_the_place_of_the_one_with_its_key(dialect: str, tmp_pat
         rows = connection.execute(sa.select(_facts.c.value).where(_facts.c.name == "n")).all()
     journal.close()
     assert [row.value for row in rows] == ["2"]
+
+
+@pytest.mark.parametrize("dialect", ["sqlite", "another"])
+def test_a_key_that_comes_again_after_a_503_is_its_new_goals(dialect: str, tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    journal._put_key = _upsert_of(_keys, dialect, _keys.c.key)
+    journal.write((), (GoalKey("k", "f", "a"), GoalKey("other", "f", "b")))
+    journal.write((Journal(1, (mission("c", 1),), ()),), (GoalKey("k", "f2", "c"),))
+    kept = journal.load()
+    journal.close()
+    assert set(kept.keys) == {GoalKey("other", "f", "b"), GoalKey("k", "f2", "c")}
+    assert [m.id for m in kept.missions] == ["c"]
 
 
 def test_postgres_has_the_one_statement_too() -> None:
