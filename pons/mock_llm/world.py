@@ -23,13 +23,14 @@ def request_of(body: dict[str, Any]) -> ThinkRequest:
     texts = [(m.get("role"), _words(m.get("content"))) for m in _dicts(body.get("messages"))]
     page = "\n".join(text for _, text in texts)
     vocabulary = _vocabulary(page, body)
-    offered = EVERY_KIND & set(_STEP.findall(page))
+    offered = EVERY_KIND & set(_STEP.findall(page) or _allowed(body, "kind", 0))
     for role, text in texts:  # our prompt's message; a repair turn comes after it
         order = _order(text) if role == "user" else None
         if order is not None:
             return _asked(order, vocabulary, offered or RUNNABLE)
     said = [text for role, text in texts if role == "user"]
-    return ThinkRequest(text=said[-1] if said else "", vocabulary=vocabulary)
+    text = said[-1] if said else ""
+    return ThinkRequest(text=text, vocabulary=vocabulary, runnable=offered or RUNNABLE)
 
 
 def _asked(order: dict[str, Any], vocabulary: Vocabulary, runnable: frozenset[str]) -> ThinkRequest:
@@ -56,7 +57,7 @@ def _vocabulary(text: str, body: dict[str, Any]) -> Vocabulary:
     """Return the places: the prompt's lines, then what the schema lists beyond them."""
     named = {found[1]: _entry(found[1], found[2]) for found in _LINE.finditer(text)}
     entries = {id_: entry for id_, entry in named.items() if entry is not None}
-    for id_ in _ids(body, 0):
+    for id_ in _allowed(body, "place", 0):
         words = id_.replace("_", " ")
         try:
             entries.setdefault(id_, Entry(id=id_, kind="place", name=Bilingual(en=words, zh=words)))
@@ -68,26 +69,29 @@ def _vocabulary(text: str, body: dict[str, Any]) -> Vocabulary:
 def _entry(id_: str, listed: str) -> Entry | None:
     try:
         names = [name for name in json.loads(listed) if isinstance(name, str) and name.strip()]
-        english = next((n for n in names if not _CHINESE.search(n)), id_.replace("_", " "))
-        chinese = next((n for n in names if _CHINESE.search(n)), english)
-        name = Bilingual(en=english, zh=chinese)
+        first = names[0] if names else id_.replace("_", " ")  # an id may be a mere code
+        name = Bilingual(
+            en=next((n for n in names if not _CHINESE.search(n)), first),
+            zh=next((n for n in names if _CHINESE.search(n)), first),
+        )
         return Entry(id=id_, kind="place", name=name, aliases=tuple(names))
     except (ValueError, RecursionError, ValidationError):
         return None
 
 
-def _ids(node: object, depth: int) -> list[str]:
-    """Return the ids that a schema somewhere in the request allows for a place."""
+def _allowed(node: object, field: str, depth: int) -> list[str]:
+    """Return the words that a schema somewhere in the request allows for a field."""
     if depth > MAX_DEPTH:
         return []
     if isinstance(node, list):
-        return [id_ for each in node for id_ in _ids(each, depth + 1)]
+        return [word for each in node for word in _allowed(each, field, depth + 1)]
     if not isinstance(node, dict):
         return []
-    place = node.get("place")
-    allowed = place.get("enum") if isinstance(place, dict) else None
-    here = [id_ for id_ in allowed if isinstance(id_, str)] if isinstance(allowed, list) else []
-    return [*here, *(id_ for each in node.values() for id_ in _ids(each, depth + 1))]
+    shape = node.get(field)
+    words = shape.get("enum") if isinstance(shape, dict) else None
+    here = [word for word in words if isinstance(word, str)] if isinstance(words, list) else []
+    deeper = (_allowed(each, field, depth + 1) for each in node.values())
+    return [*here, *(word for words in deeper for word in words)]
 
 
 def _words(content: object) -> str:

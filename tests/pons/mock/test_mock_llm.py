@@ -27,7 +27,9 @@ from planner.brain import (
     Thought,
 )
 from planner.brain.endpoint import EndpointBrain
-from planner.plan import GoTo, StepPlan, Vocabulary
+from planner.brain.prompt import Prompt
+from planner.brain.schema import schema_of
+from planner.plan import EVERY_KIND, RUNNABLE, GoTo, StepPlan, Vocabulary
 from planner.settings import ModelSettings
 from pons.mock_llm import FAULTS, READABLE, Switches
 from pons.mock_llm.world import request_of
@@ -101,6 +103,31 @@ def test_any_client_gets_a_plan_in_its_own_closed_world() -> None:
     asked = request_of(body)
     assert asked.text == "go to the lab"
     assert list(asked.vocabulary.by_id) == ["lab"]
+    assert asked.runnable == RUNNABLE
+
+
+@pytest.mark.parametrize("runnable", [RUNNABLE, EVERY_KIND, frozenset({"go_to", "look"})])
+def test_the_steps_that_are_offered_are_the_steps_of_the_plan(runnable: frozenset[str]) -> None:
+    request = ThinkRequest(text="look around", vocabulary=HOME, runnable=runnable)
+    schema = {"json_schema": {"schema": schema_of(HOME, runnable)}}
+    ours = {"messages": Prompt.load().messages(request), "response_format": schema}
+    theirs = {"messages": [{"role": "user", "content": "look"}], "response_format": schema}
+    assert [request_of(body).runnable for body in (ours, theirs)] == [runnable, runnable]
+
+
+@pytest.mark.parametrize(
+    ("line", "en", "zh"),
+    [
+        ('taught_d4e0fed7: ["猫窝"]', "猫窝", "猫窝"),
+        ('taught_d4e0fed7: ["猫窝","猫窝","喵窝"]', "猫窝", "猫窝"),
+        ('den: ["the den"]', "the den", "the den"),
+        ('den: ["the den","书房"]', "the den", "书房"),
+        ("den: []", "den", "den"),
+    ],
+)
+def test_a_place_is_called_by_a_name_and_never_by_its_code(line: str, en: str, zh: str) -> None:
+    [entry] = request_of({"messages": [{"role": "system", "content": line}]}).vocabulary.entries
+    assert (entry.name.en, entry.name.zh) == (en, zh)
 
 
 @pytest.mark.parametrize(
