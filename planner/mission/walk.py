@@ -88,9 +88,7 @@ def _carry_out(turn: Turn, mission: Mission, act: Act) -> None:
         case Drive():
             _drive(turn, act)
         case Later():
-            note_step(turn, mission, state=StepState.RUNNING, reason=None)
-            retry_s = turn.now_s + RETRY_S
-            turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s))
+            _later(turn, mission)
         case Stand():
             note_step(turn, mission, state=StepState.RUNNING, reason=None)
             until_s = turn.now_s + act.seconds
@@ -128,6 +126,16 @@ def _drive(turn: Turn, act: Drive) -> None:
         )
     )
     ask_route(turn, detour=False)
+
+
+def _later(turn: Turn, mission: Mission) -> None:
+    """Try again soon; how long what holds has stood runs on, so that no wait lasts for ever."""
+    retry_s, walk = turn.now_s + RETRY_S, turn.book.walk
+    if walk is not None and walk.kind == "drive":
+        turn.walk(retry_s=retry_s)
+        return
+    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s))
 
 
 def _ask(turn: Turn, mission: Mission) -> None:

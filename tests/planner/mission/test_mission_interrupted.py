@@ -8,9 +8,7 @@ from planner.mission.events import (
     Resume,
     Tick,
 )
-from planner.plan import (
-    Code,
-)
+from planner.plan import Code, Move, StepPlan, Turn
 from tests.planner.mission.driving import (
     FAILED,
     PAUSED,
@@ -97,6 +95,20 @@ def test_a_row_that_stays_revokes_the_mission(
     assert world.goal(goal).state is RUNNING
     world.run(2.0)
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, reason)
+
+
+@pytest.mark.parametrize("step", [Turn(angle_rad=1.0), Move(distance_m=1.0)])
+def test_a_measured_step_without_a_pose_is_given_up_like_any_other(
+    world: Together, step: Turn | Move
+) -> None:
+    world.bridge.localized, world.bridge.rows = False, (row("LOC_LOST"),)
+    world.run(0.2)
+    goal = world.give(StepPlan(steps=(step,)))
+    entries = len(world.disk_entries)
+    world.run(29.0, every_s=0.25)
+    assert (world.goal(goal).state, len(world.disk_entries)) == (RUNNING, entries)
+    world.run(2.0)
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "fault(LOC_LOST)")
 
 
 def test_budget_row_fails_the_mission_and_only_its_own(world: Together) -> None:
