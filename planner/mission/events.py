@@ -18,6 +18,9 @@ class Submitted:
     language: Language
     confirm: bool = False
     replace: bool = False
+    """It ends what is in hand once it is understood."""
+    first: bool = False
+    """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
     operator: bool = True
     """A person gave it now: the hold that stands is about to be cleared."""
     stop: bool = False

@@ -74,6 +74,7 @@ def submit(turn: Turn, event: Submitted) -> None:
         state=GoalState.PLANNING,
         confirm=event.confirm,
         replace=event.replace,
+        first=event.first,
         map_id=turn.book.facts.map_id,
         accepted_at=(pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None,
         created_unix_s=now_unix_s,
@@ -165,7 +166,7 @@ def ready(turn: Turn, mission: Mission) -> None:
         return
     if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
         cancel(turn, replaced)
-    enqueue(turn, mission, first=mission.replace)
+    enqueue(turn, mission, first=mission.replace or mission.first)
 
 
 def _in_hand(turn: Turn, new: Mission) -> Mission | None:

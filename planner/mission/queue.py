@@ -194,6 +194,8 @@ def next_up(turn: Turn) -> Mission | None:
     """Return the mission that may have the robot now, or None."""
     if turn.book.running is not None or standing_hold(turn) is not None:
         return None
+    if any(m.first and m.state is GoalState.PLANNING for m in turn.book.missions.values()):
+        return None  # "forget that, …": the robot stays free for what is thought about
     waiting = (turn.book.missions[i] for i in turn.book.queue)
     return next((m for m in waiting if not m.held), None)
 

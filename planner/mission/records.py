@@ -51,6 +51,8 @@ class Mission(Frozen):
     confirm: bool = False
     """Wait for a yes before the first step."""
     replace: bool = False
+    first: bool = False
+    """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
     held: bool = False
     """Queued, and kept there until a person resumes or cancels it."""
     kept: bool = False

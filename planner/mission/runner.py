@@ -169,15 +169,17 @@ class Missions:
             raise QueueFull(waiting)
         if local and not isinstance(intent, GoOn):
             operator, act = False, None  # what can't lead to motion clears no hold
+        first = isinstance(intent, Replace) and intent.now
+        taken_back = current(self._book) if first else None
         if isinstance(intent, Replace):
-            replace = True
-            if intent.now and (taken_back := current(self._book)) is not None:
-                self._loop.event(Cancel(taken_back))
+            replace = not intent.now
         goal_id = self._clocks.new_id()
         key = self._remember(idempotency_key, body, goal_id)
         self._loop.clear_hold(act)
         self._loop.accepted.note(goal_id, self._clocks.monotonic())
-        self._loop.event(Submitted(goal_id, text, said, confirm, replace, operator), key)
+        self._loop.event(Submitted(goal_id, text, said, confirm, replace, first, operator), key)
+        if taken_back is not None:
+            self._loop.event(Cancel(taken_back))
         try:
             await self._loop.settled()
         except JournalDown:

@@ -32,6 +32,8 @@ from wire import Pose2, Status
 ROOT = Path(__file__).resolve().parents[3]
 SITE = Site.load(ROOT / "sites" / "two_room")
 CORNER = StepPlan(steps=(GoTo(place="corner"),))
+ASKS_FIRST = StepPlan(steps=(Ask(question="Shall I drive there?"), GoTo(place="kitchen")))
+WHICH = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
 TO_KITCHEN = "please go to the kitchen"
 
 
@@ -99,6 +101,34 @@ def test_a_goal_that_is_taken_back_makes_room_for_the_rest(tmp_path: Path) -> No
             await together.reach(second.id, GoalState.REFUSED)
             assert [request.text for request in together.brain.asked][-1] == "dance"
             assert together.missions.goal(second.id).text == "forget that, dance"
+
+    run(story())
+
+
+@pytest.mark.parametrize("asks", [False, True])
+def test_a_goal_that_is_taken_back_is_the_only_one_and_nobody_overtakes(
+    tmp_path: Path, asks: bool
+) -> None:
+    sofa = StepPlan(steps=(GoTo(place="sofa"),))
+
+    async def story() -> None:
+        async with planner(tmp_path, KITCHEN, WHICH if asks else KITCHEN, sofa) as together:
+            missions = together.missions
+            first = await missions.submit(TO_KITCHEN)
+            await together.reach(first.id, GoalState.RUNNING)
+            other = await missions.submit("please go there")
+            waits = GoalState.NEEDS_CLARIFICATION if asks else GoalState.QUEUED
+            await together.reach(other.id, waits)
+            instead = await missions.submit("forget that, go to the sofa")
+            assert missions.goal(first.id).state is GoalState.CANCELLED
+            assert missions.goal(other.id).state is waits, "the robot stands until it is understood"
+            await together.reach(instead.id, GoalState.SUCCEEDED)
+            if not asks:
+                await together.reach(other.id, GoalState.SUCCEEDED)
+            assert missions.goal(other.id).state is not GoalState.CANCELLED
+            drove = dict.fromkeys(m.mission for m in together.bridge.waypoints if m.points)
+            after = [instead.id] if asks else [instead.id, other.id]
+            assert [goal for goal in drove if goal != first.id] == after
 
     run(story())
 
@@ -207,10 +237,6 @@ def test_a_place_that_is_moved_on_the_way_is_driven_to_where_it_is_now(tmp_path:
             assert abs(bridge.pose.y_m - now.y_m) < 0.1
 
     run(story())
-
-
-ASKS_FIRST = StepPlan(steps=(Ask(question="Shall I drive there?"), GoTo(place="kitchen")))
-WHICH = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
 
 
 @pytest.mark.parametrize("plan", [ASKS_FIRST, WHICH])
