@@ -145,6 +145,9 @@ def _ask(turn: Turn, mission: Mission) -> None:
 
 
 def _decide(turn: Turn, mission: Mission) -> None:
+    if mission.steps[mission.step].state is StepState.RUNNING:  # paused meanwhile: it was counted
+        think(turn, mission)
+        return
     if mission.decides >= turn.book.rules.decides:
         fail_step(turn, Cannot(Code.OUT_OF_BUDGET, "thoughts"))
         return

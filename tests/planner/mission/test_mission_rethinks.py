@@ -122,6 +122,15 @@ def test_no_goal_decides_for_ever() -> None:
     assert len(world.asked) == 1 + world.book.rules.decides
 
 
+def test_a_thought_that_is_paused_and_resumed_counts_once() -> None:
+    world = rethinking(plan(DECIDE))
+    goal = world.give(None)
+    for _ in range(world.book.rules.decides + 1):
+        world.event(Pause(goal))
+        world.event(Resume(goal))
+    assert (world.goal(goal).state, world.goal(goal).decides) == (RUNNING, 1)
+
+
 @pytest.mark.parametrize(
     ("thought", "state", "code"),
     [
