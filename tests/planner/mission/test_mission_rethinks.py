@@ -16,11 +16,13 @@ from planner.plan import (
     BrainTag,
     Clarify,
     Code,
+    ComeBack,
     Decide,
     GoalState,
     GoTo,
     Outcome,
     Refuse,
+    ReturnHome,
     Say,
     StepPlan,
     StepState,
@@ -163,18 +165,40 @@ def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
     assert "the left one" in world.asked[2].observed[1].detail.en
 
 
-def test_another_destination_than_was_named_needs_a_yes() -> None:
-    world = rethinking(go("kitchen"), go("dock"))
+@pytest.mark.parametrize(
+    ("new", "named"),
+    [
+        (GoTo(place="dock"), "dock"),
+        (ReturnHome(), "dock"),
+        (ComeBack(), "where the goal was given"),
+    ],
+)
+def test_another_destination_than_was_named_needs_a_yes(new: Any, named: str) -> None:
+    world = rethinking(go("kitchen"), plan(new))
     world.way = lambda ask: SHUT if ask.goal == FACTS.targets["kitchen"].pose else None
     goal = world.give(None)
     mission = world.goal(goal)
     assert (mission.state, mission.reason) == (GoalState.AWAITING_CONFIRMATION, "new_place")
     assert mission.outcome is not None
-    assert "dock" in mission.outcome.message.en
+    assert named in mission.outcome.message.en
     world.run(5.0)
     assert world.bridge.waypoints == []
     world.event(Confirm(goal))
     world.run_until(goal, SUCCEEDED)
+
+
+@pytest.mark.parametrize(
+    ("first", "again"),
+    [
+        (plan(GoTo(place="kitchen"), ReturnHome()), plan(Say(text="no"), GoTo(place="dock"))),
+        (plan(GoTo(place="kitchen"), GoTo(place="dock")), plan(ReturnHome())),
+        (plan(GoTo(place="kitchen"), ComeBack()), plan(ComeBack())),
+    ],
+)
+def test_a_way_that_was_in_the_plan_needs_no_yes(first: StepPlan, again: StepPlan) -> None:
+    world = rethinking(first, again)
+    world.way = lambda ask: SHUT if ask.goal == FACTS.targets["kitchen"].pose else None
+    world.run_until(world.give(None), SUCCEEDED)
 
 
 @pytest.mark.parametrize(
