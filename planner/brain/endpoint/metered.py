@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import httpx
 
+from planner.brain.endpoint.weighing import Weight
+
 if TYPE_CHECKING:
     from planner.brain.meter import Bill, Meter
 
@@ -23,6 +25,9 @@ escaped, so the words of a model can't pass for it."""
 _PROMPT = re.compile(rb'"(?:prompt_tokens|input_tokens)"\s*:\s*(\d{1,7})(?=[\s,}])')
 _REPLY = re.compile(rb'"(?:completion_tokens|output_tokens)"\s*:\s*(\d{1,7})(?=[\s,}])')
 _TOTAL = re.compile(rb'"total_tokens"\s*:\s*(\d{1,7})(?=[\s,}])')
+_DONE = re.compile(rb"(?:^|[\r\n])data:\s*\[DONE\]")
+_OBJECT = re.compile(rb'(?<!\\)"arguments"\s*:\s*\{')
+"""Arguments that a server sends as an object: the model's own words, whose quotes stand bare."""
 _NEVER_SENT = (
     httpx.ConnectError,
     httpx.ConnectTimeout,
@@ -58,7 +63,7 @@ class Metered(httpx.AsyncBaseTransport):
         return httpx.Response(
             response.status_code,
             headers=response.headers,
-            stream=_Read(response.stream, bill, sent, response.status_code),
+            stream=_Read(response.stream, bill, sent, response),
             extensions=response.extensions,
         )
 
@@ -70,14 +75,21 @@ class Metered(httpx.AsyncBaseTransport):
 class _Read(httpx.AsyncByteStream):
     """Pass a reply through, keep its two ends, and close the bill with it."""
 
-    def __init__(self, inner: httpx.AsyncByteStream, bill: Bill, sent: int, status: int) -> None:
-        self._inner, self._bill, self._sent, self._status = inner, bill, sent, status
+    def __init__(
+        self, inner: httpx.AsyncByteStream, bill: Bill, sent: int, response: httpx.Response
+    ) -> None:
+        self._inner, self._bill, self._sent = inner, bill, sent
+        self._status = response.status_code
+        kind = response.headers.get("content-type", "").lower()
+        self._weight = Weight() if kind.startswith("text/event-stream") else None
         self._head, self._tail = bytearray(), bytearray()
         self._size, self._whole, self._open = 0, False, True
 
     async def __aiter__(self) -> AsyncIterator[bytes]:
         async for chunk in self._inner:
             self._size += len(chunk)
+            if self._weight is not None:
+                self._weight.add(chunk)
             self._head += chunk[: HEAD_BYTES - len(self._head)]
             self._tail += chunk[-TAIL_BYTES:]
             del self._tail[:-TAIL_BYTES]
@@ -92,24 +104,34 @@ class _Read(httpx.AsyncByteStream):
         await self._inner.aclose()
 
     def _cost(self) -> tuple[int, int]:
-        """Return the tokens of prompt and reply; errors are not billed anywhere known."""
+        """Return the tokens of prompt and reply; errors are not billed anywhere known.
+
+        What was cut stays at its worst: the figures so far are not the last ones.
+        """
         ends = bytes(self._tail) if self._size <= TAIL_BYTES else bytes(self._head + self._tail)
-        said = billed(ends)
+        whole = self._whole or (self._weight is not None and _DONE.search(self._tail) is not None)
+        said = billed(ends) if whole else None
         if said is not None:
             return said
         if self._status >= 300:
             return 0, 0
-        most = self._bill.most
-        whole = self._whole or b"[DONE]" in self._tail
-        wrote = min(most, self._size // CHARACTERS_PER_TOKEN) if whole else most
-        return self._sent, wrote
+        return self._sent, self._wrote() if whole else self._bill.most
+
+    def _wrote(self) -> int:
+        """Return what a reply without figures may have cost."""
+        weight, each = self._weight, CHARACTERS_PER_TOKEN
+        wrote = self._size // each if weight is None else weight.tokens(each)
+        return min(self._bill.most, wrote)
 
 
 def billed(reply: bytes) -> tuple[int, int] | None:
     """Return the tokens of prompt and reply that a server says it billed, or None.
 
     The last figures count, as streams repeat them. Thoughts that only the total holds are reply.
+    Where a call's arguments are an object, figures may be the model's own, and none is believed.
     """
+    if _OBJECT.search(reply):
+        return None
     prompt, reply_tokens, total = (
         int(found[-1]) if (found := kind.findall(reply)) else None
         for kind in (_PROMPT, _REPLY, _TOTAL)

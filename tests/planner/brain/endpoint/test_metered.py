@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +52,39 @@ def said(prompt: int, reply: int, total: int) -> httpx.Response:
     return answer({"choices": [{"message": message}], "usage": usage})
 
 
+EVENTS = {"content-type": "text/event-stream"}
+FIGURES = '{"prompt_tokens":7,"completion_tokens":3,"total_tokens":10}'
+SAID = f'data: {{"choices":[],"usage":{FIGURES}}}\n\n'
+DONE = "data: [DONE]\n\n"
+
+
+def streamed(*pieces: str, end: str = DONE) -> Answer:
+    """Return a stream as servers send it: some 200 bytes around each piece."""
+    shell = {"id": "chatcmpl-" + "x" * 90, "object": "chat.completion.chunk", "model": "m" * 40}
+    choices = [{"index": 0, "delta": {"content": piece}} for piece in pieces]
+    choices.append({"index": 0, "delta": {}, "finish_reason": "stop"})
+    lines = [f"data: {json.dumps({**shell, 'choices': [choice]})}\r\n\r\n" for choice in choices]
+    return raw(("".join(lines) + ": awake\n\n" + end).encode(), headers=EVENTS)
+
+
+class Cut(httpx.AsyncByteStream):
+    """Send bytes and lose the connection."""
+
+    def __init__(self, sent: str) -> None:
+        self._sent = sent.encode()
+
+    async def __aiter__(self) -> AsyncIterator[bytes]:
+        yield self._sent
+        raise httpx.ReadError("reset")
+
+
+def cut(text: str) -> Answer:
+    return httpx.Response(200, stream=Cut(text), headers=EVENTS)
+
+
+BABBLE = 'data: {"choices":[{"delta":{"content":"data: [DONE]"}}]}\n\n'
+
+
 @pytest.mark.parametrize(
     ("answers", "calls", "prompt", "reply"),
     [
@@ -66,6 +100,11 @@ def said(prompt: int, reply: int, total: int) -> httpx.Response:
         ((httpx.ReadError("reset"),), 2, None, 2 * MOST),
         ((raw(b"x" * 40),), 1, None, 10),
         ((raw(b"x" * 2_000_000),), 1, None, MOST),
+        ((streamed(*GO),), 1, None, len(GO) + 1),  # a token each, not 60 for what is around it
+        ((streamed(GO, end=SAID + DONE),), 1, 7, 3),
+        ((streamed("", GO * 3),), 1, None, 58),  # 180 characters, a third more where escaped
+        ((cut(BABBLE + SAID),), 1, None, MOST),  # what it says before it is cut is not believed
+        ((cut(BABBLE + SAID + DONE), said(10, 5, 15)), 2, 17, 8),
         ((raw(b"", 307, {"location": "http://169.254.169.254/"}),), 1, 0, 0),
     ],
 )
@@ -135,6 +174,12 @@ def test_reading_a_bill() -> None:
     assert billed(stream.encode()) == (7, 2)
     assert billed(b'{"usage": {"input_tokens": 7, "output_tokens": 2}}') == (7, 2)
     assert billed(json.dumps({"content": usage}).encode()) is None
+    for written in ({"kind": "say", "usage": {"prompt_tokens": 0, "completion_tokens": 0}}, "{}"):
+        calls = json.dumps({"tool_calls": [{"function": {"arguments": written}}]})
+        assert billed(calls.encode()) is None  # a model's own words are no bill
+    assert billed(
+        json.dumps({"arguments": usage, "usage": json.loads(f"{{{usage}}}")}).encode()
+    ) == (7, 2)
     for odd in ("", '"prompt_tokens": 7}', '"prompt_tokens": 99999999999, "total_tokens": 1}'):
         assert billed(odd.encode()) is None
 
