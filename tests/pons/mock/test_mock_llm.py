@@ -27,12 +27,9 @@ from planner.brain import (
     Thought,
 )
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.prompt import Prompt
-from planner.brain.schema import schema_of
-from planner.plan import EVERY_KIND, RUNNABLE, GoTo, StepPlan, Vocabulary
+from planner.plan import GoTo, StepPlan
 from planner.settings import ModelSettings
 from pons.mock_llm import FAULTS, READABLE, Switches
-from pons.mock_llm.world import request_of
 from tests.planner.brain.conftest import HOME
 from tests.pons.mock.mocks import RunningMock, running_mock
 
@@ -92,56 +89,6 @@ def test_it_plans_as_the_offline_brain_does(mock: RunningMock, text: str, tmp_pa
         assert by_model == by_grammar
     else:
         assert getattr(by_model, "code", None) == getattr(by_grammar, "code", None)
-
-
-def test_any_client_gets_a_plan_in_its_own_closed_world() -> None:
-    world = {"properties": {"steps": {"items": {"properties": {"place": {"enum": ["lab", "9$"]}}}}}}
-    body = {
-        "messages": [{"role": "user", "content": [{"type": "text", "text": "go to the lab"}]}],
-        "response_format": {"type": "json_schema", "json_schema": {"schema": world}},
-    }
-    asked = request_of(body)
-    assert asked.text == "go to the lab"
-    assert list(asked.vocabulary.by_id) == ["lab"]
-    assert asked.runnable == RUNNABLE
-
-
-@pytest.mark.parametrize("runnable", [RUNNABLE, EVERY_KIND, frozenset({"go_to", "look"})])
-def test_the_steps_that_are_offered_are_the_steps_of_the_plan(runnable: frozenset[str]) -> None:
-    request = ThinkRequest(text="look around", vocabulary=HOME, runnable=runnable)
-    schema = {"json_schema": {"schema": schema_of(HOME, runnable)}}
-    ours = {"messages": Prompt.load().messages(request), "response_format": schema}
-    theirs = {"messages": [{"role": "user", "content": "look"}], "response_format": schema}
-    assert [request_of(body).runnable for body in (ours, theirs)] == [runnable, runnable]
-
-
-@pytest.mark.parametrize(
-    ("line", "en", "zh"),
-    [
-        ('taught_d4e0fed7: ["猫窝"]', "猫窝", "猫窝"),
-        ('taught_d4e0fed7: ["猫窝","猫窝","喵窝"]', "猫窝", "猫窝"),
-        ('den: ["the den"]', "the den", "the den"),
-        ('den: ["the den","书房"]', "the den", "书房"),
-        ("den: []", "den", "den"),
-    ],
-)
-def test_a_place_is_called_by_a_name_and_never_by_its_code(line: str, en: str, zh: str) -> None:
-    [entry] = request_of({"messages": [{"role": "system", "content": line}]}).vocabulary.entries
-    assert (entry.name.en, entry.name.zh) == (en, zh)
-
-
-@pytest.mark.parametrize(
-    "body",
-    [
-        {},
-        {"messages": None},
-        {"messages": [7, None, {"role": "user"}, {"role": "user", "content": 7}]},
-        {"messages": [{"role": "user", "content": '{"order":7}'}]},
-        {"messages": [{"role": "user", "content": "x: [[[["}], "tools": [[[[]]]]},
-    ],
-)
-def test_no_body_is_too_odd(body: dict[str, Any]) -> None:
-    assert isinstance(request_of(body), ThinkRequest)
 
 
 @pytest.mark.parametrize("body", [b"", b"[]", b"{", b"\xff", b"[" * 100_000])
@@ -323,10 +270,6 @@ def test_switches_are_checked_and_counted(mock: RunningMock) -> None:
 def test_every_fault_is_described() -> None:
     assert all(Switches(fault=fault) for fault in FAULTS)
     assert all(FAULTS.values())
-
-
-def test_an_empty_world_moves_nowhere() -> None:
-    assert request_of({"messages": []}).vocabulary == Vocabulary()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
