@@ -1,7 +1,8 @@
 """Kill planners at random writes of their journal; count goals that are lost and effects repeated.
 
 180 kills on a stub: the planner's real missions, runner and SQLite file, a robot on paper. 20 on
-the real planner, by a watch on its journal's log: killed within a millisecond of a random change.
+the real planner, by a watch on its journal's log: killed within a millisecond of a random change;
+there goals, ways and unasked motion are counted, words and legs are not.
 """
 
 from __future__ import annotations
@@ -54,7 +55,8 @@ def measure(lab: Lab) -> list[Row]:
 def _rows(what: str, told: list[dict[str, Any]]) -> list[Row]:
     kills, accepted = sum(t["kills"] for t in told), sum(t["accepted"] for t in told)
     lost, crashed = sum(t["lost"] for t in told), [c for t in told for c in t["crashed"]]
-    twice = {name: sum(t[name] for t in told) for name in TWICE}
+    counted = [name for name in TWICE if all(name in t for t in told)]
+    twice = {name: sum(t[name] for t in told) for name in counted}
     note = f"{kills} kills, {accepted} goals accepted"
     if crashed:
         note += f"; {len(crashed)} lives ended otherwise: {crashed[0]}"
@@ -107,7 +109,7 @@ def _planner(lab: Lab, index: int) -> dict[str, Any]:
         moved = hypot(ended.x_m - began.x_m, ended.y_m - began.y_m) > OFF_M
         return {
             "kills": int(killed), "crashed": [], "accepted": len(accepted),
-            "lost": len(accepted) - len(kept), "said_twice": 0, "legs_twice": 0,
+            "lost": len(accepted) - len(kept),
             "goals_twice": max(0, len(goals) - len(ORDERS)), "way_twice": int(turned_off or moved),
             "unasked": unasked,
         }  # fmt: skip

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from bench.journal_life import GONE_M, TURNED_RAD, judge
-from bench.measure.journal_kills import TWICE
+from bench.measure.journal_kills import TWICE, _rows
 from bench.paper import Body
 
 LEG, SAY = [0, "leg", "g1", 1, True], [0, "say", "g1", "one"]
@@ -48,6 +48,13 @@ def test_a_leg_done_twice_shows_in_the_way(tmp_path: Path) -> None:
     assert judge([], tmp_path, body)["way_twice"] == 1
     body.gone_m -= 0.4
     assert judge([], tmp_path, body)["way_twice"] == 2
+
+
+def test_a_row_tells_only_what_was_counted() -> None:
+    told = {"kills": 1, "accepted": 3, "crashed": [], "lost": 0, "goals_twice": 0, "way_twice": 1,
+            "unasked": 0}  # fmt: skip
+    _, twice = _rows("real planner", [told])
+    assert (twice.value, twice.note) == ("1", "goals_twice 0, way_twice 1, unasked 0")
 
 
 @pytest.mark.slow
