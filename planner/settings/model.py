@@ -18,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 
-from planner.settings.presets import PRESETS, Mode, Preset, PresetName
+from planner.settings.presets import PRESETS, Mode, Preset, PresetName, known_as
 
 MAX_EXTRA_BYTES = 8_000
 MAX_EXTRA_DEPTH = 8
@@ -71,9 +71,9 @@ class ModelSettings(BaseModel):
     @classmethod
     def _with_preset(cls, given: Any) -> Any:
         """Fill in what the preset knows; a name that is none is told by the field itself."""
-        if not isinstance(given, dict) or given.get("preset") not in set(PresetName):
+        preset = known_as(given.get("preset")) if isinstance(given, dict) else None
+        if preset is None:
             return given
-        preset = PRESETS[PresetName(given["preset"])]
         return {"url": preset.url, "max_tokens": preset.max_tokens, **given}
 
     @field_validator("extra_body")

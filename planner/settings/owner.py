@@ -18,7 +18,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
-from planner.settings.presets import PRESETS, PresetName
+from planner.settings.presets import known_as
 from wire import Misconfigured
 
 log = logging.getLogger(__name__)
@@ -170,9 +170,8 @@ def _at_another_place(model: dict[str, Any], preset: str, url: str) -> dict[str,
 
 def _place(model: dict[str, Any]) -> str:
     """Return the URL of a model's table: its own, else its preset's."""
-    preset = model.get("preset")
-    known = PRESETS[PresetName(preset)].url if preset in set(PresetName) else ""
-    return str(model.get("url", known))
+    preset = known_as(model.get("preset"))
+    return str(model.get("url", preset.url if preset is not None else ""))
 
 
 def same_place(one: str, other: str) -> bool:
@@ -214,6 +213,7 @@ def _need_key(model: ModelSettings | None) -> None:
 _TABLES: dict[str, type[BaseModel]] = {
     "": Settings,
     "model": ModelSettings,
+    "mission": MissionSettings,
     "budget": BudgetSettings,
     "budget.goal": GoalLimits,
     "budget.day": DayLimits,

@@ -118,3 +118,9 @@ PRESETS: Mapping[PresetName, Preset] = MappingProxyType(
         ),
     }
 )  # fmt: skip
+
+
+def known_as(name: object) -> Preset | None:
+    """Return the preset of a name, which may be anything that TOML holds; None where it is none."""
+    known = isinstance(name, str) and name in set(PresetName)
+    return PRESETS[PresetName(name)] if known else None
