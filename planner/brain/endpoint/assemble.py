@@ -132,12 +132,13 @@ class Assembly:
     def completion(self) -> dict[str, Any]:
         """Return all of it as a plain completion."""
         message: dict[str, Any] = {"role": "assistant", "content": "".join(self._content) or None}
-        if self._refusal:
-            message["refusal"] = "".join(self._refusal)
         if self._calls:
             message["tool_calls"] = [call.whole() for call in self._calls]
         if self._whole is not None and not (self._content or self._calls):
-            message = self._whole
+            message = dict(self._whole)
+        refusal = "".join(self._refusal) or (self._whole or {}).get("refusal")
+        if refusal:  # wherever it stands, it counts
+            message["refusal"] = refusal
         choice = {"index": 0, "message": message, "finish_reason": self.finish}
         return {"choices": [choice], "usage": self._usage}
 

@@ -61,7 +61,7 @@ class Drafting:
     def draft_of(self, text: str) -> Draft:
         """Return what can be shown of a text that goes on."""
         spoken = without_thoughts(text)
-        shown = clean(spoken[-2 * MAX_DRAFT :])[-MAX_DRAFT:]
+        shown = clean(spoken[-MAX_DRAFT:])
         return Draft(text=shown, steps=tuple(self._steps(spoken)))
 
     def _steps(self, spoken: str) -> list[Step]:

@@ -140,6 +140,22 @@ def test_what_is_not_one_plan_is_none(
     assert told in server.bodies[1]["messages"][-1]["content"]
 
 
+@pytest.mark.parametrize(
+    "events",
+    [
+        [delta(content=GO), {"choices": [{"message": {"content": GO, "refusal": "I won't."}}]}],
+        [call(index=0, id="a", **FULL), {"choices": [{"message": {"refusal": "I won't."}}]}],
+        [delta(refusal="I won't."), {"choices": [{"message": {"content": GO}}]}],
+        [delta(refusal="I "), delta(refusal="won't."), delta(content=GO)],
+    ],
+)
+def test_a_refusal_counts_wherever_it_stands_in_a_stream(
+    events: list[object], home: Vocabulary, tmp_path: Path
+) -> None:
+    server = Server(raw(stream(*events, STOP), headers=EVENTS))
+    assert think(brain(server, tmp_path), home).plan.kind == "refuse"
+
+
 BROKEN: list[Answer] = [
     raw(stream(delta(content=GO), done=False), headers=EVENTS),
     raw(stream(delta(content=GO[:9]), {"error": {"message": "no"}}), headers=EVENTS),
@@ -281,6 +297,8 @@ def test_a_draft_is_bounded_and_clean() -> None:
     assert len(draft.text) == 2000
     Drafting(HOME, RUNNABLE, heard.append)(lambda: "\x00 \n")
     assert len(heard) == 1
+    Drafting(HOME, RUNNABLE, heard.append)(lambda: "a" * 3000 + "b" * 500)
+    assert heard[1].text == "a" * 1500 + "b" * 500  # the newest
 
 
 def test_a_key_that_a_stream_echoes_is_never_shown() -> None:
