@@ -122,5 +122,6 @@ PRESETS: Mapping[PresetName, Preset] = MappingProxyType(
 
 def known_as(name: object) -> Preset | None:
     """Return the preset of a name, which may be anything that TOML holds; None where it is none."""
-    known = isinstance(name, str) and name in set(PresetName)
-    return PRESETS[PresetName(name)] if known else None
+    if not isinstance(name, str) or name not in set(PresetName):
+        return None
+    return PRESETS[PresetName(name)]
