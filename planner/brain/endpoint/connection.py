@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import socket
 
 import httpx
@@ -44,6 +45,8 @@ def opened(
         transport: another than the network, for tests.
         meter: counts every call and may refuse it.
     """
+    # Its lines for debugging quote a server's head as it came, with a key that is echoed in it.
+    logging.getLogger("httpcore").setLevel(logging.WARNING)
     inner = transport or httpx.AsyncHTTPTransport(
         trust_env=False,
         verify=address.url.startswith("https:"),  # certificates cost 0.1 s and 10 MB to load

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import gc
 import json
+import logging
 import socket
 import time
 from pathlib import Path
@@ -127,15 +128,16 @@ def test_every_server_ends_typed(
 )
 @pytest.mark.parametrize("key", [KEY, "sk-odd\\'key\"" * 12])
 def test_a_key_echoed_as_a_broken_head_is_struck(
-    echo: bytes, key: str, home: Vocabulary, tmp_path: Path
+    echo: bytes, key: str, home: Vocabulary, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
+    caplog.set_level(logging.DEBUG)
     with serving(said(echo % key.encode())) as wire:
         url = f"http://127.0.0.1:{wire.port}/v1"
         made = EndpointBrain(settings(url=url, key=key, timeout_s=1.5), tmp_path)
         why, words = _thought(made, home)
     assert (why, "RemoteProtocolError" in words) == ("server_error", True)
     assert "***" in words
-    assert key[:6] not in words
+    assert key[:6] not in words + caplog.text
 
 
 def test_a_connection_is_used_again_and_one_that_was_closed_is_opened_anew(
