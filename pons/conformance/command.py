@@ -70,7 +70,8 @@ def main(settings: Settings, arguments: list[str]) -> int:
         for fault in FAULTS:
             print(f"{fault.name:20} {' '.join(fault.kinds):18} {fault.what}")
         return EXIT_HELD
-    signal.signal(signal.SIGTERM, _as_interrupt)
+    for number in (signal.SIGINT, signal.SIGTERM):  # a shell's background job ignores Ctrl-C else
+        signal.signal(number, _as_interrupt)
     try:
         kinds = (KINDS[said.brain],) if said.brain else (X, W)
         faults = chosen(said.faults, quick=said.quick, kinds=kinds)
