@@ -50,11 +50,11 @@ def sense(tick: Tick) -> None:
         s.buttons = replace(
             s.buttons, link_pressed=inbox.estop_link.pressed, link_received_s=tick.now_s
         )
-    turned = s.loop.recorder_ok != inbox.recorder_ok
-    if turned and s.tick > 1:
+    changed = s.loop.recorder_ok != inbox.recorder_ok
+    if changed and s.tick > 1:
         code, detail = ("recorder_up", "") if inbox.recorder_ok else recorder_lack(inbox)
         tick.say(code, detail)
-    if turned or s.loop.real_time != inbox.real_time:
+    if changed or s.loop.real_time != inbox.real_time:
         s.loop = replace(s.loop, real_time=inbox.real_time, recorder_ok=inbox.recorder_ok)
 
 
