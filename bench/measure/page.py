@@ -252,8 +252,9 @@ def _changes(lab: Lab, robot: Robot, page: Page) -> list[float]:
         events = ears.subscriber(EVENT)
         hand = stack.enter_context(ThreadPoolExecutor(1))
         until(partial(_hears, ears.subscriber(STATUS)), 10.0, "the bridge")
-        for number in range(CHANGES):
-            lab.say(f"change {number + 1}/{CHANGES}")
+        changes = lab.count(CHANGES // 2, CHANGES)
+        for number in range(changes):
+            lab.say(f"change {number + 1}/{changes}")
             wanted = Mode.DISARMED if number % 2 == 0 else Mode.HOLD
             events.drain()
             page.evaluate("window.shown.length = 0")

@@ -34,7 +34,7 @@ SPEEDS_MPS = (0.5, 0.2)
 
 def measure(lab: Lab) -> list[Row]:
     """Take a few of each, slow and fast; every slice is one robot, one kill and one freeze."""
-    runs = list(lab.slices("planner", lab.count(2, 20), lambda i: _run(lab, i)))
+    runs = list(lab.slices("planner", lab.count(1, 20), lambda i: _run(lab, i)))
     ticks = [float(round(age / TICK_S)) for run in runs for age in run["ages_s"]]
     unasked = sum(run["unasked"] for run in runs)
     speed = min((run["speed"] for run in runs), default=0.0)
