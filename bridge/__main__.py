@@ -34,6 +34,7 @@ from bridge.realtime import (
     lock_memory,
     pin,
     take_fifo,
+    transport_fifo,
 )
 from bridge.recorder import Recorder
 from bridge.shell import EXIT_LEFT, Parts, Shell
@@ -78,7 +79,9 @@ def _serve(options: argparse.Namespace) -> int:
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     config = _config(robot, options.site, home)
     key = load_operator_key(home, virtual=robot.drive.virtual)
-    with open_session(Party.BRIDGE, robot.id, home) as session:
+    with transport_fifo(robot.realtime.priority) as carried:
+        opened = open_session(Party.BRIDGE, robot.id, home)
+    with opened as session:
         drive = _drive(session, robot, config.boot)
         link = Link(session, robot.id, key)
         recorder = Recorder(home.absolute() / "recordings", config)
@@ -86,7 +89,7 @@ def _serve(options: argparse.Namespace) -> int:
         desk = FenceDesk(Ground(options.site, home, config.map_id, config.fence_hash))
         parts = Parts(link, drive, recorder, Collector(), Service(), keeper, desk)
         try:
-            return _loop(config, parts, asked)
+            return _loop(config, parts, asked, carried)
         finally:
             parts.service.stopping()
             keeper.close()
@@ -114,10 +117,10 @@ def _drive(session: Session, robot: RobotDescription, boot: str) -> Drive:
     return {"sim": SimDrive}[robot.drive.kind](session, boot)
 
 
-def _loop(config: CoreConfig, parts: Parts, asked: _Asked) -> int:
+def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> int:
     clock = MonotonicClock()
     warm_up(config, clock.now_s())
-    rights = _rights(config.robot.realtime, parts.collector)
+    rights = (carried, *_rights(config.robot.realtime, parts.collector))
     for right in rights:
         level = logging.INFO if right.granted else logging.WARNING
         log.log(level, "%s %s: %s", right.name, "granted" if right.granted else "refused",

@@ -3,7 +3,14 @@
 from bridge.realtime.clock import Clock, MonotonicClock
 from bridge.realtime.collector import Collector
 from bridge.realtime.pacer import Pacer, Tick
-from bridge.realtime.rights import Right, all_granted, lock_memory, pin, take_fifo
+from bridge.realtime.rights import (
+    Right,
+    all_granted,
+    lock_memory,
+    pin,
+    take_fifo,
+    transport_fifo,
+)
 from bridge.realtime.service import Service
 
 __all__ = [
@@ -18,4 +25,5 @@ __all__ = [
     "lock_memory",
     "pin",
     "take_fifo",
+    "transport_fifo",
 ]

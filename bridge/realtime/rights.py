@@ -1,8 +1,8 @@
 """Ask the system for real-time rights, one by one. Refusals are values: a robot may drive without,
 slowly and visibly (row NOT_RT), but nobody may believe that it has what was refused.
 
-Order matters and is the shell's: memory after warm-up, CPU and priority last and for the calling
-thread alone. Threads inherit FIFO when it is set before the transport starts its own.
+Order matters and is the shell's: the transport's rank while it starts, memory after warm-up, CPU
+and the loop's rank last and for the calling thread alone.
 """
 
 from __future__ import annotations
@@ -11,14 +11,23 @@ import ctypes
 import os
 import resource
 import sys
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 MCL_CURRENT, MCL_FUTURE, MCL_ONFAULT = 1, 2, 4
 """linux/mman.h. ONFAULT locks pages as they are touched: 39 MB resident instead of 113 to 154."""
 
 _CAP_IPC_LOCK = 14  # linux/capability.h
 _STATUS = Path("/proc/self/status")
+
+
+BELOW_THE_LOOP = 10
+"""The transport's threads run so much lower than the loop: it goes before what it waits for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,3 +96,26 @@ def take_fifo(priority: int) -> Right:
     except OSError as error:
         return Right("fifo", granted=False, detail=f"priority {priority}: {error.strerror}")
     return Right("fifo", granted=True, detail=f"priority {priority}")
+
+
+@contextmanager
+def transport_fifo(priority: int) -> Iterator[Right]:
+    """Run threads that are started within under SCHED_FIFO, below a loop of this ``priority``.
+
+    A loop that wakes in time reads what the transport's threads have brought by then: where those
+    wait for a busy machine, encoders that came in time look late. The caller keeps its own rank.
+    """
+    if sys.platform != "linux":
+        yield Right("transport fifo", granted=False, detail=f"not on {sys.platform}")
+        return
+    below = max(1, priority - BELOW_THE_LOOP)
+    before, rank = os.sched_getscheduler(0), os.sched_getparam(0)
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(below))
+    except OSError as error:
+        yield Right("transport fifo", granted=False, detail=f"priority {below}: {error.strerror}")
+        return
+    try:
+        yield Right("transport fifo", granted=True, detail=f"priority {below}")
+    finally:
+        os.sched_setscheduler(0, before, rank)

@@ -8,12 +8,21 @@ import resource
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from threading import Thread
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
 import pytest
 
-from bridge.realtime import Right, all_granted, lock_memory, pin, rights, take_fifo
+from bridge.realtime import (
+    Right,
+    all_granted,
+    lock_memory,
+    pin,
+    rights,
+    take_fifo,
+    transport_fifo,
+)
 
 
 def refuse(*_: Any) -> NoReturn:
@@ -122,3 +131,34 @@ def test_one_refusal_is_a_refusal() -> None:
     given, refused = Right("a", granted=True, detail=""), Right("b", granted=False, detail="")
     assert all_granted((given, given))
     assert not all_granted((given, refused))
+
+
+def test_threads_started_within_outrank_others_and_the_caller_keeps_its_rank() -> None:
+    before = os.sched_getscheduler(0), os.sched_getparam(0).sched_priority
+    seen: list[tuple[int, int]] = []
+
+    def look() -> None:
+        seen.append((os.sched_getscheduler(0), os.sched_getparam(0).sched_priority))
+
+    with transport_fifo(60) as right:
+        started = Thread(target=look)
+        started.start()
+    started.join()
+    look()
+    assert seen[1] == before
+    assert seen[0] == ((os.SCHED_FIFO, 50) if right.granted else before)
+
+
+def test_a_refused_rank_of_the_transport_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "sched_setscheduler", refuse)
+    with transport_fifo(5) as right:
+        assert right == Right(
+            "transport fifo", granted=False, detail="priority 1: Operation not permitted"
+        )
+
+
+def test_no_rank_of_the_transport_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", "darwin")
+    with transport_fifo(60) as right:
+        assert not right.granted
+        assert "darwin" in right.detail
