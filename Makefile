@@ -35,21 +35,23 @@ page: $(RUNTIME) ## build the page anew
 run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
 	@exec $(BIN)/pons up $(ARGS)
 
-# Stories run real processes in real time; what needs minutes or a browser is not for `test`. Only
-# the files that tell some are read, for reading all tests costs seconds. Unit tests beside them starve
+# Stories run real processes in real time; what needs minutes, a browser or a robot of its own is not
+# for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests beside them starve
 # them, nice or not: each robot is a session of its own to the scheduler.
-WHOLE := tests/e2e/test_model.py tests/e2e/test_calibrate.py
+WHOLE := tests/e2e/test_model.py
+OWN := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py \
+  tests/deploy/test_separate_starts.py
 ALONE := tests/e2e/test_conformance.py
-STORIES = $(filter-out $(WHOLE) $(ALONE) tests/web/%,\
+STORIES = $(filter-out $(WHOLE) $(OWN) $(ALONE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 7 min on 2 cores)
 	@$(BIN)/python -m pytest -n logical --maxprocesses 4 -m "not e2e and not home" $(ARGS)
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
-e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, broken brains, and the page in Chromium
+e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py tests/e2e/test_calibrate.py $(ARGS) \
+	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py $(OWN) $(ARGS) \
 	  ++ scripts/stories.sh -n 0 -m e2e tests/web tests/e2e/test_model.py $(ARGS)
 	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a flood takes what a second robot needs
 
