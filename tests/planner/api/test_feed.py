@@ -8,18 +8,17 @@ import json
 from typing import Any
 
 import pytest
-from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from planner.api import Access, build
+from planner.api import Access
 from planner.api.feed import ROBOT_S, SCAN_S, Feed, Listener
 from planner.mission import Leg
 from planner.route import RoutePoint
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
 from tests.wire.examples import STATUS
 from wire import Mode
 
-BASE = "http://127.0.0.1:8420"
 HOST = {"host": "127.0.0.1:8420"}
 TOKEN = "a token of many characters/+"
 
@@ -138,13 +137,9 @@ def test_nobody_listening_costs_nothing() -> None:
     asyncio.run(story())
 
 
-def client_of(access: Access) -> TestClient:
-    return TestClient(build(FakeServices(), access), base_url=BASE)
-
-
 def test_a_page_that_lost_count_gets_another_snapshot() -> None:
     with (
-        client_of(Access("127.0.0.1")) as client,
+        client_of(FakeServices()) as client,
         client.websocket_connect("/v1/events", headers=dict(HOST)) as socket,
     ):
         first = socket.receive_json()
@@ -157,16 +152,16 @@ def test_a_page_that_lost_count_gets_another_snapshot() -> None:
         assert [*seqs, frame["seq"]] == list(range(1, frame["seq"] + 1))
 
 
-@pytest.mark.parametrize("text", ["[" * 900, '{"stop": 1}', '{"stop', "null", '"stop"', "x" * 2000])
-def test_what_is_no_order_is_said_to_be_none(text: str) -> None:
+def test_what_is_no_order_is_said_to_be_none() -> None:
     with (
-        client_of(Access("127.0.0.1")) as client,
+        client_of(FakeServices()) as client,
         client.websocket_connect("/v1/events", headers=dict(HOST)) as socket,
     ):
-        socket.send_text(text)
-        while (frame := socket.receive_json())["kind"] != "problem":
-            pass
-        assert frame["code"] == "unknown_message"
+        for text in ("[" * 900, '{"stop": 1}', '{"stop', "null", '"stop"', "x" * 2000):
+            socket.send_text(text)
+            while (frame := socket.receive_json())["kind"] != "problem":
+                pass
+            assert frame["code"] == "unknown_message", text
 
 
 def offered(token: str) -> list[str]:
@@ -177,7 +172,7 @@ def offered(token: str) -> list[str]:
 def test_a_browser_gives_its_token_as_a_subprotocol_and_does_not_get_it_back() -> None:
     access = Access("0.0.0.0", hosts=frozenset({"127.0.0.1"}), operator_token=TOKEN)
     with (
-        client_of(access) as client,
+        client_of(FakeServices(), access) as client,
         client.websocket_connect(
             "/v1/events", subprotocols=offered(TOKEN), headers=dict(HOST)
         ) as socket,
@@ -186,12 +181,12 @@ def test_a_browser_gives_its_token_as_a_subprotocol_and_does_not_get_it_back() -
         assert socket.receive_json()["kind"] == "snapshot"
 
 
-@pytest.mark.parametrize("offer", [[], ["pons.v1"], offered("another token"), ["bearer.%%%"]])
-def test_a_socket_without_the_token_is_refused(offer: list[str]) -> None:
+def test_a_socket_without_the_token_is_refused() -> None:
     access = Access("0.0.0.0", hosts=frozenset({"127.0.0.1"}), operator_token=TOKEN)
-    with (
-        client_of(access) as client,
-        pytest.raises(WebSocketDisconnect),
-        client.websocket_connect("/v1/events", subprotocols=offer, headers=dict(HOST)),
-    ):
-        pass
+    with client_of(FakeServices(), access) as client:
+        for offer in ([], ["pons.v1"], offered("another token"), ["bearer.%%%"]):
+            with (
+                pytest.raises(WebSocketDisconnect),
+                client.websocket_connect("/v1/events", subprotocols=offer, headers=dict(HOST)),
+            ):
+                pytest.fail(f"{offer} opened a socket")

@@ -9,13 +9,12 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from planner.api import Access, build
 from planner.world import FenceProposals
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
 from tests.wire.examples import STATUS
 from wire import VIRTUAL_KEY, Answer, authentic_fence, sign_fence
 
-BASE = "http://127.0.0.1:8420"
 METAL = STATUS.model_copy(
     update={"drive": STATUS.drive.model_copy(update={"virtual": False, "kind": "serial"})}
 )
@@ -31,7 +30,7 @@ def services(tmp_path: Path) -> FakeServices:
 
 @pytest.fixture
 def client(services: FakeServices) -> Iterator[TestClient]:
-    with TestClient(build(services, Access("127.0.0.1")), base_url=BASE) as made:
+    with client_of(services) as made:
         yield made
 
 

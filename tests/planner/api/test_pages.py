@@ -18,9 +18,8 @@ TOKEN = "a token of many characters"
 SCRIPT = b"console.log('pons')\n" * 100
 
 
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    dist = tmp_path / "dist"
+def built(where: Path) -> Path:
+    dist = where / "dist"
     (dist / "assets").mkdir(parents=True)
     (dist / "index.html").write_text("<!doctype html><title>Pons</title>")
     (dist / "assets" / "index-abc123.js").write_bytes(SCRIPT)
@@ -29,8 +28,13 @@ def folder(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def client(folder: Path) -> Iterator[TestClient]:
-    app = build(FakeServices(), Access("127.0.0.1"), page=folder)
+def folder(tmp_path: Path) -> Path:
+    return built(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    app = build(FakeServices(), Access("127.0.0.1"), page=built(tmp_path_factory.mktemp("page")))
     with TestClient(app, base_url=BASE) as made:
         yield made
 

@@ -9,17 +9,17 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from planner.api import Access, build
+from planner.api import Access
 from planner.api.feed import Feed
 from planner.link import Aged
 from planner.mission import Memory
 from planner.world import TaughtPlaces
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import BASE, client_of
 from tests.planner.mission.live import StraightRouter
 from tests.wire.examples import STATUS
 from wire import Pose2, Status, Twist2
 
-BASE = "http://127.0.0.1:8420"
 HERE = Pose2(1.0, 4.2, 0.5)
 
 
@@ -47,7 +47,7 @@ def services(tmp_path: Path) -> FakeServices:
 
 @pytest.fixture
 def client(services: FakeServices) -> Iterator[TestClient]:
-    with TestClient(build(services, Access("127.0.0.1")), base_url=BASE) as made:
+    with client_of(services) as made:
         yield made
 
 
@@ -108,7 +108,7 @@ def test_refusals_are_problems(
 def test_a_viewer_may_look_but_not_teach(services: FakeServices) -> None:
     access = Access("127.0.0.1", operator_token="o" * 16, viewer_token="v" * 16)
     viewer = {**JSON, "authorization": f"Bearer {'v' * 16}"}
-    with TestClient(build(services, access), base_url=BASE) as client:
+    with client_of(services, access) as client:
         assert client.get("/v1/places", headers=viewer).status_code == 200
         for method, path in (("POST", ""), ("PUT", "/nook"), ("DELETE", "/nook")):
             body = {"name": {"en": "nook"}}

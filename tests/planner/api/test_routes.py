@@ -12,14 +12,13 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner import openapi
-from planner.api import Access, build
 from planner.brain import BrainDown, FallbackBrain, OfflineBrain, ScriptedBrain, ThinkRequest
 from planner.plan import Vocabulary
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
 from tests.wire.examples import STATUS
 from wire import VIRTUAL_KEY, Answer, authentic
 
-BASE = "http://127.0.0.1:8420"
 METAL = STATUS.model_copy(
     update={"drive": STATUS.drive.model_copy(update={"virtual": False, "kind": "serial"})}
 )
@@ -34,12 +33,8 @@ def services() -> FakeServices:
 
 @pytest.fixture
 def client(services: FakeServices) -> Iterator[TestClient]:
-    with TestClient(build(services, Access("127.0.0.1")), base_url=BASE) as made:
+    with client_of(services) as made:
         yield made
-
-
-def client_of(services: FakeServices) -> TestClient:
-    return TestClient(build(services, Access("127.0.0.1")), base_url=BASE)
 
 
 def code(answer: Any) -> str:

@@ -5,19 +5,15 @@ from __future__ import annotations
 import asyncio
 import json
 
-from starlette.testclient import TestClient
-
-from planner.api import Access, build
 from planner.api.feed import Feed
 from tests.planner.api.fakes import FakeServices
-
-BASE = "http://127.0.0.1:8420"
+from tests.planner.api.served import BASE, client_of
 
 
 def test_the_route_shows_the_day_and_one_goal() -> None:
     services = FakeServices()
     services.budget.calls = 7
-    with TestClient(build(services, Access("127.0.0.1")), base_url=BASE) as client:
+    with client_of(services) as client:
         whole = client.get("/v1/usage").json()
         assert (whole["today"]["calls"], whole["day_limits"]["calls"]) == (7, 20)
         assert (whole["goal"], whole["day"], whole["refused"]) == (None, "2026-01-01", None)

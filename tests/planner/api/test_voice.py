@@ -8,12 +8,13 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from planner.api import Access, build
+from planner.api import Access
 from planner.api.access import NotAllowed
 from planner.api.guard import MAX_BODY_BYTES
 from planner.plan import Language
 from planner.voice import MAX_BYTES, Heard, VoiceFailure
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
 from tests.planner.voice.speech import wav
 from tests.wire.examples import STATUS
 
@@ -29,8 +30,7 @@ def services() -> FakeServices:
 
 @pytest.fixture
 def client(services: FakeServices) -> Iterator[TestClient]:
-    app = build(services, Access("127.0.0.1"))
-    with TestClient(app, base_url="http://127.0.0.1:8420") as made:
+    with client_of(services) as made:
         yield made
 
 
@@ -91,8 +91,7 @@ def test_what_is_heard_but_not_surely_waits_for_a_yes(
 def test_a_spoken_stop_carries_no_act_that_clears_a_hold() -> None:
     services = FakeServices(STATUS)  # held
     services.ears.heard = Heard("stop now", 0.6, understood=True)
-    app = build(services, Access("127.0.0.1"))
-    with TestClient(app, base_url="http://127.0.0.1:8420") as client:
+    with client_of(services) as client:
         assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
         services.ears.heard = Heard("go home", 0.6, understood=True)
         assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202

@@ -1,0 +1,68 @@
+"""Serve a test's own services by routes that are built once: a build takes longer than most tests.
+
+Routes keep nothing between requests but what they were built on, and that is `Stage` here: it looks
+the services up in each request's own context. The event stream alone remembers what it told, so
+whoever opens a socket gets an application of their own. Everything else is ``build``'s own.
+"""
+
+from __future__ import annotations
+
+from contextvars import ContextVar
+from functools import cache
+from typing import TYPE_CHECKING, Any, cast
+
+from starlette.testclient import TestClient
+
+from planner.api import Access, build
+from tests.planner.api.fakes import FakeServices, two_room
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+    from starlette.types import Receive, Scope, Send
+
+    from planner.api.ports import Services
+
+BASE = "http://127.0.0.1:8420"
+LOCAL = Access("127.0.0.1")
+_AT_HAND: ContextVar[FakeServices] = ContextVar("services of the request's test")
+
+
+class Part:
+    """Be this part of whichever services are at hand."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(getattr(_AT_HAND.get(), self._name), name)
+
+
+class Stage:
+    """Be whichever services are at hand; what routes look at while they are built stays."""
+
+    def __init__(self) -> None:
+        self.site = two_room()
+        self.goals, self.robot = Part("goals"), Part("robot")
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(_AT_HAND.get(), name)
+
+
+@cache
+def _routes(access: Access) -> FastAPI:
+    return build(cast("Services", Stage()), access)
+
+
+def client_of(services: FakeServices, access: Access = LOCAL) -> TestClient:
+    """Return a client of these services; two at once do not meet."""
+    own: list[FastAPI] = []
+
+    async def app(scope: Scope, receive: Receive, send: Send) -> None:
+        _AT_HAND.set(services)
+        if scope["type"] == "websocket" and not own:
+            own.append(build(services, access))
+        await (own[0] if scope["type"] == "websocket" else _routes(access))(scope, receive, send)
+
+    if services.site is not two_room():
+        raise ValueError("routes that are built once show the site of two rooms alone")
+    return TestClient(app, base_url=BASE)
