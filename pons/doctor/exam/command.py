@@ -38,7 +38,7 @@ def run(
         site = where.site if where.site.is_dir() else None
         exam = asyncio.run(examine(settings, model, where.home, site, caps))
     except Misconfigured as wrong:
-        print(f"pons doctor --model: {wrong.code}: {wrong}", file=sys.stderr)
+        print(f"pons doctor --model: {wrong}", file=sys.stderr)
         return REFUSED
     found = grade(exam)
     currency = settings.budget.price.currency if settings.budget.price is not None else None
