@@ -32,19 +32,19 @@ class Wire:
 def serving(script: Script, context: ssl.SSLContext | None = None) -> Iterator[Wire]:
     """Serve until the block ends, each connection in a thread of its own."""
     with socket.create_server(("127.0.0.1", 0)) as ears:
-        ears.settimeout(0.05)
         wire = Wire(int(ears.getsockname()[1]))
         threads: list[threading.Thread] = []
         connections: list[socket.socket] = []
 
         def accept() -> None:
-            while not wire.ending.is_set():
-                with contextlib.suppress(TimeoutError):
-                    connection, _ = ears.accept()
-                    connections.append(connection)
-                    one = threading.Thread(target=answer, args=(connection,))
-                    one.start()
-                    threads.append(one)
+            while True:
+                connection, _ = ears.accept()
+                connections.append(connection)
+                if wire.ending.is_set():  # who rings now only wakes us
+                    return
+                one = threading.Thread(target=answer, args=(connection,))
+                one.start()
+                threads.append(one)
 
         def answer(connection: socket.socket) -> None:
             with contextlib.suppress(OSError), contextlib.closing(connection):
@@ -60,11 +60,15 @@ def serving(script: Script, context: ssl.SSLContext | None = None) -> Iterator[W
             yield wire
         finally:
             wire.ending.set()
+            socket.create_connection(("127.0.0.1", wire.port)).close()
+            keeper.join(END_S)
             for connection in connections:
                 with contextlib.suppress(OSError):  # a thread may have closed it
                     connection.shutdown(socket.SHUT_RDWR)
-            for thread in (keeper, *threads):
+            for thread in threads:
                 thread.join(END_S)
+            for connection in connections:
+                connection.close()
 
 
 def _request(connection: socket.socket) -> bytes:

@@ -8,6 +8,7 @@ import json
 import logging
 import socket
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import psutil
@@ -31,6 +32,8 @@ from tests.planner.brain.endpoint.sockets import (
 
 GROWN_BYTES = 48_000_000
 """A reply's cap many times over; a server that gets its will sends more in a second."""
+SHORTEST_S = 0.5
+"""The shortest deadline that the settings allow."""
 HEAD = b"HTTP/1.1 200 OK\r\nContent-Type: application/json\r\n"
 CHUNKED = HEAD + b"Transfer-Encoding: chunked\r\n\r\n"
 EVENTS = b"HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n\r\n"
@@ -39,14 +42,14 @@ ONE_CHUNK = b"10000\r\n" + CHUNK + b"\r\n"
 DEEP = "[" * 100_000 + "]" * 100_000
 
 
-def ended(port: int, home: Vocabulary, folder: Path, scheme: str = "http") -> str:
+def ended(
+    port: int, home: Vocabulary, folder: Path, scheme: str = "http", timeout_s: float = 1.5
+) -> str:
     """Think once and return how it ended; hold time and memory."""
-    from planner.brain.endpoint import EndpointBrain
-
     us, began_s = psutil.Process(), time.monotonic()
     before = us.memory_info().rss
     url = f"{scheme}://127.0.0.1:{port}/v1"
-    made = EndpointBrain(settings(url=url, timeout_s=1.5), folder)
+    made = EndpointBrain(settings(url=url, timeout_s=timeout_s), folder)
     how, words = _thought(made, home)
     assert len(words) < 3_000
     assert time.monotonic() - began_s < 15.0, "the deadline did not hold"
@@ -71,12 +74,7 @@ def _thought(made: EndpointBrain, home: Vocabulary) -> tuple[str, str]:
         (without_end(CHUNKED, ONE_CHUNK), "too_large"),
         (without_end(HEAD + b"\r\n", CHUNK), "too_large"),
         (without_end(b"HTTP/1.1 500 No\r\n\r\n", CHUNK), "server_error"),
-        (without_end(HEAD + b"Content-Length: 1000000\r\n\r\n", b" ", 0.02), "timeout"),
-        (without_end(CHUNKED, b"1\r\n \r\n", 0.02), "timeout"),
-        (without_end(b"HTTP/1.1 200 OK\r\n", b"X: 1\r\n", 0.02), "timeout"),
-        (without_end(b"", b"H", 0.02), "timeout"),
         (without_end(b"HTTP/1.1 200 OK\r\n", b"X: " + CHUNK + b"\r\n"), "server_error"),
-        (without_end(b"", b"HTTP/1.1 100 Continue\r\n\r\n", 0.02), "timeout"),
         (said(b"", pause_s=0.05), "server_error"),
         (said(b"SSH-2.0-OpenSSH_9.2\r\n"), "server_error"),
         (said(bytes(range(256))), "server_error"),
@@ -95,8 +93,6 @@ def _thought(made: EndpointBrain, home: Vocabulary) -> tuple[str, str]:
         (said(ok(b"x", b"Content-Encoding: gzip")), "bad_reply"),
         (without_end(EVENTS, b": " + CHUNK + b"\n"), "too_large"),
         (without_end(EVENTS, b"data: " + CHUNK), "too_large"),
-        (without_end(EVENTS, DELTA, 0.02), "timeout"),
-        (without_end(EVENTS, b": I think\n\n", 0.02), "timeout"),
         (said(EVENTS + b"data: [DONE]\n\n"), "rejected"),
         (said(EVENTS), "bad_reply"),
         (said(EVENTS + b"data: " + DEEP.encode() + b"\n\n"), "bad_reply"),
@@ -120,6 +116,28 @@ def test_every_server_ends_typed(
     with serving(script) as wire:
         assert ended(wire.port, home, tmp_path) == end
         assert wire.asked, "nobody asked"
+
+
+def test_servers_that_hold_on_are_cut_at_the_deadline(home: Vocabulary, tmp_path: Path) -> None:
+    """Each is met at the same time as the others, as each takes the deadline's whole length."""
+    scripts = [
+        without_end(HEAD + b"Content-Length: 1000000\r\n\r\n", b" ", 0.02),
+        without_end(CHUNKED, b"1\r\n \r\n", 0.02),
+        without_end(b"HTTP/1.1 200 OK\r\n", b"X: 1\r\n", 0.02),
+        without_end(b"", b"H", 0.02),
+        without_end(b"", b"HTTP/1.1 100 Continue\r\n\r\n", 0.02),
+        without_end(EVENTS, DELTA, 0.02),
+        without_end(EVENTS, b": I think\n\n", 0.02),
+    ]
+
+    def met(number: int) -> tuple[str, bool]:
+        with serving(scripts[number]) as wire:
+            folder = tmp_path / str(number)
+            return ended(wire.port, home, folder, timeout_s=SHORTEST_S), bool(wire.asked)
+
+    with ThreadPoolExecutor(len(scripts)) as pool:
+        ends = list(pool.map(met, range(len(scripts))))
+    assert ends == [("timeout", True)] * len(scripts)
 
 
 @pytest.mark.parametrize(
@@ -188,7 +206,8 @@ def test_a_port_where_nobody_is_is_said_at_once(home: Vocabulary, tmp_path: Path
 
 def test_a_server_that_never_accepts_is_cut(home: Vocabulary, tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0), backlog=1) as silent:
-        assert ended(int(silent.getsockname()[1]), home, tmp_path) == "timeout"
+        port = int(silent.getsockname()[1])
+        assert ended(port, home, tmp_path, timeout_s=SHORTEST_S) == "timeout"
 
 
 def test_a_certificate_that_nobody_vouches_for_is_refused(home: Vocabulary, tmp_path: Path) -> None:
@@ -227,7 +246,8 @@ def test_the_name_stands_in_the_handshake_of_a_pinned_call(
 def test_tls_where_none_is_spoken_and_the_other_way_round(home: Vocabulary, tmp_path: Path) -> None:
     """End typed; a handshake given up leaves its socket to the collector, which closes it."""
     with serving(said(completion(GO))) as plain:
-        assert ended(plain.port, home, tmp_path, "https") in ("unreachable", "timeout")
+        how = ended(plain.port, home, tmp_path, "https", SHORTEST_S)
+        assert how in ("unreachable", "timeout")
     context = self_signed(tmp_path)
     if context is not None:
         with serving(said(completion(GO)), context) as secret:
