@@ -25,6 +25,7 @@ DELAYS = range(5)
 SLOPE_FROM, SLOPE_TO = 0.80, 0.25
 """Shares of the speed between which a stop's deceleration is even, jerk left out."""
 FEWEST = 5
+GOLDEN = (5**0.5 - 1) / 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,19 +85,28 @@ def _past(told: float, dead_zone: float, gain: float) -> float:
 def _best_lag(
     told: Sequence[float], did: Sequence[float | None], delay: int
 ) -> tuple[float, float]:
-    """Search by thirds: the error of a first-order lag has one valley."""
+    """Search by the golden section: the error of a first-order lag has one valley.
+
+    Each step keeps one of the two errors that it looked at, so it costs one more.
+    """
+    wishes = [told[max(0, index - delay)] for index in range(len(told))]
     low, high = SHORTEST_LAG_S, LONGEST_LAG_S
+    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_left, at_right = _error(wishes, did, left), _error(wishes, did, right)
     while high - low > 5e-4:
-        third = (high - low) / 3
-        if _error(told, did, low + third, delay) < _error(told, did, high - third, delay):
-            high -= third
+        if at_left < at_right:
+            high, right, at_right = right, left, at_left
+            left = high - GOLDEN * (high - low)
+            at_left = _error(wishes, did, left)
         else:
-            low += third
+            low, left, at_left = left, right, at_right
+            right = low + GOLDEN * (high - low)
+            at_right = _error(wishes, did, right)
     lag_s = (low + high) / 2
-    return lag_s, _error(told, did, lag_s, delay)
+    return lag_s, _error(wishes, did, lag_s)
 
 
-def _error(told: Sequence[float], did: Sequence[float | None], lag_s: float, delay: int) -> float:
+def _error(wishes: Sequence[float], did: Sequence[float | None], lag_s: float) -> float:
     """Return the mean square by which the model misses what the encoder counted in each tick.
 
     Within a tick the wish w is even, so the speed goes from y to w + (y - w) e and its mean, which
@@ -105,13 +115,13 @@ def _error(told: Sequence[float], did: Sequence[float | None], lag_s: float, del
     keep = exp(-TICK_S / lag_s)
     mean = (1.0 - keep) * lag_s / TICK_S
     speed, total, count = did[0] or 0.0, 0.0, 0
-    for index, shown in enumerate(did):
-        wish = told[max(0, index - delay)]
+    for wish, shown in zip(wishes, did, strict=True):
+        behind = speed - wish
         if shown is not None:
-            off = wish + (speed - wish) * mean - shown
+            off = wish + behind * mean - shown
             total += off * off
             count += 1
-        speed = wish + (speed - wish) * keep
+        speed = wish + behind * keep
     return total / max(1, count)
 
 

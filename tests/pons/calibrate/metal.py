@@ -4,19 +4,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cache
-from typing import cast
+from math import pi
+from typing import TYPE_CHECKING, cast
 
 from lockstep import Together
 from lockstep.forked import forked
 from pons.calibrate.findings import Finding
 from pons.calibrate.flow import Plan, calibrate
-from pons.calibrate.rig import Rig
 from sim import Hardware
+from tests.pons.calibrate.tape import Tape
 from wire import Pose2, RobotDescription
 from wire.keys import Party
-from wire.session import Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pons.calibrate.rig import Rig
+    from wire.session import Session
 
 TRUE = Hardware(wheel_radius_m=0.1, wheel_separation_m=0.5)
+FACING = Pose2(0.9, 0.8, pi / 4)
+"""At the dock, towards where there is most room: nothing to turn before the first run."""
 
 
 def believed(**drive: float) -> RobotDescription:
@@ -45,18 +53,27 @@ class Bench:
     hardware: Hardware = TRUE
     start: Pose2 | None = None
     said: list[str] = field(default_factory=list)
-    tape_m: list[float] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.world = forked(_ready(self.robot, self.hardware, self.start))
         operator = cast("Session", self.world.bus.port(Party.OPERATOR))
         judge = cast("Session", self.world.bus.port(Party.JUDGE))
-        self.rig = Rig(operator, judge, lambda: self.world.now_s, self.world.tick)
+        self.tape = Tape()
+        self.rig = self.tape.rig(operator, judge, lambda: self.world.now_s, self.world.tick)
 
     def calibrate(self, plan: Plan | None = None) -> dict[str, Finding]:
         """Go through it, as briefly as may be."""
         wanted = plan or Plan(None, shuttles=1, turns=1)
-        found = calibrate(
-            self.rig, self.robot, wanted, "now", self.said.append, lambda: self.tape_m.pop(0)
-        )
-        return {one.name: one for one in found}
+        return gone_through(self.rig, self.robot, wanted, self.said.append)
+
+
+def gone_through(
+    rig: Rig,
+    robot: RobotDescription,
+    plan: Plan,
+    say: Callable[[str], None],
+    ask_m: Callable[[], float] = lambda: 0.0,
+) -> dict[str, Finding]:
+    """Calibrate and return what was found by its name."""
+    found = calibrate(rig, robot, plan, "now", say, ask_m)
+    return {one.name: one for one in found}

@@ -9,19 +9,46 @@ from math import cos, sin
 import pytest
 
 from lockstep import Together
+from pons.calibrate.findings import Finding, findings, of_straight
 from pons.calibrate.flow import Plan
+from pons.calibrate.reference import TRUTH, went_m
 from pons.calibrate.refusals import CalibrationRefused
-from tests.pons.calibrate.metal import TRUE, Bench
+from pons.calibrate.room import SHORTEST_M
+from pons.calibrate.runs import straight
+from tests.pons.calibrate.metal import FACING, TRUE, Bench, gone_through
 from wire import Mode, Pose2, SimFault, distance
 
 TIGHT = Pose2(0.38, 1.8, 1.5708)
 """Beside a wall: the disc fits, the margin for turning does not."""
 
 
-@pytest.mark.parametrize("reference", [None, "lidar"])
-def test_a_wrong_description_is_found_out(reference: str | None) -> None:
+@pytest.fixture(scope="module")
+def driven() -> tuple[Bench, dict[str, Finding]]:
+    """Calibrate by truth; what was heard is then read by others, who drive nothing."""
     bench = Bench()
-    found = bench.calibrate(Plan(reference, shuttles=1, turns=2))
+    return bench, bench.calibrate(Plan(None, shuttles=1, turns=2))
+
+
+def test_a_wrong_description_is_found_out(driven: tuple[Bench, dict[str, Finding]]) -> None:
+    bench, found = driven
+    is_right(found, "the simulator's truth")
+    assert bench.world.standing
+    assert bench.world.contacts == 0
+    assert bench.world.status.mode is Mode.HOLD
+    assert any("m ahead of the robot's edge" in line for line in bench.said)
+
+
+def test_the_lidar_finds_the_same(driven: tuple[Bench, dict[str, Finding]]) -> None:
+    bench, by_truth = driven
+    said: list[str] = []
+    plan = Plan("lidar", shuttles=1, turns=2)
+    by_lidar = gone_through(bench.tape.again(), bench.robot, plan, said.append)
+    is_right(by_lidar, "the lidar")
+    assert by_lidar["base.wheel_radius_m"].value != by_truth["base.wheel_radius_m"].value
+    assert any("distances by the lidar" in line for line in said)
+
+
+def is_right(found: dict[str, Finding], spoken: str) -> None:
     values = {name: one.value for name, one in found.items()}
     assert values["base.wheel_radius_m"] == pytest.approx(0.1, rel=0.005)
     assert values["base.wheel_separation_m"] == pytest.approx(0.5, rel=0.005)
@@ -29,50 +56,44 @@ def test_a_wrong_description_is_found_out(reference: str | None) -> None:
     assert 0.06 <= values["drive.lag_s"] <= 0.09
     assert 0.04 <= values["drive.response_s"] <= 0.06
     assert 0.9 <= values["limits.max_decel_mps2"] <= 1.0
-    spoken = "the lidar" if reference else "the simulator's truth"
     assert spoken in found["base.wheel_radius_m"].evidence
-    assert bench.world.standing
-    assert bench.world.contacts == 0
-    assert bench.world.status.mode is Mode.HOLD
-    assert any("m ahead of the robot's edge" in line for line in bench.said)
 
 
 def test_unequal_motors_are_told_of() -> None:
-    bench = Bench(hardware=replace(TRUE, left_gain=0.95, right_gain=1.08, dead_zone_radps=0.1))
-    found = bench.calibrate()
+    unequal = replace(TRUE, left_gain=0.95, right_gain=1.08, dead_zone_radps=0.1)
+    bench = Bench(hardware=unequal, start=FACING)
+    bench.rig.listen()
+    seen = []
+    for metres in (SHORTEST_M, -SHORTEST_M):
+        run = straight(bench.rig, bench.robot, metres)
+        seen.append(of_straight(run, went_m(TRUTH, run.before, run.after, bench.robot, float)))
+    apart_m = (bench.robot.base.wheel_separation_m,)  # turns tell nothing of motors
+    found = {one.name: one for one in findings(seen, apart_m, bench.robot, "truth", "now")}
     assert found["drive.dead_zone_radps"].value == pytest.approx(0.1, abs=0.01)
     assert "left 0.95" in found["drive.dead_zone_radps"].evidence
     assert "right 1.08" in found["drive.dead_zone_radps"].evidence
 
 
-def test_a_person_measures_with_a_tape() -> None:
-    bench = Bench()
-    began = bench.world.truth
+def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, Finding]]) -> None:
+    bench, _ = driven
+    rig = bench.tape.again()
+    began = bench.start or bench.world.scene.site.home.pose
     at: list[Pose2] = [began]
 
-    def tape() -> float:
-        here = bench.world.truth
+    def measure() -> float:
+        assert rig.truth is not None
+        here = rig.truth.base_in_map
         apart_m = distance(here, at[-1])
         at.append(here)
         return round(apart_m, 2)  # as a tape is read
 
-    bench.tape_m = _Tape(tape)
-    found = bench.calibrate(Plan("measured", shuttles=1, turns=1))
+    plan = Plan("measured", shuttles=1, turns=1)
+    found = gone_through(rig, bench.robot, plan, bench.said.append, measure)
     assert found["base.wheel_radius_m"].value == pytest.approx(0.1, rel=0.015)
     assert "a person's measure of distances and the lidar in turns" in (
         found["base.wheel_radius_m"].evidence
     )
-
-
-class _Tape(list[float]):
-    """Measure when asked."""
-
-    def __init__(self, measure: Callable[[], float]) -> None:
-        super().__init__()
-        self._measure = measure
-
-    def pop(self, index: object = -1) -> float:
-        return self._measure()
+    assert len(at) == 3
 
 
 # Refusals ---------------------------------------------------------------------------------------
@@ -144,20 +165,20 @@ def under_way(bench: Bench, act: Callable[[Together], None]) -> None:
 
 @pytest.mark.parametrize("fault", [SimFault.DRIVE_OFF, SimFault.ENCODER_STUCK])
 def test_encoders_that_fail_during_a_run_end_it(fault: SimFault) -> None:
-    bench = Bench()
+    bench = Bench(start=FACING)
     under_way(bench, lambda world: world.sim.break_down(fault))
     assert refusal(bench) == "encoder_fault"
     assert bench.world.contacts == 0
 
 
 def test_a_stop_pressed_during_a_run_ends_it() -> None:
-    bench = Bench()
+    bench = Bench(start=FACING)
     under_way(bench, lambda world: world.sim.break_down(SimFault.ESTOP_PRESSED))
     assert refusal(bench) == "estopped"
 
 
 def test_somebody_in_the_way_ends_it() -> None:
-    bench = Bench()
+    bench = Bench(start=FACING)
 
     def step_in(world: Together) -> None:
         here, ahead = world.truth, 1.0
@@ -171,7 +192,7 @@ def test_somebody_in_the_way_ends_it() -> None:
 
 
 def test_ctrl_c_during_a_run_leaves_it_standing() -> None:
-    bench = Bench()
+    bench = Bench(start=FACING)
 
     def interrupt(world: Together) -> None:
         raise KeyboardInterrupt

@@ -18,13 +18,14 @@ def made_up(
 ) -> list[Tick]:
     """Run a first-order motor in small steps; the encoder gives the mean over each tick."""
     ticks, speed, parts = [], 0.0, 10
+    keep = exp(-TICK_S / parts / lag_s)
     for seq, _ in enumerate(told):
         wish = told[max(0, seq - delay)]
         wish = copysign(gain * max(0.0, abs(wish) - dead), wish)
         mean = 0.0
         for _ in range(parts):
             before = speed
-            speed = wish + (speed - wish) * exp(-TICK_S / parts / lag_s)
+            speed = wish + (speed - wish) * keep
             mean += (before + speed) / 2 / parts
         ticks.append(Tick(seq, (told[seq], told[seq]), (mean, mean)))
     return ticks
