@@ -9,6 +9,7 @@ from math import cos, sin
 import pytest
 
 from lockstep import Together
+from pons.calibrate import rig
 from pons.calibrate.findings import Finding, findings, of_straight
 from pons.calibrate.flow import Plan
 from pons.calibrate.reference import TRUTH, went_m
@@ -76,19 +77,19 @@ def test_unequal_motors_are_told_of() -> None:
 
 def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, Finding]]) -> None:
     bench, _ = driven
-    rig = bench.tape.again()
+    heard = bench.tape.again()
     began = bench.start or bench.world.scene.site.home.pose
     at: list[Pose2] = [began]
 
     def measure() -> float:
-        assert rig.truth is not None
-        here = rig.truth.base_in_map
+        assert heard.truth is not None
+        here = heard.truth.base_in_map
         apart_m = distance(here, at[-1])
         at.append(here)
         return round(apart_m, 2)  # as a tape is read
 
     plan = Plan("measured", shuttles=1, turns=1)
-    found = gone_through(rig, bench.robot, plan, bench.said.append, measure)
+    found = gone_through(heard, bench.robot, plan, bench.said.append, measure)
     assert found["base.wheel_radius_m"].value == pytest.approx(0.1, rel=0.015)
     assert "a person's measure of distances and the lidar in turns" in (
         found["base.wheel_radius_m"].evidence
@@ -164,7 +165,11 @@ def under_way(bench: Bench, act: Callable[[Together], None]) -> None:
 
 
 @pytest.mark.parametrize("fault", [SimFault.DRIVE_OFF, SimFault.ENCODER_STUCK])
-def test_encoders_that_fail_during_a_run_end_it(fault: SimFault) -> None:
+def test_encoders_that_fail_during_a_run_end_it(
+    fault: SimFault, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(rig, "STAND_S", 2.0)  # in vain: without encoders nobody sees it stand
+    monkeypatch.setattr(rig, "QUIET_S", 1.0)  # likewise: they stay broken
     bench = Bench(start=FACING)
     under_way(bench, lambda world: world.sim.break_down(fault))
     assert refusal(bench) == "encoder_fault"
