@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import hypot
+from typing import Any
 
-from bridge.core import Decision, Inbox
+from bridge.core import Decision
 from wire import (
     PROTOCOL,
     DriveState,
@@ -119,20 +120,20 @@ class FakePlanner:
     """Pin what heartbeats say was used; None tells the truth."""
     next_horizon_s: float = 0.0
 
-    def say(self, status: Status | None, now_s: float, inbox: Inbox) -> Inbox:
+    def says(self, status: Status | None, now_s: float) -> dict[str, Any]:
+        """Return what it puts in the next inbox, by field."""
         if self.silent:
-            return inbox
-        fresh = status is not None
+            return {}
+        said: dict[str, Any] = {}
         if status is not None:
             self.status = status
+            said = self._on_status(status)
         if self.status is None:
-            return inbox
-        if fresh:
-            inbox = self._on_status(self.status, inbox)
+            return said
         if self._owns(self.status) and self._granted(self.status) and now_s >= self.next_horizon_s:
             self.next_horizon_s = now_s + 0.1 - 1e-6
-            inbox = replace(inbox, waypoints=(self.horizon(self.status),))
-        return inbox
+            said["waypoints"] = (self.horizon(self.status),)
+        return said
 
     def _owns(self, status: Status) -> bool:
         return status.owner is not None and status.owner.planner_id == self.planner_id
@@ -140,12 +141,12 @@ class FakePlanner:
     def _granted(self, status: Status) -> bool:
         return status.grant is not None and status.grant.mission == self.mission
 
-    def _on_status(self, status: Status, inbox: Inbox) -> Inbox:
+    def _on_status(self, status: Status) -> dict[str, Any]:
         if not self._owns(status):
-            return replace(inbox, hellos=(self.hello(status),))
+            return {"hellos": (self.hello(status),)}
         used = status.seq if self.used is None else self.used
         beat = Heartbeat(planner_id=self.planner_id, epoch=status.epoch, seen=status.seq, used=used)
-        inbox = replace(inbox, heartbeats=(beat,))
+        said: dict[str, Any] = {"heartbeats": (beat,)}
         if self.mission is not None and not self._granted(status):
             grant = Grant(
                 planner_id=self.planner_id,
@@ -155,8 +156,8 @@ class FakePlanner:
                 metres=self.metres,
                 seconds=self.seconds,
             )
-            inbox = replace(inbox, grants=(grant,))
-        return inbox
+            said["grants"] = (grant,)
+        return said
 
     def hello(self, status: Status) -> Hello:
         return Hello(

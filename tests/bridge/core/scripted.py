@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, lru_cache
 from math import cos, pi, sin, tau
+from typing import Any
 
-from bridge.core import CoreConfig, Decision, Inbox, LoopFacts, OpArrived, initial, step
+from bridge.core import EMPTY, CoreConfig, Decision, Inbox, LoopFacts, OpArrived, initial, step
 from bridge.core.fence import build_fence
 from bridge.core.state import draft
 from tests.bridge.core.fake_planner import (
@@ -40,6 +41,7 @@ from wire import (
 )
 
 ROOM_M = 6.0
+BEAMS = 72
 
 
 _WALL = ROOM_M
@@ -83,7 +85,7 @@ class World:
     recorder_ok: bool = True
     recorder_says: str = ""
     real_time: bool = True
-    extra: Inbox = field(default_factory=Inbox)
+    extra: Inbox = EMPTY
     """Added to the next tick's inbox: stops, ops, teleop, rejected, loop."""
     last: Decision | None = None
     status: Status | None = None
@@ -222,9 +224,9 @@ class World:
 
     def _once(self, go: Callable[..., World], *said: object) -> World:
         """Go there; of all worlds that begin as they are made, one goes and the others fork it."""
-        if self.ticks or type(self) is not World or _all_of(self) != _all_of(World()):
+        if self.ticks or type(self) is not World or _all_of(self) != _all_of(World(keep=self.keep)):
             return go(self, *said)
-        vars(self).update(vars(_gone(go, *said).fork()))
+        vars(self).update(vars(_gone(go, self.keep, *said).fork()))
         return self
 
     def _ready(self) -> World:
@@ -251,26 +253,25 @@ class World:
         return self
 
     def _inbox(self) -> Inbox:
-        inbox = replace(
-            self.extra,
-            recorder_ok=self.recorder_ok,
-            recorder_says=self.recorder_says,
-            real_time=self.real_time,
-        )
-        self.extra = Inbox()
+        extra, self.extra = self.extra, EMPTY
         state = self.drive.tick(self.now_s)
+        said: dict[str, Any] = {
+            "recorder_ok": self.recorder_ok,
+            "recorder_says": self.recorder_says,
+            "real_time": self.real_time,
+        }
         if not self.drive_silent:
-            inbox = replace(inbox, drive=(state,))
+            said["drive"] = (state,)
         if not self.gyro_silent:
-            inbox = replace(inbox, imu=self._gyro(state))
+            said["imu"] = self._gyro(state)
         if self.ticks % 10 == 3 and not self.lidar_silent:
-            inbox = replace(inbox, scan=self._scan())
+            said["scan"] = self._scan()
         if self.ticks % 10 == 6 and not self.localization_silent:
-            inbox = replace(inbox, localization=self._localization())
+            said["localization"] = self._localization()
         if self.planner is not None:
             late = self.mail.pop(0) if len(self.mail) >= self.delay_ticks else None
-            inbox = self.planner.say(late, self.now_s, inbox)
-        return inbox
+            said |= self.planner.says(late, self.now_s)
+        return Inbox(**said) if extra is EMPTY else replace(extra, **said)
 
     def _gyro(self, state: DriveState) -> Imu:
         base = self.core.robot.base
@@ -301,37 +302,43 @@ class World:
         self.frozen_at = getattr(self, "frozen_at", None)
         here = self.here if not self.lidar_frozen else (self.frozen_at or self.here)
         self.frozen_at = here
-        beams = 72
         noise = 1e-6 * self.scans
-        ranges = tuple(
-            max(0.0, self._range(here, here.yaw_rad - pi + index * tau / beams)) + noise
-            for index in range(beams)
-        )
+        ranges = tuple(r + noise for r in _ranges(here, self.obstacle_m))
         return Scan(
             boot_id="l0",
             seq=self.ticks,
             stamp_s=self.now_s,
             angle_min_rad=-pi,
-            angle_increment_rad=tau / beams,
+            angle_increment_rad=tau / BEAMS,
             range_min_m=0.12,
             range_max_m=20.0,
             ranges_m=tuple(r if r <= 20.0 and not self.lidar_blind else None for r in ranges),
         )
 
-    def _range(self, here: Pose2, angle: float) -> float:
-        c, s = cos(angle), sin(angle)
-        best = 100.0
-        for position, direction in ((here.x_m, c), (here.y_m, s)):
-            if abs(direction) > 1e-9:
-                wall = _WALL if direction > 0 else -_WALL
-                best = min(best, (wall - position) / direction)
-        if self.obstacle_m is not None:
-            x, y, radius = self.obstacle_m
-            dx, dy = x - here.x_m, y - here.y_m
-            along, aside = dx * c + dy * s, dy * c - dx * s
-            if along > 0 and abs(aside) < radius:
-                best = min(best, along - (radius * radius - aside * aside) ** 0.5)
-        return best
+
+@lru_cache(maxsize=256)
+def _ranges(here: Pose2, obstacle_m: tuple[float, float, float] | None) -> tuple[float, ...]:
+    """Return what all beams measure; most worlds stand for many scans, and many stand there."""
+    return tuple(
+        max(0.0, _range(here, here.yaw_rad - pi + index * tau / BEAMS, obstacle_m))
+        for index in range(BEAMS)
+    )
+
+
+def _range(here: Pose2, angle: float, obstacle_m: tuple[float, float, float] | None) -> float:
+    c, s = cos(angle), sin(angle)
+    best = 100.0
+    if abs(c) > 1e-9:
+        best = ((_WALL if c > 0 else -_WALL) - here.x_m) / c
+    if abs(s) > 1e-9:
+        best = min(best, ((_WALL if s > 0 else -_WALL) - here.y_m) / s)
+    if obstacle_m is not None:
+        x, y, radius = obstacle_m
+        dx, dy = x - here.x_m, y - here.y_m
+        along, aside = dx * c + dy * s, dy * c - dx * s
+        if along > 0 and abs(aside) < radius:
+            best = min(best, along - (radius * radius - aside * aside) ** 0.5)
+    return best
 
 
 def _all_of(world: World) -> tuple[dict[str, object], ...]:
@@ -340,5 +347,5 @@ def _all_of(world: World) -> tuple[dict[str, object], ...]:
 
 
 @cache
-def _gone(go: Callable[..., World], *said: object) -> World:
-    return go(World(), *said)
+def _gone(go: Callable[..., World], keep: bool, *said: object) -> World:
+    return go(World(keep=keep), *said)

@@ -54,7 +54,7 @@ def test_no_message_makes_an_owner_older_or_its_use_younger_than_it_is() -> None
     for seen, used_s in ((status.seq - 9, beat_used), (status.seq, ring[-1])):
         world = reached("active")
         assert world.planner is not None
-        beat = world.planner._on_status(status, tick.inbox).heartbeats[0]
+        [beat] = world.planner._on_status(status)["heartbeats"]
         beat = beat.model_copy(update={"used": seen, "epoch": tick.epoch})
         ownership.hear_heartbeat(tick, beat)
         assert tick.s.ownership.used_s == used_s
