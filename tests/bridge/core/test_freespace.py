@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, hypot, inf, pi, sin, tau
 
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from bridge.core.braking import path_decel_mps2, reaction_s, speed_scale, speed_within
@@ -85,7 +85,6 @@ def test_odometry_moves_the_robot_among_the_points() -> None:
 directions = st.floats(-pi, pi)
 
 
-@settings(max_examples=60)
 @given(
     st.lists(st.tuples(st.integers(0, 359), st.floats(0.36, 3.0)), min_size=1, max_size=6),
     st.sampled_from([0.4, -0.4]),
@@ -156,7 +155,6 @@ def test_silence_is_free_only_where_half_came_back() -> None:
     assert free_length(picture([None] * 360), IDENTITY, Twist2(0.2, 0.0), RADIUS).known is False
 
 
-@settings(max_examples=200)
 @given(
     st.sets(st.integers(0, 359), max_size=40),
     st.integers(0, 359),

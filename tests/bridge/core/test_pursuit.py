@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass
 from itertools import pairwise
-from math import hypot, pi
+from math import hypot, pi, sqrt
 from typing import TYPE_CHECKING
 
 import pytest
@@ -50,15 +50,26 @@ def route(corners: Corners, speed: float = 0.5, heading: float | None = None) ->
     ]
 
 
-def beside(points: list[Waypoint], x: float, y: float) -> float:
+Piece = tuple[float, float, float, float]
+"""Where a straight piece of a route begins, and how far it goes in x and y [m]."""
+
+
+def pieces(points: list[Waypoint]) -> list[Piece]:
+    return [(a.x_m, a.y_m, b.x_m - a.x_m, b.y_m - a.y_m) for a, b in pairwise(points)]
+
+
+def beside(route: list[Piece], x: float, y: float) -> float:
     """Return how far a place is from a route."""
     best = 1e9
-    for a, b in pairwise(points):
-        dx, dy = b.x_m - a.x_m, b.y_m - a.y_m
-        on = ((x - a.x_m) * dx + (y - a.y_m) * dy) / (dx * dx + dy * dy)
-        on = min(1.0, max(0.0, on))
-        best = min(best, hypot(x - a.x_m - on * dx, y - a.y_m - on * dy))
-    return best
+    for ax, ay, dx, dy in route:
+        px, py = x - ax, y - ay
+        on = (px * dx + py * dy) / (dx * dx + dy * dy)
+        if on >= 1.0:
+            px, py = px - dx, py - dy
+        elif on > 0.0:
+            px, py = px - on * dx, py - on * dy
+        best = min(best, px * px + py * py)
+    return sqrt(best)
 
 
 @dataclass
@@ -80,6 +91,7 @@ def drive(
     state, path = NEW, prepare(points, LIMITS)
     memory, pipe = LimiterState(), deque([STILL] * round(LAG / 0.01))
     strayed = fastest = turned = 0.0
+    way = pieces(points)
     answer = follow(state, path, pose, STILL, BASE, LIMITS, LAG)
     for tick in range(round(limit_s / 0.01)):
         if cut_every and tick and tick % cut_every == 0:
@@ -88,6 +100,7 @@ def drive(
                 key=lambda i: hypot(points[i].x_m - pose.x_m, points[i].y_m - pose.y_m),
             )
             points = points[near:]
+            way = pieces(points)
             state, path = carried(state), prepare(points, LIMITS)
         answer = follow(state, path, pose, memory.sent, BASE, LIMITS, LAG)
         state = answer.state
@@ -96,7 +109,7 @@ def drive(
         moving = pipe.popleft()
         pose = along_arc(pose, moving.v_mps * 0.01, moving.w_radps * 0.01)
         if len(points) > 1:
-            strayed = max(strayed, beside(points, pose.x_m, pose.y_m))
+            strayed = max(strayed, beside(way, pose.x_m, pose.y_m))
         fastest, turned = max(fastest, abs(moving.v_mps)), turned + abs(moving.w_radps) * 0.01
         if answer.at_end and memory.sent == STILL and moving == STILL:
             return Drive(pose, answer, tick * 0.01, strayed, fastest, turned)
