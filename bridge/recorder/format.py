@@ -13,6 +13,7 @@ their shortest exact form and come back bit for bit; a scan's ranges go beside t
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache, lru_cache
 from typing import Any, ClassVar, Literal
 
 from pydantic import ConfigDict, TypeAdapter
@@ -120,8 +121,12 @@ TOPICS: dict[str, tuple[str, TypeAdapter[Any]]] = {
 }
 
 
+@cache
 def schemas() -> dict[str, dict[str, Any]]:
-    """Return name and JSON Schema of each topic; 0.2 s, so once and before the loop."""
+    """Return name and JSON Schema of each topic; 0.2 s, so once a process and before the loop.
+
+    All share what is returned: nobody may change it.
+    """
     return {
         topic: {"name": name, "schema": adapter.json_schema(mode="serialization")}
         for topic, (name, adapter) in TOPICS.items()
@@ -163,5 +168,7 @@ def _outlines(fence: Fence) -> Outlines:
     )
 
 
+@lru_cache(maxsize=4)
 def _fence(kept: Outlines) -> Fence:
+    """Prepare a fence's cells; every segment of a run says the same one again."""
     return build_fence(kept.map_id, kept.allowed, kept.keep_outs, kept.zones)
