@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from planner.route import RouteLimits
+from planner.route.costmap import Costmap, static_costmap
 from planner.route.router import Router
 from planner.world import Site
 
@@ -24,5 +25,21 @@ def home_router(home: Site) -> Router:
 
 
 @pytest.fixture(scope="session")
+def home_costmap(home: Site) -> Costmap:
+    """Return the map's costs, which no route changes: what is seen is put on a copy."""
+    return static_costmap(home, RouteLimits().radius_m)
+
+
+@pytest.fixture(scope="session")
 def two_room() -> Site:
     return Site.load(SITES / "two_room")
+
+
+@pytest.fixture(scope="session")
+def two_room_router(two_room: Site) -> Router:
+    return Router(two_room, RouteLimits())
+
+
+@pytest.fixture(scope="session")
+def two_room_costmap(two_room: Site) -> Costmap:
+    return static_costmap(two_room, RouteLimits().radius_m)

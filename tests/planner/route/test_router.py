@@ -62,30 +62,30 @@ def check_laws(site: Site, costmap: Costmap, result: RouteResult) -> None:
 
 
 def test_every_place_of_the_home_is_reached_from_every_other(
-    home: Site, home_router: Router
+    home: Site, home_router: Router, home_costmap: Costmap
 ) -> None:
-    costmap = static_costmap(home, LIMITS.radius_m)
     for a, b in list(permutations(home.places, 2))[::13]:
         result = home_router.route(RouteRequest(a.pose, b.pose))
-        check_laws(home, costmap, result)
+        check_laws(home, home_costmap, result)
         assert (result.points[0].x_m, result.points[0].y_m) == (a.pose.x_m, a.pose.y_m)
         assert (result.points[-1].x_m, result.points[-1].y_m) == (b.pose.x_m, b.pose.y_m)
         assert result.moved_goal_m == 0.0
         assert not result.start_escaped
 
 
-def test_every_place_of_the_two_rooms_is_reached(two_room: Site) -> None:
-    router = Router(two_room, LIMITS)
-    costmap = static_costmap(two_room, LIMITS.radius_m)
+def test_every_place_of_the_two_rooms_is_reached(
+    two_room: Site, two_room_router: Router, two_room_costmap: Costmap
+) -> None:
     for a, b in permutations(two_room.places, 2):
-        check_laws(two_room, costmap, router.route(RouteRequest(a.pose, b.pose)))
+        result = two_room_router.route(RouteRequest(a.pose, b.pose))
+        check_laws(two_room, two_room_costmap, result)
 
 
 @given(st.floats(0, 12), st.floats(0, 10), st.floats(0, 12), st.floats(0, 10))
 def test_any_two_points_of_the_home_give_a_lawful_route_or_a_typed_failure(
-    home: Site, home_router: Router, ax_m: float, ay_m: float, bx_m: float, by_m: float
-) -> None:
-    costmap = static_costmap(home, LIMITS.radius_m)
+    home: Site, home_router: Router, home_costmap: Costmap,
+    ax_m: float, ay_m: float, bx_m: float, by_m: float,
+) -> None:  # fmt: skip
     try:
         result = home_router.route(RouteRequest(at(ax_m, ay_m), at(bx_m, by_m)))
     except RouteFailure as failed:
@@ -93,7 +93,7 @@ def test_any_two_points_of_the_home_give_a_lawful_route_or_a_typed_failure(
             raise
         return
     if not result.start_escaped:
-        check_laws(home, costmap, result)
+        check_laws(home, home_costmap, result)
     assert result.moved_goal_m <= 0.5
     end = result.points[-1]
     assert hypot(end.x_m - bx_m, end.y_m - by_m) == pytest.approx(result.moved_goal_m)
@@ -104,15 +104,14 @@ points = st.tuples(st.floats(0.0, 3.0), st.floats(0.0, 6.0))
 
 @given(st.lists(points, max_size=40))
 def test_what_the_lidar_adds_is_kept_clear_of(
-    two_room: Site, obstacles: list[tuple[float, float]]
-) -> None:
+    two_room: Site, two_room_router: Router, two_room_costmap: Costmap,
+    obstacles: list[tuple[float, float]],
+) -> None:  # fmt: skip
     start, goal = two_room.places[0].pose, two_room.places[1].pose
     request = RouteRequest(start, goal, tuple(obstacles))
-    router = Router(two_room, LIMITS)
-    costmap = static_costmap(two_room, LIMITS.radius_m)
-    seen = costmap.with_obstacles(obstacles, (start.x_m, start.y_m))
+    seen = two_room_costmap.with_obstacles(obstacles, (start.x_m, start.y_m))
     try:
-        result = router.route(request)
+        result = two_room_router.route(request)
     except RouteFailure as failed:
         if failed.code not in IMPOSSIBLE:
             raise

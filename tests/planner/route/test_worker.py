@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
@@ -47,53 +47,75 @@ async def code_of(asked: Awaitable[object]) -> str:
     return caught.value.code
 
 
-def run(story: Callable[[], Awaitable[None]]) -> None:
+def run(story: Callable[[], Awaitable[None]], loop: asyncio.Runner | None = None) -> None:
     async def bounded() -> None:
         async with asyncio.timeout(LIMIT_S):
             await story()
 
-    asyncio.run(bounded())
+    if loop is None:
+        asyncio.run(bounded())
+    else:
+        loop.run(bounded())
 
 
-def test_a_route_comes_from_another_process_that_yields_to_us(two_room: Site) -> None:
+@pytest.fixture(scope="module")
+def loop() -> Iterator[asyncio.Runner]:
+    with asyncio.Runner() as runner:
+        yield runner
+
+
+@pytest.fixture(scope="module")
+def worker(loop: asyncio.Runner, two_room: Site) -> Iterator[RouteWorker]:
+    """Start one worker, a second of a processor, for all who leave its process as it is."""
+    made = RouteWorker(two_room.folder, two_room.map_id, RouteLimits())
+    loop.run(made.start())
+    yield made
+    loop.run(made.close())
+
+
+def test_a_route_comes_from_another_process_that_yields_to_us(
+    two_room: Site, worker: RouteWorker, loop: asyncio.Runner
+) -> None:
     async def story() -> None:
-        async with running(two_room) as worker:
-            result = await worker.route(across(two_room))
-            assert len(result.points) > 10
-            child = psutil.Process(pid(worker))
-            assert child.pid != os.getpid()
-            assert child.nice() >= NICE
-        assert not psutil.pid_exists(child.pid)
+        result = await worker.route(across(two_room))
+        assert len(result.points) > 10
+        child = psutil.Process(pid(worker))
+        assert child.pid != os.getpid()
+        assert child.nice() >= NICE
 
-    run(story)
+    run(story, loop)
 
 
-def test_many_at_once_are_each_answered_with_their_own(two_room: Site) -> None:
+def test_many_at_once_are_each_answered_with_their_own(
+    two_room: Site, worker: RouteWorker, loop: asyncio.Runner
+) -> None:
     async def story() -> None:
-        async with running(two_room) as worker:
-            goals = [place.pose for place in two_room.places]
-            start = two_room.home.pose
-            asked = [worker.route(RouteRequest(start, goal)) for goal in goals * 3]
-            for goal, result in zip(goals * 3, await asyncio.gather(*asked), strict=True):
-                end = result.points[-1]
-                assert (end.x_m, end.y_m) == (goal.x_m, goal.y_m)
+        goals = [place.pose for place in two_room.places]
+        start = two_room.home.pose
+        asked = [worker.route(RouteRequest(start, goal)) for goal in goals * 3]
+        for goal, result in zip(goals * 3, await asyncio.gather(*asked), strict=True):
+            end = result.points[-1]
+            assert (end.x_m, end.y_m) == (goal.x_m, goal.y_m)
 
-    run(story)
+    run(story, loop)
 
 
-def test_a_failure_to_find_a_way_is_typed_and_the_process_lives(two_room: Site) -> None:
+def test_a_failure_to_find_a_way_is_typed_and_the_process_lives(
+    two_room: Site, worker: RouteWorker, loop: asyncio.Runner
+) -> None:
     async def story() -> None:
-        async with running(two_room) as worker:
-            first, request = pid(worker), across(two_room)
-            far = RouteRequest(request.start, type(request.goal)(99.0, 0.0, 0.0))
-            assert await code_of(worker.route(far)) == "goal_outside_map"
-            await worker.route(request)
-            assert pid(worker) == first
+        first, request = pid(worker), across(two_room)
+        far = RouteRequest(request.start, type(request.goal)(99.0, 0.0, 0.0))
+        assert await code_of(worker.route(far)) == "goal_outside_map"
+        await worker.route(request)
+        assert pid(worker) == first
 
-    run(story)
+    run(story, loop)
 
 
-def test_killed_in_the_middle_of_a_request_it_fails_typed_and_comes_back(two_room: Site) -> None:
+def test_killed_in_the_middle_of_a_request_or_frozen_it_fails_typed_and_comes_back(
+    two_room: Site,
+) -> None:
     async def story() -> None:
         async with running(two_room) as worker:
             first = pid(worker)
@@ -104,51 +126,49 @@ def test_killed_in_the_middle_of_a_request_it_fails_typed_and_comes_back(two_roo
             assert await code_of(asked) == "route_worker_died"
             result = await worker.route(across(two_room), timeout_s=LIMIT_S)
             assert len(result.points) > 10
-            assert pid(worker) != first
+            second = pid(worker)
+            assert second != first
 
-    run(story)
-
-
-def test_frozen_it_times_out_and_is_replaced(two_room: Site) -> None:
-    async def story() -> None:
-        async with running(two_room) as worker:
-            first = pid(worker)
-            os.kill(first, signal.SIGSTOP)
+            os.kill(second, signal.SIGSTOP)
             assert await code_of(worker.route(across(two_room), 0.05)) == "route_timed_out"
             await worker.route(across(two_room), timeout_s=LIMIT_S)
-            assert not psutil.pid_exists(first)
+            assert not psutil.pid_exists(second)
 
     run(story)
 
 
-def test_who_gives_up_waiting_leaves_the_next_answer_whole(two_room: Site) -> None:
+def test_who_gives_up_waiting_leaves_the_next_answer_whole(
+    two_room: Site, worker: RouteWorker, loop: asyncio.Runner
+) -> None:
     async def story() -> None:
-        async with running(two_room) as worker:
-            first = pid(worker)
-            os.kill(first, signal.SIGSTOP)
+        first = pid(worker)
+        os.kill(first, signal.SIGSTOP)
+        try:
             asked = asyncio.create_task(worker.route(across(two_room)))
             await asyncio.sleep(0)
             asked.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await asked
+        finally:
             os.kill(first, signal.SIGCONT)
-            home = two_room.home.pose
-            result = await worker.route(RouteRequest(home, home))
-            assert len(result.points) == 1
-            assert pid(worker) == first
+        home = two_room.home.pose
+        result = await worker.route(RouteRequest(home, home))
+        assert len(result.points) == 1
+        assert pid(worker) == first
 
-    run(story)
+    run(story, loop)
 
 
-def test_a_number_that_is_not_finite_is_refused_before_it_leaves(two_room: Site) -> None:
+def test_a_number_that_is_not_finite_is_refused_before_it_leaves(
+    two_room: Site, worker: RouteWorker, loop: asyncio.Runner
+) -> None:
     async def story() -> None:
-        async with running(two_room) as worker:
-            request = across(two_room)
-            nowhere = type(request.goal)(float("nan"), 0.0, 0.0)
-            asked = worker.route(RouteRequest(request.start, nowhere))
-            assert await code_of(asked) == "route_request_malformed"
+        request = across(two_room)
+        nowhere = type(request.goal)(float("nan"), 0.0, 0.0)
+        asked = worker.route(RouteRequest(request.start, nowhere))
+        assert await code_of(asked) == "route_request_malformed"
 
-    run(story)
+    run(story, loop)
 
 
 def test_a_site_that_cannot_be_loaded_is_refused_at_start(tmp_path: Path) -> None:
@@ -175,8 +195,10 @@ def test_it_answers_nothing_before_its_start_and_after_its_end(two_room: Site) -
         worker = RouteWorker(two_room.folder, two_room.map_id, RouteLimits())
         assert await code_of(worker.route(across(two_room))) == "route_worker_unavailable"
         await worker.start()
+        child = pid(worker)
         await worker.close()
         await worker.close()
+        assert not psutil.pid_exists(child)
         assert await code_of(worker.route(across(two_room))) == "route_worker_unavailable"
 
     run(story)
