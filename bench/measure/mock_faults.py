@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import Counter
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import httpx
@@ -89,7 +90,7 @@ async def try_fault(url: str, home: Path, fault: str, goals: int) -> Counter[str
     timeout_s = SLOW_S if fault in SLOW else ENOUGH_S
     settings = ModelSettings(url=url, name=fault, timeout_s=timeout_s, parallel=PARALLEL)
     model = EndpointBrain(settings, home)
-    site = Site.load(CHECKOUT / "sites" / "home")
+    site = _home()
     trial = _Trial(fault, vocabulary_of(site), Book(facts_of(site)))
     try:
         for brain in (model, FallbackBrain(model, OfflineBrain(), rest_s=0.5)):
@@ -97,6 +98,12 @@ async def try_fault(url: str, home: Path, fault: str, goals: int) -> Counter[str
     finally:
         await model.close()
     return trial.counts
+
+
+@cache
+def _home() -> Site:
+    """Read the site once for all faults: it is frozen."""
+    return Site.load(CHECKOUT / "sites" / "home")
 
 
 class _Trial:

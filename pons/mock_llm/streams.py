@@ -56,6 +56,7 @@ async def huge(ending: Ending) -> AsyncIterator[bytes]:
         size = min(CHUNK, left - len(tail))
         yield b"a" * size
         left -= size
+        await asyncio.sleep(0)  # or all of it is written, to nobody, when the client has left
     yield tail
 
 

@@ -16,6 +16,7 @@ from typing import Any
 import httpx
 import psutil
 import pytest
+from pydantic import SecretStr
 
 from planner.brain import (
     BrainDown,
@@ -55,15 +56,16 @@ def ask(
 ) -> Thought:
     settings = {"url": mock.url, "name": "m", "key": KEY, "timeout_s": 5.0, **more}
 
-    async def once() -> Thought:
-        brain = EndpointBrain(ModelSettings.model_validate(settings), home)
-        try:
-            request = ThinkRequest(text=text, vocabulary=HOME, room="study")
-            return await brain.think(request, hear)
-        finally:
-            await brain.close()
+    return asyncio.run(thought(ModelSettings.model_validate(settings), home, text, hear))
 
-    return asyncio.run(once())
+
+async def thought(settings: ModelSettings, home: Path, text: str, hear: Hear | None) -> Thought:
+    brain = EndpointBrain(settings, home)
+    try:
+        request = ThinkRequest(text=text, vocabulary=HOME, room="study")
+        return await brain.think(request, hear)
+    finally:
+        await brain.close()
 
 
 @pytest.mark.parametrize(
@@ -94,7 +96,7 @@ def test_it_plans_as_the_offline_brain_does(mock: RunningMock, text: str, tmp_pa
 @pytest.mark.parametrize("body", [b"", b"[]", b"{", b"\xff", b"[" * 100_000])
 def test_what_is_no_request_gets_a_400(mock: RunningMock, body: bytes) -> None:
     mock.set()
-    reply = httpx.post(f"{mock.url}/chat/completions", content=body, trust_env=False)
+    reply = mock.client.post(f"{mock.url}/chat/completions", content=body)
     assert reply.status_code == 400
     assert reply.json()["error"]["message"]
 
@@ -106,18 +108,18 @@ def test_forced_tool_stream_and_models_are_served_too(mock: RunningMock) -> None
     tool = {"type": "function", "function": {"name": "plan", "parameters": schema}}
     body = {"messages": said, "tools": [tool], "tool_choice": {"type": "function"}}
     url = f"{mock.url}/chat/completions"
-    message = httpx.post(url, json=body, trust_env=False).json()["choices"][0]["message"]
+    message = mock.client.post(url, json=body).json()["choices"][0]["message"]
     assert message["content"] is None
     plan = {"kind": "plan", "steps": [{"kind": "go_to", "place": "lab"}]}
     assert json.loads(message["tool_calls"][0]["function"]["arguments"]) == plan
-    streamed = httpx.post(url, json={"messages": said, "stream": True}, trust_env=False)
+    streamed = mock.client.post(url, json={"messages": said, "stream": True})
     events = [line[6:] for line in streamed.text.splitlines() if line.startswith("data: ")]
     assert events[-1] == "[DONE]"
     *chunks, usage = map(json.loads, events[:-1])
     assert (usage["choices"], usage["usage"]["prompt_tokens"] > 0) == ([], True)
     deltas = [chunk["choices"][0]["delta"] for chunk in chunks]
     json.loads("".join(delta.get("content", "") for delta in deltas))
-    models = httpx.get(f"{mock.url}/models", trust_env=False).json()
+    models = mock.client.get(f"{mock.url}/models").json()
     assert models["data"][0]["id"] == "pons-mock"
 
 
@@ -201,10 +203,16 @@ def test_a_status_and_a_slow_server_end_typed_too(
     mock: RunningMock, switches: dict[str, Any], why: str, tmp_path: Path
 ) -> None:
     mock.set(**switches)
-    for hear in (None, ignore):
-        with pytest.raises(BrainDown) as down:
-            ask(mock, tmp_path, timeout_s=0.5, hear=hear)
-        assert down.value.why == why
+    settings = ModelSettings(url=mock.url, name="m", key=SecretStr(KEY), timeout_s=0.5)
+
+    async def both() -> list[Thought | BaseException]:
+        """Wait for both ways of asking at once: each may take the deadline's whole length."""
+        asked = (thought(settings, tmp_path, "go to the kitchen", hear) for hear in (None, ignore))
+        return await asyncio.gather(*asked, return_exceptions=True)
+
+    for down in asyncio.run(both()):
+        assert isinstance(down, BrainDown)
+        assert down.why == why
 
 
 def test_a_filter_and_a_model_that_declines_are_refusals(mock: RunningMock, tmp_path: Path) -> None:
@@ -261,7 +269,7 @@ def test_a_key_that_is_echoed_is_struck_out(mock: RunningMock, tmp_path: Path) -
 
 def test_switches_are_checked_and_counted(mock: RunningMock) -> None:
     for wrong in ({"fault": "dance"}, {"delay_s": -1}, {"status": 200}, {"times": 0}, {"x": 1}):
-        reply = httpx.post(mock.url.replace("/v1", "/mock"), json=wrong, trust_env=False)
+        reply = mock.client.post(mock.url.replace("/v1", "/mock"), json=wrong)
         assert reply.status_code == 422
     mock.set(fault="garbage", times=2)
     assert mock.report()["switches"]["fault"] == "garbage"
@@ -272,26 +280,50 @@ def test_every_fault_is_described() -> None:
     assert all(FAULTS.values())
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_the_command_prints_its_url_and_ends_clean(number: signal.Signals) -> None:
-    command = [sys.executable, "-m", "pons", "mock-llm", "--hang", "--delay", "0.01"]
+TWICE = """
+import runpy
+for _ in range(2):
+    try:
+        runpy.run_module("pons", run_name="__main__", alter_sys=True)
+    except SystemExit as end:
+        print("ended with", end.code, flush=True)
+"""
+"""Be ``python -m pons`` two times over in one process, which loads all of it once."""
+
+
+def hangs(process: subprocess.Popen[str]) -> None:
+    """See that the mock says where it is, and hangs there."""
+    assert process.stdout is not None
+    url = process.stdout.readline().removeprefix("pons mock-llm: ").strip()
+    with (
+        httpx.Client(trust_env=False, verify=False, timeout=0.3) as client,
+        pytest.raises(httpx.ReadTimeout),
+    ):
+        client.post(f"{url}/chat/completions", json={"messages": []})
+
+
+def test_the_command_prints_its_url_and_ends_clean() -> None:
+    command = [sys.executable, "-c", TWICE, "mock-llm", "--hang", "--delay", "0.01"]
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
     )
     try:
         assert process.stdout is not None
-        url = process.stdout.readline().removeprefix("pons mock-llm: ").strip()
-        with httpx.Client(trust_env=False, timeout=0.3) as client, pytest.raises(httpx.ReadTimeout):
-            client.post(f"{url}/chat/completions", json={"messages": []})
+        hangs(process)
         began_s = time.monotonic()
-        process.send_signal(number)
-        _, said = process.communicate(timeout=10.0)
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.readline() == "ended with 0\n"
+        assert time.monotonic() - began_s < 10.0
+        hangs(process)
+        began_s = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        out, said = process.communicate(timeout=10.0)
+        assert time.monotonic() - began_s < 10.0
     finally:
         process.kill()
         process.wait()
-    assert process.returncode in (0, -number)
+    assert (process.returncode, out) in ((0, "ended with 0\n"), (-signal.SIGTERM, ""))
     assert "Traceback" not in said, said
-    assert time.monotonic() - began_s < 10.0
 
 
 @pytest.mark.parametrize(
