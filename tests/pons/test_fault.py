@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from pons import fault
+from pons.__main__ import main
 from wire.keys import SIM_TRUTH, Party
 from wire.session import open_session
 
@@ -56,25 +58,38 @@ def until(done: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
+@pytest.fixture
+def nowhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the command look for a simulator where there is none."""
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+
+
+@pytest.mark.usefixtures("nowhere")
 def test_an_unknown_fault_is_answered_with_those_that_exist(
-    repository: Path, tmp_path: Path
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    code, said = ask(repository, tmp_path, "lidar_of")
-    assert code == 2
+    assert main(["fault", "lidar_of"]) == 2
+    said = capsys.readouterr().err
     assert "fault_unknown: lidar_of" in said
     assert "lidar_off" in said
 
 
+@pytest.mark.usefixtures("nowhere")
 @pytest.mark.parametrize("seconds", ["0", "-1", "nan", "inf", "soon"])
-def test_a_time_that_is_none_is_refused(repository: Path, tmp_path: Path, seconds: str) -> None:
-    code, said = ask(repository, tmp_path, "slip", f"--for={seconds}")
-    assert code == 2
-    assert f"{seconds!r}; expected" in said
+def test_a_time_that_is_none_is_refused(capsys: pytest.CaptureFixture[str], seconds: str) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["fault", "slip", f"--for={seconds}"])
+    assert ended.value.code == 2
+    assert f"{seconds!r}; expected" in capsys.readouterr().err
 
 
-def test_without_a_simulator_it_says_so(repository: Path, tmp_path: Path) -> None:
-    code, said = ask(repository, tmp_path, "slip")
-    assert (code, said.split(":")[0]) == (1, "no_simulator")
+@pytest.mark.usefixtures("nowhere")
+def test_without_a_simulator_it_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(fault, "LIMIT_S", 0.1)
+    assert main(["fault", "slip"]) == 1
+    assert capsys.readouterr().err.split(":")[0] == "no_simulator"
 
 
 @pytest.mark.e2e
