@@ -7,14 +7,15 @@ life. On expiry the wheels ramp to zero and the torque goes off; the next comman
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from wire.value import value
 
 if TYPE_CHECKING:
     from wire import DriveCommand
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Wheels:
     """Ask both motors for speeds; without torque they are braked."""
 

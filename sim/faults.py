@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from sim.channel import Trouble
+from sim.messages import Buttons
 from wire import SimFault
 
 if TYPE_CHECKING:
@@ -48,13 +49,26 @@ class Faults:
 
     def wheels_radps(self, left: float, right: float, *, torque: bool) -> tuple[float, float]:
         """Return what the motors do of what they were told; without torque nothing turns them."""
+        if not self._standing:
+            return left, right
         if SimFault.RUNAWAY in self and torque:
             return RUNAWAY_RADPS, RUNAWAY_RADPS
         return (-left, -right) if SimFault.REVERSED in self else (left, right)
 
+    def buttons(self) -> Buttons:
+        """Return which of the drive's inputs are pressed."""
+        return Buttons(
+            estop=SimFault.ESTOP_PRESSED in self,
+            bumper_front=SimFault.BUMPER_FRONT in self,
+            bumper_rear=SimFault.BUMPER_REAR in self,
+            cliff=SimFault.CLIFF in self,
+        )
+
     def charge(self, charge: float, *, turning: bool) -> float:
         """Return what the battery's gauge shows of its charge, in steps of a thousandth."""
         charge = round(charge, 3)
+        if not self._standing:
+            return charge
         if SimFault.BATTERY_SAG in self and turning:
             return min(charge, SAGGING_CHARGE)
         return min(charge, LOW_CHARGE) if SimFault.BATTERY_LOW in self else charge

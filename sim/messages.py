@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from wire import DriveState, Imu, Pose2, Scan, SimTruth, Twist2
+from wire.value import value
 
 if TYPE_CHECKING:
     from sim.contacts import Episodes
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from wire import SimFault
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Report:
     """Give what the robot says after one tick; None where nothing was due or a fault keeps it."""
 
@@ -24,15 +24,14 @@ class Report:
     truth: SimTruth | None
 
 
-@dataclass(frozen=True, slots=True)
-class Inputs:
-    """Give what is wired to the drive besides its wheels."""
+@value
+class Buttons:
+    """Give what is wired to the drive besides wheels and battery: True where it is pressed."""
 
-    battery: float
-    estop_pressed: bool
-    bumper_front: bool
-    bumper_rear: bool
-    cliff: bool
+    estop: bool = False
+    bumper_front: bool = False
+    bumper_rear: bool = False
+    cliff: bool = False
 
 
 class Speaker:
@@ -52,7 +51,8 @@ class Speaker:
         dead_man: DeadMan,
         wheels: Wheels,
         encoders: tuple[Encoder, Encoder],
-        inputs: Inputs,
+        battery: float,
+        buttons: Buttons,
     ) -> DriveState:
         """Say what the drive does."""
         echo_boot, echo_seq = dead_man.echo
@@ -69,11 +69,11 @@ class Speaker:
             right_rad=right.angle_rad,
             left_radps=left.speed_radps,
             right_radps=right.speed_radps,
-            battery=inputs.battery,
-            estop_pressed=inputs.estop_pressed,
-            bumper_front=inputs.bumper_front,
-            bumper_rear=inputs.bumper_rear,
-            cliff=inputs.cliff,
+            battery=battery,
+            estop_pressed=buttons.estop,
+            bumper_front=buttons.bumper_front,
+            bumper_rear=buttons.bumper_rear,
+            cliff=buttons.cliff,
         )
 
     def imu(self, now_s: float, sample: ImuSample) -> Imu:

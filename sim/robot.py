@@ -18,7 +18,7 @@ from sim.contacts import Episodes
 from sim.deadman import DeadMan
 from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
-from sim.messages import Inputs, Report, Speaker
+from sim.messages import Buttons, Report, Speaker
 from sim.metal import true_base
 from sim.mjcf import OBSTACLES
 from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
@@ -59,6 +59,7 @@ class SimRobot:
         self.home: Home = load_home(site_dir)
         self.boot_id = boot_id
         self.faults = Faults()
+        self._buttons = Buttons()
         self._hardware = hardware or Hardware()
         base = true_base(self.robot.base, self._hardware)
         self._world = World(solids(self.home), base, self._hardware, PERIODS.step_s)
@@ -124,8 +125,9 @@ class SimRobot:
         self._ticks += 1
         self._battery.tick(turning=left != 0.0 or right != 0.0)
         self._contacts.sample(self._world.contacts())
-        for encoder, angle in zip(self._encoders, self._world.wheel_angles(), strict=True):
-            encoder.sample(angle)
+        left_rad, right_rad = self._world.wheel_angles()
+        self._encoders[0].sample(left_rad)
+        self._encoders[1].sample(right_rad)
         return Report(
             drive=self._drive_due(now_s, wheels),
             imu=self._imu_due(now_s),
@@ -175,6 +177,7 @@ class SimRobot:
     def break_down(self, *faults: SimFault) -> None:
         """Let exactly these faults stand from now on; none mends everything."""
         self.faults = Faults(faults)
+        self._buttons = self.faults.buttons()
         self._world.block_left_wheel(blocked=SimFault.WHEEL_STUCK in self.faults)
         self._world.make_slippery(slippery=SimFault.SLIP in self.faults)
 
@@ -184,16 +187,12 @@ class SimRobot:
         return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 
     def _drive_due(self, now_s: float, wheels: Wheels) -> DriveState | None:
-        faults, turning = self.faults, wheels.left_radps != 0.0 or wheels.right_radps != 0.0
-        inputs = Inputs(
-            battery=faults.charge(self._battery.charge, turning=turning),
-            estop_pressed=SimFault.ESTOP_PRESSED in faults,
-            bumper_front=SimFault.BUMPER_FRONT in faults,
-            bumper_rear=SimFault.BUMPER_REAR in faults,
-            cliff=SimFault.CLIFF in faults,
+        turning = wheels.left_radps != 0.0 or wheels.right_radps != 0.0
+        battery = self.faults.charge(self._battery.charge, turning=turning)
+        state = self._speaker.drive(
+            now_s, self._dead_man, wheels, self._encoders, battery, self._buttons
         )
-        state = self._speaker.drive(now_s, self._dead_man, wheels, self._encoders, inputs)
-        return self._drive_out.through(state, faults.of_sensor("encoder"))
+        return self._drive_out.through(state, self.faults.of_sensor("encoder"))
 
     def _imu_due(self, now_s: float) -> Imu | None:
         if not self.robot.inputs.imu:

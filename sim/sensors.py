@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from wire.value import value
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -41,7 +42,7 @@ class Encoder:
         self._count = count
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ImuSample:
     """Hold one reading in ``base``."""
 
@@ -105,10 +106,10 @@ class LidarModel:
         noisy = true_m + self._random.normal(0.0, self._hardware.lidar_noise_m, count)
         lost = self._random.random(count) < self._hardware.lidar_dropout
         lost |= (true_m < 0.0) | (noisy > self.config.range_max_m)
-        millimetres = np.round(np.maximum(noisy, 0.0), 3).tolist()
-        return tuple(
-            None if gone else value for value, gone in zip(millimetres, lost.tolist(), strict=True)
-        )
+        millimetres: list[float | None] = np.round(np.maximum(noisy, 0.0), 3).tolist()
+        for beam in np.flatnonzero(lost).tolist():  # few are lost in a home
+            millimetres[beam] = None
+        return tuple(millimetres)
 
 
 class Garbage:

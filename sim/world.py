@@ -79,9 +79,8 @@ class World:
 
     def pose(self) -> Pose2:
         """Return the robot's pose in ``map``."""
-        w, x, y, z = self._qpos[3:7].tolist()
-        yaw_rad = atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-        return Pose2(float(self._qpos[0]), float(self._qpos[1]), yaw_rad)
+        x_m, y_m, _, w, x, y, z = self._qpos[:7].tolist()
+        return Pose2(x_m, y_m, atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
 
     def twist(self) -> Twist2:
         """Return the robot's forward speed and rate of turn."""
@@ -98,8 +97,8 @@ class World:
 
     def contacts(self) -> int:
         """Count the robot's contacts with anything but the floor, now."""
-        pairs: NDArray[np.int32] = self._touching.geom
-        return pairs.ravel().tolist().count(self._chassis)  # two or three pairs: no arithmetic
+        pairs: list[list[int]] = self._touching.geom.tolist()  # two or three: no arithmetic
+        return sum([self._chassis in pair for pair in pairs])
 
     def place_robot(self, pose: Pose2) -> None:
         """Put the robot down at rest. Wheels keep their angles, as when somebody carries it."""
