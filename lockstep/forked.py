@@ -17,9 +17,14 @@ W = TypeVar("W", bound="World")
 def forked(world: W) -> W:
     """Return a world that goes on from here by itself.
 
-    To be called where the planner waits for nothing: not for a route, a plan or an answer, for
-    what it waits for would be told to the first world.
+    Both share the brain; ``think_with`` gives a copy its own.
+
+    Raises:
+        ValueError: the planner waits for a route, a plan, the disk or an answer, which would be
+            told to the first world.
     """
+    if world.waits:
+        raise ValueError(f"a world is copied where its planner waits; {world.describe()}")
     scene = world.scene
     shared = (scene, scene.site, scene.router, scene.fence, *world.commands, *world.statuses)
     return deepcopy(world, {id(one): one for one in shared})

@@ -30,6 +30,11 @@ class Insistence:
         self._pace = pace
         self._open: list[Request] = []
 
+    @property
+    def asks(self) -> bool:
+        """Tell whether an answer is awaited."""
+        return bool(self._open)
+
     def ask(self, kind: str, request_id: str, say: Callable[[], None], tick: int) -> Request:
         """Say something from now on; its answer appears in what is returned."""
         request = Request(request_id, kind, say, tick)

@@ -69,7 +69,7 @@ class PlannerSide:
         self.said: list[str] = []
         self._scene, self._port, self._pace = scene, port, pace
         self._notebook = notebook
-        self._think = thinker(brain, scene.vocabulary)
+        self.think_with(brain)
         self._bus = WireBus(cast("Session", port))
         self._insistence = Insistence(pace)
         self._later: list[tuple[int, int, Callable[[float], Output]]] = []
@@ -86,6 +86,15 @@ class PlannerSide:
     def status(self) -> Status | None:
         """Return the newest status that this planner has."""
         return self._status
+
+    @property
+    def waits(self) -> bool:
+        """Tell whether a route, a plan, the disk or an answer is still to come."""
+        return bool(self._later) or self._insistence.asks
+
+    def think_with(self, brain: Brain) -> None:
+        """Let this brain turn sentences into plans."""
+        self._think = thinker(brain, self._scene.vocabulary)
 
     def leave(self) -> None:
         """Be gone, as after SIGKILL."""

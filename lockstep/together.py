@@ -12,6 +12,7 @@ from wire import Mode
 if TYPE_CHECKING:
     from lockstep.disturbance import Disturbance
     from lockstep.insist import Request
+    from planner.brain import Brain
     from planner.plan import Language
     from wire import OpKind, Pose2
 
@@ -41,9 +42,18 @@ class Together(World):
     def say(self, text: str, language: Language | None = None) -> Said:
         """Give a goal in words."""
         self._goals += 1
-        goal = Said(f"goal-{self._goals}", lambda: self.planner.engine.book)
+        goal = self.goal(f"goal-{self._goals}")
         self.planner.say(goal.id, text, language, self.now_s)
         return goal
+
+    def goal(self, goal_id: str) -> Said:
+        """Follow a goal that was given before: in a copy of a world, its own."""
+        return Said(goal_id, lambda: self.planner.engine.book)
+
+    def think_with(self, brain: Brain) -> None:
+        """Let another brain turn sentences into plans from now on."""
+        self._brain = brain
+        self.planner.think_with(brain)
 
     def stop(self, source: str = "cli") -> Request:
         """Order a stop through the API."""

@@ -110,6 +110,11 @@ class World:
             raise TooLong("the planner was killed; start_planner() starts another")
         return self._planner
 
+    @property
+    def waits(self) -> bool:
+        """Tell whether a living planner waits for what it was promised."""
+        return self._planner is not None and self._planner.waits
+
     # Time ---------------------------------------------------------------------------------------
 
     @property

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import pytest
+
 from lockstep import Together
 from lockstep.forked import forked
 from wire import Mode, SimFault
@@ -25,3 +29,12 @@ def test_a_copy_goes_on_to_the_bit_whatever_breaks_in_another() -> None:
     assert turned(same, 1.5) == expected != otherwise
     assert same.truth == world.truth != broken.truth
     assert same.statuses[-1] == world.statuses[-1]
+
+
+def test_a_world_is_not_copied_while_its_planner_waits(
+    ready: Callable[..., Together],
+) -> None:
+    world = ready(seed=5)
+    world.say("go to the living room")
+    with pytest.raises(ValueError, match="planner waits"):
+        forked(world)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import atan2, cos, degrees, hypot, pi, radians, sin
 
 import pytest
@@ -26,11 +27,23 @@ from wire import Pose2
 
 IN_KITCHEN = Pose2(1.5, 2.0, 1.5)
 IN_DOORWAY_M = (1.5, 3.5)
+BY_THE_DOOR = Pose2(1.5, 2.4, 1.5)
+BY_THE_DOCK = Pose2(1.4, 1.0, -2.6)
 
 
-def world_with(*plans: tuple[Step, ...], start: Pose2 = IN_KITCHEN) -> Together:
-    brain = ScriptedBrain([StepPlan(steps=steps) for steps in plans])
-    return Together(seed=2, start=start, brain=brain)
+World = Callable[..., Together]
+
+
+@pytest.fixture
+def world_with(ready: Callable[..., Together]) -> World:
+    """Return a maker of worlds whose brain says these plans, one after the other."""
+
+    def made(*plans: tuple[Step, ...], start: Pose2 = IN_KITCHEN) -> Together:
+        world = ready(seed=2, start=start)
+        world.think_with(ScriptedBrain([StepPlan(steps=steps) for steps in plans]))
+        return world
+
+    return made
 
 
 def done(world: Together, goal: Said, limit_s: float = 60.0) -> tuple[StepRecord, ...]:
@@ -52,7 +65,7 @@ def ahead_m(before: Pose2, after: Pose2) -> float:
 
 @pytest.mark.parametrize(("asked_deg", "ends_deg"), [(90, 90), (-200, 160)])
 def test_it_turns_by_the_angle_that_was_asked_and_drives_nowhere(
-    asked_deg: float, ends_deg: float
+    world_with: World, asked_deg: float, ends_deg: float
 ) -> None:
     world = world_with((Turn(angle_rad=radians(asked_deg)),))
     before, goal, way_rad = world.truth, world.say("turn"), 0.0
@@ -76,7 +89,9 @@ def test_it_turns_by_the_angle_that_was_asked_and_drives_nowhere(
 
 
 @pytest.mark.parametrize("distance_m", [0.5, -0.3])
-def test_it_moves_straight_by_the_distance_that_was_asked(distance_m: float) -> None:
+def test_it_moves_straight_by_the_distance_that_was_asked(
+    world_with: World, distance_m: float
+) -> None:
     world = world_with((Move(distance_m=distance_m),))
     before, goal = world.truth, world.say("move")
     (step,) = done(world, goal)
@@ -89,7 +104,7 @@ def test_it_moves_straight_by_the_distance_that_was_asked(distance_m: float) -> 
     assert f"{abs(distance_m):.2f} m" in outcome.message.en
 
 
-def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told() -> None:
+def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: World) -> None:
     world = world_with((Move(distance_m=5.0),))
     before, goal = world.truth, world.say("move")
     (step,) = done(world, goal)
@@ -103,8 +118,8 @@ def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told() -> None:
     assert "m in a straight line, not for 5.0 m" in outcome.message.en
 
 
-def test_a_patrol_visits_its_places_in_their_order() -> None:
-    world = world_with((Patrol(places=("charging_dock", "kitchen")),))
+def test_a_patrol_visits_its_places_in_their_order(world_with: World) -> None:
+    world = world_with((Patrol(places=("charging_dock", "kitchen")),), start=BY_THE_DOCK)
     goal = world.say("patrol")
     dock = world.scene.site.place("charging_dock")
     assert dock is not None
@@ -114,14 +129,14 @@ def test_a_patrol_visits_its_places_in_their_order() -> None:
     assert (goal.state, step.visited, world.room) == (GoalState.SUCCEEDED, 2, "kitchen")
 
 
-def test_the_answer_to_a_question_decides_what_is_done() -> None:
+def test_the_answer_to_a_question_decides_what_is_done(world_with: World) -> None:
     world = world_with(
         (Ask(question="Left or right?"), Decide(question="which way?")),
         (Turn(angle_rad=-pi / 4), Say(text="there")),
     )
     before, goal = world.truth, world.say("turn where I tell you")
     world.run_until(lambda _: goal.state is GoalState.NEEDS_CLARIFICATION, 5.0)
-    world.run(5.0)
+    world.run(2.0)
     assert turned_deg(before, world.truth) == pytest.approx(0.0, abs=0.1)
     world.answer(goal, "right")
     done(world, goal)
@@ -131,8 +146,8 @@ def test_the_answer_to_a_question_decides_what_is_done() -> None:
 
 
 @pytest.mark.slow
-def test_behind_a_blocked_door_it_thinks_again_and_does_something_else() -> None:
-    world = world_with((GoTo(place="living_room"),), (Turn(angle_rad=pi / 2),))
+def test_behind_a_blocked_door_it_thinks_again_and_does_something_else(world_with: World) -> None:
+    world = world_with((GoTo(place="living_room"),), (Turn(angle_rad=pi / 6),), start=BY_THE_DOOR)
     world.place_obstacle(*IN_DOORWAY_M)
     goal = world.say("go to the living room")
     shut, instead = done(world, goal, 120.0)
@@ -142,7 +157,9 @@ def test_behind_a_blocked_door_it_thinks_again_and_does_something_else() -> None
 
 
 @pytest.mark.parametrize("crash", [False, True])
-def test_a_turn_that_was_interrupted_ends_where_it_would_have(crash: bool) -> None:
+def test_a_turn_that_was_interrupted_ends_where_it_would_have(
+    world_with: World, crash: bool
+) -> None:
     world = world_with((Turn(angle_rad=1.5 * pi),))
     before, goal = world.truth, world.say("turn")
     world.run_until(lambda w: 150 < abs(turned_deg(before, w.truth)) < 175, 20.0)
@@ -150,12 +167,12 @@ def test_a_turn_that_was_interrupted_ends_where_it_would_have(crash: bool) -> No
         world.kill_planner()
         world.run(1.0)
         world.start_planner()
-        world.run(1.0)
+        world.run(0.5)
     else:
         world.pause(goal)
-        world.run(2.0)
+        world.run(1.5)
     still = world.truth
-    world.run(2.0)
+    world.run(1.0)
     assert turned_deg(still, world.truth) == pytest.approx(0.0, abs=0.1)
     assert goal.record.reason == ("planner_restarted" if crash else "operator")
     world.resume(goal)
