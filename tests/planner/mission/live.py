@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager
 from itertools import count
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 from planner.brain.scripted import Reply, ScriptedBrain
 from planner.link import Link
@@ -15,6 +16,7 @@ from planner.mission import (
     Clocks,
     MissionJournal,
     Missions,
+    loop,
 )
 from planner.mission.memory import Memory
 from planner.plan import Goal, GoalState, GoTo, StepPlan
@@ -23,6 +25,8 @@ from planner.world import Site
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
 from wire import Pose2, RobotDescription, Status
 
+POLL_S = 0.002
+"""The bridge goes on at each poll: with the planner's own 5 ms tests would mostly sleep."""
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
 
 
@@ -94,14 +98,15 @@ async def planner(
         planner_id=f"planner-{prefix}",
         clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}"),
     )
-    await missions.start()
-    together = Together(missions, bridge, brain)
-    await together.until(lambda: bridge.owner == missions.planner_id)
-    try:
-        yield together
-        assert missions.failed is None
-    finally:
-        await missions.close()
+    with patch.object(loop, "POLL_S", POLL_S):
+        await missions.start()
+        together = Together(missions, bridge, brain)
+        try:
+            await together.until(lambda: bridge.owner == missions.planner_id)
+            yield together
+            assert missions.failed is None
+        finally:
+            await missions.close()
 
 
 def run(work: Coroutine[Any, Any, None]) -> None:

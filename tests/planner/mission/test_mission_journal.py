@@ -190,40 +190,53 @@ def test_a_disk_that_refuses_is_tried_again_and_nothing_is_called_safe(tmp_path:
 
 
 CHILD = """
-import sys
+import os, sys
 from pathlib import Path
 from planner.mission.effects import Journal
 from planner.mission.journal import MissionJournal
 from tests.planner.mission.test_mission_journal import mission
 from planner.plan import GoalState
 
-journal = MissionJournal.in_home(Path(sys.argv[1]))
-number = 0
-while True:
-    number += 1
-    pair = (mission("a", 1, GoalState.RUNNING, number), mission("b", 2, step=number))
-    journal.write((Journal(number, pair, ("b",)),))
-    print(number, flush=True)
+def write(home):
+    journal = MissionJournal.in_home(home)
+    print(os.getpid(), flush=True)
+    number = 0
+    while True:
+        number += 1
+        pair = (mission("a", 1, GoalState.RUNNING, number), mission("b", 2, step=number))
+        journal.write((Journal(number, pair, ("b",)),))
+        print(number, flush=True)
+
+for home in sys.argv[1:]:
+    pid = os.fork()
+    if not pid:
+        write(Path(home))
+    os.waitpid(pid, 0)
+    print("over", flush=True)
 """
 
 
-@pytest.mark.parametrize("delay_s", [0.0, 0.013, 0.037])
-def test_kill_at_any_instant_keeps_whole_entries(
-    tmp_path: Path, repository: Path, delay_s: float
-) -> None:
-    child = subprocess.Popen(
-        [sys.executable, "-c", CHILD, str(tmp_path)], stdout=subprocess.PIPE, cwd=repository
-    )
-    assert child.stdout is not None
-    for _ in range(5):
-        child.stdout.readline()
-    time.sleep(delay_s)  # the phase of the kill within a write, not a wait for anything
-    os.kill(child.pid, signal.SIGKILL)
-    last = [int(line) for line in child.stdout.read().split()][-1:] or [5]
-    child.stdout.close()
-    child.wait()
-    journal = MissionJournal.in_home(tmp_path)
+def test_kill_at_any_instant_keeps_whole_entries(tmp_path: Path, repository: Path) -> None:
+    """Kill three writers, one after another: each is forked by a process that has all loaded."""
+    delays_s = {tmp_path / "a": 0.0, tmp_path / "b": 0.013, tmp_path / "c": 0.037}
+    with subprocess.Popen(
+        [sys.executable, "-c", CHILD, *map(str, delays_s)], stdout=subprocess.PIPE, cwd=repository
+    ) as child:
+        assert child.stdout is not None
+        for home, delay_s in delays_s.items():
+            writer = int(child.stdout.readline())
+            last = [int(child.stdout.readline()) for _ in range(5)][-1]
+            time.sleep(delay_s)  # the phase of the kill within a write, not a wait for anything
+            os.kill(writer, signal.SIGKILL)
+            while (line := child.stdout.readline()) != b"over\n":
+                last = int(line)
+            check_whole(home, last)
+    assert child.returncode == 0
+
+
+def check_whole(home: Path, last: int) -> None:
+    journal = MissionJournal.in_home(home)
     kept = {m.id: m for m in journal.load().missions}
     journal.close()
     assert kept["a"].step == kept["b"].step, "both records of one entry, or neither"
-    assert kept["a"].step >= last[0], "what was reported written is there"
+    assert kept["a"].step >= last, "what was reported written is there"
