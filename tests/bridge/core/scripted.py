@@ -316,7 +316,7 @@ class World:
         )
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=16)
 def _ranges(here: Pose2, obstacle_m: tuple[float, float, float] | None) -> tuple[float, ...]:
     """Return what all beams measure; most worlds stand for many scans, and many stand there."""
     return tuple(
