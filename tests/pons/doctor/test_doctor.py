@@ -29,10 +29,20 @@ def free_port() -> int:
         return int(probe.getsockname()[1])
 
 
+def described(home: Path) -> Settings:
+    return Settings(home, CHECKOUT / "robot.toml", TWO_ROOM, "127.0.0.1", free_port())
+
+
 @pytest.fixture
 def settings(tmp_path: Path) -> Settings:
-    home = tmp_path / "h"
-    return Settings(home, CHECKOUT / "robot.toml", TWO_ROOM, "127.0.0.1", free_port())
+    return described(tmp_path / "h")
+
+
+@pytest.fixture(scope="module")
+def examined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Settings, list[Finding]]:
+    """Run every check as it is, once: it takes processes and the recogniser's model."""
+    settings = described(tmp_path_factory.mktemp("doctor") / "h")
+    return settings, command.findings(settings)
 
 
 @pytest.fixture
@@ -51,8 +61,10 @@ def assert_says(found: Finding, verdict: Verdict, *parts: str) -> None:
         assert words is None or (words.en and words.zh)
 
 
-def test_every_check_reports_once_and_nothing_is_made(settings: Settings) -> None:
-    found = command.findings(settings)
+def test_every_check_reports_once_and_nothing_is_made(
+    examined: tuple[Settings, list[Finding]],
+) -> None:
+    settings, found = examined
     names = [one.name for one in found]
     assert len(set(names)) == len(names) == 14
     for one in found:
@@ -128,15 +140,18 @@ def test_a_cyclictest_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> No
         assert hanging.returncode is not None
 
 
-@pytest.mark.usefixtures("deaf")
 def test_json_is_for_machines(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    examined: tuple[Settings, list[Finding]],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setenv("PONS_HOME", str(tmp_path / "h"))
-    monkeypatch.setenv("PONS_SITE", str(TWO_ROOM))
+    settings, found = examined
+    monkeypatch.setenv("PONS_HOME", str(settings.home))
+    monkeypatch.setattr(command, "findings", lambda _: found)
     assert main(["doctor", "--json"]) in (0, 1, 2)
     content = json.loads(capsys.readouterr().out)
     assert {"name", "verdict", "found", "fix"} == set(content["findings"][0])
+    assert [one["name"] for one in content["findings"]] == [one.name for one in found]
 
 
 def test_an_old_python_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -78,7 +78,7 @@ def test_a_model_with_a_fault_is_graded_down(
     mock: RunningMock, fault: str, modes: set[str], letters: str, tmp_path: Path
 ) -> None:
     mock.set(fault=fault)
-    exam = taken(mock, tmp_path, Caps(calls=14, seconds=1.0 if fault == "hang" else 60.0))
+    exam = taken(mock, tmp_path, Caps(calls=14, seconds=0.6 if fault == "hang" else 60.0))
     assert {rung.mode for rung in exam.rungs if rung.right} == modes
     found = grade(exam)
     assert found.letter in letters
