@@ -26,5 +26,6 @@ def forked(world: W) -> W:
     if world.waits:
         raise ValueError(f"a world is copied where its planner waits; {world.describe()}")
     scene = world.scene
-    shared = (scene, scene.site, scene.router, scene.fence, *world.commands, *world.statuses)
+    kept = (scene, scene.site, scene.router, scene.fence, world.sim.home)
+    shared = (*kept, *world.commands, *world.statuses)
     return deepcopy(world, {id(one): one for one in shared})

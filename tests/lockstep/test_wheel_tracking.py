@@ -10,8 +10,8 @@ from wire import Pose2
 LIMIT_MMPS, LIMIT_MM = 10.0, 8.0
 """Seen: 5 to 7 mm/s, and 2 to 5 mm per metre of path; without control 20 to 63, and 14 to 440."""
 
-NEAR = Pose2(1.5, 1.6, 1.0)
-"""Half the way of the measure, and a turn at its beginning."""
+NEAR = Pose2(1.4, 2.5, 1.0)
+"""A third of the measure's way, with a turn at its beginning."""
 
 
 @pytest.mark.parametrize("name", ["motors +15 %", "motors -15 %", "right wheel -10 %"])

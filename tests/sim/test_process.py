@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from sim.__main__ import main
 from wire import DriveCommand, DriveState, Pose2, SimControl, SimTruth, distance, keys
 from wire.keys import Party
 from wire.session import Session, open_session
@@ -111,12 +112,18 @@ def test_it_obeys_stops_in_silence_and_ends_on_sigterm(
     assert sim.wait(LIMIT_S) == 0
 
 
-@pytest.mark.usefixtures("bench")
-def test_it_goes_before_others_where_it_may(sim: subprocess.Popen[str]) -> None:
+def test_it_goes_before_others_where_it_may_and_refuses_a_second_simulator(
+    sim: subprocess.Popen[str], bench: Bench, repository: Path, tmp_path: Path
+) -> None:
     ask = "import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))"
     asked = subprocess.run([sys.executable, "-c", ask], stderr=subprocess.DEVNULL, check=False)
     expected = os.SCHED_FIFO if asked.returncode == 0 else os.SCHED_OTHER
     assert os.sched_getscheduler(sim.pid) == expected
+    second = simulator(repository, tmp_path)
+    _, said = second.communicate(timeout=LIMIT_S)
+    assert second.returncode == 2
+    assert f"already_running: a robot with pid {sim.pid}" in said
+    bench.until(lambda: bench.moved(0.02), drive=2.0)
 
 
 def test_after_a_freeze_it_skips_and_obeys_nothing_from_before(
@@ -138,19 +145,20 @@ def test_after_a_freeze_it_skips_and_obeys_nothing_from_before(
     bench.until(lambda: bench.state is not None and bench.state.enabled, drive=1.0)
 
 
-def test_a_second_simulator_is_refused(
-    sim: subprocess.Popen[str], bench: Bench, repository: Path, tmp_path: Path
+@pytest.fixture
+def signals_kept() -> Iterator[None]:
+    """Put this process's own signal handlers back."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGINT)}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+@pytest.mark.usefixtures("signals_kept")
+def test_a_missing_site_is_refused_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    second = simulator(repository, tmp_path)
-    _, said = second.communicate(timeout=LIMIT_S)
-    assert second.returncode == 2
-    assert f"already_running: a robot with pid {sim.pid}" in said
-    bench.until(lambda: bench.moved(0.02), drive=2.0)
-
-
-def test_a_missing_site_is_refused_in_one_line(repository: Path, tmp_path: Path) -> None:
-    process = simulator(repository, tmp_path, "--site", "sites/nowhere")
-    _, said = process.communicate(timeout=LIMIT_S)
-    assert process.returncode == 2
+    assert main(["--site", "sites/nowhere", "--home", str(tmp_path)]) == 2
+    said = capsys.readouterr().err
     assert said.startswith("sim: home_missing: ")
-    assert "Traceback" not in said
+    assert said.count("\n") == 1
