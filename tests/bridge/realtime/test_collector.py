@@ -12,11 +12,12 @@ from bridge.realtime import Collector
 
 @pytest.fixture
 def collector() -> Iterator[Collector]:
-    """Give the test a frozen heap and the rest of the run an ordinary one."""
+    """Give the test a frozen heap, and the rest of the run what it had: no look at what stays."""
     collector = Collector()
     collector.freeze()
     yield collector
     collector.thaw()
+    gc.freeze()
 
 
 class Cycle:

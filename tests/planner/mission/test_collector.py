@@ -20,6 +20,7 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
     monkeypatch.setattr(gc, "collect", lambda generation=2: asked.append(generation))
     yield asked
     gc.enable()
+    gc.freeze()  # as the whole run has it, so that no later collection looks at what stays
 
 
 def test_before_freeze_and_after_thaw_nothing_is_touched(runs: list[int]) -> None:
