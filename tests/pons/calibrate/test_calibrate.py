@@ -9,7 +9,7 @@ from math import cos, sin
 import pytest
 
 from lockstep import Together
-from pons.calibrate import rig
+from pons.calibrate import rig, runs
 from pons.calibrate.findings import Finding, findings, of_straight
 from pons.calibrate.flow import Plan
 from pons.calibrate.reference import TRUTH, went_m
@@ -152,6 +152,12 @@ def test_a_lidar_that_sees_nothing_is_refused() -> None:
     assert refusal(bench) == "no_lidar"
 
 
+@pytest.fixture
+def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out most of a run's slow part, in which nothing happens that these tests look at."""
+    monkeypatch.setattr(runs, "SLOW_S", 0.3)
+
+
 def under_way(bench: Bench, act: Callable[[Together], None]) -> None:
     """Do something as soon as the first run is fast."""
 
@@ -164,6 +170,7 @@ def under_way(bench: Bench, act: Callable[[Together], None]) -> None:
     bench.world.at(bench.world.tick_count + 1, later)
 
 
+@pytest.mark.usefixtures("hurried")
 @pytest.mark.parametrize("fault", [SimFault.DRIVE_OFF, SimFault.ENCODER_STUCK])
 def test_encoders_that_fail_during_a_run_end_it(
     fault: SimFault, monkeypatch: pytest.MonkeyPatch
@@ -176,12 +183,14 @@ def test_encoders_that_fail_during_a_run_end_it(
     assert bench.world.contacts == 0
 
 
+@pytest.mark.usefixtures("hurried")
 def test_a_stop_pressed_during_a_run_ends_it() -> None:
     bench = Bench(start=FACING)
     under_way(bench, lambda world: world.sim.break_down(SimFault.ESTOP_PRESSED))
     assert refusal(bench) == "estopped"
 
 
+@pytest.mark.usefixtures("hurried")
 def test_somebody_in_the_way_ends_it() -> None:
     bench = Bench(start=FACING)
 
@@ -196,6 +205,7 @@ def test_somebody_in_the_way_ends_it() -> None:
     assert bench.world.contacts == 0
 
 
+@pytest.mark.usefixtures("hurried")
 def test_ctrl_c_during_a_run_leaves_it_standing() -> None:
     bench = Bench(start=FACING)
 
