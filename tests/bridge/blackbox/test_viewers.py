@@ -47,7 +47,7 @@ def drive() -> tuple[Together, list[Taken]]:
 
     world = Together(step=kept)
     world.say("go to the kitchen")
-    world.run(9.0)
+    world.run(6.5)
     return world, ticks
 
 
