@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.mission.effects import STAND, AskRoute, Journal, SayAloud
@@ -256,7 +256,6 @@ class World:
         assert wish(self.book) == STAND
 
 
-@settings(max_examples=150)
 @given(histories)
 def test_no_history_breaks_a_law(history: list[tuple[tuple[Any, ...], float]]) -> None:
     world = World()
