@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, field, replace
-from functools import cache, lru_cache
-from math import cos, pi, sin, tau
+from functools import cache
+from math import pi, tau
 from typing import Any
 
 from bridge.core import EMPTY, CoreConfig, Decision, Inbox, LoopFacts, OpArrived, initial, step
@@ -20,6 +20,7 @@ from tests.bridge.core.fake_planner import (
     FakeDrive,
     FakePlanner,
 )
+from tests.bridge.core.room import BEAMS, ranges_m
 from wire import (
     IDENTITY,
     DriveState,
@@ -39,13 +40,6 @@ from wire import (
     Velocity,
     compose,
 )
-
-ROOM_M = 6.0
-BEAMS = 72
-
-
-_WALL = ROOM_M
-
 
 FENCE = build_fence(MAP_ID, (((-5.5, -5.5), (5.5, -5.5), (5.5, 5.5), (-5.5, 5.5)),))
 
@@ -303,7 +297,7 @@ class World:
         here = self.here if not self.lidar_frozen else (self.frozen_at or self.here)
         self.frozen_at = here
         noise = 1e-6 * self.scans
-        ranges = tuple(r + noise for r in _ranges(here, self.obstacle_m))
+        seen = (r + noise for r in ranges_m(here, self.obstacle_m))
         return Scan(
             boot_id="l0",
             seq=self.ticks,
@@ -312,33 +306,8 @@ class World:
             angle_increment_rad=tau / BEAMS,
             range_min_m=0.12,
             range_max_m=20.0,
-            ranges_m=tuple(r if r <= 20.0 and not self.lidar_blind else None for r in ranges),
+            ranges_m=tuple(r if r <= 20.0 and not self.lidar_blind else None for r in seen),
         )
-
-
-@lru_cache(maxsize=16)
-def _ranges(here: Pose2, obstacle_m: tuple[float, float, float] | None) -> tuple[float, ...]:
-    """Return what all beams measure; most worlds stand for many scans, and many stand there."""
-    return tuple(
-        max(0.0, _range(here, here.yaw_rad - pi + index * tau / BEAMS, obstacle_m))
-        for index in range(BEAMS)
-    )
-
-
-def _range(here: Pose2, angle: float, obstacle_m: tuple[float, float, float] | None) -> float:
-    c, s = cos(angle), sin(angle)
-    best = 100.0
-    if abs(c) > 1e-9:
-        best = ((_WALL if c > 0 else -_WALL) - here.x_m) / c
-    if abs(s) > 1e-9:
-        best = min(best, ((_WALL if s > 0 else -_WALL) - here.y_m) / s)
-    if obstacle_m is not None:
-        x, y, radius = obstacle_m
-        dx, dy = x - here.x_m, y - here.y_m
-        along, aside = dx * c + dy * s, dy * c - dx * s
-        if along > 0 and abs(aside) < radius:
-            best = min(best, along - (radius * radius - aside * aside) ** 0.5)
-    return best
 
 
 def _all_of(world: World) -> tuple[dict[str, object], ...]:
