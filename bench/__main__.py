@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bench.lab import TROUBLE, Lab, Measure, line
+from bench.machine import pace
 from bench.measure import ALL
 from bench.report import Row, table
 from bench.store import Store
@@ -51,15 +52,18 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _take(one: Measure, lab: Lab) -> int:
     """Run one measurement; what can't be measured is said and does not end the others."""
-    began_s = time.monotonic()
+    began_s, paces = time.monotonic(), [pace()]
     try:
         rows = one.measure(lab)
     except TROUBLE as trouble:
         rows = [Row(one.NAME, "", "", value="not measured", note=line(trouble), valid=False)]
+    paces.append(pace())
     for row in rows:
-        lab.store.append("row", one.NAME, row.record())
+        lab.store.append("row", one.NAME, {**row.record(), "pace": paces})
     took_s = time.monotonic() - began_s
-    print(f"\n{one.TITLE} ({one.NAME}, {took_s:.0f} s)\n{table(rows)}")
+    speeds = " and ".join(f"{speed:.1f}" for speed in paces)
+    print(f"\n{one.TITLE} ({one.NAME}, {took_s:.0f} s; {speeds} M additions/s before and after)")
+    print(table(rows))
     for lost in lab.lost:
         lab.store.append("lost", one.NAME, {"slice": lost})
         print(f"lost: {lost}")
