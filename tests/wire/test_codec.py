@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import json
+from itertools import pairwise
 from random import Random
 
 import psutil
@@ -104,10 +105,12 @@ def test_refusals_leave_nothing_behind_with_the_collector_off() -> None:
     try:
         for _ in range(2_000):
             decode(WAYPOINTS, bad)
-        before = process.memory_info().rss
-        for _ in range(LEAK_ROUNDS):
-            decode(WAYPOINTS, bad)
-        grown = process.memory_info().rss - before
+        sizes = [process.memory_info().rss]
+        for _ in range(3):
+            for _ in range(LEAK_ROUNDS // 2):
+                decode(WAYPOINTS, bad)
+            sizes.append(process.memory_info().rss)
     finally:
         gc.enable()
-    assert grown < LEAK_BOUND_BYTES
+    # A leak grows every time; what other threads of this process take, it takes once.
+    assert min(later - sooner for sooner, later in pairwise(sizes)) < LEAK_BOUND_BYTES // 2
