@@ -79,7 +79,7 @@ def _run(
         held = [s for s in noted["silences"] if s["from"] == Mode.ACTIVE.value]
         return {
             "ages_s": [one["age_s"] for one in held if one["age_s"] is not None],
-            "cycles": PER_SLICE,
+            "cycles": trials(lab),
             "speed_mps": speed_mps,
             "unasked": unasked,
             "speed": robot.speed,
@@ -87,13 +87,18 @@ def _run(
         }
 
 
+def trials(lab: Lab) -> int:
+    """Return how often a slice kills or freezes."""
+    return lab.count(PER_SLICE // 2, PER_SLICE)
+
+
 def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Legs) -> int:
     """Kill stub after stub; return how often one of them moved unasked."""
     unasked = 0
     following = _stub(robot, stubs, 0)
-    trials = lab.count(PER_SLICE // 2, PER_SLICE)
-    for number in range(trials):
-        lab.say(f"kill {number + 1}/{trials}")
+    count = trials(lab)
+    for number in range(count):
+        lab.say(f"kill {number + 1}/{count}")
         stub, following = following, _stub(robot, stubs, number + 1)
         _send_off(robot, stub, legs, number)
         if number > 0:  # this planner's id is new: it must wait for a person
@@ -110,9 +115,9 @@ def _freezes(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Leg
     """Freeze one stub again and again; it goes on by itself each time."""
     stub = _stub(robot, stubs, 0)
     _send_off(robot, stub, legs, 0)
-    trials = lab.count(PER_SLICE // 2, PER_SLICE)
-    for number in range(trials):
-        lab.say(f"freeze {number + 1}/{trials}")
+    count = trials(lab)
+    for number in range(count):
+        lab.say(f"freeze {number + 1}/{count}")
         _until_moving(robot)
         time.sleep(chance.uniform(0.0, 0.3))
         stub.freeze()
