@@ -45,7 +45,7 @@ ALONE := tests/e2e/test_conformance.py
 STORIES = $(filter-out $(WHOLE) $(OWN) $(ALONE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
-test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 5 min on 2 cores)
+test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 6 min on 2 cores)
 	@$(BIN)/python -m pytest -n logical --maxprocesses 4 --dist worksteal -m "not e2e and not home" $(ARGS)
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
