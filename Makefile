@@ -36,8 +36,8 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 	@exec $(BIN)/pons up $(ARGS)
 
 # Stories run real processes in real time; what needs minutes, a browser or a robot of its own is not
-# for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests beside them starve
-# them, nice or not: each robot is a session of its own to the scheduler.
+# for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests
+# beside them starve them, nice or not: each robot is a session of its own to the scheduler.
 WHOLE := tests/e2e/test_model.py
 OWN := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py \
   tests/deploy/test_separate_starts.py

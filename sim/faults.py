@@ -26,6 +26,8 @@ class Faults:
         self._standing = frozenset(standing)
         self._in_order = tuple(fault for fault in SimFault if fault in self._standing)
         self._sensors = {sensor: self._troubles(sensor) for sensor in ("encoder", "lidar", "gyro")}
+        self.buttons = self._pressed()
+        """Which of the drive's inputs are pressed."""
 
     @property
     def standing(self) -> tuple[SimFault, ...]:
@@ -49,14 +51,11 @@ class Faults:
 
     def wheels_radps(self, left: float, right: float, *, torque: bool) -> tuple[float, float]:
         """Return what the motors do of what they were told; without torque nothing turns them."""
-        if not self._standing:
-            return left, right
         if SimFault.RUNAWAY in self and torque:
             return RUNAWAY_RADPS, RUNAWAY_RADPS
         return (-left, -right) if SimFault.REVERSED in self else (left, right)
 
-    def buttons(self) -> Buttons:
-        """Return which of the drive's inputs are pressed."""
+    def _pressed(self) -> Buttons:
         return Buttons(
             estop=SimFault.ESTOP_PRESSED in self,
             bumper_front=SimFault.BUMPER_FRONT in self,
@@ -67,8 +66,6 @@ class Faults:
     def charge(self, charge: float, *, turning: bool) -> float:
         """Return what the battery's gauge shows of its charge, in steps of a thousandth."""
         charge = round(charge, 3)
-        if not self._standing:
-            return charge
         if SimFault.BATTERY_SAG in self and turning:
             return min(charge, SAGGING_CHARGE)
         return min(charge, LOW_CHARGE) if SimFault.BATTERY_LOW in self else charge

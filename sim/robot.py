@@ -18,7 +18,7 @@ from sim.contacts import Episodes
 from sim.deadman import DeadMan
 from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
-from sim.messages import Buttons, Report, Speaker
+from sim.messages import Report, Speaker
 from sim.metal import true_base
 from sim.mjcf import OBSTACLES
 from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
@@ -59,7 +59,6 @@ class SimRobot:
         self.home: Home = load_home(site_dir)
         self.boot_id = boot_id
         self.faults = Faults()
-        self._buttons = Buttons()
         self._hardware = hardware or Hardware()
         base = true_base(self.robot.base, self._hardware)
         self._world = World(solids(self.home), base, self._hardware, PERIODS.step_s)
@@ -177,7 +176,6 @@ class SimRobot:
     def break_down(self, *faults: SimFault) -> None:
         """Let exactly these faults stand from now on; none mends everything."""
         self.faults = Faults(faults)
-        self._buttons = self.faults.buttons()
         self._world.block_left_wheel(blocked=SimFault.WHEEL_STUCK in self.faults)
         self._world.make_slippery(slippery=SimFault.SLIP in self.faults)
 
@@ -190,7 +188,7 @@ class SimRobot:
         turning = wheels.left_radps != 0.0 or wheels.right_radps != 0.0
         battery = self.faults.charge(self._battery.charge, turning=turning)
         state = self._speaker.drive(
-            now_s, self._dead_man, wheels, self._encoders, battery, self._buttons
+            now_s, self._dead_man, wheels, self._encoders, battery, self.faults.buttons
         )
         return self._drive_out.through(state, self.faults.of_sensor("encoder"))
 

@@ -79,7 +79,7 @@ def _run(
         held = [s for s in noted["silences"] if s["from"] == Mode.ACTIVE.value]
         return {
             "ages_s": [one["age_s"] for one in held if one["age_s"] is not None],
-            "cycles": trials(lab),
+            "cycles": _trials(lab),
             "speed_mps": speed_mps,
             "unasked": unasked,
             "speed": robot.speed,
@@ -87,7 +87,7 @@ def _run(
         }
 
 
-def trials(lab: Lab) -> int:
+def _trials(lab: Lab) -> int:
     """Return how often a slice kills or freezes."""
     return lab.count(PER_SLICE // 2, PER_SLICE)
 
@@ -96,7 +96,7 @@ def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Legs)
     """Kill stub after stub; return how often one of them moved unasked."""
     unasked = 0
     following = _stub(robot, stubs, 0)
-    count = trials(lab)
+    count = _trials(lab)
     for number in range(count):
         lab.say(f"kill {number + 1}/{count}")
         stub, following = following, _stub(robot, stubs, number + 1)
@@ -115,7 +115,7 @@ def _freezes(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Leg
     """Freeze one stub again and again; it goes on by itself each time."""
     stub = _stub(robot, stubs, 0)
     _send_off(robot, stub, legs, 0)
-    count = trials(lab)
+    count = _trials(lab)
     for number in range(count):
         lab.say(f"freeze {number + 1}/{count}")
         _until_moving(robot)

@@ -25,7 +25,6 @@ MCL_CURRENT, MCL_FUTURE, MCL_ONFAULT = 1, 2, 4
 _CAP_IPC_LOCK = 14  # linux/capability.h
 _STATUS = Path("/proc/self/status")
 
-
 BELOW_THE_LOOP = 10
 """The transport's threads run so much lower than the loop: it goes before what it waits for."""
 
@@ -88,14 +87,7 @@ def pin(cpu: int | None) -> Right:
 
 def take_fifo(priority: int) -> Right:
     """Run the calling thread under SCHED_FIFO; what it starts later does not inherit it."""
-    if sys.platform != "linux":
-        return Right("fifo", granted=False, detail=f"not on {sys.platform}")
-    policy = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK
-    try:
-        os.sched_setscheduler(0, policy, os.sched_param(priority))
-    except OSError as error:
-        return Right("fifo", granted=False, detail=f"priority {priority}: {error.strerror}")
-    return Right("fifo", granted=True, detail=f"priority {priority}")
+    return _fifo("fifo", priority, inherited=False)
 
 
 @contextmanager
@@ -105,17 +97,27 @@ def transport_fifo(priority: int) -> Iterator[Right]:
     A loop that wakes in time reads what the transport's threads have brought by then: where those
     wait for a busy machine, encoders that came in time look late. The caller keeps its own rank.
     """
-    if sys.platform != "linux":
-        yield Right("transport fifo", granted=False, detail=f"not on {sys.platform}")
-        return
-    below = max(1, priority - BELOW_THE_LOOP)
-    before, rank = os.sched_getscheduler(0), os.sched_getparam(0)
+    own = _rank()
+    right = _fifo("transport fifo", max(1, priority - BELOW_THE_LOOP), inherited=True)
     try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(below))
-    except OSError as error:
-        yield Right("transport fifo", granted=False, detail=f"priority {below}: {error.strerror}")
-        return
-    try:
-        yield Right("transport fifo", granted=True, detail=f"priority {below}")
+        yield right
     finally:
-        os.sched_setscheduler(0, before, rank)
+        if right.granted and own is not None:
+            os.sched_setscheduler(0, *own)
+
+
+def _rank() -> tuple[int, os.sched_param] | None:
+    if sys.platform != "linux":
+        return None
+    return os.sched_getscheduler(0), os.sched_getparam(0)
+
+
+def _fifo(name: str, priority: int, *, inherited: bool) -> Right:
+    if sys.platform != "linux":
+        return Right(name, granted=False, detail=f"not on {sys.platform}")
+    policy = os.SCHED_FIFO if inherited else os.SCHED_FIFO | os.SCHED_RESET_ON_FORK
+    try:
+        os.sched_setscheduler(0, policy, os.sched_param(priority))
+    except OSError as error:
+        return Right(name, granted=False, detail=f"priority {priority}: {error.strerror}")
+    return Right(name, granted=True, detail=f"priority {priority}")
