@@ -128,9 +128,8 @@ def test_a_late_and_a_weak_robot_are_told_apart(ready: Callable[..., Together]) 
 def test_brakes_under_half_are_capped_so_that_stopping_is_no_fault(
     first_wall: Callable[[Hardware], tuple[Together, float]],
 ) -> None:
-    world, _ = first_wall(
-        WEAKER
-    )  # an ordinary ramp teaches it; a stop at 0.5 m/s would be found too slow
+    # An ordinary ramp teaches it; a stop at 0.5 m/s would be found too slow.
+    world, _ = first_wall(WEAKER)
     assert world.status.braking.decel_mps2 < 0.5
     stopped_once(world)
     assert world.status.mode is Mode.HOLD

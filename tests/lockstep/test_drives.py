@@ -204,7 +204,7 @@ def test_carrying_the_robot_away_stops_it_first(off: Driving) -> None:
 def drive(seed: int) -> list[tuple[float, float] | None]:
     world = Together(seed=seed)
     world.say("go to the living room")
-    world.run(1.5)
+    world.run(3.0)
     return [(c.left_radps, c.right_radps) if c is not None else None for c in world.commands]
 
 

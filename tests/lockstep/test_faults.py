@@ -50,10 +50,8 @@ def test_every_fault_is_told_of_here() -> None:
 
 @pytest.mark.parametrize("name", NOTICED)
 def test_a_broken_thing_is_noticed_by_its_row(name: str) -> None:
-    slow = name in SLOW_TO_STAND
-    # From the first word on, rows stand within 0.7 s, and gates, which let it creep, within 1.6 s.
-    after_s = 3.6 if slow else 1.8 if NOTICED[name].startswith("gate") else 1.1
-    result = trial(SimFault(name), 1, watch_s=7.0 if slow else 3.5, after_s=after_s)
+    watch_s = 7.0 if name in SLOW_TO_STAND else 3.5
+    result = trial(SimFault(name), 1, watch_s=watch_s, after_s=watch_s if watch_s > 4.0 else 2.0)
     assert result.first == NOTICED[name]
     assert (result.stood_ticks is not None) is (name not in SLOWS_ONLY)
     assert result.contacts == 0

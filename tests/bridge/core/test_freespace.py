@@ -12,6 +12,7 @@ from bridge.core.braking import path_decel_mps2, reaction_s, speed_scale, speed_
 from bridge.core.freespace import MARGIN_M, REACH_M, FreeLength, free_length
 from bridge.core.odometry import along_arc
 from bridge.core.scanpicture import ScanPicture
+from tests.laws import at_least
 from wire.geometry import IDENTITY, Pose2, Twist2, compose
 from wire.robot import Base, LidarConfig, Limits
 from wire.sensors import Scan
@@ -85,6 +86,7 @@ def test_odometry_moves_the_robot_among_the_points() -> None:
 directions = st.floats(-pi, pi)
 
 
+@at_least(60)
 @given(
     st.lists(st.tuples(st.integers(0, 359), st.floats(0.36, 3.0)), min_size=1, max_size=6),
     st.sampled_from([0.4, -0.4]),
@@ -155,6 +157,7 @@ def test_silence_is_free_only_where_half_came_back() -> None:
     assert free_length(picture([None] * 360), IDENTITY, Twist2(0.2, 0.0), RADIUS).known is False
 
 
+@at_least(200)
 @given(
     st.sets(st.integers(0, 359), max_size=40),
     st.integers(0, 359),

@@ -19,6 +19,7 @@ from bridge.core.limiter import LimiterState, shape, stopping_m
 from bridge.core.obstaclegate import ObstaclePass, obstacle_gate, sight_m
 from bridge.core.odometry import along_arc
 from bridge.core.scanpicture import ScanPicture
+from tests.laws import at_least
 from wire.geometry import IDENTITY, STILL, Pose2, Twist2
 from wire.robot import RobotDescription
 from wire.sensors import Scan
@@ -178,6 +179,7 @@ def test_the_arc_the_robot_is_still_on_counts_too() -> None:
 twists = st.builds(Twist2, st.floats(-0.6, 0.6), st.floats(-1.2, 1.2))
 
 
+@at_least(300)
 @given(
     st.lists(st.tuples(st.floats(0.2, 2.5), st.floats(-pi, pi)), max_size=3),
     st.lists(st.tuples(st.integers(0, 359), st.none() | st.floats(0.05, 2.0)), max_size=12),

@@ -14,6 +14,7 @@ from bridge.core.modes import LATCHED, MOVING, POWERED
 from bridge.core.state_orders import Answered
 from tests.bridge.core.hostile import Hostile
 from tests.bridge.core.scripted import World
+from tests.laws import at_least
 from wire import Mode, Status, encode
 
 EPS = 1e-9
@@ -135,6 +136,7 @@ def play(start: str, seed: int, ticks: int = TICKS) -> list[tuple[Inbox, float, 
     return played
 
 
+@at_least(60)
 @given(starts, seeds)
 def test_no_sequence_of_inputs_breaks_a_law(start: str, seed: int) -> None:
     play(start, seed)

@@ -46,6 +46,7 @@ from planner.plan import (
     message,
 )
 from planner.plan import Move as MoveStep
+from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, row, status
 from wire import Action, Held, HeldReason, LegReport, Mode, Pose2, Twist2
 
@@ -256,6 +257,7 @@ class World:
         assert wish(self.book) == STAND
 
 
+@at_least(150)
 @given(histories)
 def test_no_history_breaks_a_law(history: list[tuple[tuple[Any, ...], float]]) -> None:
     world = World()
