@@ -36,7 +36,7 @@ def figures(outcome: Json | None) -> str:
     if not outcome:
         return ""
     spots = ((name, outcome.get(name)) for name in ("asked", "reached"))
-    parts = [f"{name} {place(spot)}" for name, spot in spots if spot]
+    parts = [f"{name} {named}" for name, spot in spots if spot and (named := place(spot))]
     for name, unit in (("metres", "m"), ("seconds", "s")):
         if (value := outcome.get(name)) is not None:
             parts.append(f"{name} {value:.2f} {unit}")
@@ -47,10 +47,10 @@ def figures(outcome: Json | None) -> str:
 
 
 def place(spot: Json) -> str:
-    """Name a spot: its place or else its room, and where that is in ``map`` [m]."""
-    named = str(spot.get("place") or spot.get("room") or "?")
+    """Name a spot: its place or else its room, and where it is in ``map`` [m]; a turn has none."""
+    named = str(spot.get("place") or spot.get("room") or "")
     x_m, y_m = spot.get("x_m"), spot.get("y_m")
-    return named if x_m is None or y_m is None else f"{named} ({x_m:.2f}, {y_m:.2f})"
+    return named if x_m is None or y_m is None else f"{named or '?'} ({x_m:.2f}, {y_m:.2f})"
 
 
 def stand_in(goal: Json, language: str) -> str:

@@ -60,3 +60,8 @@ def test_steps_and_goals_say_why() -> None:
 
 def test_a_silent_bridge_is_said() -> None:
     assert robot_lines({"status": None}) == ["bridge: no status heard"]
+
+
+def test_a_turn_asks_for_no_place() -> None:
+    turned = {"asked": {"place": None, "room": None, "x_m": None, "y_m": None}, "seconds": 2.0}
+    assert figures(turned) == "seconds 2.00 s"
