@@ -5,7 +5,7 @@ only place that knows the transport.
 """
 
 from wire.base import Record
-from wire.codec import decode, encode
+from wire.codec import Image, decode, encode
 from wire.commands import (
     EstopLink,
     FenceRequest,
@@ -45,7 +45,7 @@ from wire.proof import (
     sign_fence,
     signed_request,
 )
-from wire.robot import RobotDescription, load_robot
+from wire.robot import CameraConfig, RobotDescription, load_robot
 from wire.scalars import MAX_POINTS, PROTOCOL, STATUS_RING
 from wire.sensors import (
     DriveCommand,
@@ -56,7 +56,7 @@ from wire.sensors import (
     Odometry,
     Scan,
 )
-from wire.simulation import SimControl, SimFault, SimTruth
+from wire.simulation import SimControl, SimFault, SimScene, SimThing, SimTruth
 from wire.status import (
     SEVERITY,
     Action,
@@ -88,6 +88,7 @@ __all__ = [
     "Action",
     "Answer",
     "BrakingReport",
+    "CameraConfig",
     "DriveCommand",
     "DriveReport",
     "DriveState",
@@ -101,6 +102,7 @@ __all__ = [
     "Held",
     "HeldReason",
     "Hello",
+    "Image",
     "ImageHeader",
     "Imu",
     "LegReport",
@@ -122,6 +124,8 @@ __all__ = [
     "Scan",
     "SimControl",
     "SimFault",
+    "SimScene",
+    "SimThing",
     "SimTruth",
     "Status",
     "Stop",

@@ -7,13 +7,15 @@ alive by a traceback would leak.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TypeVar
 
 from pydantic import ValidationError
 
 from wire.base import Record
 from wire.errors import Rejected
-from wire.keys import Key
+from wire.keys import SMALL, Key
+from wire.sensors import ImageHeader
 
 M = TypeVar("M", bound=Record)
 
@@ -34,6 +36,28 @@ def decode(key: Key[M], payload: bytes) -> M | Rejected:
         return Rejected("invalid", f"{key.path}: {_first(error)}")
     except RecursionError:
         return Rejected("invalid", f"{key.path}: nested too deeply")
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """Hold one picture as it came: its header and its bytes, not yet unpacked."""
+
+    header: ImageHeader
+    data: bytes
+
+
+def image(key: Key[ImageHeader], attached: bytes, payload: bytes) -> Image | Rejected:
+    """Return the picture, or why these bytes are none. What the bytes show is judged elsewhere."""
+    if not len(payload) <= key.max_bytes or not len(attached) <= SMALL:
+        size = f"{len(payload)} bytes, at most {key.max_bytes}"
+        return Rejected("too_large", f"{key.path}: {size}; header {len(attached)}, at most {SMALL}")
+    if not payload:
+        return Rejected("invalid", f"{key.path}: a header without a picture")
+    try:
+        header = ImageHeader.model_validate_json(attached, strict=True)
+    except ValidationError as error:
+        return Rejected("invalid", f"{key.path}: {_first(error)}")
+    return Image(header, payload)
 
 
 def _first(error: ValidationError) -> str:

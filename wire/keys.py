@@ -27,7 +27,7 @@ from wire.sensors import (
     Odometry,
     Scan,
 )
-from wire.simulation import SimControl, SimTruth
+from wire.simulation import SimControl, SimScene, SimTruth
 from wire.status import Event, Status
 
 LATEST = 1
@@ -49,6 +49,7 @@ class Party(StrEnum):
     BRIDGE = "bridge"
     LOCALIZATION = "localization"
     ROBOT = "robot"
+    CAMERA = "camera"
     OPERATOR = "operator"
     JUDGE = "judge"
 
@@ -74,8 +75,9 @@ class Key(Generic[M]):
         return f"pons/{robot_id}/{self.path}"
 
 
-_P, _B, _L, _R, _O, _J = Party  # one letter each, for the table below
-_ALL = frozenset(Party)
+_P, _B, _L, _R, _C, _O, _J = Party  # one letter each, for the table below
+_ALL = frozenset(Party) - {_C}
+"""The camera only says what it sees: it has no link to the bridge."""
 
 
 def _op(kind: str, purpose: str) -> Key[OpRequest]:
@@ -141,12 +143,14 @@ DRIVE_STATE = _from(_R, "drive/state", DriveState, frozenset({_B, _J}), "100 Hz"
 _HEARERS = frozenset({_B, _P, _L, _J})
 SCAN = _from(_R, "scan", Scan, _HEARERS, "10 Hz", "planar lidar", max_bytes=MEDIUM)
 IMU = _from(_R, "imu", Imu, _HEARERS, "100 Hz", "rate of turn, acceleration")
-CAMERA_COLOR = _from(_R, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
+CAMERA_COLOR = _from(_C, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
-CAMERA_DEPTH = _from(_R, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 Hz",
+CAMERA_DEPTH = _from(_C, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "16-bit PNG in millimetres, header attached", max_bytes=IMAGE)  # fmt: skip
 SIM_TRUTH = _from(_R, "sim/truth", SimTruth, frozenset({_L, _J}), "50 Hz",
                   "where the simulated robot really is", ring=SEQUENCED)  # fmt: skip
+SIM_SCENE = _from(_R, "sim/scene", SimScene, frozenset({_C, _J}), "25 Hz where a camera is",
+                  "what the simulated camera is to draw", max_bytes=MEDIUM)  # fmt: skip
 SIM_CONTROL = Key("sim/control", SimControl, frozenset({_J}), frozenset({_R}), "by tests",
                   SEQUENCED, SMALL,
                   "a test moves the simulated robot or its spare obstacle")  # fmt: skip
@@ -155,5 +159,5 @@ OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, DRIVE_COMMAND,
-    DRIVE_STATE, SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_CONTROL,
+    DRIVE_STATE, SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
 )  # fmt: skip

@@ -107,6 +107,39 @@ class LidarConfig(Record):
     """Period of a scan; LIDAR_STALE allows 0.25 s, so a slower lidar could never be fresh."""
 
 
+class CameraConfig(Record):
+    """Place the camera on the robot and state its picture.
+
+    REP-103: x forward, y left, z up from the floor under ``base``; a positive pitch looks down.
+    """
+
+    kind: Literal["sim", "node", "none"] = "sim"
+    """``sim``: the simulator draws; ``node``: a process of its own speaks for a real camera;
+    ``none``: there is none, and what needs one is refused."""
+    x_m: float = Field(default=0.15, ge=-2.0, le=2.0)
+    y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
+    z_m: float = Field(default=1.0, ge=0.02, le=3.0)
+    yaw_rad: float = Field(default=0.0, ge=-pi, le=pi)
+    pitch_rad: float = Field(default=0.2, ge=-1.4, le=1.4)
+    width_px: int = Field(default=320, ge=32, le=4096)
+    height_px: int = Field(default=240, ge=32, le=4096)
+    fov_rad: float = Field(default=1.2, ge=0.2, le=2.6)
+    """Horizontally. A real camera's own header counts; the simulated one is built after this."""
+    rate_hz: float = Field(default=10.0, ge=0.5, le=60.0)
+    depth_min_m: float = Field(default=0.2, ge=0.0, le=2.0)
+    """Depth outside these is no measurement."""
+    depth_max_m: float = Field(default=8.0, ge=0.5, le=100.0)
+
+    @model_validator(mode="after")
+    def _depth_has_a_range(self) -> CameraConfig:
+        if not self.depth_min_m < self.depth_max_m:
+            raise ValueError(
+                f"camera.depth_min_m {self.depth_min_m} must be less than depth_max_m "
+                f"{self.depth_max_m}"
+            )
+        return self
+
+
 class RealTime(Record):
     """Ask for the loop's place on the machine."""
 
@@ -149,6 +182,7 @@ class RobotDescription(Record):
     limits: Limits = Limits()
     drive: DriveConfig = DriveConfig()
     lidar: LidarConfig = LidarConfig()
+    camera: CameraConfig = CameraConfig()
     realtime: RealTime = RealTime()
     inputs: Inputs = Inputs()
     recording: Recording = Recording()

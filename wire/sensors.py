@@ -98,7 +98,12 @@ class Localization(Record):
 
 
 class ImageHeader(Record):
-    """Accompany picture bytes (JPEG colour, 16-bit PNG depth in millimetres) as attachment."""
+    """Accompany picture bytes (JPEG colour, 16-bit PNG depth in millimetres) as attachment.
+
+    Colour and depth of one instant carry the same boot, seq and stamp; depth 0 means none was
+    measured. Pinhole without distortion: x right, y down from the upper left corner, the centre of
+    the first pixel at (0.5, 0.5).
+    """
 
     boot_id: Name
     seq: Count
@@ -106,3 +111,6 @@ class ImageHeader(Record):
     width: Annotated[int, Field(ge=1, le=8192)]
     height: Annotated[int, Field(ge=1, le=8192)]
     focal_px: Annotated[float, Field(gt=0.0, le=100_000.0)]
+    center_x_px: Annotated[float, Field(ge=0.0, le=8192.0)]
+    """Where the optical axis meets the picture."""
+    center_y_px: Annotated[float, Field(ge=0.0, le=8192.0)]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import zenoh
 
 from wire.base import Record
-from wire.codec import decode, encode
+from wire.codec import Image, decode, encode, image
 from wire.errors import Misconfigured
 from wire.keys import IMAGE, Key, Party
 from wire.sockets import DIALS, LISTENERS, Claim, Endpoints
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from wire.errors import Rejected
+    from wire.sensors import ImageHeader
 
 M = TypeVar("M", bound=Record)
 
@@ -45,6 +46,41 @@ class Publisher(Generic[M]):
     def put(self, message: M) -> None:
         """Send and forget."""
         self._publisher.put(encode(message))
+
+
+class ImagePublisher:
+    """Send pictures: their bytes, with the header attached. Never blocks."""
+
+    def __init__(self, session: zenoh.Session, key: Key[ImageHeader], robot_id: str) -> None:
+        self._publisher = session.declare_publisher(
+            key.expression(robot_id),
+            congestion_control=zenoh.CongestionControl.DROP,
+        )
+
+    def put(self, header: ImageHeader, data: bytes) -> None:
+        """Send and forget."""
+        self._publisher.put(data, attachment=encode(header))
+
+
+class ImageSubscriber:
+    """Hold the newest picture of one key until somebody takes it."""
+
+    def __init__(self, session: zenoh.Session, key: Key[ImageHeader], robot_id: str) -> None:
+        self._key = key
+        self._subscriber = session.declare_subscriber(
+            key.expression(robot_id), zenoh.handlers.RingChannel(key.ring)
+        )
+
+    def newest(self) -> Image | Rejected | None:
+        """Take the newest picture, or why it is none; None where none came."""
+        try:
+            sample = self._subscriber.try_recv()
+        except zenoh.ZError:
+            return None  # the session is closed
+        if sample is None:
+            return None
+        attached = sample.attachment.to_bytes() if sample.attachment is not None else b""
+        return image(self._key, attached, sample.payload.to_bytes())
 
 
 class Subscriber(Generic[M]):
@@ -115,6 +151,14 @@ class Session:
     def subscriber(self, key: Key[M]) -> Subscriber[M]:
         """Declare that this process hears ``key``."""
         return Subscriber(self._zenoh, key, self._robot_id)
+
+    def image_publisher(self, key: Key[ImageHeader]) -> ImagePublisher:
+        """Declare that this process says the pictures of ``key``."""
+        return ImagePublisher(self._zenoh, key, self._robot_id)
+
+    def image_subscriber(self, key: Key[ImageHeader]) -> ImageSubscriber:
+        """Declare that this process hears the pictures of ``key``."""
+        return ImageSubscriber(self._zenoh, key, self._robot_id)
 
     def peers(self) -> int:
         """Return how many processes are connected now."""

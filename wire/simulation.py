@@ -30,6 +30,10 @@ class SimFault(StrEnum):
     LIDAR_GARBAGE = "lidar_garbage"  # any range
     LIDAR_DELAYED = "lidar_delayed"
     LIDAR_INTERMITTENT = "lidar_intermittent"
+    CAMERA_OFF = "camera_off"
+    CAMERA_STUCK = "camera_stuck"  # one picture again and again, freshly stamped and numbered
+    CAMERA_BLIND = "camera_blind"  # black, and no depth: a cover, a dead lamp
+    CAMERA_DELAYED = "camera_delayed"  # pictures arrive 1 s late, stamped when they were taken
     GYRO_OFF = "gyro_off"
     GYRO_STUCK = "gyro_stuck"
     GYRO_GARBAGE = "gyro_garbage"
@@ -65,6 +69,24 @@ class SimTruth(Record):
     real_time_factor: Annotated[float, Field(ge=0.0, le=1_000.0)]
     faults: Faults = ()
     """What is broken now, by wish."""
+
+
+class SimThing(Record):
+    """Say where one movable thing of the home stands now, in ``map``."""
+
+    name: Name
+    pose: Pose2
+
+
+class SimScene(Record):
+    """Tell the simulated camera what to draw: where the robot and all movable things are."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    base_in_map: Pose2
+    things: Annotated[tuple[SimThing, ...], Field(max_length=64)] = ()
+    faults: Faults = ()
 
 
 class SimControl(Record):

@@ -1,8 +1,8 @@
 """Say where each listener is found, and make sure that only one process listens there.
 
-Unix sockets ``$PONS_HOME/run/{bridge,robot,localization}.sock`` unless a TCP endpoint is given. A
-lock file beside each socket tells a live listener from what a dead one left: the kernel drops the
-lock with the process, however it died.
+Unix sockets ``$PONS_HOME/run/{bridge,robot,localization,camera}.sock`` unless a TCP endpoint is
+given. A lock file beside each socket tells a live listener from what a dead one left: the kernel
+drops the lock with the process, however it died.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from wire.keys import Party
 MAX_SOCKET_PATH = 107
 """sun_path holds 108 bytes with its closing zero (unix(7))."""
 
-LISTENERS = (Party.BRIDGE, Party.ROBOT, Party.LOCALIZATION)
+LISTENERS = (Party.BRIDGE, Party.ROBOT, Party.LOCALIZATION, Party.CAMERA)
 DIALS: dict[Party, tuple[Party, ...]] = {
     Party.PLANNER: LISTENERS,
     Party.OPERATOR: (Party.BRIDGE,),
@@ -26,12 +26,13 @@ DIALS: dict[Party, tuple[Party, ...]] = {
     Party.LOCALIZATION: (Party.BRIDGE, Party.ROBOT),
     Party.BRIDGE: (Party.ROBOT,),
     Party.ROBOT: (),
+    Party.CAMERA: (Party.ROBOT,),
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Endpoints:
-    """Give the zenoh locators of the three listeners, for one home folder."""
+    """Give the zenoh locators of the listeners, for one home folder."""
 
     home: Path
     tcp: dict[Party, str] = field(default_factory=dict)

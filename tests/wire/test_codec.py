@@ -11,8 +11,9 @@ import psutil
 import pytest
 
 from tests.wire.examples import EXAMPLES
-from wire import Record, Rejected, Waypoints, decode, encode
-from wire.keys import KEYS, LOCALIZATION, STOP, WAYPOINTS, Key
+from wire import Image, ImageHeader, Record, Rejected, Waypoints, decode, encode
+from wire.codec import image
+from wire.keys import CAMERA_COLOR, IMAGE, KEYS, LOCALIZATION, SMALL, STOP, WAYPOINTS, Key
 
 MUTATIONS = 400
 LEAK_ROUNDS = 20_000
@@ -114,3 +115,29 @@ def test_refusals_leave_nothing_behind_with_the_collector_off() -> None:
         gc.enable()
     # A leak grows every time; what other threads of this process take, it takes once.
     assert min(later - sooner for sooner, later in pairwise(sizes)) < LEAK_BOUND_BYTES // 2
+
+
+def test_a_picture_is_its_header_and_its_bytes() -> None:
+    header = EXAMPLES[ImageHeader]
+    assert image(CAMERA_COLOR, encode(header), b"x") == Image(header, b"x")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("attached", "payload", "code"),
+    [
+        (b"", b"x", "invalid"),
+        (b"{}", b"x", "invalid"),
+        (encode(EXAMPLES[ImageHeader]).replace(b"320", b"0"), b"x", "invalid"),
+        (encode(EXAMPLES[ImageHeader]).replace(b"320", b"50000"), b"x", "invalid"),
+        (encode(EXAMPLES[ImageHeader]).replace(b"277.0", b"NaN"), b"x", "invalid"),
+        (encode(EXAMPLES[ImageHeader]), b"", "invalid"),
+        (encode(EXAMPLES[ImageHeader]), bytes(IMAGE + 1), "too_large"),
+        (b" " * (SMALL + 1), b"x", "too_large"),
+    ],
+)
+def test_what_is_no_picture_is_refused_as_a_value(
+    attached: bytes, payload: bytes, code: str
+) -> None:
+    answer = image(CAMERA_COLOR, attached, payload)
+    assert isinstance(answer, Rejected)
+    assert answer.code == code

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.wire.examples import EXAMPLES
-from wire import Misconfigured, Scan, Stop
-from wire.keys import KEYS, SCAN, STOP, Party
+from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Stop
+from wire.keys import CAMERA_COLOR, KEYS, SCAN, STOP, Party
 from wire.session import Publisher, Subscriber, open_session
 
 LIMIT_S = 10.0
@@ -152,3 +152,22 @@ def test_a_closed_session_gives_nothing(tmp_path: Path) -> None:
     ears = session.subscriber(STOP)
     session.close()
     assert ears.newest() is None
+
+
+def test_the_newest_picture_comes_whole_with_its_header(tmp_path: Path) -> None:
+    header = EXAMPLES[ImageHeader]
+    assert isinstance(header, ImageHeader)
+    with (
+        open_session(Party.CAMERA, "r1", tmp_path) as camera,
+        open_session(Party.PLANNER, "r1", tmp_path) as planner,
+    ):
+        mouth, ears = camera.image_publisher(CAMERA_COLOR), planner.image_subscriber(CAMERA_COLOR)
+        seen: list[Image | Rejected | None] = []
+
+        def heard() -> bool:
+            mouth.put(header, b"picture" * 1000)
+            seen.append(ears.newest())
+            return seen[-1] is not None
+
+        assert until(heard)
+        assert seen[-1] == Image(header, b"picture" * 1000)
