@@ -2,8 +2,8 @@
 
 ``NAME``, ``URL`` or ``NAME@URL``. What is not named is the owner's. Where the URL is of another
 host than the owner's settings lead to, what was set for that host stays behind: the key,
-PONS_MODEL_KEY too, `extra_body` and the leave to send sentences away. Another host's key is given
-together with PONS_MODEL_URL, or where no host is set at all.
+PONS_MODEL_KEY too, `extra_body` and the leaves to send sentences and pictures away. Another host's
+key is given together with PONS_MODEL_URL, or where no host is set at all.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def chosen(word: str, home: Path, environment: Mapping[str, str]) -> tuple[Setti
     if name:
         named["PONS_MODEL"] = name
     if elsewhere:
-        named["PONS_MODEL_ALLOW_OFFHOST"] = "0"
+        named |= {"PONS_MODEL_ALLOW_OFFHOST": "0", "PONS_MODEL_ALLOW_PICTURES_OFFHOST": "0"}
         if named.pop("PONS_MODEL_KEY", ""):
             log.warning(
                 "PONS_MODEL_KEY is not used: it belongs to another host than %s; "

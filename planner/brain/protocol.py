@@ -33,6 +33,10 @@ class Observation(Frozen):
     step: Annotated[str, Field(min_length=1, max_length=40)]  # the kind of the step
     result: Literal["succeeded", "failed", "skipped", "answered"]
     detail: Annotated[Bilingual, BeforeValidator(_short)]
+    read: Annotated[Bilingual | None, BeforeValidator(_short)] = None
+    """What a model wrote about a picture. Tainted: words that stood in the picture may be in it, so
+    nothing that is done follows from it (``planner.brain.wary``), and nothing of it is in
+    ``detail``."""
 
 
 class ThinkRequest(Frozen):

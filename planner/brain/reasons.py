@@ -38,6 +38,13 @@ REASONS: dict[str, Bilingual] = {
             "The model failed several times and is given a rest.",
             "模型多次失败，暂停使用。",
         ),
+        "pictures_offhost": (
+            "The model is elsewhere, and the owner has not said that pictures may leave.",
+            "模型在另一台机器上，而主人尚未允许图像离开本机。",
+        ),
+        "no_pictures": ("The model takes no pictures.", "该模型不接受图像。"),
+        "bad_picture": ("The picture could not be read.", "无法读取图像。"),
+        "picture_too_large": ("The picture is too large to be sent.", "图像过大，未发送。"),
         "bad_plan": ("The model wrote no usable plan.", "模型没有写出可用的计划。"),
         "out_of_budget": ("The model's budget is used up.", "模型预算已用完。"),
         "unavailable": ("The model is not available.", "模型不可用。"),

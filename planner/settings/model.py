@@ -67,6 +67,11 @@ class ModelSettings(BaseModel):
     allow_offhost: bool = False
     """Let people's sentences leave this machine: needed for every host but loopback."""
 
+    pictures: bool | None = None
+    """Whether the model takes pictures; None: found out at the first one and remembered."""
+    allow_pictures_offhost: bool = False
+    """Let the camera's pictures leave this machine, too: the second yes."""
+
     @model_validator(mode="before")
     @classmethod
     def _with_preset(cls, given: Any) -> Any:

@@ -129,10 +129,8 @@ def _clean_key(key: str, where: str) -> str:
 def _with_environment(
     model: dict[str, Any] | None, environment: Mapping[str, str]
 ) -> dict[str, Any] | None:
-    """Let PONS_MODEL_PRESET, _URL, _KEY, _ALLOW_OFFHOST and PONS_MODEL, the name, win."""
-    preset, url, key, offhost = (
-        environment.get(f"PONS_MODEL_{n}", "") for n in ("PRESET", "URL", "KEY", "ALLOW_OFFHOST")
-    )
+    """Let PONS_MODEL_PRESET, _URL, _KEY, both yeses and PONS_MODEL, the name, win."""
+    preset, url, key = (environment.get(f"PONS_MODEL_{n}", "") for n in ("PRESET", "URL", "KEY"))
     name = environment.get("PONS_MODEL", "")
     if model is None and not (url or preset):
         if name or key:
@@ -144,27 +142,33 @@ def _with_environment(
         chosen["name"] = name
     if key:
         chosen["key"] = _clean_key(key, "PONS_MODEL_KEY")
-    if offhost:
-        if offhost.lower() not in _YES:
-            raise Misconfigured(
-                "settings_malformed", f"PONS_MODEL_ALLOW_OFFHOST is {offhost!r}; expected 1 or 0"
-            )
-        chosen["allow_offhost"] = _YES[offhost.lower()]
+    for yes in ("allow_offhost", "allow_pictures_offhost"):
+        said = environment.get(variable := f"PONS_MODEL_{yes.upper()}", "").lower()
+        if said and said not in _YES:
+            raise Misconfigured("settings_malformed", f"{variable} is {said!r}; expected 1 or 0")
+        if said:
+            chosen[yes] = _YES[said]
     return chosen
 
 
 def _at_another_place(model: dict[str, Any], preset: str, url: str) -> dict[str, Any]:
-    """Put the environment's server in place of the file's, and leave the file's key behind."""
+    """Put the environment's server in place of the file's.
+
+    What was given to the file's host stays behind: its key, and the yes to pictures.
+    """
     moved = dict(model)
     if preset:
         moved["preset"] = preset
         moved.pop("url", None)  # it was the file's server; the preset brings its own
     if url:
         moved["url"] = url
-    if "key" in moved and not same_place(_place(model), _place(moved)):
+    if same_place(_place(model), _place(moved)):
+        return moved
+    if "key" in moved:
         # The key belongs to the host that it was written down for.
         log.warning("the key in %s is not used: the environment names another host", FILE)
         del moved["key"]
+    moved.pop("allow_pictures_offhost", None)
     return moved
 
 

@@ -13,8 +13,9 @@ from typing import Any
 from fastapi import FastAPI, Request
 from starlette.responses import Response, StreamingResponse
 
-from planner.brain import OfflineBrain
-from pons.mock_llm import streams
+from planner.brain import OfflineBrain, ThinkRequest
+from planner.plan import StepPlan
+from pons.mock_llm import pictures, streams
 from pons.mock_llm.completion import bytes_of, completion
 from pons.mock_llm.early import error, instead_of_a_reply
 from pons.mock_llm.replies import GARBAGE, hallucinated, hostile, reply_of, shaped
@@ -35,6 +36,7 @@ class Mock:
         self.left = switches.times
         self.served: Counter[str] = Counter()
         self.hostile = itertools.count()
+        self.badly = itertools.count()
         self.wrote_s: deque[float] = deque(maxlen=KEPT)
         """When the last token of each stream was sent, on the monotonic clock of this machine."""
         self.ending: Callable[[], bool] = lambda: False
@@ -93,13 +95,29 @@ def build(switches: Switches | None = None) -> FastAPI:
         early = await instead_of_a_reply(fault, mock, body, request)
         if early is not None:
             return early
+        about = pictures.asked_of(body)
         asked = request_of(body)
+        if about is not None:
+            place = next(iter(asked.vocabulary.by_id), "kitchen")
+            said = pictures.answer(about, fault, next(mock.badly), place)
+            return await _answer(fault, completion(body, said, fault), body, mock)
+        if fault == "obeys_pictures":
+            asked = await obeying(brain, asked, pictures.words_read(body))
         good = json.dumps(reply_of((await brain.think(asked)).plan), ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
         text = _written(fault, good, mock, known, request)
         return await _answer(fault, completion(body, text, fault), body, mock)
 
     return app
+
+
+async def obeying(brain: OfflineBrain, asked: ThinkRequest, told: list[str]) -> ThinkRequest:
+    """Return the order that a planner follows which takes what it reads of pictures for orders."""
+    for words in told:
+        wanted = asked.model_copy(update={"text": words, "language": None})
+        if isinstance((await brain.think(wanted)).plan, StepPlan):
+            return wanted
+    return asked
 
 
 async def _body(request: Request) -> dict[str, Any] | None:

@@ -53,14 +53,22 @@ def _message(body: dict[str, Any], text: str | None, fault: str | None) -> dict[
         case "unknown_tool":
             message |= _call("drive", text)
         case "object_arguments" if text is not None:
-            message |= _call(NAME, json.loads(text))
+            message |= _call(_tool(body), json.loads(text))
         case _ if (text is not None and (fault or "").startswith("odd_")) or _forced(body):
-            message |= _call(NAME, text) if text is not None else {}
+            message |= _call(_tool(body), text) if text is not None else {}
     return message
 
 
 def _forced(body: dict[str, Any]) -> bool:
     return isinstance(body.get("tool_choice"), dict)
+
+
+def _tool(body: dict[str, Any]) -> str:
+    """Return the name of the forced tool; ours where the request forces none by name."""
+    choice = body.get("tool_choice")
+    function = choice.get("function") if isinstance(choice, dict) else None
+    name = function.get("name") if isinstance(function, dict) else None
+    return name if isinstance(name, str) else NAME
 
 
 def _call(name: str, arguments: object) -> dict[str, Any]:

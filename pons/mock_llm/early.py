@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
+from pons.mock_llm.pictures import holds_picture
+
 if TYPE_CHECKING:
     from pons.mock_llm.app import Mock
 
@@ -62,6 +64,10 @@ _REFUSED: dict[str, tuple[Callable[[Body], bool], str]] = {
         "Unsupported parameter: 'max_tokens'. Use 'max_completion_tokens' instead.",
     ),
     "no_stream": (lambda body: body.get("stream") is True, "stream is not supported"),
+    "refuses_pictures": (
+        holds_picture,
+        "Invalid content type. image_url is only supported by certain models.",
+    ),
 }
 
 
@@ -90,7 +96,7 @@ async def instead_of_a_reply(
             return error(400, f"Unrecognized argument: {strange[0]}") if strange else None
         case "redirect":
             return Response(status_code=307, headers={"Location": METADATA})
-        case "hang":
+        case "hang" | "slow_pictures" if fault == "hang" or holds_picture(body):
             while not (mock.ending() or await request.is_disconnected()):  # noqa: ASYNC110  # nothing tells of it
                 await asyncio.sleep(LOOK_S)
             return error(499, "the client left")

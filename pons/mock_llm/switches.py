@@ -65,6 +65,13 @@ FAULTS: dict[str, str] = {
     "odd_name": "stream a tool call whose name comes late",
     "odd_object": "stream a tool call whose arguments are an object",
     "odd_repeat": "stream a tool call and send it whole once more",
+    # What it makes of pictures; words alone it takes as ever.
+    "refuses_pictures": "answer 400 to a picture",
+    "drops_pictures": "leave pictures out without a word",
+    "slow_pictures": "never answer about a picture",
+    "hallucinated_point": "point at something that is not there",
+    "point_out_of_range": "point outside of the picture, or with what is no whole number",
+    "obeys_pictures": "obey whatever stands written in a picture, looking and planning",
 }
 
 READABLE = frozenset(
@@ -74,6 +81,8 @@ READABLE = frozenset(
         *("fenced", "thinking", "twice", "parts", "object_arguments", "plain", "stream_breaks"),
         *("stream_error", "stream_unfinished", "stream_garbage", "stream_comments"),
         *("odd_index", "odd_id", "odd_name", "odd_object", "odd_repeat"),
+        *("refuses_pictures", "drops_pictures", "slow_pictures", "hallucinated_point"),
+        *("point_out_of_range", "obeys_pictures"),
     }
 )
 """Faults behind which there is a good plan, for a client that finds it; from all others none may

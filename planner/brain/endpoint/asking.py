@@ -13,10 +13,13 @@ from dataclasses import replace
 from planner.brain.endpoint.client import Client
 from planner.brain.endpoint.dialect import Body, Dialect, body_of, quiet_of
 from planner.brain.endpoint.dialects import Dialects
+from planner.brain.endpoint.pictures import why_refused
 from planner.brain.endpoint.reading import StreamBroken, Told
 from planner.brain.endpoint.reply import Reply, read_reply
 from planner.brain.endpoint.status import BadRequest
 from planner.brain.errors import BrainDown
+from planner.brain.form import PLAN_FORM, Form
+from planner.brain.looking import NotSent
 from planner.brain.schema import Message
 from planner.settings import ModelSettings
 
@@ -35,9 +38,23 @@ class Asker:
         self._settings, self._client, self._dialects = settings, client, dialects
         self._quiet = frozenset(quiet_of(settings))
         self._breaks = 0
+        self._sightless = False
+        """It refused a picture in every way, and did not say why; until the next start."""
+
+    @property
+    def pictures(self) -> bool | None:
+        """Return whether the server takes pictures, as far as was found out."""
+        return False if self._sightless else self._dialects.now.pictures
 
     async def ask(
-        self, messages: list[Message], schema: Body, end_s: float, told: Told | None
+        self,
+        messages: list[Message],
+        schema: Body,
+        end_s: float,
+        told: Told | None,
+        *,
+        form: Form = PLAN_FORM,
+        picture: str | None = None,
     ) -> Reply:
         """Return a reply to these messages.
 
@@ -46,15 +63,20 @@ class Asker:
             schema: of the reply.
             end_s: when the goal's time is up, on the monotonic clock.
             told: takes what is written so far; None: no stream is asked for.
+            form: what the reply is called.
+            picture: the data URL of a picture that goes with the words.
 
         Raises:
             BrainDown: there is none.
+            NotSent: the server takes no pictures, or not this one.
         """
         dialect, refused = self._dialects.now, list[Body]()
         stream = told is not None and self._settings.stream and self._breaks < MAX_BREAKS
 
         def body(of: Dialect) -> Body:
-            return body_of(self._settings, of, messages, schema, stream=stream)
+            return body_of(
+                self._settings, of, messages, schema, stream=stream, form=form, picture=picture
+            )
 
         while True:
             asked = body(dialect)
@@ -65,15 +87,31 @@ class Asker:
             except BadRequest as no:
                 if (answered := self._answered(no)) is not None:
                     return answered
+                if picture is not None:
+                    self._about_the_picture(no)
                 refused.append(asked)
                 likely = dialect.simpler(str(no).lower(), self._quiet)
                 simpler = next((each for each in likely if body(each) not in refused), None)
                 if simpler is None or len(refused) >= MAX_REFUSED:
+                    if picture is not None and self._dialects.kept:
+                        self._sightless = True  # it took words before: what is new is the picture
+                        raise NotSent(str(no), why="no_pictures") from None
                     raise BrainDown(str(no), why="bad_request") from None
                 dialect = simpler
             else:
                 self._breaks = 0 if stream else self._breaks
-                return self._read(content, dialect)
+                if picture is not None:
+                    dialect = replace(dialect, pictures=True)
+                return self._read(content, dialect, form)
+
+    def _about_the_picture(self, no: BadRequest) -> None:
+        """Raise where a refusal's words are about the picture, and remember that of any picture."""
+        why = why_refused(str(no).lower())
+        if why is None:
+            return
+        if why == "no_pictures" and self._settings.pictures is None:
+            self._dialects.keep(replace(self._dialects.now, pictures=False))
+        raise NotSent(str(no), why=why) from None
 
     def _plainly(self, stream: bool, broken: StreamBroken) -> bool:
         """Return that no stream is asked for now; a stream that nobody asked for is no reply."""
@@ -92,10 +130,10 @@ class Asker:
             return Reply(self._client.secret.struck(refused.generated), trouble=said)
         return None
 
-    def _read(self, content: object, dialect: Dialect) -> Reply:
+    def _read(self, content: object, dialect: Dialect, form: Form) -> Reply:
         struck = self._client.secret.struck
         try:
-            reply = read_reply(content)
+            reply = read_reply(content, form.name)
         except BrainDown as down:
             raise BrainDown(struck(str(down)), why=down.why) from None
         self._dialects.keep(dialect)

@@ -5,28 +5,23 @@ Never returns what is no plan of the closed vocabulary, and never asks a third t
 
 from __future__ import annotations
 
-import asyncio
 import logging
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.brain.draft import Hear
-from planner.brain.endpoint.address import Address
-from planner.brain.endpoint.asking import Asker
-from planner.brain.endpoint.client import Client
-from planner.brain.endpoint.dialects import Dialects
 from planner.brain.endpoint.judge import Planned, Unusable, clean, judge
+from planner.brain.endpoint.line import Line
+from planner.brain.endpoint.looker import EndpointLooker, Shrink
 from planner.brain.endpoint.partial import Drafting
 from planner.brain.endpoint.reply import Reply, Tokens
-from planner.brain.errors import BrainDown, PlanRejected
-from planner.brain.meter import Meter, thinking_about
+from planner.brain.errors import PlanRejected
+from planner.brain.meter import Meter
 from planner.brain.prompt import Prompt
 from planner.brain.protocol import ThinkRequest, Thought
 from planner.brain.schema import schema_of
 from planner.plan import PLAN, Bilingual, BrainTag, Code, Refuse, Vocabulary, message, same
 from planner.settings import ModelSettings
-from wire import Misconfigured
 
 if TYPE_CHECKING:
     import httpx
@@ -59,19 +54,10 @@ class EndpointBrain:
             Misconfigured: ``model_url``, ``model_offhost``, ``prompt_missing``,
                 ``prompt_malformed``.
         """
-        self.address = Address.parse(settings.url)
-        if not self.address.local and not settings.allow_offhost:
-            raise Misconfigured(
-                "model_offhost",
-                f"what people say would be sent to {self.address.host}; if that is meant, set "
-                "allow_offhost = true in [model], or PONS_MODEL_ALLOW_OFFHOST=1",
-            )
-        self._settings = settings
+        self._line = Line(settings, home, transport, meter)
+        self.address = self._line.address
         self._prompt = prompt or Prompt.load()
-        self._client = Client(self.address, settings, transport, meter)
-        dialects = Dialects(home, settings, self.address.url)
-        self._asker = Asker(settings, self._client, dialects)
-        self._turns = asyncio.Semaphore(settings.parallel)
+        self._client, self._asker = self._line.client, self._line.asker
         self._tag = BrainTag(
             name=clean(settings.name),
             version=str(self._prompt.version),
@@ -87,6 +73,14 @@ class EndpointBrain:
         """Render the prompt of this closed world, so that the first goal need not wait for it."""
         self._prompt.messages(ThinkRequest(text="", vocabulary=vocabulary))
 
+    def looker(self, shrink: Shrink | None = None) -> EndpointLooker:
+        """Return whoever asks the same model about pictures, over the same line.
+
+        Raises:
+            Misconfigured: ``prompt_missing``, ``prompt_malformed``.
+        """
+        return EndpointLooker(self._line, shrink)
+
     async def close(self) -> None:
         """Give the connections back."""
         await self._client.close()
@@ -99,14 +93,11 @@ class EndpointBrain:
             BrainDown: the model does not answer, or not within the deadline.
             OutOfBudget: a call was refused by the meter.
         """
-        end_s = time.monotonic() + self._settings.timeout_s
-        try:
-            with thinking_about(request.goal):
-                async with asyncio.timeout(self._settings.timeout_s), self._turns:
-                    return await self._talk(request, end_s, hear)
-        except TimeoutError:
-            told = f"no plan within {self._settings.timeout_s:g} s"
-            raise BrainDown(told, why="timeout") from None
+
+        async def talk(end_s: float) -> Thought:
+            return await self._talk(request, end_s, hear)
+
+        return await self._line.turn(request.goal, talk, "plan")
 
     async def _talk(self, request: ThinkRequest, end_s: float, hear: Hear | None) -> Thought:
         messages = self._prompt.messages(request)

@@ -13,7 +13,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planner.brain.schema import NAME, Message
+from planner.brain.endpoint.pictures import attached
+from planner.brain.form import PLAN_FORM, Form
+from planner.brain.schema import Message
 from planner.settings import Mode, ModelSettings, TokensField
 
 LADDER = tuple(Mode)
@@ -36,6 +38,8 @@ class Dialect:
     stream: bool = True
     usage: bool = True
     """Ask a stream for what it cost."""
+    pictures: bool | None = None
+    """It takes pictures; None: nobody knows yet."""
     fixed: bool = False
 
     @classmethod
@@ -97,13 +101,26 @@ def body_of(
     schema: Body,
     *,
     stream: bool = False,
+    form: Form = PLAN_FORM,
+    picture: str | None = None,
 ) -> Body:
-    """Return the body of one call; what Pons writes itself wins over all that is extra."""
+    """Return the body of one call; what Pons writes itself wins over all that is extra.
+
+    Args:
+        settings: of the model.
+        dialect: how to ask.
+        messages: words alone.
+        schema: of the reply.
+        stream: ask for the reply while it is written.
+        form: what the reply is called.
+        picture: the data URL of the picture that goes with the person's first words.
+    """
+    said = messages if dialect.system else _merged(messages)
     body: Body = quiet_of(settings) if dialect.quiet else {}
     body |= settings.extra_body
     body |= {
         "model": settings.name,
-        "messages": messages if dialect.system else _merged(messages),
+        "messages": said if picture is None else attached(said, picture),
         "stream": stream and dialect.stream,
         dialect.tokens_field: settings.max_tokens,
     }
@@ -111,7 +128,7 @@ def body_of(
         body["stream_options"] = {"include_usage": True}
     if dialect.temperature and settings.temperature is not None:
         body["temperature"] = settings.temperature
-    return body | _MODES[dialect.mode](schema)
+    return body | _MODES[dialect.mode](schema, form)
 
 
 def _merged(messages: list[Message]) -> list[Message]:
@@ -121,24 +138,23 @@ def _merged(messages: list[Message]) -> list[Message]:
     return [{"role": "user", "content": both}, *rest]
 
 
-def _json_schema(schema: Body) -> Body:
+def _json_schema(schema: Body, form: Form) -> Body:
     # Not strict: OpenAI's strict mode wants every field of every step, which costs tokens.
-    described = {"name": NAME, "schema": schema, "strict": False}
+    described = {"name": form.name, "schema": schema, "strict": False}
     return {"response_format": {"type": "json_schema", "json_schema": described}}
 
 
-def _tool(schema: Body) -> Body:
-    told = "Reply to the order with one plan, answer, question or refusal."
-    function = {"name": NAME, "description": told, "parameters": schema}
+def _tool(schema: Body, form: Form) -> Body:
+    function = {"name": form.name, "description": form.told, "parameters": schema}
     return {
         "tools": [{"type": "function", "function": function}],
-        "tool_choice": {"type": "function", "function": {"name": NAME}},
+        "tool_choice": {"type": "function", "function": {"name": form.name}},
     }
 
 
-_MODES: dict[Mode, Callable[[Body], Body]] = {
+_MODES: dict[Mode, Callable[[Body, Form], Body]] = {
     Mode.JSON_SCHEMA: _json_schema,
     Mode.TOOL: _tool,
-    Mode.JSON_OBJECT: lambda _schema: {"response_format": {"type": "json_object"}},
-    Mode.PROMPT: lambda _schema: {},
+    Mode.JSON_OBJECT: lambda _schema, _form: {"response_format": {"type": "json_object"}},
+    Mode.PROMPT: lambda _schema, _form: {},
 }

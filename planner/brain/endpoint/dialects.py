@@ -30,7 +30,8 @@ class Dialects:
         self._key = hashlib.sha256(f"{url}\n{settings.name}".encode()).hexdigest()[:24]
         first = Dialect.first(settings)
         known = _read(self._all().get(self._key))
-        self._kept = known is not None
+        self.kept = known is not None
+        """The server is known to have taken this."""
         self._now = first if known is None else known
         if first.fixed:
             self._now = replace(self._now, mode=first.mode, fixed=True)
@@ -42,9 +43,9 @@ class Dialects:
 
     def keep(self, dialect: Dialect) -> None:
         """Remember what the server took. A disk that refuses costs a call at the next start."""
-        if dialect == self._now and self._kept:
+        if dialect == self._now and self.kept:
             return
-        self._now, self._kept = dialect, True
+        self._now, self.kept = dialect, True
         kept = {k: v for k, v in self._all().items() if k != self._key}
         kept = dict([*kept.items()][-(MAX_KEPT - 1) :])
         kept[self._key] = asdict(replace(dialect, fixed=False))

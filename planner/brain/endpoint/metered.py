@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import httpx
 
+from planner.brain.endpoint.pictures import weighed
 from planner.brain.endpoint.weighing import Weight
 
 if TYPE_CHECKING:
@@ -142,10 +143,14 @@ def billed(reply: bytes) -> tuple[int, int] | None:
 
 
 def tokens_of(body: bytes) -> int:
-    """Estimate the tokens of a body: four plain characters each, and one for each other one."""
-    plain = len(body.translate(None, _NOT_PLAIN))
-    wide = (len(body) - plain) // 3
-    return plain // CHARACTERS_PER_TOKEN + wide
+    """Estimate the tokens of a body: four plain characters each, and one for each other one.
+
+    A picture counts as what it may cost at most, whatever its bytes.
+    """
+    words, pictures = weighed(body)
+    plain = len(words.translate(None, _NOT_PLAIN))
+    wide = (len(words) - plain) // 3
+    return plain // CHARACTERS_PER_TOKEN + wide + pictures
 
 
 _NOT_PLAIN = bytes(range(128, 256))

@@ -45,8 +45,8 @@ class Reply:
     tokens: Tokens = Tokens()
 
 
-def read_reply(content: object) -> Reply:
-    """Return what a server answered with 200.
+def read_reply(content: object, tool: str = NAME) -> Reply:
+    """Return what a server answered with 200; ``tool``: the only one that may be called.
 
     Raises:
         BrainDown: ``bad_reply``: it is no chat completion; ``server_error``: it says so itself.
@@ -67,7 +67,7 @@ def read_reply(content: object) -> Reply:
         return Reply("", refusal=refusal, tokens=usage)
     if finish in ("content_filter", "refusal"):  # whatever was written until then
         return Reply("", refusal=_DECLINED, tokens=usage)
-    text, trouble = _text(message)
+    text, trouble = _text(message, tool)
     if finish == "length":
         trouble = "the reply was cut off at the token limit; reply shorter, without thoughts"
     return Reply(text, trouble=trouble, tokens=usage)
@@ -81,7 +81,7 @@ def read_json(raw: bytes) -> Any:
         return None
 
 
-def _text(message: dict[str, Any]) -> tuple[str, str | None]:
+def _text(message: dict[str, Any], tool: str) -> tuple[str, str | None]:
     """Return the words of a message, and what is odd about it."""
     content = message.get("content")
     if isinstance(content, list):  # parts, as some servers write them
@@ -93,15 +93,15 @@ def _text(message: dict[str, Any]) -> tuple[str, str | None]:
         calls = [{"function": message["function_call"]}]  # as it was called before 2024
     if not isinstance(calls, list) or not calls:
         return said, None if said.strip() else "the reply is empty"
-    arguments = _called(calls)
+    arguments = _called(calls, tool)
     if arguments is None:  # whoever calls what does not exist has not understood the question
-        return "", f"a tool was called that does not exist; the only tool is {NAME}"
+        return "", f"a tool was called that does not exist; the only tool is {tool}"
     if "{" in said:  # a second plan beside the call, if it is another one, is found later on
         return f"{said.replace('`', ' ')}\n{arguments}", None
     return arguments, None if arguments.strip() else "the call has no arguments"
 
 
-def _called(calls: list[Any]) -> str | None:
+def _called(calls: list[Any], tool: str) -> str | None:
     """Return the arguments of all calls; None where one is not of our tool.
 
     The same call twice is found to be one later on, two that differ are found to be two.
@@ -110,7 +110,7 @@ def _called(calls: list[Any]) -> str | None:
     for call in calls:
         function = call.get("function") if isinstance(call, dict) else None
         function = function if isinstance(function, dict) else {}
-        if function.get("name") != NAME:
+        if function.get("name") != tool:
             return None
         arguments = function.get("arguments")
         if isinstance(arguments, dict):

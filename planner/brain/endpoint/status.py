@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import httpx
 
 from planner.brain.endpoint.complaint import complaint_of, declined_by, generated_by
+from planner.brain.endpoint.pictures import not_taken
 from planner.brain.errors import BrainDown
 
 BUSY = frozenset({408, 409, 425, 429})
@@ -63,7 +64,7 @@ def judged(response: httpx.Response, content: object, said: str) -> Again:
     if status in BUSY:
         return Again(BrainDown(said, why="rate_limited"), _wait_s(response))
     words = said.lower()
-    modes = _MODES.search(words) is not None
+    modes = _MODES.search(words) is not None or not_taken(words)
     if status in (400, 422) and _NO_MODEL.search(words) and not modes:
         raise BrainDown(said, why="unknown_model")
     if status in (400, 422) or modes:

@@ -28,5 +28,6 @@ def rest_of(
     left = plan.steps[len(walked) - int(failed) :]
     if left:
         return StepPlan(steps=left)
-    told = [seen.detail for seen in observed if seen.step != "decide"] or [_NO_OTHER_WAY]
+    told = [seen.read or seen.detail for seen in observed if seen.step != "decide"]
+    told = told or [_NO_OTHER_WAY]
     return Answer(text=told[-1])

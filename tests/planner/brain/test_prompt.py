@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 from planner.brain import ThinkRequest
-from planner.brain.prompt import BUDGET_TOKENS, FOLDER, Prompt, tokens
+from planner.brain.prompt import BUDGET_TOKENS, Prompt, tokens
 from planner.brain.protocol import MAX_OBSERVED, Observation
 from planner.brain.schema import schema_of, step_models
+from planner.brain.template import FOLDER
 from planner.mission.facts import vocabulary_of
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 from planner.world import Site

@@ -1,0 +1,172 @@
+"""Ask a model about a picture: consent, size, prompt, call, judge, one repair turn, one deadline.
+
+A picture leaves this machine only after the owner's second yes, never larger than 1024 pixels or
+1 MB, and only inside a goal. What comes back is words, a yes or no, or a pixel.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any, TypeVar
+
+from planner.brain.endpoint.judge import Unusable, clean
+from planner.brain.endpoint.line import Line
+from planner.brain.endpoint.looked import NoPicture, Point, Words, judge_look, judge_point
+from planner.brain.endpoint.pictures import MAX_JPEG_BYTES, data_url
+from planner.brain.errors import PlanRejected
+from planner.brain.form import LOOK_FORM, POINT_FORM, Form
+from planner.brain.jpeg import jpeg_size
+from planner.brain.looking import (
+    LONG_SIDE_PX,
+    Described,
+    Detected,
+    NotSent,
+    NotThere,
+    Picture,
+    Pointed,
+)
+from planner.brain.lookprompt import LOOK_SCHEMA, POINT_SCHEMA, LookPrompts
+from planner.brain.schema import Message
+from planner.brain.template import Template, repair
+from planner.plan import Bilingual, BrainTag, Language
+
+log = logging.getLogger(__name__)
+
+T = TypeVar("T")
+Shrink = Callable[[bytes, int], Awaitable[bytes]]
+"""Returns a JPEG with no longer side than so many pixels, from a process that may decode."""
+
+
+class EndpointLooker:
+    """Look through a model behind an OpenAI-compatible endpoint."""
+
+    def __init__(self, line: Line, shrink: Shrink | None = None) -> None:
+        """Read the prompts.
+
+        Args:
+            line: shared with whoever plans by the same model.
+            shrink: makes a large picture smaller; None: a large one is not sent.
+
+        Raises:
+            Misconfigured: ``prompt_missing``, ``prompt_malformed``.
+        """
+        self._line, self._shrink = line, shrink
+        self._prompts = LookPrompts()
+        self._look, self._point = map(self._tagged, (self._prompts.look, self._prompts.point))
+
+    def _tagged(self, prompt: Template) -> BrainTag:
+        name = clean(self._line.settings.name)
+        return BrainTag(name=name, version=str(prompt.version), prompt=prompt.tag)
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the model's name, and the prompt of a question."""
+        return self._look
+
+    @property
+    def refuses(self) -> str | None:
+        """Return why no picture is sent at all, as far as is known; None where one may be."""
+        settings = self._line.settings
+        if not self._line.address.local and not settings.allow_pictures_offhost:
+            return "pictures_offhost"
+        takes = self._line.asker.pictures if settings.pictures is None else settings.pictures
+        return "no_pictures" if takes is False else None
+
+    async def describe(
+        self,
+        picture: Picture,
+        question: str,
+        language: Language,
+        detections: Sequence[Detected] = (),
+        goal: str = "",
+    ) -> Described:
+        """Return the model's answer; see ``planner.brain.looking.Looker``."""
+
+        async def talk(end_s: float) -> Words:
+            messages = self._prompts.look_messages(picture, question, language, detections)
+            url = await self._url(picture)
+            return await self._twice(messages, (LOOK_FORM, LOOK_SCHEMA), url, end_s, judge_look)
+
+        said = await self._line.turn(goal, talk, "answer")
+        return Described(self._struck(said.text), said.seen, self._look)
+
+    async def point(
+        self,
+        picture: Picture,
+        words: str,
+        language: Language = Language.EN,
+        detections: Sequence[Detected] = (),
+        goal: str = "",
+    ) -> Pointed | NotThere:
+        """Return where the model points; see ``planner.brain.looking.Looker``."""
+
+        async def talk(end_s: float) -> object:
+            messages = self._prompts.point_messages(picture, words, language, detections)
+            url = await self._url(picture)
+            return await self._twice(messages, (POINT_FORM, POINT_SCHEMA), url, end_s, judge_point)
+
+        found = await self._line.turn(goal, talk, "point")
+        if isinstance(found, Point):
+            return Pointed(found.x, found.y, self._point)
+        return NotThere(self._point)
+
+    async def _url(self, picture: Picture) -> str:
+        """Return the picture as it is sent.
+
+        Raises:
+            NotSent: it is not.
+        """
+        refused = self.refuses
+        if refused is not None:
+            raise NotSent(f"{self._line.address.host}: {refused}", why=refused)
+        jpeg, size = picture.jpeg, _size(picture.jpeg)
+        if size != (picture.width, picture.height):
+            told = f"{size} in the JPEG, {picture.width} x {picture.height} told"
+            raise NotSent(f"the picture is not what it is said to be: {told}", why="bad_picture")
+        if max(size) > LONG_SIDE_PX and self._shrink is not None:
+            jpeg = await self._shrink(jpeg, LONG_SIDE_PX)
+            size = _size(jpeg)
+        if max(size) > LONG_SIDE_PX or len(jpeg) > MAX_JPEG_BYTES:
+            told = f"{size[0]} x {size[1]} px, {len(jpeg)} bytes"
+            most = f"{LONG_SIDE_PX} px, {MAX_JPEG_BYTES} bytes"
+            raise NotSent(f"{told}; at most {most}", why="picture_too_large")
+        return data_url(jpeg)
+
+    async def _twice(
+        self,
+        messages: list[Message],
+        wanted: tuple[Form, dict[str, Any]],
+        url: str,
+        end_s: float,
+        judged: Callable[[str], T | NoPicture | Unusable],
+    ) -> T:
+        """Return what a reply is judged to be, after one repair turn at most."""
+        reasons: list[str] = []
+        asked = messages
+        for _ in range(2):
+            form, schema = wanted
+            reply = await self._line.asker.ask(asked, schema, end_s, None, form=form, picture=url)
+            if reply.refusal is not None:
+                raise PlanRejected(f"the model declined: {clean(reply.refusal)[:200]}")
+            found = judged(reply.text)
+            if isinstance(found, NoPicture):
+                raise NotSent("the model says that no picture came with it", why="no_pictures")
+            if not isinstance(found, Unusable):
+                return found
+            told = found.reasons if reply.trouble is None else (reply.trouble, *found.reasons)
+            reasons = [self._line.client.secret.struck(each) for each in told]
+            log.info("%s wrote no %s, asked again: %s", self._look.name, form.name, reasons)
+            asked = [*messages, *repair(reply.text, reasons)]
+        raise PlanRejected(f"asked twice: {'; '.join(reasons)}"[:400])
+
+    def _struck(self, text: Bilingual) -> Bilingual:
+        struck = self._line.client.secret.struck
+        return Bilingual(en=struck(text.en), zh=struck(text.zh))
+
+
+def _size(jpeg: bytes) -> tuple[int, int]:
+    size = jpeg_size(jpeg)
+    if size is None or min(size) < 1:
+        raise NotSent(f"{len(jpeg)} bytes are no JPEG with a size", why="bad_picture")
+    return size

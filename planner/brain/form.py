@@ -1,0 +1,21 @@
+"""Name what a model is asked to fill in: the schema's name, the forced tool's, and a word on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planner.brain.schema import NAME
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """Name one kind of reply."""
+
+    name: str
+    told: str
+    """What the forced tool is for."""
+
+
+PLAN_FORM = Form(NAME, "Reply to the order with one plan, answer, question or refusal.")
+LOOK_FORM = Form("look", "Answer the question about the picture.")
+POINT_FORM = Form("point", "Point at one thing in the picture, or say that it is not there.")

@@ -1,0 +1,100 @@
+"""Render the two questions about a picture: ``prompts/look.md`` and ``prompts/point.md``.
+
+The person's words and what the detector found enter as JSON, as data only; the picture itself is
+attached where the body is made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+from planner.brain.looking import FULL, Detected, Picture
+from planner.brain.schema import Message
+from planner.brain.template import FOLDER, Template, as_json
+from planner.plan import Language
+
+MAX_QUESTION = 500
+MAX_LISTED = 20
+"""Things of the detector that are told, the largest first."""
+_BLANKS = frozenset({"schema"})
+
+
+def _object(required: list[str], **properties: Any) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "additionalProperties": False,
+    }
+
+
+_BOOLEAN, _TEXT = {"type": "boolean"}, {"type": "string"}
+_PART = {"type": "integer", "minimum": 0, "maximum": FULL}
+LOOK_SCHEMA = _object(["picture", "en", "zh"], picture=_BOOLEAN, seen=_BOOLEAN, en=_TEXT, zh=_TEXT)
+POINT_SCHEMA = _object(["picture", "there"], picture=_BOOLEAN, there=_BOOLEAN, x=_PART, y=_PART)
+
+
+class LookPrompts:
+    """Hold one version of both prompts."""
+
+    @cached_property
+    def look(self) -> Template:
+        """Return the prompt of a question."""
+        return Template.load(FOLDER / "look.md", _BLANKS)
+
+    @cached_property
+    def point(self) -> Template:
+        """Return the prompt of a point."""
+        return Template.load(FOLDER / "point.md", _BLANKS)
+
+    def look_messages(
+        self, picture: Picture, question: str, language: Language, found: Sequence[Detected]
+    ) -> list[Message]:
+        """Return the messages of a question about a picture."""
+        asked = {"question": question[:MAX_QUESTION], "language": language.value}
+        return _messages(self.look, LOOK_SCHEMA, asked, picture, found)
+
+    def point_messages(
+        self, picture: Picture, words: str, language: Language, found: Sequence[Detected]
+    ) -> list[Message]:
+        """Return the messages that ask where something is."""
+        asked = {"point_at": words[:MAX_QUESTION], "language": language.value}
+        return _messages(self.point, POINT_SCHEMA, asked, picture, found)
+
+
+def _messages(
+    template: Template,
+    schema: dict[str, Any],
+    asked: dict[str, Any],
+    picture: Picture,
+    found: Sequence[Detected],
+) -> list[Message]:
+    return [
+        {"role": "system", "content": template.filled(schema=as_json(schema))},
+        {"role": "user", "content": as_json({**asked, "detector": listed(picture, found)})},
+    ]
+
+
+def listed(picture: Picture, found: Sequence[Detected]) -> list[dict[str, Any]]:
+    """Return what the detector found, the largest first, as the prompts say it."""
+    ordered = sorted(found, key=_area, reverse=True)[:MAX_LISTED]
+    return [line for each in ordered if (line := _line(picture, each)) is not None]
+
+
+def _area(each: Detected) -> float:
+    left, top, right, bottom = each.box
+    return (right - left) * (bottom - top)
+
+
+def _line(picture: Picture, each: Detected) -> dict[str, Any] | None:
+    left, top, right, bottom = each.box
+    x, y = (left + right) / 2.0 / picture.width, (top + bottom) / 2.0 / picture.height
+    if not (0.0 <= x <= 1.0 and 0.0 <= y <= 1.0):  # NaN too
+        return None
+    what = " ".join(filter(None, (each.color, each.label.replace("_", " "))))
+    line: dict[str, Any] = {"what": what, "x": round(FULL * x), "y": round(FULL * y)}
+    if each.depth_m is not None and 0.0 < each.depth_m < 100.0:
+        line["metres"] = round(each.depth_m, 1)
+    return line
