@@ -6,6 +6,7 @@ import logging
 
 from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.protocol import Brain, ThinkRequest
+from planner.brain.wary import think_warily
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.hearing import Hearing
@@ -29,7 +30,8 @@ def thinker(brain: Brain, vocabulary: Vocabulary, hearing: Hearing | None = None
             replan=ask.replan,
         )
         try:
-            thought = await brain.think(request, hearing.of(ask.id) if hearing else None)
+            hear = hearing.of(ask.id) if hearing else None
+            thought = await think_warily(brain, request, hear)
         except PlanRejected as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
             said = _outcome(Code.BAD_PLAN, why=str(error)[:200])
