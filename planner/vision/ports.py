@@ -66,7 +66,7 @@ class Eyes(Protocol):
     def listen(self, told: Callable[[Sight], None]) -> None:
         """Have something called after each look and when ``blind`` changes. It must be quick."""
 
-    def attend(self, who: str, wanted: bool) -> None:  # noqa: FBT001  # reads as a sentence
+    def attend(self, who: str, wanted: bool) -> None:
         """Say that somebody needs eyes now, or no longer: looks come at the full rate meanwhile."""
 
     async def spot(self, picture: Picture, x: float, y: float) -> Spot:
@@ -105,4 +105,11 @@ class Detector(Protocol):
         """Return the ids of what it can find; none until it is ready."""
 
     async def look(self, color: Image, depth: Image | None) -> Looked:
-        """Think upon one picture. Never raises for what a picture holds."""
+        """Think upon one picture. Never raises for what a picture holds.
+
+        Raises:
+            VisionFailure: the detector itself is down, or there is none.
+        """
+
+    async def depth_at(self, depth: Image, u_px: float, v_px: float) -> float | None:
+        """Return what was measured around a pixel [m]; None where nothing was."""

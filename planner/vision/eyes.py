@@ -1,0 +1,274 @@
+"""See, as the planner does it: newest picture to the detector, what comes back to map and memory.
+
+One look at a time, on the event loop, which it never holds for long: thinking is the detector's
+process, the disk a thread's. Whatever becomes of camera or detector, this says why it is blind, and
+goes on.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from collections import Counter
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from planner.vision.failure import VisionFailure
+from planner.vision.keeping import Keeper
+from planner.vision.labels import canonical
+from planner.vision.memory import Remembered, aged, forget, recalled
+from planner.vision.pictures import SILENT_S, Pictures
+from planner.vision.pointing import pixel, point_on_map
+from planner.vision.ports import PointRefused
+from planner.vision.project import View
+from planner.vision.records import Look, Sight
+from planner.vision.seeing import Scenery, saw
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from planner.vision.pictures import Camera
+    from planner.vision.ports import Detector, Looked, Picture, Spot
+    from planner.vision.poses import Poses
+    from planner.vision.records import Thing
+    from planner.vision.store import ThingStore
+
+log = logging.getLogger(__name__)
+
+POLL_S, IDLE_POLL_S = 0.01, 0.05
+IDLE_HZ = 2.0
+"""Nobody asks, yet what is passed is remembered."""
+EARLY_S = 0.02
+"""A picture that comes so much before its time is taken: cameras and clocks jitter."""
+SHOWN_S = 3.0
+"""A page that asked for the picture is taken to look on for so long."""
+REST_S = 1.0
+"""After a failure of the detector."""
+AGING_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Means:
+    """Hold what eyes are made of."""
+
+    scenery: Scenery
+    camera: Camera
+    detector: Detector | None
+    poses: Poses
+    store: ThingStore | None = None
+    rate_hz: float = 10.0
+    """Of looks, while somebody needs eyes."""
+
+
+class Sightseer:
+    """Be the planner's eyes."""
+
+    def __init__(self, means: Means, *, clock: Callable[[], float] = time.monotonic) -> None:
+        self._means, self._clock = means, clock
+        camera = means.scenery.camera
+        self._there = camera.kind != "none"
+        self._pictures = Pictures(means.camera, max(SILENT_S, 2.5 / camera.rate_hz))
+        self._memory = Remembered()
+        self._look: Look | None = None
+        self._down: str | None = None if means.detector is not None else "no_detector"
+        self._sight = Sight(blind=self._down if self._there else "no_camera")
+        self._listeners: list[Callable[[Sight], None]] = []
+        self._wanted: set[str] = set()
+        self._keeper = Keeper(means.store)
+        self._shown_s = self._began_s = self._aged_s = self._rest_until_s = float("-inf")
+        self._thinking: asyncio.Task[None] | None = None
+        self._task: asyncio.Task[None] | None = None
+        self.version = 0
+        """Rises when a thing comes, goes, or gets another colour or room."""
+        self.changed_s: dict[str, float] = {}
+        """When each thing was last seen or doubted."""
+        self.counts: Counter[str] = Counter()
+        """Looks, and what became of them."""
+        self.lag_s = self.took_s = 0.0
+        """Of the newest look: from the picture to the map, and in the detector."""
+
+    # What is asked -----------------------------------------------------------------------------
+
+    @property
+    def sight(self) -> Sight:
+        """Return the newest look and all that is remembered."""
+        return self._sight
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """Return the class ids that can be seen now; none where nothing can be."""
+        detector = self._means.detector
+        if detector is None or not self._there:
+            return ()
+        return tuple(dict.fromkeys(canonical(name) for name in detector.classes if name))
+
+    @property
+    def picture(self) -> Picture | None:
+        """Return the newest picture, however old."""
+        return self._pictures.newest
+
+    @property
+    def skipped(self) -> Counter[str]:
+        """Return how many pictures were not thought upon, by reason."""
+        return self._pictures.skipped
+
+    def listen(self, told: Callable[[Sight], None]) -> None:
+        """Have something called after each look and when ``blind`` changes. It must be quick."""
+        self._listeners.append(told)
+
+    def attend(self, who: str, wanted: bool) -> None:
+        """Say that somebody needs eyes now, or no longer."""
+        (self._wanted.add if wanted else self._wanted.discard)(who)
+
+    def show(self) -> Picture | None:
+        """Return the newest picture to a page, which is then taken to look on."""
+        self._shown_s = self._clock()
+        return self._pictures.newest
+
+    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+        """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
+
+        Raises:
+            PointRefused: nothing there can be driven up to.
+        """
+        means = self._means
+        stance = means.poses.at(picture.taken_s)
+        if stance is None:
+            raise PointRefused("point_no_pose", "where the robot was then is not known any more")
+        view = View(picture.color.header, means.scenery.camera, stance)
+        depth_m = None
+        if picture.depth is not None and means.detector is not None:
+            depth_m = await means.detector.depth_at(picture.depth, *pixel(view, x, y))
+        return point_on_map(view, means.scenery.site, x, y, depth_m)
+
+    def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]:
+        """Forget one thing, or all; return what was forgotten."""
+        before = self._memory
+        self._memory = forget(before, thing_id)
+        left = {thing.id for thing in self._memory.things}
+        self._tell(self._look)
+        return tuple(thing for thing in before.things if thing.id not in left)
+
+    # Life --------------------------------------------------------------------------------------
+
+    async def start(self) -> None:
+        """Take up what was remembered, and begin to look."""
+        self._memory = recalled(await self._keeper.load(self._clock()), self._clock())
+        self._tell(None)
+        self._keeper.took(self._sight.things, self.version)
+        if self._there:
+            self._task = asyncio.get_running_loop().create_task(self._run(), name="eyes")
+            self._task.add_done_callback(self._ended)
+
+    async def close(self) -> None:
+        """End all looking, and keep what is remembered."""
+        tasks = [t for t in (self._task, self._thinking) if t is not None]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        if self._task is not None:
+            await self._keeper.close(self._sight.things, self._clock())
+
+    async def _run(self) -> None:
+        while True:
+            self.turn()
+            await asyncio.sleep(POLL_S if self._attended(self._clock()) else IDLE_POLL_S)
+
+    def turn(self) -> None:
+        """Do one round: take pictures in, judge them, begin a look where one is due."""
+        now_s, busy = self._clock(), self._thinking is not None
+        self._pictures.poll(now_s, busy=busy)
+        self._age(now_s)
+        if (self._pictures.blind(now_s) or self._down) != self._sight.blind:
+            self._tell(self._look)
+        if not busy and self._due(now_s):
+            picture = self._pictures.ready(now_s)
+            if picture is not None and self._means.detector is not None:
+                self._began_s = now_s
+                self._thinking = asyncio.get_running_loop().create_task(
+                    self._think(self._means.detector, picture), name="look"
+                )
+                self._thinking.add_done_callback(self._thought)
+        self._keeper.keep(self._sight.things, self.version, now_s)
+
+    def _age(self, now_s: float) -> None:
+        """Let go of what time alone takes."""
+        if now_s - self._aged_s >= AGING_S:
+            self._aged_s, before = now_s, self._memory
+            self._memory = aged(before, now_s)
+            if self._memory is not before:
+                self._tell(self._look)
+
+    def _due(self, now_s: float) -> bool:
+        rate_hz = self._means.rate_hz if self._attended(now_s) else IDLE_HZ
+        rate_hz = min(rate_hz, self._means.rate_hz)
+        return now_s >= self._rest_until_s and now_s - self._began_s >= 1.0 / rate_hz - EARLY_S
+
+    def _attended(self, now_s: float) -> bool:
+        return bool(self._wanted) or now_s - self._shown_s <= SHOWN_S
+
+    # Looks -------------------------------------------------------------------------------------
+
+    async def _think(self, detector: Detector, picture: Picture) -> None:
+        try:
+            result = await detector.look(picture.color, picture.depth)
+        except VisionFailure as failure:
+            self._failed(failure)
+            return
+        self._down = None
+        if result.skipped is not None:
+            self._pictures.skipped[result.skipped] += 1
+            return
+        self._saw(picture, result)
+
+    def _failed(self, failure: VisionFailure) -> None:
+        """Say why there are no looks, once, and try again later."""
+        code = failure.code if failure.code == "no_detector" else "detector_down"
+        if self._down != code:
+            log.warning("eyes: %s", failure)
+        self.counts[failure.code] += 1
+        self._down = code
+        self._rest_until_s = self._clock() + REST_S
+
+    def _saw(self, picture: Picture, result: Looked) -> None:
+        stance = self._means.poses.at(picture.taken_s)
+        self._memory, look = saw(
+            self._means.scenery, self._memory, picture, result.detections, stance
+        )
+        self.counts["looks"] += 1
+        self.counts["without_pose"] += stance is None
+        self.took_s, self.lag_s = result.took_s, self._clock() - picture.taken_s
+        self._tell(look)
+
+    def _thought(self, task: asyncio.Task[None]) -> None:
+        """Free the place for the next look; say what no one foresaw."""
+        self._thinking = None
+        if not task.cancelled() and (error := task.exception()) is not None:
+            self.counts["look_broken"] += 1
+            self._rest_until_s = self._clock() + REST_S
+            log.error("a look failed", exc_info=error)
+
+    def _ended(self, task: asyncio.Task[None]) -> None:
+        if not task.cancelled() and (error := task.exception()) is not None:
+            log.critical("the eyes ended", exc_info=error)
+            self._sight = Sight(self._look, self._memory.things, "detector_down")
+
+    def _tell(self, look: Look | None) -> None:
+        """Make the new sight, and tell it."""
+        now_s, told_of = self._clock(), self._sight.things
+        before = {thing.id: thing for thing in told_of}
+        things = self._memory.things
+        things = told_of if things == told_of else things
+        self._look = look
+        for thing in things:
+            if before.get(thing.id) is not thing:
+                self.changed_s[thing.id] = now_s
+        marks = {(t.id, t.color, t.room) for t in things}
+        if marks != {(t.id, t.color, t.room) for t in before.values()}:
+            self.version += 1
+            self.changed_s = {t.id: self.changed_s[t.id] for t in things}
+        blind = (self._pictures.blind(now_s) or self._down) if self._there else "no_camera"
+        self._sight = Sight(look, things, blind)
+        for told in self._listeners:
+            told(self._sight)
