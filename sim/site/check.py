@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING
 from sim.site.outline import allowed_rects, area_m2, edge_distance_m, trace
 from sim.site.plan import door_edge, furniture, rect, room_rects, solids, walls
 from sim.site.raster import crowded, draw, inside, reachable
-from sim.site.shapes import EPS_M, Rect
+from sim.site.shapes import EPS_M, Rect, Solid
+from sim.site.thingcheck import check_things
+from sim.site.things import uprights
 from wire import Misconfigured
 
 if TYPE_CHECKING:
@@ -36,7 +38,7 @@ def check(home: Home, where: str) -> None:
     Raises:
         Misconfigured: with the first finding's code; all findings of that stage stand in the text.
     """
-    for stage in (_names, _plan, _places, _reach):
+    for stage in (_names, _plan, check_things, _places, _reach):
         findings = list(stage(home))
         if findings:
             text = "; ".join(detail for _, detail in findings)
@@ -118,8 +120,13 @@ def _places(home: Home) -> Iterator[Finding]:
             yield from _fenced(home, title, (x_m, y_m))
 
 
+def _standing(home: Home) -> list[Solid]:
+    """Return all that a robot could touch, people and crates where they are declared."""
+    return solids(home) + [upright.solid for upright in uprights(home)]
+
+
 def _cramped(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding]:
-    nearest = min(solids(home), key=lambda solid: solid.shape.distance(*at))
+    nearest = min(_standing(home), key=lambda solid: solid.shape.distance(*at))
     found_m = nearest.shape.distance(*at)
     if not found_m >= PLACE_TO_OBSTACLE_M - EPS_M:
         found = f"{found_m:.3f} m from {nearest.id!r}"
@@ -140,7 +147,7 @@ def _fenced(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding
 
 def _reach(home: Home) -> Iterator[Finding]:
     grid = draw(home)
-    open_cells = ~crowded(home, grid, ROBOT_RADIUS_M + SPARE_M)
+    open_cells = ~crowded(_standing(home), grid, ROBOT_RADIUS_M + SPARE_M)
     open_cells &= inside(allowed_rects(home), grid)
     open_cells &= ~inside([rect(area.box) for area in home.fence.keep_outs], grid)
     dock = home.places[home.dock].pose

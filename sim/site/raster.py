@@ -18,6 +18,9 @@ from sim.site.plan import room_rects, solids
 from sim.site.shapes import EPS_M, Disc, Rect, Shape
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from sim.site.shapes import Solid
     from sim.site.spec import Home
 
 RESOLUTION_M = 0.05
@@ -90,11 +93,11 @@ def draw(home: Home) -> Grid:
     return grid
 
 
-def crowded(home: Home, grid: Grid, radius_m: float) -> NDArray[np.bool_]:
+def crowded(standing: Iterable[Solid], grid: Grid, radius_m: float) -> NDArray[np.bool_]:
     """Mark the cells whose centre is nearer to a solid than a radius, measured on the shapes."""
     xs, ys = grid.centres()
     near = np.zeros(grid.cells.shape, dtype=np.bool_)
-    for solid in solids(home):
+    for solid in standing:
         box = solid.shape.bounds.grown(radius_m)
         (row0, column0), (row1, column1) = grid.cell(box.x0, box.y0), grid.cell(box.x1, box.y1)
         part = np.s_[max(row0, 0) : row1 + 1, max(column0, 0) : column1 + 1]

@@ -12,19 +12,26 @@ from __future__ import annotations
 from math import radians
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
+from sim.site.classes import SIZES_M, Color, FurnitureClass, ObjectClass, Size
 from wire.base import Record
 from wire.geometry import Pose2, wrap
 
 LIDAR_SEES_FROM_M = 0.30
 """Lowest furniture allowed [m]. The lidar looks at 0.20 m; what is lower would be a trap."""
 
+MAX_OBJECTS, MAX_PEOPLE = 48, 8
+"""All of them, and the spare obstacles, fit into one sim/scene."""
+
 Id = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,31}$")]
 Words = Annotated[str, Field(min_length=1, max_length=40)]
 Coordinate = Annotated[float, Field(ge=-500.0, le=500.0)]
 Box = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
 Cylinder = tuple[Coordinate, Coordinate, Annotated[float, Field(ge=0.02, le=5.0)]]
+Point = tuple[Coordinate, Coordinate]
+Extent = Annotated[float, Field(ge=0.01, le=3.0)]
+Degrees = Annotated[float, Field(ge=-180.0, le=180.0)]
 PoseDeg = tuple[Coordinate, Coordinate, Annotated[float, Field(ge=-180.0, le=180.0)]]
 
 
@@ -77,9 +84,15 @@ class Furniture(Record):
     physics agree. What a table top does to a real robot is a limit stated in docs/safety.md.
     """
 
+    model_config = ConfigDict(populate_by_name=True)
     box: Box | None = None
     cylinder: Cylinder | None = None
     height_m: float = Field(ge=LIDAR_SEES_FROM_M, le=3.0)
+    class_id: FurnitureClass | None = Field(default=None, alias="class")
+    """What a camera sees in it; left out, the words of its id say so, and ``none`` says nothing."""
+    color: Color | None = None
+    yaw: Degrees | None = None
+    """Where its front looks; left out, away from the nearest wall, and a chair's to its table."""
 
     @model_validator(mode="after")
     def _one_shape(self) -> Furniture:
@@ -88,6 +101,34 @@ class Furniture(Record):
         if self.box is not None:
             _ordered(self.box, "box")
         return self
+
+
+class Object(Record):
+    """Lay a small thing down, or stand one on the floor. No map shows it: people move it about."""
+
+    model_config = ConfigDict(populate_by_name=True)
+    class_id: ObjectClass = Field(alias="class")
+    color: Color | None = None
+    at: Point
+    on: Id | Annotated[float, Field(ge=0.0, le=3.0)] = 0.0
+    """The furniture that it lies on, or its height above the floor. A door hangs in its wall."""
+    yaw: Degrees = 0.0
+    size: tuple[Extent, Extent, Extent] | None = None
+    """Depth along its front, breadth, height; left out, what its class usually measures."""
+
+    @property
+    def size_m(self) -> Size:
+        """Return depth, breadth and height [m]."""
+        return self.size or SIZES_M[self.class_id]
+
+
+class Person(Record):
+    """Let somebody stand in the home. No map shows people: they walk about."""
+
+    at: Point
+    yaw: Degrees = 0.0
+    color: Color | None = None
+    """Of the clothes."""
 
 
 class Place(Record):
@@ -146,6 +187,8 @@ class Home(Record):
     rooms: dict[Id, Room] = Field(min_length=1)
     doors: tuple[Door, ...] = ()
     furniture: dict[Id, Furniture] = Field(default_factory=dict)
+    objects: dict[Id, Object] = Field(default_factory=dict, max_length=MAX_OBJECTS)
+    people: dict[Id, Person] = Field(default_factory=dict, max_length=MAX_PEOPLE)
     places: dict[Id, Place] = Field(min_length=1)
 
 

@@ -1,0 +1,13 @@
+"""Be a colour-and-depth camera in the simulated home. Imports sim.site and wire.
+
+``Renderer`` draws clean pictures with the name of what every pixel shows, ``spoil`` makes them look
+taken, ``Appearance`` is all that may vary between homes that hold the same things.
+"""
+
+from sim.camera.appearance import Appearance, Texture
+from sim.camera.frame import Frame
+from sim.camera.noise import spoil
+from sim.camera.renderer import Renderer
+from sim.camera.view import focal_px
+
+__all__ = ["Appearance", "Frame", "Renderer", "Texture", "focal_px", "spoil"]
