@@ -1,6 +1,7 @@
 """Read home.yaml. The only file of the simulator that knows YAML.
 
-Refuses what YAML would quietly accept: a key written twice (the first would be lost).
+Refuses what YAML would quietly accept: a key written twice (the first would be lost). Only ``true``
+and ``false`` are truth values, as in YAML 1.2: elsewhere the key ``on`` would be read as true.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 SPEC_FILE = "home.yaml"
 
 
+_BOOL = "tag:yaml.org,2002:bool"
+
+
 class _OnceLoader(yaml.SafeLoader):
     """Build plain values, refusing a repeated key."""
 
@@ -39,6 +43,10 @@ def _mapping_once(loader: _OnceLoader, node: yaml.MappingNode) -> dict[Any, Any]
     return loader.construct_mapping(node, deep=True)
 
 
+_OnceLoader.yaml_implicit_resolvers = {
+    first: [pair for pair in pairs if pair[0] != _BOOL or first in "tTfF"]
+    for first, pairs in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
 _OnceLoader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping_once)
 
 
