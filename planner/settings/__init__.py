@@ -5,6 +5,7 @@ from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
 from planner.settings.owner import FILE, Settings, load_settings, place_of, same_place
 from planner.settings.presets import PRESETS, Mode, Preset, PresetName, TokensField
+from planner.settings.vision import VisionSettings
 
 __all__ = [
     "FILE",
@@ -22,6 +23,7 @@ __all__ = [
     "Price",
     "Settings",
     "TokensField",
+    "VisionSettings",
     "load_settings",
     "place_of",
     "same_place",

@@ -19,6 +19,7 @@ from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
 from planner.settings.presets import known_as
+from planner.settings.vision import VisionSettings, with_environment
 from wire import Misconfigured
 
 log = logging.getLogger(__name__)
@@ -39,6 +40,7 @@ class Settings(BaseModel):
     """None: the offline brain alone."""
     budget: BudgetSettings = BudgetSettings()
     mission: MissionSettings = MissionSettings()
+    vision: VisionSettings = VisionSettings()
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -53,7 +55,8 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
     if model is not None and not isinstance(model, dict):
         raise Misconfigured("settings_malformed", f"{FILE}: [model] must be a table")
     chosen = _with_environment(_with_key(model, home, environment), environment)
-    settings = _checked({**tables, "model": chosen})
+    vision = with_environment(tables.pop("vision", {}), home, environment)
+    settings = _checked({**tables, "model": chosen, "vision": vision})
     _need_key(settings.model)
     return settings
 
@@ -218,6 +221,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "": Settings,
     "model": ModelSettings,
     "mission": MissionSettings,
+    "vision": VisionSettings,
     "budget": BudgetSettings,
     "budget.goal": GoalLimits,
     "budget.day": DayLimits,

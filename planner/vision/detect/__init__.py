@@ -1,0 +1,11 @@
+"""Detect things in pictures with a model file. Heavy: numpy, OpenCV and onnxruntime load here.
+
+The planner's own process never imports this; its door is :class:`planner.vision.VisionWorker`.
+"""
+
+from planner.vision.detect.detector import Detector
+from planner.vision.detect.draw import drawn
+from planner.vision.detect.model_file import Wanted
+from planner.vision.detect.pictures import shrink, unpack_color
+
+__all__ = ["Detector", "Wanted", "drawn", "shrink", "unpack_color"]

@@ -1,0 +1,62 @@
+"""Define what each decoder can do, and what several of them share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.vision.detect.facts import Facts
+from planner.vision.detect.found import Found
+from planner.vision.detect.prepare import Floats, Recipe
+
+GRIDS = ((8, 16, 32), (8, 16, 32, 64))
+"""The strides of the YOLO families' heads."""
+UNTOLD = 0
+"""Classes that the shape of an output does not count."""
+
+
+class Decoder(Protocol):
+    """Read one layout of outputs."""
+
+    NAME: ClassVar[str]
+    RECIPE: ClassVar[Recipe]
+    """How its family wants the picture."""
+    SUPPRESS: ClassVar[bool]
+    """Several boxes come for one thing."""
+    SPARE: ClassVar[int]
+    """Classes at the end that may go without a name."""
+
+    def __init__(self, facts: Facts) -> None:
+        """Get ready for outputs of these shapes."""
+
+    @classmethod
+    def classes_of(cls, facts: Facts) -> int | None:
+        """Return how many classes the outputs tell of; None where they are of another layout."""
+
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+        """Return boxes in input pixels. What is not finite is left out, or left to `believed`."""
+
+
+def floats(output: NDArray[np.generic]) -> Floats:
+    """Return an output without its batch, as single precision; a copy only where it is not."""
+    return np.asarray(output[0], np.float32)
+
+
+def finite_rows(rows: Floats) -> NDArray[np.bool_]:
+    """Tell which rows hold numbers alone."""
+    return np.asarray(np.isfinite(rows).all(axis=1))
+
+
+def by_objectness(rows: Floats, min_score: float) -> tuple[Floats, Floats, NDArray[np.intp]]:
+    """Read rows of box, objectness and one score a class.
+
+    Returns:
+        The boxes' four numbers as they are, objectness x best class score, and that class.
+    """
+    best = rows[:, 5:].argmax(axis=1)
+    scores = rows[:, 4] * rows[np.arange(len(rows)), best + 5]
+    kept = (scores >= min_score) & finite_rows(rows)
+    return rows[kept, :4], scores[kept], best[kept]

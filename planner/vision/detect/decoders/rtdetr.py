@@ -1,0 +1,54 @@
+"""Read RT-DETR and D-FINE as their own exporters leave them: labels, boxes, scores.
+
+Boxes come in pixels of the size given as ``orig_target_sizes`` (width, height). We give the input's
+own size there, so that boxes are in input pixels as with every other family.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.vision.detect.decoders.base import UNTOLD, finite_rows, floats
+from planner.vision.detect.facts import Facts
+from planner.vision.detect.found import Found
+from planner.vision.detect.prepare import Recipe
+
+SIZES = "orig_target_sizes"
+OUTPUTS = ("labels", "boxes", "scores")
+
+
+class RtDetr:
+    """Decode labels 1 x n, boxes 1 x n x 4, scores 1 x n."""
+
+    NAME: ClassVar[str] = "rtdetr"
+    RECIPE: ClassVar[Recipe] = Recipe("stretched", "rgb", scale=1 / 255)
+    SUPPRESS: ClassVar[bool] = False
+    SPARE: ClassVar[int] = 0
+
+    def __init__(self, facts: Facts) -> None:
+        """Find the outputs' places."""
+        self._at = tuple(list(facts.outputs).index(name) for name in OUTPUTS)
+
+    @classmethod
+    def classes_of(cls, facts: Facts) -> int | None:
+        if not all(name in facts.outputs for name in OUTPUTS):
+            return None
+        labels, boxes, scores = (facts.outputs[name] for name in OUTPUTS)
+        one_picture = len(scores) == 2 and scores[0] == 1
+        return UNTOLD if one_picture and labels == scores and boxes == (*scores, 4) else None
+
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+        labels, boxes, scores = (outputs[at] for at in self._at)
+        found = Found(floats(boxes), floats(scores), _numbers(labels))
+        return found.only((found.scores >= min_score) & finite_rows(found.boxes))
+
+
+def _numbers(labels: NDArray[np.generic]) -> NDArray[np.intp]:
+    """Return class numbers; -1 for what is none."""
+    if np.issubdtype(labels.dtype, np.integer):
+        return np.asarray(labels[0], np.intp)
+    return np.nan_to_num(floats(labels), nan=-1.0, posinf=-1.0, neginf=-1.0).astype(np.intp)

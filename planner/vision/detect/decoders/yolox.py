@@ -1,0 +1,70 @@
+"""Read YOLOX as its own exporter leaves it: a raw grid, one row a cell.
+
+Centre = (cell + offset) x stride and size = exp(raw) x stride, input pixels; objectness and class
+scores are sigmoids already. Pictures go in blue green red, 0 to 255, at the upper left.
+Source: Ge et al. 2021, "YOLOX: Exceeding YOLO Series in 2021", section 2, and its ONNX demo.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.vision.detect.decoders.base import GRIDS, by_objectness, floats
+from planner.vision.detect.facts import Facts
+from planner.vision.detect.found import Found, from_centres
+from planner.vision.detect.prepare import Floats, Recipe
+
+
+class YoloX:
+    """Decode 1 x cells x (5 + classes)."""
+
+    NAME: ClassVar[str] = "yolox"
+    RECIPE: ClassVar[Recipe] = Recipe("corner", "bgr")
+    SUPPRESS: ClassVar[bool] = True
+    SPARE: ClassVar[int] = 0
+
+    def __init__(self, facts: Facts) -> None:
+        """Lay out the grid once."""
+        strides = _strides(facts) or GRIDS[0]
+        self._corners, self._strides = grid(facts.width, facts.height, strides)
+
+    @classmethod
+    def classes_of(cls, facts: Facts) -> int | None:
+        shape = facts.first
+        if len(facts.outputs) != 1 or len(shape) != 3 or shape[0] != 1 or shape[2] < 6:
+            return None
+        return shape[2] - 5 if _strides(facts) is not None else None
+
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+        rows = floats(outputs[0])
+        candidates = np.flatnonzero(rows[:, 4] >= min_score)
+        rows, strides = rows[candidates], self._strides[candidates]
+        centres = (rows[:, :2] + self._corners[candidates]) * strides
+        with np.errstate(over="ignore"):  # an infinite box is believed by nobody
+            sides = np.exp(rows[:, 2:4]) * strides
+        placed = np.concatenate((centres, sides, rows[:, 4:]), axis=1)
+        boxes, scores, classes = by_objectness(placed, min_score)
+        return Found(from_centres(boxes), scores, classes)
+
+
+def grid(width: int, height: int, strides: Sequence[int]) -> tuple[Floats, Floats]:
+    """Return each cell's column and row (n x 2) and its stride (n x 1), finest grid first."""
+    corners, sizes = [], []
+    for stride in strides:
+        rows, columns = np.mgrid[: height // stride, : width // stride]
+        cells = np.stack((columns, rows), axis=-1).reshape(-1, 2)
+        corners.append(cells)
+        sizes.append(np.full((len(cells), 1), stride))
+    return (
+        np.concatenate(corners).astype(np.float32),
+        np.concatenate(sizes).astype(np.float32),
+    )
+
+
+def _strides(facts: Facts) -> tuple[int, ...] | None:
+    rows = facts.first[1]
+    return next((strides for strides in GRIDS if rows and rows == facts.cells(strides)), None)

@@ -1,0 +1,124 @@
+"""Look at one picture after another: bytes in, detections in picture pixels out.
+
+Whatever a picture is, the answer is detections or a code that says why it was skipped. Knows no map
+and no process.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+
+from planner.vision.detect.found import Found, believed, in_picture
+from planner.vision.detect.inner import look_inside
+from planner.vision.detect.model_file import Model, Wanted, open_model
+from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
+from planner.vision.detect.pictures import Depth, Picture, unpack_color, unpack_depth
+from planner.vision.detect.prepare import Floats, Preparer
+from planner.vision.detect.session import RUN_ERRORS, Array
+from planner.vision.records import Detection
+from planner.vision.result import About, LookResult
+
+
+class Detector:
+    """Find things with one model."""
+
+    def __init__(self, wanted: Wanted, min_score: float = 0.4) -> None:
+        """Open the model.
+
+        Raises:
+            VisionFailure: it is refused.
+        """
+        self.model: Model = open_model(wanted)
+        self.min_score = min_score
+        choice, taken = self.model.choice, self.model.input
+        self._decoder, self._classes = choice.decoder, choice.classes
+        self._preparer = Preparer(self._decoder.RECIPE, taken.width, taken.height)
+        self.about = About(
+            model=self.model.name,
+            decoder=self._decoder.NAME,
+            why=choice.why,
+            provider=self.model.session.provider,
+            provider_why=self.model.session.provider_why,
+            classes=self._classes,
+            width=taken.width,
+            height=taken.height,
+        )
+
+    def look(
+        self, color: bytes, depth: bytes | None = None, said: tuple[int, int] | None = None
+    ) -> LookResult:
+        """Return what a picture shows.
+
+        Args:
+            color: JPEG, or PNG of eight bits.
+            depth: 16-bit PNG in millimetres, of the same size.
+            said: width and height as whoever sent the picture said.
+        """
+        began_s = time.monotonic()
+        picture = unpack_color(color, said)
+        if isinstance(picture, str):
+            return _skipped(picture, began_s)
+        height, width = picture.shape[:2]
+        far = unpack_depth(depth, (width, height)) if depth is not None else None
+        if isinstance(far, str):
+            return _skipped(far, began_s)
+        try:
+            detections = self.find(picture, far)
+        except RUN_ERRORS:
+            return _skipped("detector_failed", began_s)
+        return LookResult(detections, width, height, time.monotonic() - began_s)
+
+    def find(self, picture: Picture, depth: Depth | None = None) -> tuple[Detection, ...]:
+        """Return the detections in an unpacked picture, the surest first.
+
+        Raises:
+            RuntimeError: or another of ``RUN_ERRORS``: the model failed on it.
+        """
+        return self._detections(self.boxes(picture), picture, depth)
+
+    def boxes(self, picture: Picture) -> Found:
+        """Return the boxes in an unpacked picture, in its pixels, the surest first."""
+        buffer, placed = self._preparer.prepare(picture)
+        outputs = self.model.session.run(self.feeds(buffer))
+        found = self._decoder.decode(outputs, self.min_score)
+        found = believed(found, self.min_score, len(self._classes))
+        found = in_picture(found, placed, picture.shape[1], picture.shape[0])
+        return suppress(found) if self._decoder.SUPPRESS else strongest(found, MAX_FOUND)
+
+    def prepare(self, picture: Picture) -> Floats:
+        """Return the model's input for a picture; the next picture is written over it."""
+        return self._preparer.prepare(picture)[0]
+
+    def feeds(self, buffer: Floats) -> Mapping[str, Array]:
+        """Return all that the model is fed with such an input."""
+        return {self.model.input.name: buffer, **self.model.beside}
+
+    def _detections(
+        self, found: Found, picture: Picture, depth: Depth | None
+    ) -> tuple[Detection, ...]:
+        made: list[Detection] = []
+        for box, score, number in zip(found.boxes, found.scores, found.classes, strict=True):
+            if not (label := self._classes[number]):
+                continue
+            seen = look_inside(picture, depth, box)
+            left, top, right, bottom = _numbers(box)
+            made.append(
+                Detection(
+                    label,
+                    float(score),
+                    (left, top, right, bottom),
+                    seen.color,
+                    seen.depth_m,
+                    seen.spread_m,
+                )
+            )
+        return tuple(made)
+
+
+def _numbers(box: Floats) -> Sequence[float]:
+    return [float(side) for side in box]
+
+
+def _skipped(code: str, began_s: float) -> LookResult:
+    return LookResult((), 0, 0, time.monotonic() - began_s, code)

@@ -1,0 +1,40 @@
+"""Own what is known of a model that ran one trial picture: names, shapes, metadata. Data only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+Shape = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Hold what decides how a model's output is read."""
+
+    outputs: Mapping[str, Shape]
+    """By name, in the model's order; the shapes that came out of the trial."""
+    metadata: Mapping[str, str]
+    names: tuple[str, ...]
+    """Ids of the classes, by number; empty where nobody says."""
+    names_from: str
+    """Who says: ``metadata`` or ``labels``."""
+    width: int
+    height: int
+    """Of the input [px]."""
+
+    @property
+    def first(self) -> Shape:
+        """Return the shape of the first output."""
+        return next(iter(self.outputs.values()))
+
+    def cells(self, strides: tuple[int, ...]) -> int:
+        """Return how many cells grids of these strides have on the input; 0 where none fits."""
+        if any(self.width % stride or self.height % stride for stride in strides):
+            return 0
+        return sum((self.width // stride) * (self.height // stride) for stride in strides)
+
+    def shown(self) -> str:
+        """Write the outputs for a person."""
+        shapes = (f"{name} {'x'.join(map(str, shape))}" for name, shape in self.outputs.items())
+        return ", ".join(shapes) if self.outputs else "none"

@@ -1,0 +1,64 @@
+"""Own boxes as arrays while they are many: believe finite ones only, bring them to the picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.vision.detect.prepare import Floats, Placed
+
+Ints = NDArray[np.intp]
+MIN_SIDE_PX = 1.0
+"""A thinner box shows nothing that a depth or a colour could be read from."""
+HIGHEST_SCORE = 1.001
+"""One, and what half precision makes of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """Hold boxes with their scores and classes, row by row."""
+
+    boxes: Floats
+    """n x 4: left, top, right, bottom [px]."""
+    scores: Floats
+    classes: Ints
+
+    @classmethod
+    def none(cls) -> Found:
+        """Return no boxes."""
+        return cls(np.empty((0, 4), np.float32), np.empty(0, np.float32), np.empty(0, np.intp))
+
+    def __len__(self) -> int:
+        return len(self.scores)
+
+    def only(self, rows: NDArray[np.bool_] | Ints) -> Found:
+        """Return some of the rows."""
+        return Found(self.boxes[rows], self.scores[rows], self.classes[rows])
+
+
+def from_centres(cxcywh: Floats) -> Floats:
+    """Return left, top, right, bottom of boxes given by centre and size."""
+    half = cxcywh[:, 2:4] * np.float32(0.5)
+    return np.concatenate((cxcywh[:, :2] - half, cxcywh[:, :2] + half), axis=1)
+
+
+def believed(found: Found, min_score: float, class_count: int) -> Found:
+    """Keep rows whose every number is possible; NaN and infinity fail by themselves."""
+    score_is_one = (found.scores >= min_score) & (found.scores <= HIGHEST_SCORE)
+    class_is_one = (found.classes >= 0) & (found.classes < class_count)
+    kept = found.only(score_is_one & class_is_one & np.isfinite(found.boxes).all(axis=1))
+    np.minimum(kept.scores, np.float32(1.0), out=kept.scores)
+    return kept
+
+
+def in_picture(found: Found, placed: Placed, width: int, height: int) -> Found:
+    """Return the input's boxes as the picture's, cut at its borders, without slivers."""
+    offset = np.array((placed.left, placed.top) * 2, np.float32)
+    scale = np.array((placed.scale_x, placed.scale_y) * 2, np.float32)
+    boxes = (found.boxes - offset) / scale
+    np.clip(boxes, 0.0, np.array((width, height) * 2, np.float32), out=boxes)
+    sides = boxes[:, 2:] - boxes[:, :2]
+    kept = (sides >= MIN_SIDE_PX).all(axis=1)
+    return Found(boxes[kept], found.scores[kept], found.classes[kept])

@@ -1,0 +1,89 @@
+"""Open a model file: refuse it clearly, or return a session that was tried and a fitting decoder.
+
+One trial picture, all grey, is run before anything is chosen: it warms the session up, and the
+shapes that come out count where those in the file are left open.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from planner.vision.detect.decoders import Choice, choose
+from planner.vision.detect.facts import Facts, Shape
+from planner.vision.detect.names import names_in, names_of
+from planner.vision.detect.onnx_file import OnnxFile, examine
+from planner.vision.detect.session import RUN_ERRORS, Array, Session
+from planner.vision.detect.size import Input, find_input
+from planner.vision.failure import VisionFailure
+
+GREY = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Hold what the owner sets about a model."""
+
+    path: Path
+    labels: Path | None = None
+    decoder: str | None = None
+    provider: str | None = None
+    threads: int = 1
+    input_px: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """Hold a model that is ready to look."""
+
+    name: str
+    file: OnnxFile
+    session: Session
+    input: Input
+    choice: Choice
+    beside: dict[str, Array]
+    """What it is fed beside the picture."""
+
+
+def open_model(wanted: Wanted) -> Model:
+    """Return the model of a file.
+
+    Raises:
+        VisionFailure: a code of :data:`planner.vision.failure.REFUSALS`.
+    """
+    file = examine(wanted.path)
+    session = Session(wanted.path, wanted.threads, wanted.provider)
+    taken = find_input(session.inputs, session.metadata, wanted.input_px)
+    beside: dict[str, Array] = {}
+    if taken.sizes is not None:
+        # The input's own size: boxes then come in input pixels, as from every other family.
+        beside[taken.sizes] = np.array([[taken.width, taken.height]], np.int64)
+    facts = _facts(wanted, session, taken, beside)
+    choice = choose(facts, wanted.decoder)
+    return Model(wanted.path.name, file, session, taken, choice, beside)
+
+
+def _facts(wanted: Wanted, session: Session, taken: Input, beside: dict[str, Array]) -> Facts:
+    labels = wanted.labels
+    grey = np.full((1, 3, taken.height, taken.width), GREY, np.float32)
+    try:
+        outputs = session.run({taken.name: grey, **beside})
+    except RUN_ERRORS as error:
+        text = " ".join(str(error).split())[:300]
+        raise VisionFailure("model_broken", f"it failed on a trial picture: {text}") from None
+    names = [slot.name for slot in session.outputs]
+    return Facts(
+        outputs={name: _shape(found) for name, found in zip(names, outputs, strict=True)},
+        metadata=session.metadata,
+        names=names_in(session.metadata) if labels is None else names_of(labels),
+        names_from="metadata" if labels is None else "labels",
+        width=taken.width,
+        height=taken.height,
+    )
+
+
+def _shape(found: object) -> Shape:
+    """Return an output's shape; that of a lone number for what is no tensor."""
+    return found.shape if isinstance(found, np.ndarray) else ()

@@ -1,0 +1,101 @@
+"""Open onnxruntime sessions that leave the processor to others. The only file that imports it.
+
+Its threads spin by default while they wait: beside the bridge's loop that made ticks late and burnt
+twice the processor, so spinning is off and the threads are counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import onnxruntime as ort
+from numpy.typing import NDArray
+from onnxruntime.capi import onnxruntime_pybind11_state
+
+from planner.vision.detect import providers as providers_
+from planner.vision.failure import VisionFailure
+
+Array = NDArray[np.generic]
+RUN_ERRORS: tuple[type[Exception], ...] = (
+    RuntimeError,
+    ValueError,
+    TypeError,
+    *(
+        kind
+        for kind in vars(onnxruntime_pybind11_state).values()
+        if isinstance(kind, type) and issubclass(kind, Exception)
+    ),
+)
+"""What a session may end in: the library's own errors have no base of their own."""
+QUIET = 3
+"""Errors alone: warnings of a stranger's graph tell its owner nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """Name one input or output and what it holds; a size that is left open is a word or None."""
+
+    name: str
+    shape: tuple[int | str | None, ...]
+    kind: str
+
+    def shown(self) -> str:
+        """Write it for a person."""
+        return f"{self.name} [{', '.join(map(str, self.shape))}] {self.kind}"
+
+
+class Session:
+    """Run one model."""
+
+    def __init__(self, path: Path, threads: int, provider: str | None = None) -> None:
+        """Load it.
+
+        Raises:
+            VisionFailure: ``model_broken``, ``model_too_new`` or ``provider_unavailable``.
+        """
+        ort.disable_telemetry_events()
+        chosen = providers_.choose(ort.get_available_providers(), provider)
+        try:
+            self._session: Any = ort.InferenceSession(
+                str(path), sess_options=options(threads), providers=list(chosen.names)
+            )
+        except RUN_ERRORS as error:
+            raise _refusal(path, error) from None
+        self.provider, self.provider_why = chosen.told(self._session.get_providers())
+        self.inputs = tuple(map(_slot, self._session.get_inputs()))
+        self.outputs = tuple(map(_slot, self._session.get_outputs()))
+        self.metadata: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
+
+    def run(self, feeds: Mapping[str, Array]) -> Sequence[Array]:
+        """Return the outputs. Raises one of ``RUN_ERRORS``."""
+        found: Sequence[Array] = self._session.run(None, feeds)
+        return found
+
+
+def options(threads: int) -> Any:
+    """Return the options of every session."""
+    made = ort.SessionOptions()
+    made.intra_op_num_threads = threads
+    made.inter_op_num_threads = 1
+    made.execution_mode = ort.ExecutionMode.ORT_SEQUENTIAL
+    made.graph_optimization_level = ort.GraphOptimizationLevel.ORT_ENABLE_ALL
+    made.add_session_config_entry("session.intra_op.allow_spinning", "0")
+    made.add_session_config_entry("session.inter_op.allow_spinning", "0")
+    made.log_severity_level = QUIET
+    return made
+
+
+def _slot(node: Any) -> Slot:
+    return Slot(str(node.name), tuple(node.shape), str(node.type))
+
+
+def _refusal(path: Path, error: Exception) -> VisionFailure:
+    text = " ".join(str(error).split())
+    lower = text.lower()
+    newer = "opset" in lower and ("guarantee" in lower or "under development" in lower)
+    code = "model_too_new" if newer or "unsupported model ir version" in lower else "model_broken"
+    return VisionFailure(code, f"{path.name}: {text[:300]}")

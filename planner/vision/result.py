@@ -1,0 +1,49 @@
+"""Own what the vision process answers: one picture's detections, and what it runs. Data only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planner.vision.records import Detection
+
+
+@dataclass(frozen=True, slots=True)
+class LookResult:
+    """Hold what was found in one picture, or why it was skipped."""
+
+    detections: tuple[Detection, ...]
+    width: int
+    height: int
+    """Of the picture [px]; 0 where it could not even be told."""
+    took_s: float
+    """In the vision process, decoding included."""
+    skipped: str | None = None
+    """A code of :data:`planner.vision.failure.SKIPS`; then there are no detections."""
+
+
+@dataclass(frozen=True, slots=True)
+class About:
+    """Say which detector runs, how its output is read, where, and why so."""
+
+    model: str
+    """The file's name."""
+    decoder: str
+    why: str
+    """Why this decoder."""
+    provider: str
+    provider_why: str
+    classes: tuple[str, ...]
+    """Ids, in the model's order; '' where it has a class without a name."""
+    width: int
+    height: int
+    """Of the model's input [px]."""
+
+    @property
+    def line(self) -> str:
+        """Say it all in one line for a log."""
+        size = f"{self.width}x{self.height}"
+        count = sum(map(bool, self.classes))
+        return (
+            f"detector {self.model}: input {size}, {count} classes; decoder {self.decoder} "
+            f"({self.why}); provider {self.provider} ({self.provider_why})"
+        )
