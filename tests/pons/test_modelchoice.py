@@ -15,8 +15,13 @@ ELSEWHERE = "http://192.168.1.9:11434/v1"
 OWNERS = "https://api.openai.com/v1"
 BY_FILE = (
     '[model]\npreset = "openai"\nname = "own"\nallow_offhost = true\nextra_body = {user = "me"}\n'
+    "allow_pictures_offhost = true\n"
 )
-BY_ENVIRONMENT = {"PONS_MODEL": "own", "PONS_MODEL_ALLOW_OFFHOST": "1"}
+BY_ENVIRONMENT = {
+    "PONS_MODEL": "own",
+    "PONS_MODEL_ALLOW_OFFHOST": "1",
+    "PONS_MODEL_ALLOW_PICTURES_OFFHOST": "1",
+}
 
 
 @pytest.mark.parametrize(
@@ -48,6 +53,8 @@ def test_a_key_of_the_environment_stays_with_its_host(
     settings, model = chosen(word, tmp_path, {**environment, "PONS_MODEL_KEY": KEY})
     assert settings.model == model
     assert (model.key is not None, model.allow_offhost) == (kept, kept)
+    once = environment in ({"PONS_MODEL_URL": ELSEWHERE}, {"PONS_MODEL_ALLOW_OFFHOST": "1"})
+    assert model.allow_pictures_offhost == (kept and not once), "neither host was given that yes"
     assert bool(model.extra_body) == (kept and bool(text))
     assert ("PONS_MODEL_KEY is not used" in caplog.text) == (not kept)
     assert KEY not in caplog.text

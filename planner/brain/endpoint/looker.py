@@ -84,8 +84,8 @@ class EndpointLooker:
         """Return the model's answer; see ``planner.brain.looking.Looker``."""
 
         async def talk(end_s: float) -> Words:
-            messages = self._prompts.look_messages(picture, question, language, detections)
             url = await self._url(picture)
+            messages = self._prompts.look_messages(picture, question, language, detections)
             return await self._twice(messages, (LOOK_FORM, LOOK_SCHEMA), url, end_s, judge_look)
 
         said = await self._line.turn(goal, talk, "answer")
@@ -102,8 +102,8 @@ class EndpointLooker:
         """Return where the model points; see ``planner.brain.looking.Looker``."""
 
         async def talk(end_s: float) -> object:
-            messages = self._prompts.point_messages(picture, words, language, detections)
             url = await self._url(picture)
+            messages = self._prompts.point_messages(picture, words, language, detections)
             return await self._twice(messages, (POINT_FORM, POINT_SCHEMA), url, end_s, judge_point)
 
         found = await self._line.turn(goal, talk, "point")

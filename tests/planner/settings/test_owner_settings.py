@@ -59,6 +59,27 @@ def test_the_environment_wins_over_the_file(tmp_path: Path) -> None:
     assert (found.url, found.name) == ("http://127.0.0.1:11434/v1", "other")
 
 
+def test_pictures_need_a_yes_of_their_own_for_their_own_host(tmp_path: Path) -> None:
+    """The first yes is not the second, and a yes in the file is for the file's host."""
+    first, second = "allow_offhost = true\n", "allow_pictures_offhost = true\n"
+    here: dict[str, str] = {"PONS_MODEL_URL": "http://127.0.0.1:11434/other"}
+    away: dict[str, str] = {"PONS_MODEL_URL": "http://192.168.1.9/v1"}
+    yes: dict[str, str] = {"PONS_MODEL_ALLOW_PICTURES_OFFHOST": "1"}
+    for text, environment, allowed in (
+        (LOCAL + first, {}, False),
+        (LOCAL + first, {"PONS_MODEL_ALLOW_OFFHOST": "1"}, False),
+        (LOCAL + first + second, {}, True),
+        (LOCAL + first + second, here, True),
+        (LOCAL + first + second, away, False),
+        (LOCAL + first + second, {**away, **yes}, True),
+        (LOCAL + second, {"PONS_MODEL_ALLOW_PICTURES_OFFHOST": "no"}, False),
+    ):
+        found = model(tmp_path, text, **environment)
+        assert found is not None
+        assert found.allow_pictures_offhost is allowed, (text, environment)
+        assert found.pictures is None, "whether it takes any is found out"
+
+
 @pytest.mark.parametrize("source", ["key", "key_env", "key_file"])
 def test_a_key_comes_from_one_place(source: str, tmp_path: Path) -> None:
     (tmp_path / "k").write_text(f"{KEY}\n")
@@ -111,6 +132,8 @@ def test_a_key_stays_with_its_host(tmp_path: Path) -> None:
         (LOCAL + f'key = "{KEY}"\nkey_env = "X"\n', {}, "model_key", "one of"),
         (LOCAL, {"PONS_MODEL_KEY": "a\nb: c"}, "model_key", "one word"),
         (LOCAL, {"PONS_MODEL_ALLOW_OFFHOST": "maybe"}, "settings_malformed", "maybe"),
+        (LOCAL, {"PONS_MODEL_ALLOW_PICTURES_OFFHOST": "both"}, "settings_malformed", "both"),
+        (LOCAL + 'pictures = "perhaps"\n', {}, "settings_malformed", "model.pictures"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_refuses_to_start(
