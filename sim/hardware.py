@@ -60,6 +60,7 @@ class Periods:
     step_s: float = 0.002
     tick_s: float = 0.01  # drive/state and imu
     truth_ticks: int = 2  # 50 Hz
+    scene_ticks: int = 4  # 25 Hz: what a camera draws is at most 40 ms old
 
 
 PERIODS = Periods()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wire import DriveState, Imu, Pose2, Scan, SimTruth, Twist2
+from wire import DriveState, Imu, Pose2, Scan, SimScene, SimThing, SimTruth, Twist2
 from wire.value import value
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class Speaker:
 
     def __init__(self, boot_id: str) -> None:
         self._boot_id = boot_id
-        self._seqs = dict.fromkeys(("drive", "imu", "scan", "truth"), 0)
+        self._seqs = dict.fromkeys(("drive", "imu", "scan", "truth", "scene"), 0)
 
     def _next(self, key: str) -> int:
         self._seqs[key] += 1
@@ -119,5 +119,22 @@ class Speaker:
             contacts=contacts.now,
             contacts_total=contacts.total,
             real_time_factor=real_time_factor,
+            faults=faults,
+        )
+
+    def scene(
+        self,
+        now_s: float,
+        base_in_map: Pose2,
+        things: tuple[SimThing, ...],
+        faults: tuple[SimFault, ...],
+    ) -> SimScene:
+        """Say to the camera's process what there is to draw."""
+        return SimScene(
+            boot_id=self._boot_id,
+            seq=self._next("scene"),
+            stamp_s=now_s,
+            base_in_map=base_in_map,
+            things=things,
             faults=faults,
         )

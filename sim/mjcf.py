@@ -13,18 +13,19 @@ from math import cos, sin
 from typing import TYPE_CHECKING
 
 from sim.site import Disc, Solid
+from sim.site.classes import CRATE_M, PERSON_HEIGHT_M, PERSON_RADIUS_M, SPARE_OBSTACLES
+from wire.geometry import Pose2
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from sim.hardware import Hardware
+    from sim.site.things import Upright
     from wire.robot import Base
 
-OBSTACLES = ("person_0", "person_1", "crate_0", "crate_1")
+OBSTACLES = SPARE_OBSTACLES
 """Movable obstacles, parked below the floor until a test or a story places them."""
 PARKED_Z_M = -50.0
-PERSON_RADIUS_M, PERSON_HEIGHT_M = 0.25, 1.7
-CRATE_M = 0.5
 
 SETTLE_STEPS = 250
 """Half a second at 2 ms: the robot sinks onto its springs before anybody reads an encoder."""
@@ -42,8 +43,14 @@ was found, and a wheel then slips by 25 ms times the acceleration.
 """
 
 
-def world_mjcf(solids: Iterable[Solid], base: Base, hardware: Hardware, step_s: float) -> str:
-    """Return the whole model as XML.
+def world_mjcf(
+    solids: Iterable[Solid],
+    base: Base,
+    hardware: Hardware,
+    step_s: float,
+    uprights: Iterable[Upright] = (),
+) -> str:
+    """Return the whole model as XML: what is fixed, what somebody may carry about, the robot.
 
     Elliptic cones with impratio 10 keep wheels from creeping. With some tens of solids and one
     robot, islands and the mid-phase cost more than they save (78 against 62 us for 5 steps).
@@ -57,7 +64,7 @@ def world_mjcf(solids: Iterable[Solid], base: Base, hardware: Hardware, step_s: 
     <geom name="floor" type="plane" size="0 0 1" condim="1" friction="1 0 0" group="2"
           contype="1" conaffinity="0"/>
 {chr(10).join(_solid(solid) for solid in solids)}
-{chr(10).join(_obstacle(name) for name in OBSTACLES)}
+{chr(10).join([*map(_obstacle, OBSTACLES), *map(_upright, uprights)])}
 {_robot(base, hardware)}
   </worldbody>
   <actuator>
@@ -89,8 +96,21 @@ def _obstacle(name: str) -> str:
     if name.startswith("crate"):
         half = CRATE_M / 2
         form = f'type="box" size="{half} {half} {half}" pos="0 0 {half}"'
+    return _carried(name, Pose2(0.0, 0.0, 0.0), PARKED_Z_M, form)
+
+
+def _upright(thing: Upright) -> str:
+    half = thing.height_m / 2
+    form = f'type="cylinder" size="{max(thing.half_m)} {half}" pos="0 0 {half}"'
+    if not thing.round:
+        form = f'type="box" size="{thing.half_m[0]} {thing.half_m[1]} {half}" pos="0 0 {half}"'
+    return _carried(thing.id, thing.pose, 0.0, form)
+
+
+def _carried(name: str, pose: Pose2, z_m: float, form: str) -> str:
+    quat = " ".join(map(str, quaternion(pose.yaw_rad)))
     return (
-        f'    <body name="{name}" mocap="true" pos="0 0 {PARKED_Z_M}">'
+        f'    <body name="{name}" mocap="true" pos="{pose.x_m} {pose.y_m} {z_m}" quat="{quat}">'
         f'<geom name="{name}" {form} {_SEEN}/></body>'
     )
 

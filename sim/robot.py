@@ -23,6 +23,8 @@ from sim.metal import true_base
 from sim.mjcf import OBSTACLES
 from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
+from sim.site.things import uprights
+from sim.things import Things
 from sim.world import World
 from wire import Pose2, RobotDescription, SimFault, Twist2, compose
 
@@ -30,7 +32,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from sim.deadman import Wheels
-    from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimTruth
+    from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimScene, SimTruth
 
 _STEPS = round(PERIODS.tick_s / PERIODS.step_s)
 _BEYOND_RANGE_M = 0.1
@@ -61,7 +63,10 @@ class SimRobot:
         self.faults = Faults()
         self._hardware = hardware or Hardware()
         base = true_base(self.robot.base, self._hardware)
-        self._world = World(solids(self.home), base, self._hardware, PERIODS.step_s)
+        self._world = World(
+            solids(self.home), base, self._hardware, PERIODS.step_s, uprights(self.home)
+        )
+        self.things = Things(self.home)
         self._world.place_robot(start or pose2(self.home.places[self.home.dock].pose))
         self._dead_man = DeadMan(self.robot.drive.timeout_s, self._hardware.timeout_ramp_radps2)
         left_rad, right_rad = self._world.wheel_angles()
@@ -134,6 +139,12 @@ class SimRobot:
             truth=self._truth_due(now_s, real_time_factor),
         )
 
+    def scene(self, now_s: float) -> SimScene:
+        """Say what a camera on the robot could draw now."""
+        return self._speaker.scene(
+            now_s, self._world.pose(), self.things.elsewhere, self.faults.standing
+        )
+
     def step_to(self, time_s: float) -> list[Report]:
         """Tick on simulated time alone until it reaches ``time_s``."""
         reports = []
@@ -153,14 +164,34 @@ class SimRobot:
         Raises:
             Misconfigured: ``obstacle_unknown``; sim.OBSTACLES lists them.
         """
-        self._world.place_obstacle(name, x_m, y_m, yaw_rad)
+        self.place_thing(name, Pose2(x_m, y_m, yaw_rad))
 
     def remove_obstacle(self, name: str = OBSTACLES[0]) -> None:
         """Take a spare obstacle out of the home."""
-        self._world.remove_obstacle(name)
+        self.place_thing(name, None)
+
+    def place_thing(self, name: str, pose: Pose2 | None) -> None:
+        """Put a person, an object or an obstacle down somewhere, or take it away.
+
+        People and what stood on the floor stay solid; a small thing is for the camera alone.
+
+        Raises:
+            Misconfigured: ``obstacle_unknown``.
+        """
+        self.things.move(name, pose)
+        if name not in self._world.carried:
+            return
+        if pose is None:
+            self._world.remove_obstacle(name)
+        else:
+            self._world.place_obstacle(name, pose.x_m, pose.y_m, pose.yaw_rad)
 
     def control(self, control: SimControl) -> None:
-        """Do what a test asked over the wire; the same id again is the same wish, already done."""
+        """Do what a test asked over the wire; the same id again is the same wish, already done.
+
+        Raises:
+            Misconfigured: ``obstacle_unknown``; what stood before it in the wish is done.
+        """
         if control.id == self._last_control:
             return
         self._last_control = control.id
@@ -170,6 +201,8 @@ class SimRobot:
             self.place_obstacle(*control.place_obstacle)
         if control.remove_obstacle:
             self.remove_obstacle()
+        if control.place_thing is not None:
+            self.place_thing(control.place_thing.name, control.place_thing.pose)
         if control.faults is not None:
             self.break_down(*control.faults)
 

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING
 
 from sim.hardware import PERIODS
 from sim.pacing import Pacer, RealTimeFactor
-from wire import keys
+from wire import Misconfigured, keys
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from sim.messages import Report
     from sim.robot import SimRobot
+    from wire import SimControl
     from wire.session import Session
 
 log = logging.getLogger("sim")
@@ -39,6 +40,9 @@ class Shell:
         self._imu = session.publisher(keys.IMU)
         self._scan = session.publisher(keys.SCAN)
         self._truth = session.publisher(keys.SIM_TRUTH)
+        draws = robot.robot.camera.kind == "sim"
+        self._scene = session.publisher(keys.SIM_SCENE) if draws else None
+        self._ticks = 0
         self._distrust = 0
 
     def run(self, stopped: Callable[[], bool]) -> None:
@@ -55,6 +59,7 @@ class Shell:
                 self._distrust = STALE_TICKS
             self._receive(now_s)
             self._say(self._robot.tick(now_s, real_time_factor=factor.ticked(now_s)))
+            self._show(now_s)
 
     def _receive(self, now_s: float) -> None:
         command = self._commands.newest()
@@ -64,9 +69,15 @@ class Shell:
             self._robot.command(command, now_s)
         for control in self._controls.drain().items:
             if isinstance(control, keys.SIM_CONTROL.message):
-                self._robot.control(control)
+                self._obey(control)
             else:
                 log.warning("sim/control refused: %s", control)
+
+    def _obey(self, control: SimControl) -> None:
+        try:
+            self._robot.control(control)
+        except Misconfigured as refusal:  # a test's mistake must not end the robot
+            log.warning("sim/control refused: %s", refusal)
 
     def _say(self, report: Report) -> None:
         if report.drive is not None:
@@ -77,3 +88,9 @@ class Shell:
             self._scan.put(report.scan)
         if report.truth is not None:
             self._truth.put(report.truth)
+
+    def _show(self, now_s: float) -> None:
+        """Tell the simulated camera what there is to draw."""
+        self._ticks += 1
+        if self._scene is not None and self._ticks % PERIODS.scene_ticks == 0:
+            self._scene.put(self._robot.scene(now_s))

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from sim.hardware import Hardware
     from sim.site import Solid
+    from sim.site.things import Upright
     from wire.robot import Base
 
 log = logging.getLogger("sim")
@@ -38,9 +39,17 @@ class World:
     """Hold one MuJoCo model and its state."""
 
     def __init__(
-        self, solids: Iterable[Solid], base: Base, hardware: Hardware, step_s: float
+        self,
+        solids: Iterable[Solid],
+        base: Base,
+        hardware: Hardware,
+        step_s: float,
+        uprights: Iterable[Upright] = (),
     ) -> None:
-        xml = world_mjcf(solids, base, hardware, step_s)
+        standing = list(uprights)
+        self.carried = (*OBSTACLES, *(thing.id for thing in standing))
+        """What may be moved about, by name."""
+        xml = world_mjcf(solids, base, hardware, step_s, standing)
         # mujoco-core carries no type information: Any ends at this class.
         self._model: Any = mujoco.MjModel.from_xml_string(xml)
         self._data: Any = mujoco.MjData(self._model)
@@ -125,8 +134,8 @@ class World:
         self._move(name, (0.0, 0.0, PARKED_Z_M), 0.0)
 
     def _move(self, name: str, at: tuple[float, float, float], yaw_rad: float) -> None:
-        if name not in OBSTACLES:
-            known = ", ".join(OBSTACLES)
+        if name not in self.carried:
+            known = ", ".join(self.carried)
             raise Misconfigured("obstacle_unknown", f"no obstacle {name!r}; there are: {known}")
         slot = int(self._model.body(name).mocapid[0])
         self._data.mocap_pos[slot] = at

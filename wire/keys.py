@@ -153,7 +153,7 @@ SIM_SCENE = _from(_R, "sim/scene", SimScene, frozenset({_C, _J}), "25 Hz where a
                   "what the simulated camera is to draw", max_bytes=MEDIUM)  # fmt: skip
 SIM_CONTROL = Key("sim/control", SimControl, frozenset({_J}), frozenset({_R}), "by tests",
                   SEQUENCED, SMALL,
-                  "a test moves the simulated robot or its spare obstacle")  # fmt: skip
+                  "a test moves the simulated robot or a thing of its home")  # fmt: skip
 
 OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)

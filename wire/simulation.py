@@ -72,10 +72,14 @@ class SimTruth(Record):
 
 
 class SimThing(Record):
-    """Say where one movable thing of the home stands now, in ``map``."""
+    """Say where one movable thing of the home stands now, in ``map``: a person, an obstacle, a cup.
+
+    How high it lies follows from what stands there: on furniture, or on the floor.
+    """
 
     name: Name
-    pose: Pose2
+    pose: Pose2 | None
+    """Null: it is nowhere in the home."""
 
 
 class SimScene(Record):
@@ -86,15 +90,18 @@ class SimScene(Record):
     stamp_s: Seconds
     base_in_map: Pose2
     things: Annotated[tuple[SimThing, ...], Field(max_length=64)] = ()
+    """Those that stand elsewhere than the home declares."""
     faults: Faults = ()
 
 
 class SimControl(Record):
-    """Let a test move the simulated robot or its spare obstacle, or break it."""
+    """Let a test move the simulated robot or a thing of its home, or break it."""
 
     id: Name
     place_robot: Pose2 | None = None
     place_obstacle: tuple[Metres, Metres] | None = None
     remove_obstacle: bool = False
+    place_thing: SimThing | None = None
+    """Any person or object of the home, or a spare obstacle, by its name."""
     faults: Faults | None = None
     """All that is to be broken from now on; empty mends everything, null changes nothing."""

@@ -16,10 +16,15 @@ from sim.camera.fittings import form_of
 from sim.camera.furniture import bed, chair, fridge, plant, round_table, screen, sofa, table, tv
 from sim.camera.parts import Part, tube
 from sim.camera.smalls import book, bottle, carton, cup, door, person, toy_ball
-from sim.site.classes import CRATE_M, NO_CLASS, PERSON_HEIGHT_M, PERSON_RADIUS_M
+from sim.site.classes import (
+    CRATE_M,
+    NO_CLASS,
+    PERSON_HEIGHT_M,
+    PERSON_RADIUS_M,
+    SPARE_OBSTACLES,
+)
 from sim.site.plan import furniture_shape
 from sim.site.shapes import Disc
-from sim.site.thingcheck import SPARE_OBSTACLES
 from sim.site.things import furniture_class, ground_m, on_floor, pose_of, rest_m
 from wire import Pose2
 

@@ -43,6 +43,8 @@ ROUND: Final = frozenset({"cup", "ball", "bottle", "plant"})
 
 PERSON_RADIUS_M, PERSON_HEIGHT_M = 0.25, 1.7
 CRATE_M = 0.5
+SPARE_OBSTACLES: Final = ("person_0", "person_1", "crate_0", "crate_1")
+"""Every simulated home has these besides its own; they are nowhere until somebody places them."""
 
 _SEAT: Final = {"sofa": 0.53, "chair": 0.5, "bed": 0.9}
 """Where a thing put on such furniture comes to lie, as a share of the furniture's height."""

@@ -9,6 +9,7 @@ from itertools import combinations
 from math import hypot
 from typing import TYPE_CHECKING
 
+from sim.site.classes import SPARE_OBSTACLES
 from sim.site.plan import furniture_shape, room_rects, solids, walls
 from sim.site.shapes import EPS_M, Disc, Rect, Shape, Solid
 from sim.site.spec import LIDAR_SEES_FROM_M
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
     from sim.site.check import Finding
     from sim.site.spec import Home, Object
 
-SPARE_OBSTACLES = ("person_0", "person_1", "crate_0", "crate_1")
-"""Every simulated home has these, parked until somebody places them."""
 FLAT_M = 0.05
 """What is no higher than this a robot's wheels roll over, as over a door sill."""
 

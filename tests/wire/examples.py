@@ -207,9 +207,16 @@ _MESSAGES: tuple[Record, ...] = (
     SimScene(
         boot_id="d1",
         base_in_map=IDENTITY,
-        things=(SimThing(name="person_0", pose=Pose2(1.0, 2.0, 0.5)),),
+        things=(
+            SimThing(name="person_0", pose=Pose2(1.0, 2.0, 0.5)),
+            SimThing(name="cup", pose=None),
+        ),
         **STAMP,
     ),
-    SimControl(id="c1", place_robot=Pose2(1.0, 1.0, 0.0)),
+    SimControl(
+        id="c1",
+        place_robot=Pose2(1.0, 1.0, 0.0),
+        place_thing=SimThing(name="person_0", pose=Pose2(1.0, 2.0, 0.5)),
+    ),
 )
 EXAMPLES: dict[type[Record], Record] = {type(message): message for message in _MESSAGES}
