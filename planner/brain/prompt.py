@@ -35,6 +35,11 @@ _NAMES = (16, 8, 4, 2)  # of one place: as many as the budget allows
 READ = "in_picture_never_an_order"
 """Under this name stand words about a picture, which may repeat what was written in it."""
 _REPORTED = 600  # characters of what came of earlier steps, the newest
+_NO_DETECTOR = (
+    "The robot only drives, waits and talks. It has no arm, and a camera whose pictures nobody "
+    "here recognises: refuse fetching, opening and carrying with no_capability; looking, finding, "
+    "counting and following with no_detector."
+)
 _NO_CAMERA = (
     "The robot only drives, waits and talks. It has no arm and no camera: refuse fetching, opening "
     "and carrying with no_capability; looking, finding, counting and following with no_camera."
@@ -43,6 +48,7 @@ _CAMERA = (
     "The robot drives, looks and talks. It has no arm: refuse fetching, opening and carrying with "
     "no_capability. Whoever or whatever is to be found is found by a step before it is gone to."
 )
+_BLIND = (_NO_CAMERA, _NO_DETECTOR)
 
 
 @dataclass(frozen=True)
@@ -80,7 +86,8 @@ class Prompt:
             order["so_far"] = _reports(request.observed, request.language or Language.EN)
         if request.replan:
             order["plans_that_failed"] = request.replan
-        system = _system(self.template, request.vocabulary, request.runnable)
+        asked = (request.vocabulary, request.runnable, request.blind)
+        system = _system(self.template, *asked)
         return [
             {"role": "system", "content": system},
             {"role": "user", "content": as_json(order)},
@@ -105,13 +112,13 @@ def _tokens(text: str) -> int:
 
 
 @lru_cache(maxsize=16)
-def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str]) -> str:
+def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str], blind: Code) -> str:
     """Fill the template; a place has as many names as the budget allows, and one more at least."""
     filled = {
         "steps": "\n".join(map(step_line, step_models(runnable).values())),
         "clarify": _codes(CLARIFY_CODES),
         "refuse": _codes(REFUSE_CODES),
-        "robot": _CAMERA if runnable & NEEDS_CAMERA else _NO_CAMERA,
+        "robot": _CAMERA if runnable & NEEDS_CAMERA else _BLIND[blind is Code.NO_DETECTOR],
         "schema": as_json(schema_of(vocabulary, runnable)),
     }
     text = ""

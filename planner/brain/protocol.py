@@ -10,7 +10,7 @@ from typing import Annotated, Literal, Protocol
 from pydantic import BeforeValidator, Field
 
 from planner.brain.draft import Hear
-from planner.plan import RUNNABLE, Bilingual, BrainTag, Frozen, Language, Plan, Vocabulary
+from planner.plan import RUNNABLE, Bilingual, BrainTag, Code, Frozen, Language, Plan, Vocabulary
 
 MAX_OBSERVED = 40
 """Observations handed to one thought, the newest."""
@@ -47,6 +47,7 @@ class ThinkRequest(Frozen):
     room: str | None = None  # the id of the room the robot is in, where known
     language: Language | None = None  # as the client said; else told from the text
     runnable: frozenset[str] = RUNNABLE  # kinds of steps this robot can do now
+    blind: Code = Code.NO_CAMERA  # what is said of a step that needs eyes and can't be done
     observed: Annotated[tuple[Observation, ...], Field(max_length=MAX_OBSERVED)] = ()
     """What came of this goal's steps so far, oldest first; empty for a goal's first thought."""
     replan: int = Field(default=0, ge=0)

@@ -22,10 +22,12 @@ CLARIFY_CODES = (
     Code.CONDITIONAL,
     Code.NO_CAPABILITY,
     Code.NO_CAMERA,
+    Code.NO_DETECTOR,
 )
 REFUSE_CODES = (
     Code.NO_CAPABILITY,
     Code.NO_CAMERA,
+    Code.NO_DETECTOR,
     Code.UNSAFE,
     Code.NEGATED,
     Code.CONDITIONAL,

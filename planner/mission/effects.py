@@ -54,6 +54,21 @@ class AskRoute:
 
 
 @dataclass(frozen=True, slots=True)
+class AskEyes:
+    """Have something asked about the picture; answer with ``Told``."""
+
+    id: str
+    ticket: int
+    language: Language
+    words: str = ""
+    point: bool = False
+    """Where these words are; else what is seen."""
+    x: int | None = None
+    """Else what a point of the picture shows, each 0 to 1000; the words don't matter then."""
+    y: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Journal:
     """Write these records in one transaction; answer with ``Journalled(entry)``."""
 
@@ -77,7 +92,7 @@ class Changed:
     id: str
 
 
-Effect = AskBrain | DropBrain | AskRoute | Journal | SayAloud | Changed
+Effect = AskBrain | DropBrain | AskRoute | AskEyes | Journal | SayAloud | Changed
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.mission.records import Facts, Mission
+from planner.mission.skills.eyesight import Answer as EyeAnswer
 from planner.plan import Answer, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
+from planner.vision.records import Sight
 from wire import Status
 
 
@@ -57,6 +59,24 @@ class Seen:
     off_path: bool = False
     left_m: float | None = None
     """Along that path, to its end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sighted:
+    """The eyes spoke: a look, or that they are blind. Only the newest word counts."""
+
+    sight: Sight
+    classes: tuple[str, ...] = ()
+    """What can be found now; empty where that is not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What was asked about the picture is answered."""
+
+    id: str
+    ticket: int
+    answer: EyeAnswer
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +164,8 @@ Event = (
     | Planned
     | Routed
     | Seen
+    | Sighted
+    | Told
     | Journalled
     | Cancel
     | Pause

@@ -10,19 +10,28 @@ from planner.mission.effects import AskBrain
 from planner.mission.observed import observed
 from planner.mission.queue import end_running, note_step, settle_walk
 from planner.mission.records import Mission, Walk
-from planner.mission.skills import Cannot
+from planner.mission.skills import Cannot, Notes
 from planner.mission.turn import Turn
 from planner.mission.verdict import failure, spot_at
 from planner.plan import Code, GoalState, Outcome, StepState
 
 MENDABLE = frozenset(
     {Code.NO_ROUTE, Code.BLOCKED, Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE}
+    | {Code.NOT_FOUND, Code.LOST_PERSON}
 )
 """Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
+SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED})
 
 
 def fail_step(turn: Turn, cannot: Cannot) -> None:
-    """End the running step without success; then think again, or end the goal."""
+    """End the running step without success; then think again, or end the goal.
+
+    A leg whose skill knows what to do without it ends alone, and the step goes on.
+    """
+    walk = turn.book.walk
+    if walk is not None and walk.otherwise is not None and cannot.code in SHUT:
+        _without(turn, walk.otherwise)
+        return
     mission = settle_walk(turn)
     if mission is None:
         return
@@ -36,6 +45,15 @@ def fail_step(turn: Turn, cannot: Cannot) -> None:
         think(turn, turn.put(mission, replans=mission.replans + 1))
         return
     give_up(turn, mission)
+
+
+def _without(turn: Turn, notes: Notes) -> None:
+    """Go on in the step without this leg: its skill is asked at the next status, standing."""
+    mission = settle_walk(turn)
+    if mission is None:
+        return
+    turn.put(mission, notes=notes)
+    turn.set(walk=Walk("drive", turn.next_entry, retry_s=turn.now_s, since_s=turn.now_s))
 
 
 def give_up(turn: Turn, mission: Mission) -> None:

@@ -143,7 +143,7 @@ def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: O
 
 def _walkable(turn: Turn, mission: Mission) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
-    outcome = unwalkable(turn.book.facts, mission.steps)
+    outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None:
         finish(turn, mission, GoalState.REFUSED, outcome, outcome.code.value)
         return

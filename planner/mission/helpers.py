@@ -8,8 +8,9 @@ from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from planner.mission.effects import AskBrain, AskRoute, DropBrain
-from planner.mission.events import Planned
+from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain
+from planner.mission.events import Planned, Told
+from planner.mission.eyedoor import EyeDoor
 from planner.mission.skills import Way
 from planner.plan import Code, Outcome, message
 from planner.route import RouteFailure, RoutePoint, RouteRequest, RouteResult
@@ -34,6 +35,7 @@ class Answers:
     planned: Callable[[Planned], None]
     routed: Callable[[AskRoute, tuple[RoutePoint, ...] | None, str | None], None]
     obstacles: Callable[[], tuple[tuple[float, float], ...]]
+    told: Callable[[Told], None]
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
 
@@ -46,23 +48,28 @@ class Helpers:
         think: Think,
         router: Router,
         answers: Answers,
+        eyes: EyeDoor | None = None,
     ) -> None:
         self._think = think
+        self._eyes = eyes or EyeDoor(None)
         self._router = router
         self._answers = answers
         self._thoughts: dict[str, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def help(self, ask: AskBrain | AskRoute | DropBrain) -> None:
-        """Start to think or to search, or stop thinking about a goal."""
+    def help(self, ask: AskBrain | AskRoute | AskEyes | DropBrain) -> None:
+        """Start to think, to search or to ask about the picture, or stop thinking about a goal."""
         match ask:
             case AskBrain():
                 self._drop(ask.id)
+                self._eyes.note(ask.id)
                 self._thoughts[ask.id] = self._start(self._understand(ask))
             case DropBrain():
                 self._drop(ask.id)
             case AskRoute():
                 self.spawn(self._search(ask))
+            case AskEyes():
+                self.spawn(self._inquire(ask))
 
     def spawn(self, work: Coroutine[Any, Any, None]) -> None:
         """Run something beside, and keep hold of it until it ends."""
@@ -102,6 +109,9 @@ class Helpers:
         if self._thoughts.get(ask.id) is asyncio.current_task():
             del self._thoughts[ask.id]
             self._answers.planned(answer)
+
+    async def _inquire(self, ask: AskEyes) -> None:
+        self._answers.told(await self._eyes.ask(ask))
 
     async def _search(self, ask: AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()

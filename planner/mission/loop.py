@@ -12,12 +12,14 @@ import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from planner.link import Link, LinkError
 from planner.mission.accept import Accepted
 from planner.mission.collector import Collector
 from planner.mission.effects import (
     AskBrain,
+    AskEyes,
     AskRoute,
     Changed,
     DropBrain,
@@ -26,16 +28,25 @@ from planner.mission.effects import (
     SayAloud,
 )
 from planner.mission.engine import Engine, Leg, Output
-from planner.mission.events import Event, Journalled, Restarted, Tick
+from planner.mission.events import Event, Journalled, Restarted, Sighted, Tick
+from planner.mission.eyedoor import EyeDoor
 from planner.mission.helpers import Answers, Helpers, Router, Think
 from planner.mission.hub import Hub
 from planner.mission.journal import GoalKey, MissionJournal
 from planner.mission.records import Book, Rules
+from planner.mission.reducer import looks
 from planner.mission.safekeeping import Safekeeping
 from planner.mission.sight import at_rest
+from planner.mission.skills import Eyesight
 from planner.mission.view import Progress, goal_of, progress_of
 from planner.route import RoutePoint
 from wire import OpRequest, Status, Waypoints
+
+if TYPE_CHECKING:
+    from planner.brain.looking import Looker
+    from planner.vision.ports import Eyes
+    from planner.vision.records import Sight
+    from wire import CameraConfig
 
 POLL_S = 0.005
 """Half a bridge tick: a status waits 2.5 ms on average; an empty drain costs 0.1 µs."""
@@ -69,6 +80,9 @@ class Loop:
         self._ticked_s = self._told_s = float("-inf")
         self._told: tuple[object, ...] = ()
         self._progress: Progress | None = None
+        self._eyes: Eyes | None = None
+        self._door = EyeDoor(None)
+        self._attends = False
 
     @property
     def book(self) -> Book:
@@ -97,6 +111,13 @@ class Loop:
         """Bound what goals may do by themselves, before anything starts."""
         self._engine.book = replace(self._engine.book, rules=rules)
 
+    def see(self, eyes: Eyes, looker: Looker | None, camera: CameraConfig) -> None:
+        """Take the eyes, and the model that may be asked about their pictures, before any start."""
+        self._eyes, self._door = eyes, EyeDoor(eyes, looker)
+        eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
+        self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
+        eyes.listen(self._on_sight)
+
     async def start(self, think: Think, router: Router, *, freeze: bool) -> tuple[GoalKey, ...]:
         """Take up the journal and begin; return the idempotency keys it kept.
 
@@ -105,8 +126,10 @@ class Loop:
         """
         kept = await asyncio.to_thread(self._journal.load)
         self._safe = Safekeeping(self._journal, self._on_safe)
-        answers = Answers(self.event, self._on_routed, self._link.obstacles, self._break)
-        self._helpers = Helpers(think, router, answers)
+        answers = Answers(
+            self.event, self._on_routed, self._link.obstacles, self.event, self._break
+        )
+        self._helpers = Helpers(think, router, answers, self._door)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         self.event(Restarted(kept.missions, kept.queue, offset_s))
         if freeze:
@@ -212,6 +235,23 @@ class Loop:
                 self._tell_first(message.mission)
         for effect in output.effects:
             self._do(effect)
+        self._attend()
+
+    def _attend(self) -> None:
+        """Have the eyes look at their full rate while a step needs them."""
+        wanted = looks(self.book)
+        if self._eyes is not None and wanted != self._attends:
+            self._attends = wanted
+            self._eyes.attend("mission", wanted)
+
+    def _on_sight(self, sight: Sight) -> None:
+        if self._eyes is None or self._helpers is None:
+            return
+        try:
+            self.event(Sighted(sight, self._eyes.classes))
+        except Exception as error:
+            self._break(error)
+            raise
 
     def _tell_first(self, goal_id: str) -> None:
         took_s = self.accepted.first_waypoint(goal_id, self._clocks.monotonic())
@@ -223,7 +263,7 @@ class Loop:
             case Journal() if self._safe is not None:
                 self._safe.write(effect, self._key_now)
                 self._key_now = None
-            case AskBrain() | AskRoute() | DropBrain() if self._helpers is not None:
+            case AskBrain() | AskRoute() | AskEyes() | DropBrain() if self._helpers is not None:
                 self._helpers.help(effect)
             case SayAloud():
                 self.hub.publish({"type": "say", "goal": effect.id, "text": effect.text})

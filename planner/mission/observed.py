@@ -36,11 +36,15 @@ def _observation(facts: Facts, mission: Mission, step: StepRecord, *, newest: bo
     detail = _detail(facts, step)
     if newest and step.state is StepState.FAILED and mission.failure is not None:
         detail = mission.failure.message
-    return Observation.model_validate({"step": step.kind, "result": result, "detail": detail})
+    return Observation.model_validate(
+        {"step": step.kind, "result": result, "detail": detail, "read": step.read}
+    )
 
 
 def _detail(facts: Facts, step: StepRecord) -> Bilingual:
     text = step.text or ""
+    if step.said is not None:
+        return step.said
     match step.kind:
         case "ask":
             answer = step.answer if step.answer is not None else "-"

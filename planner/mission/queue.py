@@ -8,7 +8,7 @@ with the answer, too.
 from __future__ import annotations
 
 from planner.mission.effects import DropBrain
-from planner.mission.records import Mission
+from planner.mission.records import Mission, Walk
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended, failure
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
@@ -78,10 +78,23 @@ def settle_walk(turn: Turn) -> Mission | None:
         metres = round(mission.metres + walk.metres, 4)
         done = round(mission.done + walk.amount, 5)
         mission = turn.put(mission, metres=metres, limited=limited, done=done)
+        if walk.since_s is not None:
+            mission = _settle_step(turn, mission, walk)
         if walk.kind == "think":  # nobody waits for this thought any more
             turn.emit(DropBrain(mission.id))
     turn.set(walk=None)
     return mission
+
+
+def _settle_step(turn: Turn, mission: Mission, walk: Walk) -> Mission:
+    """Write what a step that looks has spent, and what its skill remembers."""
+    since_s = walk.since_s if walk.since_s is not None else turn.now_s
+    return turn.put(
+        mission,
+        step_s=round(mission.step_s + max(0.0, turn.now_s - since_s), 3),
+        step_m=round(mission.step_m + walk.metres, 4),
+        notes=walk.notes if walk.notes is not None else mission.notes,
+    )
 
 
 def pause_running(turn: Turn, reason: str) -> None:

@@ -12,7 +12,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from planner.mission.skills.act import Way
+from planner.mission.skills.act import UNSEEN, Way
+from planner.mission.skills.eyesight import NO_EYES, Eyesight, Wanted
+from planner.mission.skills.notes import NOTHING, Notes
 from planner.plan import (
     ENDED,
     Bilingual,
@@ -20,11 +22,13 @@ from planner.plan import (
     Frozen,
     GoalState,
     Language,
+    Means,
     Outcome,
     PlanRecord,
     StepRecord,
     StepState,
 )
+from planner.vision.records import Sight
 from wire import Pose2, Status
 
 MAX_OPEN = 33
@@ -66,6 +70,12 @@ class Mission(Frozen):
     """Where the robot stood when the current step began: x [m], y [m], yaw [rad] in ``map``."""
     done: float = 0.0
     """What odometry says was done of the current step: radians of a turn, else metres ahead."""
+    notes: Notes = NOTHING
+    """What the skill of the current step remembers: where it looked, and what it saw."""
+    step_s: float = 0.0
+    """Time for which the current step was worked on."""
+    step_m: float = 0.0
+    """What was driven for it."""
     replans: int = 0
     """Thoughts spent on steps that failed."""
     decides: int = 0
@@ -144,7 +154,7 @@ class Rules:
 class Walk:
     """Remember the running step between two statuses."""
 
-    kind: Literal["drive", "wait", "say", "ask", "think"]
+    kind: Literal["drive", "gaze", "inquire", "wait", "say", "ask", "think"]
     record: int
     """The journal entry that says this step started; nothing moves or speaks before it is safe."""
     goal: Pose2 | None = None
@@ -160,6 +170,30 @@ class Walk:
     """Time for which the leg was followed and nothing held it."""
     left_m: float | None = None
     """Along the path, as of the newest status."""
+    since_s: float | None = None
+    """When this act began, where the step's time is counted."""
+    notes: Notes | None = None
+    """What the skill remembers while this act lasts."""
+    then: Notes | None = None
+    """And once it is done."""
+    otherwise: Notes | None = None
+    """And where its way is shut; None: then the step fails."""
+    wanted: Wanted | None = None
+    """As soon as this is seen for sure the skill is asked again."""
+    watch: bool = False
+    """The skill is asked again as the sight changes."""
+    asked_s: float | None = None
+    """When it was asked last."""
+    looks: int = 0
+    """New pictures that a gaze still waits for."""
+    look_seq: int = -1
+    """The newest picture that was counted."""
+    gazed: int = 0
+    """Pictures that were counted."""
+    gaze_s: float | None = None
+    """Since when the robot stands and pictures count."""
+    gaze_until_s: float | None = None
+    """When a gaze, or the wait for an answer about a picture, ends anyhow."""
     amount: float = 0.0
     """What odometry says was done in this leg, as in ``Mission.done``."""
     until_s: float | None = None
@@ -202,6 +236,8 @@ class Book:
     walk: Walk | None = None
     status: Status | None = None
     status_s: float = float("-inf")
+    eyes: Eyesight = NO_EYES
+    sight: Sight = UNSEEN
     pardoned: str | None = None
     """The bridge's hold that stood when a person last acted; it is given time to clear."""
     pardon_until_s: float = float("-inf")
@@ -213,3 +249,8 @@ class Book:
     """Journal entries asked for."""
     safe: int = 0
     """Journal entries known to be on disk."""
+
+    @property
+    def means(self) -> Means:
+        """Return what the robot can do besides driving and talking, as its eyes are now."""
+        return self.eyes.means(self.sight.blind)

@@ -22,10 +22,13 @@ from planner.mission.events import (
     Resume,
     Routed,
     Seen,
+    Sighted,
     Stopped,
     Submitted,
     Tick,
+    Told,
 )
+from planner.mission.gazing import on_sight, on_told
 from planner.mission.goals import (
     confirm,
     pause,
@@ -42,9 +45,10 @@ from planner.mission.queue import cancel, reorder
 from planner.mission.records import Book
 from planner.mission.table import refusal
 from planner.mission.turn import Turn
-from planner.mission.verdict import MOTION
+from planner.mission.verdict import moves
 from planner.mission.walk import speak_if_safe, start_next
 from planner.mission.watch import on_status, on_tick
+from planner.plan import NEEDS_CAMERA
 
 __all__ = ["AskBrain", "advance", "wish"]
 
@@ -71,20 +75,40 @@ def wish(book: Book) -> Wish:
     once the step's beginning is on disk.
     """
     mission = book.missions.get(book.running) if book.running is not None else None
-    if mission is None or not any(s.kind in MOTION for s in mission.steps[mission.step :]):
+    if mission is None or not any(map(moves, mission.steps[mission.step :])):
         return STAND
     walk = book.walk
-    moves = walk is not None and walk.kind == "drive" and book.safe >= walk.record
-    return Wish(mission.id, walk.leg if walk is not None and moves else None)
+    driven = walk is not None and walk.kind == "drive" and book.safe >= walk.record
+    return Wish(mission.id, walk.leg if walk is not None and driven else None)
+
+
+def looks(book: Book) -> bool:
+    """Tell whether the running step needs eyes now."""
+    mission = book.missions.get(book.running) if book.running is not None else None
+    return mission is not None and mission.now is not None and mission.now.kind in NEEDS_CAMERA
 
 
 def _fact(
     turn: Turn,
-    event: Submitted | Planned | Routed | Seen | Journalled | Stopped | Restarted | Known | Tick,
+    event: Submitted
+    | Planned
+    | Routed
+    | Seen
+    | Sighted
+    | Told
+    | Journalled
+    | Stopped
+    | Restarted
+    | Known
+    | Tick,
 ) -> None:
     match event:
         case Seen():
             on_status(turn, event.status, event.off_path, event.left_m)
+        case Sighted():
+            on_sight(turn, event.sight, event.classes)
+        case Told():
+            on_told(turn, event.id, event.ticket, event.answer)
         case Tick():
             on_tick(turn)
         case Journalled():

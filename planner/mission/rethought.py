@@ -38,6 +38,7 @@ SAME_AGAIN = "same_again"
 def fingerprint(steps: tuple[StepRecord, ...]) -> str:
     """Return what steps ask for, whatever came of them."""
     asked = {"kind", "place", "places", "object", "text", "seconds", "angle_rad", "distance_m"}
+    asked |= {"x", "y"}
     return json.dumps([s.model_dump(mode="json", include=asked) for s in steps], sort_keys=True)
 
 
@@ -51,7 +52,7 @@ def rethought(turn: Turn, mission: Mission, event: Planned) -> None:
     if steps is None:
         _no_steps(turn, mission, plan, event.failure)
         return
-    refused = unwalkable(turn.book.facts, steps) or _same_again(mission, steps)
+    refused = unwalkable(turn.book, mission, steps) or _same_again(mission, steps)
     if refused is not None:
         _end(turn, mission, GoalState.FAILED, refused)
         return

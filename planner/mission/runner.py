@@ -13,6 +13,7 @@ from typing import Any
 from planner.brain.intents import Cancel as TakeBack
 from planner.brain.intents import Replace, intent_of, stays_put, stops
 from planner.brain.intents import Resume as GoOn
+from planner.brain.looking import Looker
 from planner.brain.protocol import Brain
 from planner.link import Identity, Link, StopResult
 from planner.mission.accept import body_of, language_of
@@ -53,6 +54,7 @@ from planner.mission.table import refusal
 from planner.mission.thinking import thinker
 from planner.mission.view import goal_of
 from planner.plan import Goal, Language
+from planner.vision.ports import Eyes
 from planner.world import Site
 from wire import OpRequest, RobotDescription
 
@@ -79,7 +81,7 @@ class Missions:
         self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(Book(self.memory.facts), identity)
-        self._clocks = clocks or Clocks()
+        self._clocks, self._robot = clocks or Clocks(), robot
         self._loop = Loop(engine, link, journal, self._clocks)
         self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
         self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
@@ -88,6 +90,10 @@ class Missions:
         ).think
         self._keys: dict[str, GoalKey] = {}
         self.memory.listen(lambda: self._loop.event(Known(self.memory.facts)))
+
+    def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
+        """See with these eyes, and ask this model about their pictures. Before any start."""
+        self._loop.see(eyes, looker, self._robot.camera)
 
     # Life ---------------------------------------------------------------------------------------
 
@@ -315,13 +321,13 @@ class Missions:
         return self.goal(goal_id)
 
     def _newest_paused(self) -> str:
-        goal_id = to_resume(self._book)
-        if goal_id is None:
+        if (goal_id := to_resume(self._book)) is None:
             raise NothingToResume
         return goal_id
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        return await thinker(self._brain, self.memory.vocabulary, self._hearing)(ask)
+        mind = (self._brain, self.memory.vocabulary, self._hearing, self._book.means)
+        return await thinker(*mind)(ask)
 
     def _age_s(self) -> float:
         heard = self.link.status

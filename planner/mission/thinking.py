@@ -11,12 +11,14 @@ from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Think
-from planner.plan import Code, Outcome, Rejection, Vocabulary, message, validate_plan
+from planner.plan import BARE, Code, Means, Outcome, Rejection, Vocabulary, message, validate_plan
 
 log = logging.getLogger(__name__)
 
 
-def thinker(brain: Brain, vocabulary: Vocabulary, hearing: Hearing | None = None) -> Think:
+def thinker(
+    brain: Brain, vocabulary: Vocabulary, hearing: Hearing | None = None, means: Means = BARE
+) -> Think:
     """Return how this brain thinks about goals in this closed world; ``hearing`` listens."""
 
     async def think(ask: AskBrain) -> Planned:
@@ -25,6 +27,8 @@ def thinker(brain: Brain, vocabulary: Vocabulary, hearing: Hearing | None = None
             vocabulary=vocabulary,
             room=ask.room,
             language=ask.language,
+            runnable=means.offered,
+            blind=means.blind,
             goal=ask.id,
             observed=ask.observed,
             replan=ask.replan,
@@ -44,7 +48,7 @@ def thinker(brain: Brain, vocabulary: Vocabulary, hearing: Hearing | None = None
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             said = _outcome(Code.MODEL_UNAVAILABLE)
             return Planned(ask.id, None, said, error.brain or brain.tag)
-        judged = validate_plan(thought.plan, vocabulary)
+        judged = validate_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if isinstance(judged, Rejection):
             return Planned(ask.id, None, judged.outcome, thought.brain)
         return Planned(ask.id, judged, None, thought.brain)

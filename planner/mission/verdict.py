@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from planner.mission.records import Facts, Mission, Walk
+from planner.mission.skills.look import looks_round
 from planner.mission.skills.words import angle, metres
 from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message, same
 from planner.world.polygon import area_m2, contains
@@ -15,7 +16,15 @@ MAX_LIMITS_NAMED = 5
 MIN_LIMIT_SHARE = 0.02
 """A limit that was the nearest one in under 2 % of the statuses explains nothing."""
 MOTION = frozenset({"go_to", "return_home", "come_back", "turn", "move", "patrol"})
+SEEKS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point"})
 BUDGET = Bilingual(en="distance or time", zh="里程或时间")
+
+
+def moves(step: StepRecord) -> bool:
+    """Tell whether a step may move the robot: a look ahead does not."""
+    if step.kind == "look":
+        return step.place is not None or looks_round(step.text or "")
+    return step.kind in MOTION or step.kind in SEEKS
 
 
 def spot_at(facts: Facts, pose: Pose2 | None, place: str | None = None) -> Spot:
@@ -92,7 +101,7 @@ def ended(
     said: Bilingual,
 ) -> Outcome:
     """Return the outcome of a mission that had begun, with the bridge's figures."""
-    drives = [s for s in mission.steps if s.kind in MOTION]
+    drives = [s for s in mission.steps if moves(s)]
     tried = [s for s in drives if s.state is not StepState.PENDING]
     last = tried[-1] if tried else (drives[0] if drives else None)
     pose = status.base_in_map if status is not None else None
@@ -109,7 +118,22 @@ def ended(
 
 
 def success(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:
-    """Return the code and sentence of a mission whose every step is done."""
+    """Return the code and sentence of a mission whose every step is done, with what was seen."""
+    told = [s for s in mission.steps if s.said is not None]
+    if not told:
+        return _driven(facts, mission)
+    code = told[-1].code or Code.SEEN
+    sentences = [s.read or s.said for s in told if s.said is not None]
+    last = max(mission.steps.index(s) for s in told)
+    if any(s.kind in MOTION for s in mission.steps[last:]):
+        code, said = _driven(facts, mission)
+        sentences.append(said)
+    en, zh = " ".join(s.en for s in sentences), "".join(s.zh for s in sentences)
+    return code, Bilingual(en=en, zh=zh)
+
+
+def _driven(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:
+    """Return the code and sentence of the last drive."""
     drives = [s for s in mission.steps if s.kind in MOTION]
     if drives and drives[-1].kind in ("turn", "move"):
         return Code.DONE, _amount(drives[-1])

@@ -7,18 +7,23 @@ pose lies inside the room's outline. Nothing moves or speaks before the journal 
 from __future__ import annotations
 
 from planner.mission.amounts import measure_from, settle_amounts
-from planner.mission.effects import SayAloud
+from planner.mission.effects import AskEyes, SayAloud
 from planner.mission.failing import fail_step, think
 from planner.mission.legs import RETRY_S, ask_route, lost_route
 from planner.mission.queue import finish, next_up, note_step, pause_running, settle_walk, step_aside
 from planner.mission.records import Mission, Walk
 from planner.mission.sight import cannot_move, standing
 from planner.mission.skills import (
+    NOTHING,
     Act,
+    Answer,
     Cannot,
     Done,
     Drive,
+    Gaze,
+    Inquire,
     Later,
+    Notes,
     Question,
     Scene,
     Skip,
@@ -28,7 +33,7 @@ from planner.mission.skills import (
     act_of,
 )
 from planner.mission.turn import Turn
-from planner.mission.verdict import MOTION, accepted_at, ended, spot_at, success
+from planner.mission.verdict import accepted_at, ended, moves, spot_at, success
 from planner.plan import Code, GoalState, Outcome, StepState, message, same
 from planner.world.polygon import contains
 from wire import Pose2
@@ -56,17 +61,21 @@ def begin_step(turn: Turn) -> None:
     if step.state is StepState.FAILED:  # paused while a better plan was thought about
         think(turn, mission)
         return
-    cause = cannot_move(turn.book.status) if step.kind in MOTION else None
+    cause = cannot_move(turn.book.status) if moves(step) else None
     if cause is not None:
         turn.set(walk=None)
         pause_running(turn, cause)
         return
     mission = measure_from(turn, mission, _pose(turn))
-    _carry_out(turn, mission, act_of(scene_of(turn, mission)))
+    carry_out(turn, mission, act_of(scene_of(turn, mission)))
 
 
-def scene_of(turn: Turn, mission: Mission) -> Scene:
-    """Return what the skill of the current step is told."""
+def scene_of(
+    turn: Turn, mission: Mission, gazed_s: float | None = None, answer: Answer | None = None
+) -> Scene:
+    """Return what the skill of the current step is told; ``gazed_s``: a gaze has just ended."""
+    walk = turn.book.walk
+    since_s = walk.since_s if walk is not None and walk.since_s is not None else turn.now_s
     return Scene(
         step=mission.steps[mission.step],
         facts=turn.book.facts,
@@ -75,6 +84,15 @@ def scene_of(turn: Turn, mission: Mission) -> Scene:
         done=mission.done,
         part=mission.part,
         accepted=accepted_at(mission),
+        language=mission.language,
+        notes=walk.notes if walk is not None and walk.notes is not None else mission.notes,
+        eyes=turn.book.eyes,
+        sight=turn.book.sight,
+        now_s=turn.now_s,
+        gazed_s=gazed_s,
+        spent_s=mission.step_s + max(0.0, turn.now_s - since_s),
+        spent_m=mission.step_m + (walk.metres if walk is not None else 0.0),
+        answer=answer,
     )
 
 
@@ -82,11 +100,15 @@ def _pose(turn: Turn) -> Pose2 | None:
     return turn.book.status.base_in_map if turn.book.status is not None else None
 
 
-def _carry_out(turn: Turn, mission: Mission, act: Act) -> None:
+def carry_out(turn: Turn, mission: Mission, act: Act) -> None:
     """Do what a skill asked for."""
     match act:
         case Drive():
             _drive(turn, act)
+        case Gaze():
+            _gaze(turn, mission, act)
+        case Inquire():
+            _inquire(turn, mission, act)
         case Later():
             _later(turn, mission)
         case Stand():
@@ -101,7 +123,7 @@ def _carry_out(turn: Turn, mission: Mission, act: Act) -> None:
         case Think():
             _decide(turn, mission)
         case Done():
-            finish_step(turn, StepState.SUCCEEDED, **act.figures)
+            finish_step(turn, StepState.SUCCEEDED, **act.figures, **_result(act))
         case Skip():
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
         case Cannot():
@@ -123,9 +145,74 @@ def _drive(turn: Turn, act: Drive) -> None:
             target=act.target,
             limit_s=act.limit_s,
             limit_m=act.limit_m,
+            since_s=turn.now_s,
+            notes=act.notes,
+            then=act.then,
+            otherwise=act.otherwise,
+            wanted=act.wanted,
+            watch=act.watch,
+            asked_s=turn.now_s,
         )
     )
     ask_route(turn, detour=False)
+
+
+def _gaze(turn: Turn, mission: Mission, act: Gaze) -> None:
+    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    turn.set(
+        walk=Walk(
+            "gaze",
+            turn.next_entry,
+            since_s=turn.now_s,
+            notes=act.notes,
+            then=act.then,
+            wanted=act.wanted,
+            watch=act.watch,
+            asked_s=turn.now_s,
+            looks=act.looks,
+            gaze_until_s=turn.now_s + act.seconds,
+        )
+    )
+
+
+def _inquire(turn: Turn, mission: Mission, act: Inquire) -> None:
+    """Ask about the picture, standing; whoever answers does so by the ticket."""
+    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    ticket = turn.book.tickets + 1
+    turn.set(
+        tickets=ticket,
+        walk=Walk(
+            "inquire",
+            turn.next_entry,
+            since_s=turn.now_s,
+            notes=act.notes,
+            then=act.then,
+            ticket=ticket,
+            gaze_until_s=turn.now_s + act.seconds,
+        ),
+    )
+    ask = AskEyes(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y)
+    turn.emit(ask)
+
+
+def _result(act: Done) -> dict[str, object]:
+    """Return what a step that looks came to, for its record."""
+    return {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
+
+
+def go_on(
+    turn: Turn,
+    then: Notes | None,
+    *,
+    gazed_s: float | None = None,
+    answer: Answer | None = None,
+) -> None:
+    """Go on in the step after a gaze or an answer: ask its skill what is next."""
+    mission = settle_walk(turn)
+    if mission is None:
+        return
+    mission = turn.put(mission, part=mission.part + 1, notes=then or mission.notes)
+    carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
 
 
 def _later(turn: Turn, mission: Mission) -> None:
@@ -171,7 +258,7 @@ def on_arrival(turn: Turn) -> bool:
     settled = settle_walk(turn)
     if settled is None:
         return True
-    mission = turn.put(settled, part=settled.part + 1)
+    mission = turn.put(settled, part=settled.part + 1, notes=walk.then or settled.notes)
     figures = {"reached": spot_at(turn.book.facts, pose, walk.target)}
     residuals = {
         "residual_m": round(leg.residual_m, 4),
@@ -180,7 +267,7 @@ def on_arrival(turn: Turn) -> bool:
     mission = note_step(turn, mission, **figures, **residuals)
     if mission.steps[mission.step].kind == "patrol":
         mission = note_step(turn, mission, visited=mission.part)
-    _carry_out(turn, mission, act_of(scene_of(turn, mission)))
+    carry_out(turn, mission, act_of(scene_of(turn, mission)))
     return True
 
 
@@ -203,7 +290,16 @@ def finish_step(turn: Turn, state: StepState, **record: object) -> None:
 
 def next_step(turn: Turn, mission: Mission) -> Mission:
     """Point at the next step, of which nothing is done yet."""
-    return turn.put(mission, step=mission.step + 1, part=0, began_at=None, done=0.0)
+    return turn.put(
+        mission,
+        step=mission.step + 1,
+        part=0,
+        began_at=None,
+        done=0.0,
+        notes=NOTHING,
+        step_s=0.0,
+        step_m=0.0,
+    )
 
 
 def speak_if_safe(turn: Turn) -> None:

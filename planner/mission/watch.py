@@ -9,6 +9,7 @@ from __future__ import annotations
 from planner.mission.amounts import forget_beginnings, hand_steers, settle_amounts
 from planner.mission.asking import end_unanswered
 from planner.mission.failing import fail_step
+from planner.mission.gazing import end_gaze_if_due, on_standing
 from planner.mission.legs import ask_route, detour_if_due, lost_route
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
 from planner.mission.records import Walk
@@ -25,7 +26,7 @@ from planner.mission.sight import (
 from planner.mission.skills import Cannot
 from planner.mission.skills.places import place_gone
 from planner.mission.turn import Turn
-from planner.mission.verdict import MOTION
+from planner.mission.verdict import moves
 from planner.mission.walk import begin_step, end_wait_if_due, on_arrival
 from planner.plan import Code, GoalState, PauseReason, fault
 from wire import Mode, Status
@@ -69,6 +70,7 @@ def on_tick(turn: Turn) -> None:
         pause_running(turn, fault("BRAIN_GONE"))
         return
     end_wait_if_due(turn)
+    end_gaze_if_due(turn)
 
 
 def _measure(
@@ -121,7 +123,7 @@ def _fault_reason(status: Status) -> str:
 def _drives_on(turn: Turn) -> bool:
     """Tell whether the running mission drives now or will."""
     mission = turn.running
-    return mission is not None and any(s.kind in MOTION for s in mission.steps[mission.step :])
+    return mission is not None and any(map(moves, mission.steps[mission.step :]))
 
 
 def _spent(turn: Turn, status: Status) -> bool:
@@ -166,6 +168,9 @@ def _held_too_long(turn: Turn, status: Status) -> bool:
 def _progress(turn: Turn, status: Status, off_path: bool) -> None:
     end_wait_if_due(turn)
     walk = turn.book.walk
+    if walk is not None and walk.kind in ("gaze", "inquire"):
+        on_standing(turn, walk)
+        return
     if walk is None or walk.kind != "drive" or on_arrival(turn) or _off_limits(turn, walk):
         return
     if shows(status, "POSE_JUMP"):

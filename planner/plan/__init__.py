@@ -5,6 +5,7 @@ from planner.plan.codes import Code, message, template
 from planner.plan.goal import (
     ENDED,
     BrainTag,
+    Found,
     Goal,
     GoalState,
     PauseReason,
@@ -14,6 +15,7 @@ from planner.plan.goal import (
     fault,
     plan_record,
 )
+from planner.plan.means import BARE, NEEDS_DETECTOR, Means
 from planner.plan.outcome import Outcome, Spot
 from planner.plan.plans import MAX_STEPS, PLAN, Answer, Clarify, Option, Plan, Refuse, StepPlan
 from planner.plan.steps import (
@@ -44,11 +46,13 @@ from planner.plan.validate import Reason, Rejection, lacking, validate_plan
 from planner.plan.vocabulary import Entry, PlaceId, Vocabulary
 
 __all__ = [
+    "BARE",
     "DRIVES",
     "ENDED",
     "EVERY_KIND",
     "MAX_STEPS",
     "NEEDS_CAMERA",
+    "NEEDS_DETECTOR",
     "PLAN",
     "RUNNABLE",
     "Answer",
@@ -63,6 +67,7 @@ __all__ = [
     "Entry",
     "Find",
     "Follow",
+    "Found",
     "Frozen",
     "GoTo",
     "GoToObject",
@@ -71,6 +76,7 @@ __all__ = [
     "GoalState",
     "Language",
     "Look",
+    "Means",
     "Move",
     "Option",
     "Outcome",

@@ -27,6 +27,8 @@ class Code(StrEnum):
     OUT_OF_SCOPE = "out_of_scope"
     NO_CAPABILITY = "no_capability"
     NO_CAMERA = "no_camera"
+    NO_DETECTOR = "no_detector"
+    OBJECT_UNKNOWN = "object_unknown"
     UNSAFE = "unsafe"
     BAD_PLAN = "bad_plan"
     MODEL_UNAVAILABLE = "model_unavailable"
@@ -40,11 +42,19 @@ class Code(StrEnum):
     NOT_REACHED = "not_reached"
     NO_ROUTE = "no_route"
     BLOCKED = "blocked"
+    BLIND = "blind"
+    NOT_FOUND = "not_found"
+    LOST_PERSON = "lost_person"
+    POINT_REFUSED = "point_refused"
     STOPPED = "stopped"
     FAULT = "fault"
     OUT_OF_BUDGET = "out_of_budget"
     # The end.
     ARRIVED = "arrived"
+    FOUND = "found"
+    COUNTED = "counted"
+    SEEN = "seen"
+    FOLLOWED = "followed"
     DONE = "done"
     ANSWERED = "answered"
     CANCELLED = "cancelled"
@@ -99,6 +109,14 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "I can't do “{part}”: it needs a camera, and there is none.",
         "我做不到“{part}”：这需要摄像头，而现在没有。",
     ),
+    Code.NO_DETECTOR: (
+        "I can't do “{part}”: there is a camera, but nothing here recognises what it shows.",
+        "我做不到“{part}”：有摄像头，但没有能识别画面的模型。",
+    ),
+    Code.OBJECT_UNKNOWN: (
+        "I can't recognise “{name}”. What I can: {known}.",
+        "我认不出“{name}”。我能认出：{known}。",
+    ),
     Code.UNSAFE: (
         "I will not do “{part}”: {rule}.",
         "我不会做“{part}”：{rule}。",
@@ -147,6 +165,22 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "The way to {place} is blocked.",
         "去{place}的路被挡住了。",
     ),
+    Code.BLIND: (
+        "I can't see now ({why}), so I stay where I am.",
+        "我现在看不见（{why}），所以不动。",
+    ),
+    Code.NOT_FOUND: (
+        "I saw no {thing}. {looked}",
+        "没有看到{thing}。{looked}",
+    ),
+    Code.LOST_PERSON: (
+        "I see nobody to follow any more: nobody was in sight for {seconds} s.",
+        "跟丢了：{seconds} 秒内没有看到人。",
+    ),
+    Code.POINT_REFUSED: (
+        "I can't drive to that point of the picture: {why}.",
+        "无法开到画面中的那个位置：{why}。",
+    ),
     Code.STOPPED: (
         "Stopped.",
         "已停下。",
@@ -162,6 +196,22 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
     Code.ARRIVED: (
         "Arrived: {place}.",
         "已到达：{place}。",
+    ),
+    Code.FOUND: (
+        "{text}",
+        "{text}",
+    ),
+    Code.COUNTED: (
+        "{text}",
+        "{text}",
+    ),
+    Code.SEEN: (
+        "{text}",
+        "{text}",
+    ),
+    Code.FOLLOWED: (
+        "I followed for {seconds} s, {metres} m.",
+        "跟随了 {seconds} 秒，{metres} 米。",
     ),
     Code.DONE: (
         "Done.",

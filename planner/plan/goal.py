@@ -61,6 +61,19 @@ class StepState(StrEnum):
     SKIPPED = "skipped"
 
 
+class Found(Frozen):
+    """Show a thing that was seen: what, where in `map` [m], how far away, how long ago."""
+
+    label: str
+    color: str | None = None
+    x_m: float
+    y_m: float
+    sigma_m: float | None = None  # one standard deviation of where it stands
+    room: str | None = None
+    distance_m: float | None = None
+    age_s: float | None = None
+
+
 class StepRecord(Frozen):
     """Show one step: what it asks, where it stands, what was reached and why not."""
 
@@ -79,6 +92,14 @@ class StepRecord(Frozen):
     moved_m: float | None = None  # by odometry, along the heading at the beginning of a move
     turned_rad: float | None = None  # by odometry, counter-clockwise positive
     visited: int | None = None  # places of a patrol reached so far
+    x: int | None = None  # a point of the picture, 0 to 1000 from its left
+    y: int | None = None  # and from its top
+    found: Found | None = None  # what a step that looks has found
+    count: int | None = None  # how many of it
+    rooms: tuple[str, ...] = ()  # that were looked through
+    code: Code | None = None  # what a step that looks came to
+    said: Bilingual | None = None  # and in words, from figures
+    read: Bilingual | None = None  # what a model said of the picture: tainted, for people alone
     answer: str | None = None  # what a person answered to this step's question
     left_m: float | None = None  # way left while the step runs
     left_rad: float | None = None  # angle left while it runs
@@ -142,6 +163,4 @@ def _step_record(step: Frozen) -> StepRecord:
     fields = step.model_dump()
     if "question" in fields:
         fields["text"] = fields.pop("question")
-    if "x" in fields:  # a point of the picture has no place in the record but as words
-        fields["text"] = f"({fields.pop('x')}, {fields.pop('y')})"
     return StepRecord.model_validate(fields)

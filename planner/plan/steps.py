@@ -157,7 +157,7 @@ _MODELS: tuple[type[Frozen], ...] = get_args(get_args(Step)[0])
 RUNNABLE = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
     | {"wait", "say", "ask", "decide"}
-)  # what a mission can walk: each has its skill in planner.mission.skills
+)  # what a mission can walk without eyes; `Means` says what else a robot can
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
 EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""

@@ -40,18 +40,22 @@ def validate_plan(
     plan: StepPlan | Answer | Clarify | Refuse,
     vocabulary: Vocabulary,
     runnable: frozenset[str] = RUNNABLE,
+    blind: Code = Code.NO_CAMERA,
 ) -> StepPlan | Answer | Clarify | Refuse | Rejection:
     """Return the plan itself where it may be walked, else every reason why it may not.
 
-    Bounds of numbers hold from birth (the models refuse them), so they are not looked at again.
+    ``blind`` is the code of a step that needs eyes and can't be run. Bounds of numbers hold from
+    birth (the models refuse them), so they are not looked at again.
     """
     if not isinstance(plan, StepPlan):
         return plan
-    reasons = tuple(_faults(plan, vocabulary, runnable))
+    reasons = tuple(_faults(plan, vocabulary, runnable, blind))
     return Rejection(reasons=reasons, outcome=_outcome(reasons, vocabulary)) if reasons else plan
 
 
-def _faults(plan: StepPlan, vocabulary: Vocabulary, runnable: frozenset[str]) -> Iterator[Reason]:
+def _faults(
+    plan: StepPlan, vocabulary: Vocabulary, runnable: frozenset[str], blind: Code
+) -> Iterator[Reason]:
     count = len(plan.steps)
     if not 1 <= count <= MAX_STEPS:
         what = f"{count} steps; expected 1 to {MAX_STEPS}"
@@ -61,12 +65,12 @@ def _faults(plan: StepPlan, vocabulary: Vocabulary, runnable: frozenset[str]) ->
             if place not in vocabulary:
                 yield Reason(code=Code.UNKNOWN_PLACE, step=index, what=place, repairable=True)
         if step.kind not in runnable:
-            yield Reason(code=lacking(step), step=index, what=step.kind, repairable=False)
+            yield Reason(code=lacking(step, blind), step=index, what=step.kind, repairable=False)
 
 
-def lacking(step: Step) -> Code:
-    """Name what the robot lacks for a step that it can't run."""
-    return Code.NO_CAMERA if step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY
+def lacking(step: Step, blind: Code = Code.NO_CAMERA) -> Code:
+    """Name what the robot lacks for a step that it can't run; ``blind``: what its eyes lack."""
+    return blind if step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY
 
 
 def _outcome(reasons: tuple[Reason, ...], vocabulary: Vocabulary) -> Outcome:

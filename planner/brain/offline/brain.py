@@ -37,6 +37,7 @@ class OfflineBrain:
             language=request.language,
             now=self._clock(),
             runnable=request.runnable,
+            blind=request.blind,
         )
         made = plan(request.text, request.vocabulary, context)
         return Thought(plan=rest_of(made, request.observed), brain=TAG)

@@ -42,13 +42,14 @@ _RANK = (
     Code.UNSAFE,
     Code.NO_CAPABILITY,
     Code.NO_CAMERA,
+    Code.NO_DETECTOR,
     Code.BAD_PLAN,
     Code.NOT_UNDERSTOOD,
     Code.UNKNOWN_PLACE,
     Code.INCOMPLETE,
     Code.AMBIGUOUS,
 )
-_LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA})
+_LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA, Code.NO_DETECTOR})
 _SHOWN = 60  # characters of the sentence that a message repeats
 _SPAN = Bilingual(en="a wait is at most 600 seconds", zh="等待时间最多 600 秒")
 _ONLY = Bilingual(en=" Shall I do only this: {order}?", zh="要不要只做这些：{order}？")

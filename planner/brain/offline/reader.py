@@ -59,6 +59,7 @@ class Context(Frozen):
     language: Language | None = None
     now: datetime | None = None  # for "what time is it"
     runnable: frozenset[str] = RUNNABLE  # kinds of steps the robot can do
+    blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
 
 
 NOWHERE = Context()
@@ -108,7 +109,7 @@ def _understood(
         return compose([topic], bare, setting)
     ordered = replace(marked, text=in_order(marked.text))
     meanings = [
-        _within(meaning, context.runnable)
+        _within(meaning, context.runnable, context.blind)
         for meaning in _meanings(ordered, reading, language_of(text))
     ]
     if not meanings:
@@ -116,7 +117,7 @@ def _understood(
     return compose(meanings, marked.restore(marked.text), setting)
 
 
-def _within(meaning: Meaning, runnable: frozenset[str]) -> Meaning:
+def _within(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
     """Turn steps that this robot can't do into the problem that it lacks the means."""
     if isinstance(meaning, Problem):
         can = tuple(step for step in meaning.before if step.kind in runnable)
@@ -126,7 +127,7 @@ def _within(meaning: Meaning, runnable: frozenset[str]) -> Meaning:
     )
     if not lacks or not isinstance(meaning, Steps):
         return meaning
-    code = Code.NO_CAMERA if any(s.kind in NEEDS_CAMERA for s in lacks) else lacking(lacks[0])
+    code = blind if any(s.kind in NEEDS_CAMERA for s in lacks) else lacking(lacks[0])
     patrolled = [p for s in lacks if isinstance(s, Patrol) for p in s.places]
     can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
     can = (*can, *(GoTo(place=place) for place in patrolled))

@@ -1,7 +1,7 @@
 """Do each kind of step: one pure function a kind, in a file with its law and its budget.
 
-``act_of(scene)`` returns what is to be done next for a step. What needs a camera has no skill yet
-and is refused before anything moves.
+``act_of(scene)`` returns what is to be done next for a step. What the robot lacks the means for is
+refused before anything moves.
 """
 
 from collections.abc import Callable
@@ -12,6 +12,8 @@ from planner.mission.skills.act import (
     Cannot,
     Done,
     Drive,
+    Gaze,
+    Inquire,
     Later,
     Question,
     Scene,
@@ -23,15 +25,23 @@ from planner.mission.skills.act import (
 )
 from planner.mission.skills.ask import ask
 from planner.mission.skills.come_back import come_back
+from planner.mission.skills.count import count
 from planner.mission.skills.decide import decide
+from planner.mission.skills.eyesight import NO_EYES, Answer, Eyesight, Wanted
+from planner.mission.skills.find import find
+from planner.mission.skills.follow import follow
 from planner.mission.skills.go_to import go_to
+from planner.mission.skills.go_to_object import go_to_object
+from planner.mission.skills.go_to_point import go_to_point
+from planner.mission.skills.look import look
 from planner.mission.skills.move import move, no_room
+from planner.mission.skills.notes import NOTHING, Notes
 from planner.mission.skills.patrol import patrol
 from planner.mission.skills.return_home import return_home
 from planner.mission.skills.say import say
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
-from planner.plan import NEEDS_CAMERA, Code, message, same
+from planner.plan import Code, message, same
 
 SKILLS: MappingProxyType[str, Callable[[Scene], Act]] = MappingProxyType(
     {
@@ -45,32 +55,47 @@ SKILLS: MappingProxyType[str, Callable[[Scene], Act]] = MappingProxyType(
         "say": say,
         "ask": ask,
         "decide": decide,
+        "find": find,
+        "count": count,
+        "look": look,
+        "follow": follow,
+        "go_to_object": go_to_object,
+        "go_to_point": go_to_point,
     }
 )
 
 
 def act_of(scene: Scene) -> Act:
-    """Return what a step asks for now; a kind without a skill can't be done."""
+    """Return what a step asks for now; one that the robot lacks the means for can't be done."""
+    code = scene.eyes.means(scene.sight.blind).lacks(scene.step.kind)
     skill = SKILLS.get(scene.step.kind)
-    if skill is not None:
+    if skill is not None and code is None:
         return skill(scene)
-    code = Code.NO_CAMERA if scene.step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY
+    code = code or Code.NO_CAPABILITY
     return Cannot(code, code.value, message(code, part=same(scene.step.kind)))
 
 
 __all__ = [
+    "NOTHING",
+    "NO_EYES",
     "SKILLS",
     "Act",
+    "Answer",
     "Cannot",
     "Done",
     "Drive",
+    "Eyesight",
+    "Gaze",
+    "Inquire",
     "Later",
+    "Notes",
     "Question",
     "Scene",
     "Skip",
     "Speak",
     "Stand",
     "Think",
+    "Wanted",
     "Way",
     "act_of",
     "no_room",

@@ -2,18 +2,28 @@
 
 A skill is a pure function of a :class:`Scene`: asked when its step begins, after each leg of it was
 reached, and again after a pause or a crash. It answers with one act; the mission carries it out.
+What a skill must remember it hands over with its act: ``notes`` hold while the act lasts, ``then``
+once it is done, ``otherwise`` where its way turns out to be shut.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
+
+from planner.mission.skills.eyesight import NO_EYES, Answer, Eyesight, Wanted
+from planner.mission.skills.notes import NOTHING, Notes
+from planner.plan import Language
+from planner.vision.records import Sight
 
 if TYPE_CHECKING:
     from planner.mission.records import Facts
     from planner.plan import Bilingual, Code, StepRecord
     from wire import Pose2
+
+UNSEEN = Sight()
+"""Nothing was ever seen."""
 
 
 class Way(StrEnum):
@@ -43,6 +53,26 @@ class Scene:
     """Legs of this step that were reached."""
     accepted: Pose2 | None
     """The robot in ``map`` when the goal was accepted, where it was known."""
+    language: Language = Language.EN
+    """Of the order."""
+    notes: Notes = NOTHING
+    """What the skill handed over with what it asked for before."""
+    eyes: Eyesight = NO_EYES
+    sight: Sight = UNSEEN
+    now_s: float = 0.0
+    """On the clock of the sight."""
+    gazed_s: float | None = None
+    """Since when was gazed, where a gaze has just ended."""
+    spent_s: float = 0.0
+    """Time for which this step was worked on."""
+    spent_m: float = 0.0
+    """What was driven for this step."""
+    answer: Answer | None = None
+    """What came of a question about the picture that was just asked."""
+
+    def but(self, notes: Notes) -> Scene:
+        """Return the scene with other notes."""
+        return replace(self, notes=notes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +89,44 @@ class Drive:
     """Longest time in motion; None: the bridge's grant bounds it."""
     limit_m: float | None = None
     """Longest way; None: the bridge's grant bounds it."""
+    notes: Notes | None = None
+    then: Notes | None = None
+    otherwise: Notes | None = None
+    """The step goes on with these where there is no way; None: it fails."""
+    wanted: Wanted | None = None
+    """As soon as this is seen for sure the skill is asked again."""
+    watch: bool = False
+    """The skill is asked again as the sight changes, twice a second at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Gaze:
+    """Stand and look, until so many new pictures were thought upon, or for so long."""
+
+    looks: int
+    seconds: float = 6.0
+    """Longest wait for them; without any the robot is blind, and the step fails."""
+    notes: Notes | None = None
+    then: Notes | None = None
+    wanted: Wanted | None = None
+    watch: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Inquire:
+    """Ask about the picture, standing: a vision model in words, or what a pixel shows.
+
+    With ``x`` and ``y`` (0 to 1000) the point there; else with ``point`` where these words are;
+    else what is seen, as an answer to these words.
+    """
+
+    words: str = ""
+    point: bool = False
+    x: int | None = None
+    y: int | None = None
+    seconds: float = 30.0
+    notes: Notes | None = None
+    then: Notes | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +165,11 @@ class Done:
     """End the step well; ``figures`` go into its record."""
 
     figures: dict[str, Any] = field(default_factory=dict)
+    code: Code | None = None
+    """What the step came to, where it has something to tell."""
+    said: Bilingual | None = None
+    read: Bilingual | None = None
+    """What a model said of a picture: for people alone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,4 +190,4 @@ class Cannot:
     figures: dict[str, Any] = field(default_factory=dict)
 
 
-Act = Drive | Stand | Speak | Question | Think | Later | Done | Skip | Cannot
+Act = Drive | Stand | Gaze | Inquire | Speak | Question | Think | Later | Done | Skip | Cannot

@@ -20,7 +20,7 @@ from planner.mission.skills import (
     Think,
     act_of,
 )
-from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, StepState
+from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, Means, StepState
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2
@@ -29,8 +29,14 @@ HALL, DOCK = FACTS.targets["hall"].pose, FACTS.targets["dock"].pose
 BACK = Pose2(1.0, 1.0, 0.5)
 
 
-def test_what_may_be_planned_has_a_skill_and_what_needs_a_camera_has_none() -> None:
-    assert set(SKILLS) == RUNNABLE == EVERY_KIND - NEEDS_CAMERA
+def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
+    assert set(SKILLS) == EVERY_KIND == Means(camera=True, detector=True).runnable
+    assert Means().runnable == RUNNABLE == EVERY_KIND - NEEDS_CAMERA
+    blind = Means(camera=True)
+    assert blind.runnable - RUNNABLE == {"go_to_point"}
+    assert Means(camera=True, model=True).runnable - blind.runnable == {"look"}
+    assert blind.offered == RUNNABLE, "who sees no picture can't point at it"
+    assert [m.lacks("find") for m in (Means(), blind)] == [Code.NO_CAMERA, Code.NO_DETECTOR]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,103 @@
+"""Ask about the picture: a vision model in words, or the eyes what a pixel shows. One task each.
+
+Law: a goal's pixel counts in the picture that was the newest when its plan was asked for, or when
+the model was asked; what a model says is words for people and never a step. Whatever fails comes
+back as a code inside the answer.
+"""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING
+
+from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.looking import Picture as Shown
+from planner.brain.looking import Pointed
+from planner.mission.events import Told
+from planner.mission.skills.eyesight import Answer
+from planner.vision.ports import PointRefused
+
+if TYPE_CHECKING:
+    from planner.brain.looking import Looker
+    from planner.mission.effects import AskEyes
+    from planner.vision.ports import Eyes, Picture
+    from planner.vision.records import Detection
+
+log = logging.getLogger(__name__)
+
+KEPT = 64
+"""Pictures kept for goals: more than can be open."""
+
+
+class EyeDoor:
+    """Stand between the missions and whoever sees."""
+
+    def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
+        """Ask these eyes, and this model about their pictures."""
+        self._eyes, self._looker = eyes, looker
+        self._pictures: dict[str, Picture] = {}
+
+    def note(self, goal_id: str) -> None:
+        """Keep the newest picture: a plan for this goal is asked for now."""
+        picture = self._eyes.picture if self._eyes is not None else None
+        if picture is None:
+            return
+        self._pictures.pop(goal_id, None)
+        self._pictures[goal_id] = picture
+        if len(self._pictures) > KEPT:
+            self._pictures.pop(next(iter(self._pictures)))
+
+    async def ask(self, ask: AskEyes) -> Told:
+        """Return the answer to one question."""
+        return Told(ask.id, ask.ticket, await self._answer(ask))
+
+    async def _answer(self, ask: AskEyes) -> Answer:
+        eyes = self._eyes
+        picture = eyes.picture if eyes is not None else None
+        if eyes is None or picture is None:
+            return Answer(failure="camera_silent")
+        if ask.x is not None and ask.y is not None:
+            meant = self._pictures.get(ask.id, picture)
+            return await _point(eyes, meant, ask.x, ask.y)
+        if self._looker is None:
+            return Answer(failure="no_vision_model")
+        try:
+            return await self._model(self._looker, eyes, picture, ask)
+        except (BrainDown, PlanRejected) as failure:
+            code = failure.why if isinstance(failure, BrainDown) else failure.code
+            log.warning("goal %s: nobody looked at the picture: %s", ask.id, failure)
+            return Answer(failure=code)
+
+    async def _model(self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes) -> Answer:
+        shown, seen = _shown(eyes, picture), _detections(eyes, picture)
+        if ask.point:
+            found = await looker.point(shown, ask.words, ask.language, seen, ask.id)
+            if not isinstance(found, Pointed):
+                return Answer(failure="not_in_picture")
+            return await _point(eyes, picture, found.x, found.y)
+        said = await looker.describe(shown, ask.words, ask.language, seen, ask.id)
+        if said.brain.fallback_from is not None:  # the detector spoke: the skill does that itself
+            return Answer(failure=said.brain.fallback_reason)
+        return Answer(text=said.text)
+
+
+async def _point(eyes: Eyes, picture: Picture, x: float, y: float) -> Answer:
+    """Return the point of the world that a pixel shows."""
+    try:
+        spot = await eyes.spot(picture, x, y)
+    except PointRefused as refused:
+        return Answer(failure=refused.code)
+    return Answer(at=(spot.x_m, spot.y_m, spot.z_m))
+
+
+def _shown(eyes: Eyes, picture: Picture) -> Shown:
+    header, look = picture.color.header, eyes.sight.look
+    pose = look.base_in_map if look is not None and look.seq == header.seq else None
+    return Shown(picture.color.data, header.width, header.height, header.seq, pose)
+
+
+def _detections(eyes: Eyes, picture: Picture) -> tuple[Detection, ...]:
+    """Return what was found in this very picture, where it was thought upon."""
+    look = eyes.sight.look
+    same = look is not None and look.seq == picture.color.header.seq
+    return look.detections if look is not None and same else ()

@@ -1,0 +1,53 @@
+"""Find a thing or a person, and say where.
+
+Precondition: the detector knows what is meant. Verdict: found is what two pictures at least agree
+on, standing, in the colour that was asked for. Not found is told with the rooms that were looked
+in. Budget: 55 m and 540 s a step; the rooms of the site, or the one place that is named.
+"""
+
+from __future__ import annotations
+
+from planner.mission.skills.act import Act, Cannot, Done, Later, Scene
+from planner.mission.skills.eyesight import Wanted
+from planner.mission.skills.search import search, spent
+from planner.mission.skills.seen import found, wanted_of
+from planner.mission.skills.tell import found_at, known_things, looked_in
+from planner.plan import Code, message, same
+from planner.vision.labels import named
+from planner.vision.records import Thing
+
+
+def find(scene: Scene) -> Act:
+    """Return what to do next in the search, or what came of it."""
+    wanted = wanted_of(scene)
+    if wanted is None:
+        return unknown(scene)
+    if scene.pose is None:
+        return Later()
+    next_ = search(scene, scene.pose, wanted)
+    if isinstance(next_, Thing):
+        return _found(scene, next_)
+    return next_ if next_ is not None else not_found(scene, wanted)
+
+
+def _found(scene: Scene, thing: Thing) -> Done:
+    record = found(thing, scene.pose, scene.now_s)
+    said = found_at(scene.facts, thing.label, thing.color, thing.room, record.distance_m)
+    figures = {"found": record, "rooms": scene.notes.rooms}
+    return Done(figures, Code.FOUND, said)
+
+
+def not_found(scene: Scene, wanted: Wanted) -> Cannot:
+    """Say that it was not seen, and where was looked."""
+    notes = scene.notes
+    shut = tuple(room for room in notes.shut if room not in notes.rooms)
+    looked = looked_in(scene.facts, notes.rooms, shut, spent(scene))
+    said = message(Code.NOT_FOUND, thing=named(wanted.label, wanted.color), looked=looked)
+    return Cannot(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})
+
+
+def unknown(scene: Scene) -> Cannot:
+    """Say that these eyes don't know the thing, and what they know."""
+    known = known_things(scene.eyes.classes)
+    said = message(Code.OBJECT_UNKNOWN, name=same(scene.step.object or ""), known=known)
+    return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", said)

@@ -1,0 +1,127 @@
+"""Follow a person at a distance.
+
+Precondition: somebody is in sight, or was found by the step before. Law: the way is laid anew as
+the person walks, twice a second at most, each time to a point short of them; the bridge's limits
+and gates hold as on any leg. Out of sight, the robot goes to where it saw them last and looks
+round. Verdict: lost when nobody was seen for ``LOST_S``, told and standing; done when the time is
+over. Budget: 300 s, and the bridge's grant.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot
+from typing import TYPE_CHECKING
+
+from planner.mission.skills.act import Act, Cannot, Done, Drive, Gaze, Later, Scene
+from planner.mission.skills.around import leg_to, look_round, spin
+from planner.mission.skills.find import unknown
+from planner.mission.skills.rooms import HERE, Spot, room_at
+from planner.mission.skills.search import short_of
+from planner.mission.skills.seen import away_m, bearing, turn_to, wanted_of
+from planner.plan import Code, message
+
+if TYPE_CHECKING:
+    from planner.mission.skills.eyesight import Wanted
+    from planner.mission.skills.notes import Notes
+    from planner.vision.records import Thing
+    from wire import Pose2
+
+KEEP_M = 1.2
+SLACK_M = 0.3
+"""Nearer to where it should be than this the robot stands."""
+NEW_S = 1.5
+"""What was seen longer ago is not in sight."""
+SAME_M = 2.0
+"""Nobody walks farther between two looks; who is seen beyond is somebody else."""
+FACE_RAD = 0.35
+LOST_S, FOLLOW_S = 25.0, 300.0
+GAZE_LOOKS, GAZE_S = 10, 8.0
+ROUND = 1
+
+
+def follow(scene: Scene) -> Act:
+    """Return the next leg after the person, or a gaze, or how it ended."""
+    wanted = wanted_of(scene)
+    if wanted is None:
+        return unknown(scene)
+    if scene.pose is None:
+        return Later()
+    if scene.spent_s > FOLLOW_S:
+        return _over(scene)
+    person = _in_sight(scene, wanted)
+    if person is None:
+        return _lost(scene, scene.pose)
+    at = (round(person.x_m, 2), round(person.y_m, 2), 0.9)
+    notes = scene.notes.but(at=at, seen_s=round(scene.spent_s, 1), stage=0, views=(), spot=None,
+                            spots=(), turned=None, here=None)  # fmt: skip
+    return _keep_up(scene.pose, at, notes)
+
+
+def _in_sight(scene: Scene, wanted: Wanted) -> Thing | None:
+    """Return the one who is followed, where they are in sight: nearest to where they were."""
+    seen = [
+        t for t in scene.sight.things if t.label == wanted.label and t.seen_s >= scene.now_s - NEW_S
+    ]
+    pose, at = scene.pose, scene.notes.at
+    if at is not None:
+        seen = [t for t in seen if _apart(t, at) <= _reach_m(scene)]
+        return min(seen, key=lambda t: _apart(t, at), default=None)
+    if pose is None:
+        return None
+    return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
+
+
+def _reach_m(scene: Scene) -> float:
+    """Return how far the person may have come since they were seen last [m]."""
+    return SAME_M + max(0.0, scene.spent_s - scene.notes.seen_s)
+
+
+def _apart(thing: Thing, at: tuple[float, float, float]) -> float:
+    return hypot(thing.x_m - at[0], thing.y_m - at[1])
+
+
+def _keep_up(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Gaze:
+    """Go after who is in sight, face them, or stand and watch."""
+    if away_m(pose, at[:2]) > KEEP_M + SLACK_M:
+        goal, heading = short_of(pose, at[:2], KEEP_M)
+        return _watched(leg_to(pose, goal, heading, notes, notes), notes)
+    if abs(turn_to(pose, at[:2])) > FACE_RAD:
+        return _watched(spin(pose, bearing(pose, at[:2]), notes), notes)
+    return Gaze(GAZE_LOOKS, GAZE_S, notes=notes, then=notes, watch=True)
+
+
+def _watched(leg: Drive, notes: Notes) -> Drive:
+    """Bound a leg after somebody by the step's own time: it is laid anew as they walk."""
+    return replace(leg, notes=notes, watch=True, limit_s=None, limit_m=None)
+
+
+def _lost(scene: Scene, pose: Pose2) -> Act:
+    """Go to where the person was seen last, look round there, then give up."""
+    notes, at = scene.notes, scene.notes.at
+    gone_s = scene.spent_s - notes.seen_s
+    if gone_s > LOST_S:
+        return _give_up(gone_s)
+    if at is not None and notes.stage < ROUND:
+        then = notes.but(stage=ROUND)
+        if away_m(pose, at[:2]) <= KEEP_M / 2:
+            return _look_about(scene.but(then), pose, gone_s)
+        goal, heading = short_of(pose, at[:2], 0.3)
+        return replace(leg_to(pose, goal, heading, then, then), watch=True)
+    return _look_about(scene, pose, gone_s)
+
+
+def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> Act:
+    at = (pose.x_m, pose.y_m)
+    act = look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
+    return replace(act, watch=True) if act is not None else _give_up(gone_s)
+
+
+def _give_up(gone_s: float) -> Cannot:
+    said = message(Code.LOST_PERSON, seconds=f"{gone_s:.0f}")
+    return Cannot(Code.LOST_PERSON, "lost_person", said)
+
+
+def _over(scene: Scene) -> Done:
+    said = message(Code.FOLLOWED, seconds=f"{scene.spent_s:.0f}", metres=f"{scene.spent_m:.1f}")
+    return Done({}, Code.FOLLOWED, said)

@@ -1,0 +1,179 @@
+"""Drive up to a thing: half a metre is left between it and the robot's edge, which faces it.
+
+Precondition: the detector knows what is meant, or a vision model can point at it. The thing is
+found as ``find`` does; the standing point is tried from this side first, then about the thing, and
+the route search moves one that lies in furniture. Verdict: the bridge reached the leg, and where
+the thing must be in view a look confirms it; when it is gone it is looked for once more, then that
+is told. Budget: as for ``find``.
+"""
+
+from __future__ import annotations
+
+from math import hypot, pi
+from typing import TYPE_CHECKING
+
+from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
+from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, spin
+from planner.mission.skills.find import not_found, unknown
+from planner.mission.skills.search import search, short_of, within
+from planner.mission.skills.seen import (
+    away_m,
+    bearing,
+    confirmed,
+    found,
+    seen_now,
+    spot_of,
+    turn_to,
+    wanted_of,
+)
+from planner.mission.skills.tell import called
+from planner.plan import Bilingual, Code, Found, message, same
+from planner.vision.kinds import kind_of
+from planner.vision.records import Thing
+
+if TYPE_CHECKING:
+    from planner.mission.skills.eyesight import Wanted
+    from planner.mission.skills.notes import Notes
+    from wire import Pose2
+
+SHORT_M, ROBOT_M = 0.5, 0.3
+SIDES_RAD = (0.0, pi / 4, -pi / 4, pi / 2, -pi / 2, 3 * pi / 4, -3 * pi / 4, pi)
+MOVED_M = 0.6
+NEAR_ENOUGH_M = 0.1
+FRESH_S = 20.0
+"""What was seen for sure so recently is driven to without a second look."""
+GAZE, POINT, ANSWER = 1, 2, 3
+DRIVE, FACE, CHECK, JUDGE = 10, 11, 12, 13
+
+
+def go_to_object(scene: Scene) -> Act:
+    """Return the next act on the way to the thing, or that it was reached."""
+    wanted = wanted_of(scene)
+    if wanted is None and not scene.eyes.model:
+        return unknown(scene)
+    if scene.pose is None:
+        return Later()
+    if scene.notes.at is not None:
+        return approach(scene, scene.pose, wanted)
+    if wanted is None:
+        return _pointed(scene, scene.pose)
+    thing = _known(scene, scene.pose, wanted) or search(scene, scene.pose, wanted)
+    if isinstance(thing, Thing):
+        notes = scene.notes.but(label=thing.label, color=thing.color, aim=None)
+        return set_off(scene, scene.pose, notes, spot_of(thing), wanted)
+    return thing if thing is not None else _gone(scene, wanted)
+
+
+def set_off(
+    scene: Scene,
+    pose: Pose2,
+    notes: Notes,
+    at: tuple[float, float, float],
+    wanted: Wanted | None = None,
+) -> Act:
+    """Return the first leg to what is known to be at a point."""
+    near = away_m(pose, at[:2]) <= _short_m(notes) + NEAR_ENOUGH_M
+    notes = notes.but(at=at, stage=FACE if near else DRIVE, stand=0)
+    return approach(scene.but(notes), pose, wanted)
+
+
+def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
+    """Return the next act once it is known where the thing is."""
+    notes, at = scene.notes, scene.notes.at
+    if at is None:
+        return Later()
+    if notes.stage == DRIVE:
+        return _drive(pose, notes, at)
+    if notes.stage == FACE and abs(turn_to(pose, at[:2])) > FACING_RAD:
+        return spin(pose, bearing(pose, at[:2]), notes.but(stage=CHECK))
+    if notes.stage in (FACE, CHECK):
+        in_view = wanted is not None and scene.eyes.should_see(pose, at)
+        return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE)) if in_view else _there(scene, pose)
+    return _judge(scene, pose, wanted)
+
+
+def _known(scene: Scene, pose: Pose2, wanted: Wanted) -> Thing | None:
+    """Return the nearest that was seen just now, beyond doubt."""
+    inside = within(scene)
+    known = [t for t in confirmed(scene.sight, wanted, scene.now_s - FRESH_S) if inside(t)]
+    known = [t for t in known if t.id not in scene.notes.tried]
+    return min(known, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
+
+
+def _short_m(notes: Notes) -> float:
+    """Return how far from the thing's middle the robot's middle is to stand [m]."""
+    behind_m = kind_of(notes.label).behind_m if notes.label is not None else 0.0
+    return SHORT_M + ROBOT_M + behind_m
+
+
+def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> Act:
+    if notes.stand >= len(SIDES_RAD):
+        name = called(notes.label, notes.color) if notes.label is not None else same("?")
+        return Cannot(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
+    spot, heading = short_of(pose, at[:2], _short_m(notes), SIDES_RAD[notes.stand])
+    there, otherwise = notes.but(stage=FACE), notes.but(stand=notes.stand + 1)
+    return leg_to(pose, spot, heading, there, otherwise)
+
+
+def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
+    """Say that the thing is there, go after it once where it has moved, or look for it once."""
+    notes, at = scene.notes, scene.notes.at
+    seen = seen_now(scene, wanted)
+    if at is not None and any(hypot(t.x_m - at[0], t.y_m - at[1]) <= MOVED_M for t in seen):
+        return _there(scene, pose)
+    if wanted is None or notes.again > 0:
+        return _moved(scene)
+    again = notes.but(again=1, at=None, stage=0, spots=(), rooms=(), here=None, tried=())
+    return go_to_object(scene.but(again))
+
+
+def _there(scene: Scene, pose: Pose2) -> Done:
+    notes, at = scene.notes, scene.notes.at or (pose.x_m, pose.y_m, 0.0)
+    away = away_m(pose, at[:2])
+    figures: dict[str, object] = {"rooms": notes.rooms}
+    if notes.label is None:
+        said = Bilingual(
+            en=f"I am {away:.1f} m from what you pointed out.", zh=f"我在目标前 {away:.1f} 米处。"
+        )
+        return Done(figures, Code.ARRIVED, said)
+    seen = [t for t in scene.sight.things if t.label == notes.label]
+    near = min(seen, key=lambda t: hypot(t.x_m - at[0], t.y_m - at[1]), default=None)
+    if near is not None and hypot(near.x_m - at[0], near.y_m - at[1]) <= MOVED_M:
+        figures["found"] = found(near, pose, scene.now_s)
+    else:
+        figures["found"] = Found(label=notes.label, color=notes.color, x_m=round(at[0], 3),
+                                 y_m=round(at[1], 3), distance_m=round(away, 2))  # fmt: skip
+    name = called(notes.label, notes.color)
+    said = Bilingual(
+        en=f"I stand {away:.1f} m from {name.en}.", zh=f"我停在{name.zh}前 {away:.1f} 米处。"
+    )
+    return Done(figures, Code.ARRIVED, said)
+
+
+def _gone(scene: Scene, wanted: Wanted) -> Cannot:
+    return _moved(scene) if scene.notes.again > 0 else not_found(scene, wanted)
+
+
+def _moved(scene: Scene) -> Cannot:
+    """Say that the thing is no more where it was seen."""
+    name = called(scene.notes.label or "thing", scene.notes.color)
+    looked = Bilingual(en="It is no more where I had seen it.", zh="它已不在之前看到的位置。")
+    bare = Bilingual(en=name.en.partition(" ")[2], zh=name.zh)
+    said = message(Code.NOT_FOUND, thing=bare, looked=looked)
+    return Cannot(Code.NOT_FOUND, "moved", said, {"rooms": scene.notes.rooms})
+
+
+def _pointed(scene: Scene, pose: Pose2) -> Act:
+    """Have a vision model point at what the detector does not know, and drive there."""
+    notes, words = scene.notes, scene.step.object or ""
+    if notes.stage == 0:
+        return Gaze(LOOKS, then=notes.but(stage=POINT))
+    if notes.stage == POINT:
+        return Inquire(words, point=True, then=notes.but(stage=ANSWER))
+    if scene.answer is None:  # interrupted before the answer was used
+        return Inquire(words, point=True, then=notes)
+    if scene.answer.at is None:
+        why = Bilingual(en="The vision model does not see it here.", zh="视觉模型在这里没有看到。")
+        said = message(Code.NOT_FOUND, thing=same(words), looked=why)
+        return Cannot(Code.NOT_FOUND, scene.answer.failure or "not_found", said)
+    return set_off(scene, pose, notes, scene.answer.at)

@@ -1,0 +1,80 @@
+"""Look, and answer a question about what is seen.
+
+Law: a place that is named is driven to and looked round in; else one gaze ahead, or round where
+the words ask for it. With a vision model its words are the answer: they may repeat what stands
+written in the picture, so they describe and never command. Without one, or when it does not
+answer, the answer is what the detector saw, by kind, colour and number. Verdict: looked. Budget:
+one leg and one turn about.
+"""
+
+from __future__ import annotations
+
+import re
+
+from planner.mission.skills.act import Act, Done, Gaze, Inquire, Later, Scene
+from planner.mission.skills.around import LOOKS, look_round
+from planner.mission.skills.rooms import HERE, Spot, room_at
+from planner.mission.skills.search import begin, spots, within
+from planner.mission.skills.seen import apart, confirmed, fits, mentioned
+from planner.mission.skills.tell import counted, listed, room_name
+from planner.plan import Bilingual, Code
+from planner.vision.labels import named
+
+_ROUND = re.compile(r"\b(?:around|round|everywhere|surroundings)\b|四周|周围|到处|四处|环顾|环境")
+GAZED, ASKED = 1, 2
+
+
+def looks_round(question: str) -> bool:
+    """Tell whether a question asks to look about, and not ahead alone."""
+    return _ROUND.search(question.casefold()) is not None
+
+
+def look(scene: Scene) -> Act:
+    """Return the next look, or the answer."""
+    if scene.pose is None:
+        return Later()
+    question = scene.step.text or ""
+    scene = begin(scene, scene.pose, None)
+    notes = scene.notes
+    if notes.stage < GAZED:
+        next_ = _next(scene, question)
+        if next_ is not None:
+            return next_
+    if scene.eyes.model and notes.stage < ASKED:
+        return Inquire(question, then=notes.but(stage=ASKED))
+    read = scene.answer.text if scene.answer is not None else None
+    return Done({"rooms": notes.rooms}, Code.SEEN, _seen(scene, question), read)
+
+
+def _next(scene: Scene, question: str) -> Act | None:
+    """Return the next leg or gaze, or None when enough was looked at."""
+    pose = scene.pose
+    if pose is None:
+        return Later()
+    if scene.step.place is None and not looks_round(question):
+        return Gaze(LOOKS + 1, then=scene.notes.but(stage=GAZED))
+    if scene.step.place is None:
+        at = scene.notes.here or (pose.x_m, pose.y_m)
+        return look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
+    return look_round(scene, pose, spots(scene, pose)[:1], None)
+
+
+def _seen(scene: Scene, question: str) -> Bilingual:
+    """Say what was seen during this step; where one thing is asked for, whether it was."""
+    inside = within(scene)
+    since_s = scene.now_s - scene.spent_s
+    things = apart(t for t in confirmed(scene.sight, None, since_s) if inside(t))
+    place = room_name(scene.facts, scene.step.place)
+    en, zh = (f" in the {place.en}", f"在{place.zh}") if place is not None else ("", "")
+    asked = mentioned(question, scene.language, scene.eyes.classes)
+    if asked is not None:
+        fitting = [t for t in things if fits(t, asked)]
+        if not fitting:
+            name = named(asked.label, asked.color)
+            return Bilingual(en=f"No, I see no {name.en}{en}.", zh=f"没有，{zh}没有看到{name.zh}。")
+        what = counted(len(fitting), asked.label, asked.color)
+        return Bilingual(en=f"Yes, I see {what.en}{en}.", zh=f"有，{zh}看到 {what.zh}。")
+    if not things:
+        return Bilingual(en=f"I see nothing that I know{en}.", zh=f"{zh}没有看到我认识的东西。")
+    what = listed(things)
+    return Bilingual(en=f"I see {what.en}{en}.", zh=f"{zh}看到 {what.zh}。")

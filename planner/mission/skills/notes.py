@@ -1,0 +1,55 @@
+"""Own what a skill that looks remembers of its step: journalled, so that a crash forgets nothing.
+
+Data only. What was looked at stays looked at, across pauses and crashes; times are those of the
+step itself, so that no clock of a process that is gone comes back.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+from planner.plan import Frozen
+
+
+class Notes(Frozen):
+    """Remember how far a step that looks has come."""
+
+    stage: int = 0
+    """Of the one thing in hand: what is done next with it."""
+    spot: str | None = None
+    """Where is looked round from now; its key."""
+    views: tuple[int, ...] = ()
+    """Directions of that spot that were looked in."""
+    turned: int | None = None
+    """The direction that was turned to and is to be looked in."""
+    spots: tuple[str, ...] = ()
+    """Spots that are over: looked round from, or not to be reached."""
+    rooms: tuple[str, ...] = ()
+    """Rooms that were looked round in."""
+    shut: tuple[str, ...] = ()
+    """Rooms to which there was no way."""
+    here: tuple[float, float] | None = None
+    """Where the robot stood when it began to look: x [m], y [m] in ``map``."""
+    order: tuple[str, ...] = ()
+    """Rooms to look in, in their order, as of the beginning."""
+    aim: str | None = None
+    """The thing that is driven up to or looked at again."""
+    tried: tuple[str, ...] = ()
+    """Things that were looked at again and were not what is wanted."""
+    at: tuple[float, float, float] | None = None
+    """Where the thing is, as of when it was seen last: x, y, height [m] in ``map``."""
+    label: str | None = None
+    color: str | None = None
+    stand: int = 0
+    """Standing points about the thing that can't be reached."""
+    again: int = 0
+    """Times that the thing had moved and was gone after."""
+    seen_s: float = 0.0
+    """When it was seen last, in time spent on the step."""
+
+    def but(self, **changes: Any) -> Self:
+        """Return these notes with changes."""
+        return self.model_copy(update=changes)
+
+
+NOTHING = Notes()

@@ -1,0 +1,125 @@
+"""Choose the spots from which rooms are looked through, and the order of the rooms. Pure.
+
+A room is looked round from its own pose first; what lies farther from there than a picture shows
+well is looked at from more spots, each chosen to cover most of what is left. No map is known here:
+a spot in furniture is moved or given up by the route search. Rooms: the one that is named, else
+the one that the robot is in, then where such a thing was seen last, then by the straight distance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import hypot
+from typing import TYPE_CHECKING
+
+from planner.world.polygon import area_m2, border_distance_m, contains
+
+if TYPE_CHECKING:
+    from planner.mission.records import Facts, Target
+    from planner.vision.records import Thing
+    from wire import Pose2
+
+Point = tuple[float, float]
+
+REACH_M = 2.8
+"""A cup is eight pixels high there, of 240."""
+STEP_M = 0.4
+INSET_M = 0.5
+"""A robot's middle keeps so far from a room's outline."""
+LEAST_LEFT = 0.12
+"""Of a room: when no more than this is out of reach, no further spot is worth the way."""
+MAX_SPOTS = 4
+HERE = "here"
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """Name a point from which to look round."""
+
+    key: str
+    room: str | None
+    at: Point
+
+
+def room_at(facts: Facts, at: Point) -> str | None:
+    """Return the room around a point; the smallest where outlines overlap."""
+    rooms = [
+        (area_m2(t.polygon), t.id)
+        for t in facts.targets.values()
+        if t.room and t.polygon is not None and contains(t.polygon, *at)
+    ]
+    return min(rooms)[1] if rooms else None
+
+
+def room_of(facts: Facts, place: str | None) -> str | None:
+    """Return the room that a place is, or stands in."""
+    target = facts.targets.get(place or "")
+    if target is None or target.room:
+        return target.id if target is not None else None
+    return room_at(facts, (target.pose.x_m, target.pose.y_m))
+
+
+def in_order(facts: Facts, pose: Pose2, known: tuple[Thing, ...]) -> tuple[str, ...]:
+    """Return all rooms in the order in which to look through them."""
+    here = room_at(facts, (pose.x_m, pose.y_m))
+    left = [t for t in facts.targets.values() if t.room and t.id != here]
+    last_seen = {t.room: t.seen_s for t in sorted(known, key=lambda t: t.seen_s)}
+    remembered = [t for t in left if t.id in last_seen]
+    remembered.sort(key=lambda t: -last_seen[t.id])
+    order = [here] if here is not None else []
+    order += [t.id for t in remembered]
+    at = (pose.x_m, pose.y_m)
+    rest = [t for t in left if t.id not in last_seen]
+    while rest:  # always on to the nearest
+        nearest = min(rest, key=lambda t: (_gap_m(at, t), t.id))
+        rest.remove(nearest)
+        order.append(nearest.id)
+        at = (nearest.pose.x_m, nearest.pose.y_m)
+    return tuple(order)
+
+
+def _gap_m(at: Point, target: Target) -> float:
+    return hypot(target.pose.x_m - at[0], target.pose.y_m - at[1])
+
+
+def spots_in(target: Target, first: Point | None = None) -> tuple[Spot, ...]:
+    """Return the spots from which a room is seen whole, ``first`` taken as one of them."""
+    began = first or (target.pose.x_m, target.pose.y_m)
+    points = _cover(target.polygon, began, (target.pose.x_m, target.pose.y_m))
+    return tuple(Spot(f"{target.id}/{n}", target.id, at) for n, at in enumerate(points))
+
+
+@lru_cache(maxsize=256)
+def _cover(outline: tuple[Point, ...] | None, began: Point, pose: Point) -> tuple[Point, ...]:
+    """Choose points greedily until little of the outline is out of reach."""
+    if outline is None:
+        return (began,)
+    inside = _grid(outline, 0.2)
+    stands = [pose, *_grid(outline, INSET_M)]
+    chosen = [began]
+    left = [p for p in inside if _far(p, began)]
+    while len(left) > LEAST_LEFT * len(inside) and len(chosen) < MAX_SPOTS:
+        best = max(stands, key=lambda s: sum(not _far(p, s) for p in left))
+        still = [p for p in left if _far(p, best)]
+        if len(still) == len(left):
+            break
+        chosen.append(best)
+        left = still
+    return tuple(chosen)
+
+
+def _far(a: Point, b: Point) -> bool:
+    return hypot(a[0] - b[0], a[1] - b[1]) > REACH_M
+
+
+def _grid(outline: tuple[Point, ...], inset_m: float) -> list[Point]:
+    xs, ys = [x for x, _ in outline], [y for _, y in outline]
+    columns = int((max(xs) - min(xs)) / STEP_M) + 1
+    rows = int((max(ys) - min(ys)) / STEP_M) + 1
+    points = [
+        (min(xs) + c * STEP_M, min(ys) + r * STEP_M) for c in range(columns) for r in range(rows)
+    ]
+    return [
+        p for p in points if contains(outline, *p) and border_distance_m(outline, *p) >= inset_m
+    ]

@@ -1,0 +1,163 @@
+"""Search for one thing: look again at what is remembered, then look round in rooms. Pure.
+
+``search`` returns the next leg or gaze, the thing itself once a gaze has confirmed it, or None when
+all was looked at or the budget is spent. What is seen on the way is gone to at once.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import TYPE_CHECKING
+
+from planner.mission.skills.act import Drive, Gaze, Scene
+from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, look_round, spin
+from planner.mission.skills.rooms import HERE, Spot, in_order, room_at, room_of, spots_in
+from planner.mission.skills.seen import (
+    WORTH,
+    away_m,
+    bearing,
+    confirmed,
+    fits,
+    may_fit,
+    spot_of,
+    turn_to,
+)
+from planner.vision.records import Thing
+
+if TYPE_CHECKING:
+    from planner.mission.skills.eyesight import Wanted
+    from wire import Pose2
+
+VIEW_M = 1.6
+"""From so far a thing is looked at again: near enough for a cup, and the floor there is in view."""
+NEAR_M = 2.6
+"""Nearer than this, in the same room, it is looked at from where the robot stands."""
+WORTH_S = 3600.0
+"""What was seen longer ago tells which room to begin with, and no more."""
+MAX_M, MAX_S = 55.0, 540.0
+"""For one step; a grant is 60 m and 600 s."""
+AWAY = 2.5
+"""A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
+
+
+def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | None:
+    """Return what to do next, the thing that was found, or None."""
+    scene = begin(scene, pose, wanted)
+    inside = within(scene)
+    seen = [t for t in _confirmed(scene, wanted) if inside(t)]
+    if seen:
+        return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)))
+    if spent(scene) is not None:
+        return None
+    known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.notes.tried]
+    if known:
+        nearest = min(known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))
+        return _look_again(scene, pose, nearest, wanted)
+    return look_round(scene, pose, spots(scene, pose), wanted)
+
+
+def spent(scene: Scene) -> str | None:
+    """Return the budget that a search has used up, or None."""
+    if not scene.spent_m <= MAX_M:
+        return "metres"
+    return None if scene.spent_s <= MAX_S else "seconds"
+
+
+def within(scene: Scene) -> Within:
+    """Return what tells whether a thing lies where the step is to look."""
+    return Within(scene)
+
+
+class Within:
+    """Judge things by the place that a step names; without one all are meant."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._target = scene.facts.targets.get(scene.step.place or "")
+        self._facts = scene.facts
+        self._room = room_of(scene.facts, scene.step.place)
+
+    def __call__(self, thing: Thing) -> bool:
+        if self._target is None:
+            return True
+        if self._target.room:
+            room = thing.room or room_at(self._facts, (thing.x_m, thing.y_m))
+            return room == self._target.id
+        return away_m(self._target.pose, (thing.x_m, thing.y_m)) <= AWAY
+
+
+def spots(scene: Scene, pose: Pose2) -> tuple[Spot, ...]:
+    """Return all spots to look round from, in order; the same at each time of asking."""
+    facts, target = scene.facts, scene.facts.targets.get(scene.step.place or "")
+    if target is not None and not target.room:
+        at = (target.pose.x_m, target.pose.y_m)
+        return (Spot(f"{target.id}/0", room_of(facts, target.id), at),)
+    first = scene.notes.here or (pose.x_m, pose.y_m)
+    room, order = room_at(facts, first), scene.notes.order
+    rooms = [facts.targets[r] for r in order if r != room and r in facts.targets]
+    found: list[Spot] = []
+    if room in order:
+        found += [Spot(HERE, room, first), *spots_in(facts.targets[room], first)[1:]]
+    elif room is None and target is None:
+        found.append(Spot(HERE, None, first))
+    return (*found, *(spot for target in rooms for spot in spots_in(target)))
+
+
+def begin(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Scene:
+    """Return the scene with where the robot stood first, and the rooms in their order."""
+    if scene.notes.here is not None:
+        return scene
+    known = tuple(t for t in scene.sight.things if wanted is not None and fits(t, wanted))
+    here = (round(pose.x_m, 3), round(pose.y_m, 3))
+    place = scene.facts.targets.get(scene.step.place or "")
+    order = in_order(scene.facts, pose, known) if place is None else (place.id,)
+    return scene.but(scene.notes.but(here=here, order=order))
+
+
+def _confirmed(scene: Scene, wanted: Wanted) -> tuple[Thing, ...]:
+    if scene.gazed_s is None:
+        return ()
+    return confirmed(scene.sight, wanted, scene.gazed_s)
+
+
+def _worth(scene: Scene, wanted: Wanted) -> list[Thing]:
+    """Return what is worth a second look: remembered things, and what this gaze is not sure of."""
+    oldest_s = scene.now_s - WORTH_S
+    return [
+        t
+        for t in scene.sight.things
+        if t.seen_s >= oldest_s
+        and t.confidence >= WORTH
+        and (fits(t, wanted) or may_fit(t, wanted))
+    ]
+
+
+def _look_again(scene: Scene, pose: Pose2, thing: Thing, wanted: Wanted) -> Drive | Gaze:
+    """Go to where a thing can be seen, face it, gaze; then it is confirmed, or was tried."""
+    notes, at = scene.notes, spot_of(thing)
+    stage = notes.stage if notes.aim == thing.id else 0
+    tried = notes.but(tried=(*notes.tried, thing.id), aim=None, stage=0)
+    if stage == 0 and not _in_sight(scene, pose, thing):
+        stand, heading = short_of(pose, at[:2], VIEW_M)
+        there = notes.but(aim=thing.id, stage=1)
+        return leg_to(pose, stand, heading, there, tried)
+    if stage <= 1 and abs(turn_to(pose, at[:2])) > 2.0 * FACING_RAD:
+        return spin(pose, bearing(pose, at[:2]), notes.but(aim=thing.id, stage=2))
+    return Gaze(LOOKS + 2, then=tried, wanted=wanted)
+
+
+def _in_sight(scene: Scene, pose: Pose2, thing: Thing) -> bool:
+    """Tell whether a turn on the spot is likely to show a thing."""
+    away = away_m(pose, (thing.x_m, thing.y_m))
+    room = thing.room or room_at(scene.facts, (thing.x_m, thing.y_m))
+    return 0.7 <= away <= NEAR_M and room == room_at(scene.facts, (pose.x_m, pose.y_m))
+
+
+def short_of(
+    pose: Pose2, at: tuple[float, float], short_m: float, turn_rad: float = 0.0
+) -> tuple[tuple[float, float], float]:
+    """Return the point before a thing, seen from the robot, and the heading that faces it.
+
+    ``turn_rad`` goes about the thing to another side.
+    """
+    heading = bearing(pose, at) + turn_rad
+    return (at[0] - short_m * cos(heading), at[1] - short_m * sin(heading)), heading

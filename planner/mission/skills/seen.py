@@ -1,0 +1,137 @@
+"""Read a sight for what a skill wants of it: which things fit, which of them are sure. Pure."""
+
+from __future__ import annotations
+
+import re
+from math import atan2, hypot
+from typing import TYPE_CHECKING
+
+from planner.mission.skills.eyesight import Wanted
+from planner.plan import Found, Language
+from planner.vision.kinds import kind_of
+from planner.vision.labels import resolve
+from wire import wrap
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from planner.mission.skills.act import Scene
+    from planner.vision.records import Sight, Thing
+    from wire import Pose2
+
+SURE = 0.6
+"""Confidence from which a thing is told of."""
+SIGHTINGS = 2
+"""One picture may err; two that agree seldom do."""
+WORTH = 0.3
+"""Confidence from which a remembered thing is worth a second look."""
+_WORD = re.compile(r"[a-z0-9'-]+")
+_CHINESE = re.compile(r"[\u3400-\u9fff]+")
+LONGEST_EN, LONGEST_ZH = 3, 8
+
+
+def wanted_of(scene: Scene) -> Wanted | None:
+    """Return what the step's words mean to these eyes, or None."""
+    found = resolve(scene.step.object or "", scene.language, scene.eyes.classes)
+    return Wanted(*found) if found is not None else None
+
+
+def mentioned(text: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+    """Return the first thing that a whole sentence names, the longest name that fits."""
+    for words in _pieces(text.casefold(), language):
+        found = resolve(words, language, classes)
+        if found is not None:
+            return Wanted(*found)
+    return None
+
+
+def _pieces(text: str, language: Language) -> Iterable[str]:
+    if language is Language.ZH:
+        for run in _CHINESE.findall(text):
+            for length in range(min(LONGEST_ZH, len(run)), 0, -1):
+                yield from (run[at : at + length] for at in range(len(run) - length + 1))
+        return
+    words = _WORD.findall(text)
+    for length in range(LONGEST_EN, 0, -1):
+        yield from (" ".join(words[at : at + length]) for at in range(len(words) - length + 1))
+
+
+def fits(thing: Thing, wanted: Wanted | None) -> bool:
+    """Tell whether a thing is of the kind and colour that is wanted; None wants all."""
+    if wanted is None:
+        return True
+    return thing.label == wanted.label and wanted.color in (None, thing.color)
+
+
+def may_fit(thing: Thing, wanted: Wanted) -> bool:
+    """Tell whether a second look may show that a thing fits: its colour is not known yet."""
+    return thing.label == wanted.label and (wanted.color is None or thing.color is None)
+
+
+def sure(thing: Thing) -> bool:
+    """Tell whether a thing is there beyond doubt."""
+    return thing.confidence >= SURE and thing.sightings >= SIGHTINGS
+
+
+def fresh(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:
+    """Return what fits and was seen since then, sure or not."""
+    return tuple(t for t in sight.things if t.seen_s >= since_s and fits(t, wanted))
+
+
+def confirmed(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:
+    """Return what fits, is sure, and was seen since then."""
+    return tuple(t for t in fresh(sight, wanted, since_s) if sure(t))
+
+
+def seen_now(scene: Scene, wanted: Wanted | None) -> tuple[Thing, ...]:
+    """Return what fits and the gaze that has just ended has shown, sure or not."""
+    return fresh(scene.sight, wanted, scene.gazed_s) if scene.gazed_s is not None else ()
+
+
+def away_m(pose: Pose2, at: tuple[float, float]) -> float:
+    """Return how far a point is from the robot [m]."""
+    return hypot(at[0] - pose.x_m, at[1] - pose.y_m)
+
+
+def bearing(pose: Pose2, at: tuple[float, float]) -> float:
+    """Return the heading in ``map`` at which the robot faces a point [rad]."""
+    return atan2(at[1] - pose.y_m, at[0] - pose.x_m)
+
+
+def turn_to(pose: Pose2, at: tuple[float, float]) -> float:
+    """Return by how much the robot must turn to face a point [rad]."""
+    return wrap(bearing(pose, at) - pose.yaw_rad)
+
+
+def spot_of(thing: Thing) -> tuple[float, float, float]:
+    """Return where a thing's middle is: x, y, height [m]."""
+    return thing.x_m, thing.y_m, thing.z_m
+
+
+def found(thing: Thing, pose: Pose2 | None, now_s: float) -> Found:
+    """Return the record of a thing that was found."""
+    return Found(
+        label=thing.label,
+        color=thing.color,
+        x_m=round(thing.x_m, 3),
+        y_m=round(thing.y_m, 3),
+        sigma_m=round(thing.sigma_m, 3),
+        room=thing.room,
+        distance_m=round(away_m(pose, (thing.x_m, thing.y_m)), 2) if pose is not None else None,
+        age_s=round(max(0.0, now_s - thing.seen_s), 1),
+    )
+
+
+def apart(things: Iterable[Thing]) -> tuple[Thing, ...]:
+    """Return things that stand apart: of two of one kind on one spot the better known one."""
+    kept: list[Thing] = []
+    for thing in sorted(things, key=lambda t: -t.sightings):
+        near_m = max(0.15, kind_of(thing.label).reach_m)
+        if all(
+            other.label != thing.label
+            or other.color != thing.color
+            or hypot(other.x_m - thing.x_m, other.y_m - thing.y_m) > near_m
+            for other in kept
+        ):
+            kept.append(thing)
+    return tuple(kept)

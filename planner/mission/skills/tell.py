@@ -1,0 +1,94 @@
+"""Put what was seen into sentences, in both languages. Pure; figures come from the sight."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from planner.plan import Bilingual, same
+from planner.vision.kinds import HOME
+from planner.vision.labels import listed as labels_listed
+from planner.vision.labels import named
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from planner.mission.records import Facts
+    from planner.vision.records import Thing
+
+_MANY = {"person": "people", "sheep": "sheep", "knife": "knives", "mouse": "mice"}
+_SHOWN = 12
+NOWHERE = Bilingual(en="I looked nowhere.", zh="哪里都没有看。")
+HERE = Bilingual(en="here", zh="这里")
+
+
+def called(label: str, color: str | None = None) -> Bilingual:
+    """Return a thing's name with its article: ``a red cup``, ``红色的杯子``."""
+    name = named(label, color)
+    article = "an" if name.en[:1] in "aeiou" else "a"
+    return Bilingual(en=f"{article} {name.en}", zh=name.zh)
+
+
+def counted(count: int, label: str, color: str | None = None) -> Bilingual:
+    """Return so many of a thing: ``2 red cups``, ``2 个红色的杯子``."""
+    name = named(label, color)
+    if count == 1:
+        return Bilingual(en=f"1 {name.en}", zh=f"1 个{name.zh}")
+    first, _, last = name.en.rpartition(" ")
+    many = f"{first} {_MANY.get(label) or _plural(last)}".strip()
+    return Bilingual(en=f"{count} {many}", zh=f"{count} 个{name.zh}")
+
+
+def _plural(word: str) -> str:
+    return f"{word}es" if word.endswith(("s", "x", "ch", "sh")) else f"{word}s"
+
+
+def known_things(classes: tuple[str, ...]) -> Bilingual:
+    """List what can be recognised; what most detectors of a home know, where it is not known."""
+    return labels_listed(classes or [kind.id for kind in HOME])
+
+
+def room_name(facts: Facts, room: str | None) -> Bilingual | None:
+    """Return a room's name, where it is one."""
+    target = facts.targets.get(room or "")
+    return target.name if target is not None else None
+
+
+def found_at(facts: Facts, label: str, color: str | None, room: str | None, away: float | None
+             ) -> Bilingual:  # fmt: skip
+    """Say where a thing is: its room and how far it is from the robot."""
+    what, where = called(label, color), room_name(facts, room)
+    en = f"I found {what.en}" + (f" in the {where.en}" if where else "")
+    zh = f"在{where.zh}看到{what.zh}" if where else f"看到{what.zh}"
+    if away is not None:
+        en, zh = f"{en}, {away:.1f} m from me", f"{zh}，离我 {away:.1f} 米"
+    return Bilingual(en=f"{en}.", zh=f"{zh}。")
+
+
+def looked_in(facts: Facts, rooms: Iterable[str], shut: Iterable[str], spent: str | None
+              ) -> Bilingual:  # fmt: skip
+    """Say which rooms were looked through, which could not be reached, and what ran out."""
+    seen = [room_name(facts, r) or same(r) for r in rooms]
+    closed = [room_name(facts, r) or same(r) for r in shut]
+    en = [f"I looked in the {_and([n.en for n in seen])}."] if seen else []
+    zh = [f"看过的地方：{'、'.join(n.zh for n in seen)}。"] if seen else []
+    if closed:
+        en.append(f"I found no way to the {_and([n.en for n in closed])}.")
+        zh.append(f"去不了的地方：{'、'.join(n.zh for n in closed)}。")
+    if spent is not None:
+        en.append("The way or the time for one search is used up.")
+        zh.append("单次寻找的里程或时间已用完。")
+    return Bilingual(en=" ".join(en) or NOWHERE.en, zh="".join(zh) or NOWHERE.zh)
+
+
+def listed(things: Iterable[Thing]) -> Bilingual:
+    """List things by kind and colour with their numbers: ``2 chairs, 1 red cup``."""
+    kinds = Counter((t.label, t.color) for t in things)
+    said = [counted(n, *kind) for kind, n in sorted(kinds.items(), key=lambda k: (-k[1], str(k)))]
+    return Bilingual(
+        en=_and([s.en for s in said[:_SHOWN]]), zh="、".join(s.zh for s in said[:_SHOWN])
+    )
+
+
+def _and(names: list[str]) -> str:
+    return "".join(names) if len(names) < 2 else f"{', '.join(names[:-1])} and {names[-1]}"
