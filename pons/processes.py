@@ -46,6 +46,8 @@ class Child:
     arguments: list[str]
     log: Path
     environment: dict[str, str] = field(default_factory=dict)
+    waits_for_ready: bool = False
+    """Nothing needs it to be ready, and its start would make the others' slower."""
     process: subprocess.Popen[bytes] | None = None
     starts: int = 0
     started_s: float = 0.0

@@ -1,8 +1,9 @@
 """Start the whole robot, keep it running, take it all down: ``pons up``.
 
-Starts simulator (on a virtual drive), localization, bridge and planner; restarts what dies, waiting
-longer each time; arms the simulator once; prints the one URL when the planner says it is ready. On
-Ctrl-C, SIGTERM or its own death nothing is left running.
+Starts simulator (on a virtual drive), localization, bridge and planner, and once these are ready
+the simulated camera; restarts what dies, waiting longer each time; arms the simulator once; prints
+the one URL when the planner says it is ready. On Ctrl-C, SIGTERM or its own death nothing is left
+running.
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ class Supervisor:
                 wait_s = child.next_start_s - now_s
                 say(f"{child.name} ended ({describe(status)}); again in {wait_s:.1f} s. "
                     f"Its log: {child.log}")  # fmt: skip
-            if child.due(now_s):
+            if child.due(now_s) and (self._said_ready or not child.waits_for_ready):
                 child.start(now_s)
 
     def _greet(self, now_s: float, began_s: float) -> None:
@@ -152,7 +153,11 @@ def children(settings: Settings, robot: RobotDescription, *, planner: bool = Tru
     if robot.drive.virtual:
         metal = ["--metal", str(settings.metal)] if settings.metal else []
         wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
-    return [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
+    found = [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
+    if robot.drive.virtual and robot.camera.kind == "sim":
+        arguments = ["sim.camera", *common]
+        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
+    return found
 
 
 def _address(settings: Settings) -> list[str]:

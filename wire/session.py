@@ -57,6 +57,12 @@ class ImagePublisher:
             congestion_control=zenoh.CongestionControl.DROP,
         )
 
+    @property
+    def wanted(self) -> bool:
+        """Tell whether anybody listens."""
+        status: Any = self._publisher.matching_status  # its stub says bool; it is a record
+        return bool(status.matching)
+
     def put(self, header: ImageHeader, data: bytes) -> None:
         """Send and forget."""
         self._publisher.put(data, attachment=encode(header))

@@ -2,12 +2,15 @@
 
 ``Renderer`` draws clean pictures with the name of what every pixel shows, ``spoil`` makes them look
 taken, ``Appearance`` is all that may vary between homes that hold the same things.
+``SimCamera`` is the camera itself: scenes in, packed pictures out, with its faults.
 """
 
 from sim.camera.appearance import Appearance, Texture
+from sim.camera.camera import SimCamera
 from sim.camera.frame import Frame
 from sim.camera.noise import spoil
 from sim.camera.renderer import Renderer
+from sim.camera.shutter import Shot
 from sim.camera.view import focal_px
 
-__all__ = ["Appearance", "Frame", "Renderer", "Texture", "focal_px", "spoil"]
+__all__ = ["Appearance", "Frame", "Renderer", "Shot", "SimCamera", "Texture", "focal_px", "spoil"]

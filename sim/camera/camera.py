@@ -1,0 +1,50 @@
+"""Be the simulated camera: a scene in, both pictures out. Owns its noise; knows no wire, no clock.
+
+Two cameras with one seed that see the same scenes take the same pictures.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sim.camera.appearance import Appearance
+from sim.camera.frame import Frame
+from sim.camera.noise import spoil
+from sim.camera.pictures import depth_png, jpeg
+from sim.camera.renderer import Renderer
+from sim.camera.shutter import Shot, Shutter
+from wire import SimFault
+
+if TYPE_CHECKING:
+    from sim.site import Home
+    from wire import CameraConfig, SimScene
+
+
+class SimCamera:
+    """Take pictures of one home."""
+
+    def __init__(self, home: Home, camera: CameraConfig, *, seed: int = 0) -> None:
+        """Build the drawn world."""
+        self._look = Appearance()
+        self._renderer = Renderer(home, camera, self._look)
+        self._rng = np.random.default_rng(seed)
+        self._shutter = Shutter()
+
+    def take(self, scene: SimScene, now_s: float) -> Shot | None:
+        """Return what leaves the camera now, stamped as the scene was; None where nothing does."""
+        return self._shutter.through(self._shot(scene), now_s, scene.faults)
+
+    def frame(self, scene: SimScene) -> Frame:
+        """Draw one picture, with the noise of a real one."""
+        clean = self._renderer.render(scene.base_in_map, scene.things)
+        return spoil(clean, self._rng, self._look.noise)
+
+    def _shot(self, scene: SimScene) -> Shot:
+        frame = self.frame(scene)
+        if SimFault.CAMERA_BLIND in scene.faults:
+            frame = Frame(
+                np.zeros_like(frame.color), np.zeros_like(frame.depth_m), frame.ids, frame.facing
+            )
+        return Shot(scene.stamp_s, jpeg(frame), depth_png(frame))
