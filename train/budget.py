@@ -1,0 +1,69 @@
+"""Fix what training may cost and how it is judged, before anything is trained. Data only.
+
+Raising a number here is a decision; a run that needs more fails instead of taking it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+CLASSES = (
+    "person",
+    "chair",
+    "sofa",
+    "table",
+    "bed",
+    "tv",
+    "fridge",
+    "plant",
+    "door",
+    "box",
+    "cup",
+    "ball",
+    "bottle",
+    "book",
+)
+"""In the order of the model's outputs; ids are appended, never reordered."""
+
+WIDTH_PX, HEIGHT_PX = 320, 240
+"""The simulated camera's own size: no letterbox, and a cup at 3 m is still 6 px wide."""
+
+STRIDES = (4, 8, 16)
+"""Stride 4 is there for what is 6 to 10 px wide."""
+
+MAX_GFLOPS = 0.4
+"""Two operations for each multiply-add of a convolution, for one picture."""
+MAX_BYTES = 4_000_000
+"""Of the exported file."""
+MAX_HOURS = 2.0
+"""For drawing, fitting, exporting and scoring together, on two cores."""
+
+FRAMES_A_HOME = 20
+HOMES_A_SHARD = 10
+FRAMES = 20_000
+UNSEEN_FRAMES = 500
+EMPTY_FRAMES = 200
+"""Pictures of homes that hold nothing of ours, to count what is seen where nothing is."""
+
+GOAL_MAP50 = 0.85
+GOAL_FALSE = 0.02
+"""Detections in an empty picture, on average, at the shipped least score."""
+MIN_SCORE = 0.4
+"""The least score at which the planner believes a detection, unless its owner says otherwise."""
+
+
+@dataclass(frozen=True, slots=True)
+class Schedule:
+    """Say how a network is fitted. The same schedule, frames and threads give the same weights."""
+
+    epochs: int = 24
+    batch: int = 16
+    peak_rate: float = 2e-3
+    """Learning rate [1/step] after the warm-up; a cosine leads it to 2 % of that."""
+    warm_steps: int = 300
+    decay: float = 0.05
+    clip: float = 10.0
+    """Greatest norm of a gradient."""
+    average: float = 0.999
+    """How much of the averaged weights a step keeps, once it has run for a while."""
+    seed: int = 6

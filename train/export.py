@@ -1,0 +1,130 @@
+"""Write the fitted network as ONNX: ``python -m train.export --fit DIR --model FILE``.
+
+Refuses a file that is larger than the budget, fails the checker or says something else than the
+network does. Its metadata lets a detector choose decoder, classes and size by itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import onnx
+import onnxruntime
+import torch
+
+from train.budget import CLASSES, HEIGHT_PX, MAX_BYTES, MIN_SCORE, STRIDES, WIDTH_PX
+from train.learner import CHECKPOINT
+from train.model import Net, Shipped
+
+OPSET = 17
+TOLERANCE = 1e-4
+"""Relative to one, or to the value where that is larger."""
+
+
+class ExportRefused(Exception):
+    """What would be written is not what was fitted, or too large."""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Export; return 0, or 2 when refused."""
+    parser = argparse.ArgumentParser(prog="python -m train.export", description=__doc__)
+    parser.add_argument("--fit", type=Path, required=True, help="the folder of train.fit")
+    parser.add_argument("--model", type=Path, required=True, help="the .onnx to write")
+    parser.add_argument("--commit", default="", help="the commit of the code, for the metadata")
+    given = parser.parse_args(arguments)
+    state = torch.load(given.fit / CHECKPOINT, map_location="cpu", weights_only=True)
+    net = Net()
+    net.load_state_dict(state["average"])
+    shipped = Shipped(net.eval()).eval()
+    try:
+        data = exported(shipped, metadata(given.commit))
+        worst = compare(shipped, data)
+    except ExportRefused as error:
+        print(f"train.export: {error}", file=sys.stderr)
+        return 2
+    given.model.parent.mkdir(parents=True, exist_ok=True)
+    given.model.write_bytes(data)
+    facts = {
+        "bytes": len(data),
+        "parameters": sum(p.numel() for p in net.parameters()),
+        "worst_difference": worst,
+        "opset": OPSET,
+        "commit": given.commit,
+        "step": state["step"],
+    }
+    (given.fit / "export.json").write_text(json.dumps(facts, indent=1) + "\n", "utf-8")
+    print(f"{given.model}: {len(data)} bytes, differs from the network by at most {worst:.1e}")
+    return 0
+
+
+def metadata(commit: str) -> dict[str, str]:
+    """Return what the file says about itself, in the words that YOLO exports use."""
+    return {
+        "names": str(dict(enumerate(CLASSES))),
+        "imgsz": str([HEIGHT_PX, WIDTH_PX]),
+        "stride": str(max(STRIDES)),
+        "task": "detect",
+        "batch": "1",
+        "layout": "yolov8",
+        "min_score": str(MIN_SCORE),
+        "description": "Finds the things of a home in pictures of the simulated camera",
+        "author": "Pons",
+        "license": "Apache-2.0",
+        "version": commit,
+    }
+
+
+def exported(shipped: Shipped, facts: dict[str, str]) -> bytes:
+    """Return the file's bytes.
+
+    Raises:
+        ExportRefused: it is larger than the budget.
+    """
+    buffer = io.BytesIO()
+    torch.onnx.export(
+        shipped,
+        (torch.zeros(1, 3, HEIGHT_PX, WIDTH_PX),),
+        buffer,
+        input_names=["images"],
+        output_names=["output0"],
+        opset_version=OPSET,
+        dynamo=False,
+    )
+    model = onnx.load_from_string(buffer.getvalue())
+    onnx.helper.set_model_props(model, facts)
+    model.producer_name, model.producer_version = "pons-train", ""
+    onnx.checker.check_model(model, full_check=True)
+    data: bytes = model.SerializeToString()
+    if not len(data) <= MAX_BYTES:
+        raise ExportRefused(f"{len(data)} bytes; at most {MAX_BYTES} are shipped")
+    return data
+
+
+def compare(shipped: Shipped, data: bytes) -> float:
+    """Return the largest difference between the file's answer and the network's.
+
+    Raises:
+        ExportRefused: it is larger than the tolerance.
+    """
+    session = onnxruntime.InferenceSession(data, providers=["CPUExecutionProvider"])
+    random = np.random.default_rng(0)
+    worst = 0.0
+    for _ in range(4):
+        picture: Any = random.random((1, 3, HEIGHT_PX, WIDTH_PX), np.float32)
+        said = session.run(None, {"images": picture})[0]
+        with torch.no_grad():
+            true = shipped(torch.from_numpy(picture)).numpy()
+        worst = max(worst, float((np.abs(said - true) / np.maximum(1.0, np.abs(true))).max()))
+    if not worst <= TOLERANCE:
+        raise ExportRefused(f"the file differs from the network by {worst:.1e}")
+    return worst
+
+
+if __name__ == "__main__":
+    sys.exit(main())

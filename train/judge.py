@@ -1,0 +1,147 @@
+"""Score a model on homes that it never saw: ``python -m train.judge --model F --unseen DIR …``.
+
+Decodes what this workshop's own export says, and nothing else; the benches score the same frames
+through the planner's detector. Runs in the project's own environment.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import cv2
+import numpy as np
+import onnxruntime
+
+from train.augment import decoded
+from train.budget import CLASSES, MIN_SCORE
+from train.score import Found, There, false_in_empty, mean_average_precision, scores
+from train.store import read_all
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from train.score import Box, Picture
+    from train.store import Framed
+
+    Detect = Callable[[bytes], list[Found]]
+
+LEAST = 0.02
+"""Precision is judged down to this score."""
+SAME = 0.6
+"""Two boxes of a class that overlap more are one thing."""
+
+
+class Model:
+    """Ask an exported model about frames."""
+
+    def __init__(self, path: Path) -> None:
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = 1
+        options.add_session_config_entry("session.intra_op.allow_spinning", "0")
+        self._session = onnxruntime.InferenceSession(
+            str(path), options, providers=["CPUExecutionProvider"]
+        )
+        self.seconds: list[float] = []
+        """How long each picture took, decoding and suppression apart."""
+
+    def detect(self, jpeg: bytes) -> list[Found]:
+        """Return what is found, down to a low score."""
+        picture = decoded(jpeg).transpose(2, 0, 1)[None].astype(np.float32) / np.float32(255)
+        began_s = time.perf_counter()
+        said = self._session.run(None, {"images": picture})[0]
+        self.seconds.append(time.perf_counter() - began_s)
+        return found(said[0])
+
+
+def found(said: NDArray[np.float32]) -> list[Found]:
+    """Return detections from (4 + classes, N): the surest of each heap of boxes of one class."""
+    best = said[4:].argmax(0)
+    surest = said[4:].max(0)
+    keep = surest >= LEAST
+    boxes, best, surest = said[:4, keep].T, best[keep], surest[keep]
+    corner = np.hstack([boxes[:, :2] - boxes[:, 2:] / 2, boxes[:, 2:]])
+    chosen: Any = cv2.dnn.NMSBoxesBatched(
+        corner.tolist(), surest.tolist(), best.astype(int).tolist(), LEAST, SAME
+    )
+    return [
+        Found(CLASSES[best[i]], float(surest[i]), _box(corner[i]))
+        for i in np.array(chosen, int).reshape(-1)
+    ]
+
+
+def _box(corner: NDArray[np.float32]) -> Box:
+    x, y, wide, high = map(float, corner)
+    return x, y, x + wide, y + high
+
+
+def pictures(frames: Sequence[Framed], detect: Detect) -> list[Picture]:
+    """Return what is in each frame beside what is found in it."""
+    return [(truth(frame), detect(frame.jpeg)) for frame in frames]
+
+
+def truth(frame: Framed) -> list[There]:
+    """Return what is in a frame."""
+    return [
+        There(CLASSES[int(row[0])], (row[1], row[2], row[3], row[4]), row[5] > 0)
+        for row in frame.things.tolist()
+    ]
+
+
+def judged(seen: Sequence[Picture], empty: Sequence[Picture]) -> dict[str, Any]:
+    """Return every number that the card states of a model."""
+    classes = scores(seen, MIN_SCORE)
+    count, false = false_in_empty([*seen, *empty], MIN_SCORE)
+    return {
+        "frames": len(seen),
+        "map50": mean_average_precision(classes),
+        "classes": [asdict(it) for it in classes.values()],
+        "empty_frames": count,
+        "false_in_empty": false,
+        "min_score": MIN_SCORE,
+    }
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Score and print a table; return 0."""
+    parser = argparse.ArgumentParser(prog="python -m train.judge", description=__doc__)
+    parser.add_argument("--model", type=Path, required=True)
+    parser.add_argument("--unseen", type=Path, required=True, help="frames of unseen homes")
+    parser.add_argument("--bare", type=Path, required=True, help="frames of bare homes")
+    parser.add_argument("--frames", type=int, default=500)
+    parser.add_argument("--out", type=Path, help="a folder for judge.json")
+    given = parser.parse_args(arguments)
+    model = Model(given.model)
+    seen = pictures(read_all(given.unseen)[: given.frames], model.detect)
+    result = judged(seen, pictures(read_all(given.bare), model.detect))
+    result["ms_p50"] = 1e3 * float(np.median(model.seconds))
+    print(table(result))
+    if given.out is not None:
+        (given.out / "judge.json").write_text(json.dumps(result, indent=1) + "\n", "utf-8")
+    return 0
+
+
+def table(result: dict[str, Any]) -> str:
+    """Return the numbers as lines that a person reads."""
+    lines = [f"{'class':<8} {'asked':>6} {'AP50':>6} {'recall':>7} {'precision':>10}"]
+    lines += [
+        f"{it['label']:<8} {it['asked']:>6} {it['average_precision']:>6.3f} {it['recall']:>7.3f} "
+        f"{it['precision']:>10.3f}"
+        for it in result["classes"]
+    ]
+    each = result["false_in_empty"] / max(1, result["empty_frames"])
+    lines.append(f"mAP50 {result['map50']:.3f} on {result['frames']} frames of unseen homes")
+    lines.append(f"{each:.3f} false in each of {result['empty_frames']} empty frames")
+    lines.append(f"{result['ms_p50']:.1f} ms a frame on one thread, the model alone")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
