@@ -40,9 +40,13 @@ def main(arguments: list[str] | None = None) -> int:
             server_header=False,
             timeout_graceful_shutdown=2,
             ws_max_size=4_096,
+            ws_per_message_deflate=False,  # squeezing small frames costs more than sending them
         )
     )
     server.run()
+    if planner.refused is not None:
+        print(f"planner: {planner.refused}", file=sys.stderr)
+        return REFUSED
     return 0 if server.started else 1
 
 

@@ -18,6 +18,13 @@ from planner.mission import Memory, MissionJournal, Missions, Rules
 from planner.robot import LinkedRobot
 from planner.route import RouteLimits, RouteWorker
 from planner.settings import load_settings
+from planner.vision import VisionFailure, VisionWorker
+from planner.vision.eyes import Means, Sightseer
+from planner.vision.failure import REFUSALS
+from planner.vision.pictures import WireCamera
+from planner.vision.poses import Poses
+from planner.vision.seeing import Scenery
+from planner.vision.store import ThingStore
 from planner.voice import VoiceWorker
 from planner.world import FenceProposals, Site, TaughtPlaces
 from wire import RobotDescription, fingerprint, load_robot
@@ -77,6 +84,11 @@ class Planner:
         self.memory.listen(lambda: self.ears.know(self._spoken()))
         link = Link(WireBus(self._session), self.description)
         self.robot = LinkedRobot(link, self.description)
+        self._detector = VisionWorker(self.settings.vision)
+        self._opening: asyncio.Task[None] | None = None
+        self.refused: VisionFailure | None = None
+        """Why the owner's detector can't be used: a person must act."""
+        self.eyes = self._eyes(link, where.home)
         self.goals = Missions(
             site=self.memory,
             robot=self.description,
@@ -84,6 +96,22 @@ class Planner:
             router=self._router,
             brain=self.brain,
             journal=self._journal,
+        )
+
+    def _eyes(self, link: Link, home: Path) -> Sightseer:
+        """Return the eyes, which the link tells how the robot moves."""
+        map_id = self.site.map_id
+        poses = Poses(map_id)
+        link.tell(poses)
+        return Sightseer(
+            Means(
+                scenery=Scenery(self.site, self.description.camera),
+                camera=WireCamera(self._session),
+                detector=self._detector,
+                poses=poses,
+                store=ThingStore.in_home(home, map_id),
+                rate_hz=self.settings.vision.rate_hz,
+            )
         )
 
     def _spoken(self) -> list[str]:
@@ -102,14 +130,30 @@ class Planner:
         return fingerprint(data) == status.fence_hash
 
     async def start(self) -> None:
-        """Start the route process, then the missions."""
+        """Start the route process, then the missions; the detector's opens beside them."""
+        self._opening = asyncio.create_task(self._open(), name="open detector")
         await self._router.start()
         self.ears.warm()
+        await self.eyes.start()
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
+
+    async def _open(self) -> None:
+        try:
+            await self._detector.start()
+        except VisionFailure as failure:
+            if failure.code in REFUSALS:
+                self.refused = failure
+            else:
+                log.error("the eyes stay shut: %s", failure)
 
     async def close(self) -> None:
         """End all parts; what ran comes back paused in the next process."""
         await self.goals.close()
+        await self.eyes.close()
+        if self._opening is not None:
+            self._opening.cancel()
+            await asyncio.gather(self._opening, return_exceptions=True)
+        await self._detector.close()
         await self._router.close()
         await self.ears.close()
         if self._model is not None:
@@ -161,6 +205,9 @@ async def _end_with(planner: Planner) -> None:
     whoever supervises it starts it anew, with the map's costs worked out for that fence.
     """
     while (failure := planner.goals.failed) is None:
+        if planner.refused is not None:
+            log.critical("the detector that is set can't be used: %s", planner.refused)
+            break
         if await asyncio.to_thread(planner.fence_is_old):
             log.warning("fence_changed: leaving, so that the next start routes by the new fence")
             break

@@ -24,6 +24,7 @@ class _Unserved:
     robot = None
     ears = None
     fences = None
+    eyes = None
 
     def __init__(self) -> None:
         self.site = Site.load(ROOT / "sites" / "two_room")

@@ -8,10 +8,12 @@ from fastapi import FastAPI, Request
 from starlette.responses import JSONResponse
 
 from planner.api import (
+    camera,
     events,
     fence,
     goals,
     health,
+    objects,
     operator,
     pages,
     places,
@@ -31,6 +33,9 @@ if TYPE_CHECKING:
 
     from planner.api.access import Access
 
+_PARTS = (
+    goals, voice, operator, robot, places, objects, camera, fence, usage, health, events
+)  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."
 
@@ -54,7 +59,7 @@ def build(
         redoc_url=None,
         lifespan=lifespan,
     )
-    for part in (goals, voice, operator, robot, places, fence, usage, health, events):
+    for part in _PARTS:
         app.include_router(part.routes(services))
     problems.install(app)
     app.add_exception_handler(MissionError, _mission)

@@ -15,6 +15,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
 from planner.api.access import SUBPROTOCOL
 from planner.api.feed import Body, Feed, Listener, text_of
+from planner.api.objects import sight_view
 from planner.api.ports import Services
 from planner.api.robot import about, path_view, robot_view, scan_view
 from planner.api.usage import usage_view
@@ -94,6 +95,7 @@ def snapshot(services: Services) -> dict[str, Any]:
         "scan": scan_view(services),
         "usage": usage_view(services),
         "places_version": services.memory.version,
+        "sight": sight_view(services),
     }
 
 

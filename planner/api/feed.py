@@ -1,4 +1,4 @@
-"""Make what every page watches once, however many watch: robot, scan, path and meter, as JSON.
+"""Make what every page watches once, however many watch: robot, scan, path, meter, sight, as JSON.
 
 Latest wins: a listener that falls behind skips to the newest and never holds the others up. Runs
 only while somebody listens. Knows no socket.
@@ -12,8 +12,11 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from planner.api.objects import sight_view
 from planner.api.robot import path_view, robot_view, scan_view
+from planner.api.sightnews import SightNews
 from planner.api.usage import usage_view
+from wire import Mode
 
 if TYPE_CHECKING:
     from planner.api.ports import Services
@@ -21,7 +24,12 @@ if TYPE_CHECKING:
 PULSE_S = 0.02
 """How soon a change of mode, epoch, hold or owner is seen here."""
 ROBOT_S = 0.1
+STANDING_S = 0.2
+"""Between two looks at a robot that stands: nothing of it changes but ages, which carry on by
+themselves in whoever was told them. A turning point is told at once all the same."""
 SCAN_S = 0.2
+STILL_MPS = 0.01
+STILL_RADPS = 0.02
 
 Body = str
 """A JSON object's text without its opening brace, so that each socket can put its seq in front."""
@@ -60,6 +68,7 @@ class Feed:
         self._driven: tuple[str, int] | None = None
         self._metered = 0
         self._places = 0
+        self._sight = SightNews(services)
 
     def listen(self) -> Listener:
         """Begin to listen; the first listener starts the looking."""
@@ -86,7 +95,8 @@ class Feed:
         """Offer what is due or has changed."""
         now_s = self._clock()
         news = _turning_point(self._services)
-        if news != self._told or now_s - self._robot_s >= ROBOT_S:
+        due_s = STANDING_S if _stands(self._services) else ROBOT_S
+        if news != self._told or now_s - self._robot_s >= due_s:
             self._told, self._robot_s = news, now_s
             self._offer("robot", {"robot": robot_view(self._services)})
         leg = self._services.goals.path()
@@ -102,6 +112,8 @@ class Feed:
         if version != self._places:
             self._places = version
             self._offer("places", {"version": version})
+        if self._sight.due(now_s):
+            self._offer("sight", {"sight": sight_view(self._services)})
         if now_s - self._scan_s >= SCAN_S:
             self._scan_s = now_s
             self._offer("scan", {"scan": scan_view(self._services)})
@@ -116,6 +128,18 @@ def text_of(kind: str, content: dict[str, Any]) -> Body:
     """Return a frame's JSON but for its opening brace and seq."""
     text = json.dumps({"kind": kind, **content}, ensure_ascii=False, separators=(",", ":"))
     return text[1:]
+
+
+def _stands(services: Services) -> bool:
+    """Say whether the robot neither moves nor is about to, as the bridge says and measures."""
+    status = services.robot.status
+    if status is None:
+        return True
+    turning, going = abs(status.measured.w_radps), abs(status.measured.v_mps)
+    return status.mode not in _DRIVEN and going <= STILL_MPS and turning <= STILL_RADPS
+
+
+_DRIVEN = frozenset({Mode.ACTIVE, Mode.TELEOP, Mode.STOPPING})
 
 
 def _turning_point(services: Services) -> tuple[Any, ...]:

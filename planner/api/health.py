@@ -82,6 +82,26 @@ class _Collector:
         yield family
         yield from self._bridge()
         yield from self._budget()
+        yield from self._eyes()
+
+    def _eyes(self) -> Iterable[GaugeMetricFamily]:
+        eyes = self._services.eyes
+        sight = eyes.sight
+        looks = GaugeMetricFamily("pons_eyes_looks", "Since start, by what came", labels=["what"])
+        for what, count in sorted(eyes.counts.items()):
+            looks.add_metric([what], count)
+        skipped = GaugeMetricFamily(
+            "pons_eyes_skipped", "Pictures not thought upon since start", labels=["reason"]
+        )
+        for reason, count in sorted(eyes.skipped.items()):
+            skipped.add_metric([reason], count)
+        blind = GaugeMetricFamily("pons_eyes_blind", "1 for why nothing is seen", labels=["reason"])
+        if sight.blind is not None:
+            blind.add_metric([sight.blind], 1)
+        yield from (looks, skipped, blind)
+        yield _gauge("pons_eyes_things", "Things remembered", len(sight.things))
+        yield _gauge("pons_eyes_took_seconds", "Newest look, in the detector", eyes.took_s)
+        yield _gauge("pons_eyes_lag_seconds", "Newest look, picture to map", eyes.lag_s)
 
     def _budget(self) -> Iterable[GaugeMetricFamily]:
         usage = self._services.budget.usage()

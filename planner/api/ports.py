@@ -7,12 +7,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Sequence
+    from collections.abc import AsyncIterator, Mapping, Sequence
 
     from planner.brain import Brain
     from planner.budget import Usage
     from planner.mission import Leg, Memory
     from planner.plan import Goal, Language
+    from planner.vision import Picture, Sight, Thing
     from planner.voice import Recogniser
     from planner.world import FenceProposals, Site
     from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
@@ -94,6 +95,42 @@ class Budget(Protocol):
     def usage(self, goal: str | None = None) -> Usage: ...
 
 
+class Eyes(Protocol):
+    """Show what is seen and remembered; ``version`` rises when a thing comes or goes."""
+
+    @property
+    def sight(self) -> Sight: ...
+
+    @property
+    def version(self) -> int: ...
+
+    @property
+    def changed_s(self) -> Mapping[str, float]:
+        """Return when each thing was last seen or doubted, on ``now_s``'s clock."""
+
+    @property
+    def now_s(self) -> float: ...
+
+    @property
+    def classes(self) -> tuple[str, ...]: ...
+
+    @property
+    def counts(self) -> Mapping[str, int]: ...
+
+    @property
+    def skipped(self) -> Mapping[str, int]: ...
+
+    @property
+    def lag_s(self) -> float: ...
+
+    @property
+    def took_s(self) -> float: ...
+
+    def show(self) -> Picture | None: ...
+
+    def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]: ...
+
+
 class Services(Protocol):
     """Hold what one planner is made of."""
 
@@ -120,3 +157,6 @@ class Services(Protocol):
 
     @property
     def ears(self) -> Recogniser: ...
+
+    @property
+    def eyes(self) -> Eyes: ...

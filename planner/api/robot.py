@@ -8,7 +8,6 @@ from typing import Any
 from fastapi import APIRouter
 
 from planner.api.ports import Services
-from planner.api.problems import Problem
 from planner.brain import mind_of
 
 
@@ -26,11 +25,6 @@ def routes(services: Services) -> APIRouter:
     async def grid() -> dict[str, Any]:
         """Give the map's cells (0 free, 1 occupied, 2 unknown; row 0 lowest y) and the fence."""
         return map_body
-
-    @router.get("/camera.jpg", operation_id="get_camera")
-    async def camera() -> None:
-        """Give the newest picture; this robot has no camera yet."""
-        raise Problem(503, "no_camera", "this robot has no camera")
 
     return router
 

@@ -40,6 +40,25 @@ SAYINGS = {
     "wav_malformed": _BROKEN,
     "recogniser_unavailable": _EARS,
     "voice_busy": _AGAIN,
+    "no_camera": Bilingual(en="This robot has no camera.", zh="这台机器人没有摄像头。"),
+    "no_detector": Bilingual(
+        en="No detector is set, so things in the picture are not told apart.",
+        zh="没有设置检测模型，无法识别画面中的物体。",
+    ),
+    "detector_down": Bilingual(
+        en="The detector does not answer; it is being started anew.",
+        zh="检测进程没有响应，正在重新启动。",
+    ),
+    "camera_silent": Bilingual(
+        en="No picture comes from the camera.", zh="摄像头没有传来画面。"
+    ),
+    "camera_frozen": Bilingual(
+        en="The camera sends one and the same picture again and again.",
+        zh="摄像头一直发送同一张画面。",
+    ),
+    "unknown_object": Bilingual(
+        en="No such thing is remembered.", zh="没有记住这个物体。"
+    ),
     "disk_full": Bilingual(
         en="The disk is full, so nothing is recorded: make room, then arm.",
         zh="磁盘已满，无法记录行驶数据：请清理磁盘后再解锁。",

@@ -11,13 +11,14 @@ For the API's handlers (``link`` is ``missions.link``):
 - ``await link.stop(source) -> StopResult``: never refused, never raises; but handlers call
   ``missions.stop`` so that the missions hear it too.
 - ``link.teleop(wire.Velocity)``.
+- ``link.tell(follower)``: all odometry and localization as it comes, for whoever keeps a history.
 
 ``LinkError`` carries ``code`` and ``message`` = {"en", "zh"}.
 """
 
 from planner.link.bus import Bus, WireBus
 from planner.link.errors import BridgeSilent, LinkError
-from planner.link.link import Aged, Link, StopResult
+from planner.link.link import Aged, Follower, Link, StopResult
 from planner.link.owner import (
     STANDING,
     Course,
@@ -34,6 +35,7 @@ __all__ = [
     "BridgeSilent",
     "Bus",
     "Course",
+    "Follower",
     "Identity",
     "Link",
     "LinkError",

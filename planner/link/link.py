@@ -12,7 +12,7 @@ import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Generic, Protocol, TypeVar
 
 from planner.link.bus import Bus
 from planner.link.errors import BridgeSilent
@@ -57,6 +57,14 @@ class StopResult:
     waited_s: float
 
 
+class Follower(Protocol):
+    """Be told all odometry and localization as it comes, to know later where the robot was."""
+
+    def odometry(self, odometry: Odometry) -> None: ...
+
+    def localization(self, localization: Localization) -> None: ...
+
+
 class Link:
     """Be the planner's one way to the bridge."""
 
@@ -77,6 +85,7 @@ class Link:
         self._odometry: tuple[Odometry, float] | None = None
         self._scan: tuple[Scan, float] | None = None
         self._waiting: dict[str, asyncio.Future[Answer]] = {}
+        self._followers: list[Follower] = []
 
     # What was heard -----------------------------------------------------------------------------
 
@@ -85,8 +94,12 @@ class Link:
         now_s = self._clock()
         if (localization := self._bus.localization()) is not None:
             self._localization = (localization, now_s)
+            for follower in self._followers:
+                follower.localization(localization)
         if (odometry := self._bus.odometry()) is not None:
             self._odometry = (odometry, now_s)
+            for follower in self._followers:
+                follower.odometry(odometry)
         if (scan := self._bus.scan()) is not None:
             self._scan = (scan, now_s)
         status = self._bus.status()
@@ -94,6 +107,10 @@ class Link:
             self._status = (status, now_s)
             self._resolve(status)
         return status
+
+    def tell(self, follower: Follower) -> None:
+        """Tell somebody, from now on, how the robot moves and where it is."""
+        self._followers.append(follower)
 
     def events(self) -> tuple[Event, ...]:
         """Take the bridge's events since the last call. For people; never relied upon."""

@@ -17,7 +17,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from planner.vision.detect import Detector, Wanted, shrink, unpack_color
+from planner.vision.detect import Detector, Wanted, depth_at, shrink, unpack_color, unpack_depth
 from planner.vision.failure import VisionFailure
 from planner.vision.frames import HEADER, lengths, look_head, pack, unpack
 
@@ -64,6 +64,8 @@ def _serve(detector: Detector | None, requests: BinaryIO, answers: BinaryIO) -> 
         if "long_side" in head:
             answer, picture = _shrunk(body, int(head["long_side"]))
             _write(answers, pack({"number": number, **answer}, picture))
+        elif "at" in head:
+            _write(answers, pack({"number": number, "depth_m": _depth_at(head, body)}))
         elif detector is None:
             _write(answers, pack({"number": number, "failed": "no_detector"}))
         else:
@@ -75,6 +77,12 @@ def _looked(detector: Detector, head: dict[str, Any], body: bytes) -> dict[str, 
     width, height = head["size"]
     depth = body[cut:] if head["deep"] else None
     return look_head(detector.look(body[:cut], depth, (int(width), int(height))))
+
+
+def _depth_at(head: dict[str, Any], body: bytes) -> float | None:
+    width, height = head["size"]
+    depth = unpack_depth(body, (int(width), int(height)))
+    return None if isinstance(depth, str) else depth_at(depth, *map(float, head["at"]))
 
 
 def _shrunk(body: bytes, long_side: int) -> tuple[dict[str, Any], bytes]:

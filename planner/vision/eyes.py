@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planner.vision.failure import VisionFailure
+from planner.vision.handed import Handed
 from planner.vision.keeping import Keeper
 from planner.vision.labels import canonical
 from planner.vision.memory import Remembered, aged, forget, recalled
@@ -75,6 +76,7 @@ class Sightseer:
         self._sight = Sight(blind=self._down if self._there else "no_camera")
         self._listeners: list[Callable[[Sight], None]] = []
         self._wanted: set[str] = set()
+        self._handed = Handed()
         self._keeper = Keeper(means.store)
         self._shown_s = self._began_s = self._aged_s = self._rest_until_s = float("-inf")
         self._thinking: asyncio.Task[None] | None = None
@@ -105,8 +107,16 @@ class Sightseer:
 
     @property
     def picture(self) -> Picture | None:
-        """Return the newest picture, however old."""
-        return self._pictures.newest
+        """Return the newest picture, however old; where it was taken is known from then on."""
+        newest = self._pictures.newest
+        if newest is not None:
+            self._handed.note(newest)
+        return newest
+
+    @property
+    def now_s(self) -> float:
+        """Return the time on the clock of all ages here."""
+        return self._clock()
 
     @property
     def skipped(self) -> Counter[str]:
@@ -133,13 +143,16 @@ class Sightseer:
             PointRefused: nothing there can be driven up to.
         """
         means = self._means
-        stance = means.poses.at(picture.taken_s)
+        stance = self._handed.stance(picture, means.poses)
         if stance is None:
             raise PointRefused("point_no_pose", "where the robot was then is not known any more")
         view = View(picture.color.header, means.scenery.camera, stance)
         depth_m = None
         if picture.depth is not None and means.detector is not None:
-            depth_m = await means.detector.depth_at(picture.depth, *pixel(view, x, y))
+            try:
+                depth_m = await means.detector.depth_at(picture.depth, *pixel(view, x, y))
+            except VisionFailure as failure:
+                raise PointRefused("point_no_depth", str(failure)) from None
         return point_on_map(view, means.scenery.site, x, y, depth_m)
 
     def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]:
@@ -179,6 +192,7 @@ class Sightseer:
         """Do one round: take pictures in, judge them, begin a look where one is due."""
         now_s, busy = self._clock(), self._thinking is not None
         self._pictures.poll(now_s, busy=busy)
+        self._handed.settle(self._means.poses, now_s)
         self._age(now_s)
         if (self._pictures.blind(now_s) or self._down) != self._sight.blind:
             self._tell(self._look)

@@ -25,6 +25,8 @@ FROZEN_AFTER = 5
 SAME_CLOCK_S = 60.0
 """A stamp farther from our clock is of another host's: it tells nothing here."""
 DEPTH_WAIT_S = 0.06
+AS_GOOD_S = 0.25
+"""A picture with depth is handed out rather than one newer by so little without."""
 DEPTH_GONE_S = 2.0
 """Without depth for so long, pictures no longer wait for theirs."""
 
@@ -68,6 +70,7 @@ class Pictures:
         self._camera, self._silent_s = camera, silent_s
         self._heard: _Heard | None = None
         self._depth: tuple[Image, float] | None = None
+        self._whole: Picture | None = None
         self._repeats = 0
         self._fresh_s = float("-inf")
         self.skipped: Counter[str] = Counter()
@@ -76,8 +79,11 @@ class Pictures:
 
     @property
     def newest(self) -> Picture | None:
-        """Return the newest picture, however old."""
-        return None if self._heard is None else self._heard.picture
+        """Return the newest picture, however old; one with its depth where that is as good."""
+        heard, whole = self._heard, self._whole
+        if heard is None or whole is None:
+            return None if heard is None else heard.picture
+        return whole if heard.picture.taken_s - whole.taken_s <= AS_GOOD_S else heard.picture
 
     def blind(self, now_s: float) -> str | None:
         """Say why there is nothing to look at, or None."""
@@ -97,6 +103,7 @@ class Pictures:
             self._take(color, now_s, busy=busy)
         elif color is not None:
             self.skipped["malformed"] += 1
+        self._join()
 
     def ready(self, now_s: float) -> Picture | None:
         """Hand out the newest picture, once, if it is worth thinking upon."""
@@ -112,6 +119,15 @@ class Pictures:
         picture = replace(heard.picture, depth=depth)
         self._heard = replace(heard, picture=picture, offered=True)
         return picture
+
+    def _join(self) -> None:
+        """Put the newest picture and its depth together, once both are there."""
+        heard, whole = self._heard, self._whole
+        if heard is None or (whole is not None and whole.color is heard.picture.color):
+            return
+        depth = self._depth_of(heard.picture.color)
+        if depth is not None:
+            self._whole = replace(heard.picture, depth=depth)
 
     def _take(self, color: Image, now_s: float, *, busy: bool) -> None:
         before = self._heard

@@ -99,6 +99,21 @@ class VisionWorker:
         _, data = await self._kept.ask(head, (image.data,), timeout_s)
         return data
 
+    async def depth_at(
+        self, depth: Image, u_px: float, v_px: float, timeout_s: float = LOOK_S
+    ) -> float | None:
+        """Return what was measured around a pixel [m]; None where nothing was.
+
+        Raises:
+            VisionFailure: ``detector_down`` or ``detector_timed_out``.
+        """
+        size = [depth.header.width, depth.header.height]
+        answer, _ = await self._kept.ask(
+            {"at": [u_px, v_px], "size": size}, (depth.data,), timeout_s
+        )
+        measured = answer["depth_m"]
+        return None if measured is None else float(measured)
+
     async def close(self) -> None:
         """End the process and wait until it is gone. Safe to call twice."""
         await self._kept.close()

@@ -5,7 +5,10 @@ The planner's own process never imports this; its door is :class:`planner.vision
 
 from planner.vision.detect.detector import Detector
 from planner.vision.detect.draw import drawn
+from planner.vision.detect.inner import depth_at
 from planner.vision.detect.model_file import Wanted
-from planner.vision.detect.pictures import shrink, unpack_color
+from planner.vision.detect.pictures import shrink, unpack_color, unpack_depth
 
-__all__ = ["Detector", "Wanted", "drawn", "shrink", "unpack_color"]
+__all__ = [
+    "Detector", "Wanted", "depth_at", "drawn", "shrink", "unpack_color", "unpack_depth"
+]  # fmt: skip

@@ -24,6 +24,7 @@ WINDOW_M = 0.15
 WINDOW_SHARE = 0.06
 """How deep a thing may be behind its front [m], and how much more with each metre of distance."""
 MIN_MEASURED = 3
+AROUND_PX = (2, 6)
 MM = 0.001
 
 
@@ -76,3 +77,16 @@ def foreground(millimetres: NDArray[np.uint16]) -> NDArray[np.float32] | None:
     fronts = np.flatnonzero(within >= max(MIN_MEASURED, ENOUGH * len(measured)))
     first = int(fronts[0]) if len(fronts) else int(within.argmax())
     return measured[first : first + int(within[first])]
+
+
+def depth_at(depth: Depth, u_px: float, v_px: float) -> float | None:
+    """Return what was measured around a pixel [m]; wider around it where it is a hole."""
+    height, width = depth.shape
+    column, row = min(max(0, int(u_px)), width - 1), min(max(0, int(v_px)), height - 1)
+    for radius in AROUND_PX:
+        around = depth[max(0, row - radius) : row + radius + 1,
+                       max(0, column - radius) : column + radius + 1]  # fmt: skip
+        measured = foreground(around.reshape(-1))
+        if measured is not None:
+            return float(measured[len(measured) // 2]) * MM
+    return None

@@ -15,6 +15,7 @@ from planner.budget import Amounts, Most, Usage
 from planner.mission import Leg, Memory
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
+from planner.vision import Picture, Sight, Thing
 from planner.voice import Heard, Sound, VoiceFailure
 from planner.world import FenceProposals, Site
 from tests.wire.examples import STATUS
@@ -186,6 +187,31 @@ class FakeBudget:
         )
 
 
+class FakeEyes:
+    """Show the sight that a test sets."""
+
+    def __init__(self) -> None:
+        self.sight = Sight(blind="no_camera")
+        self.version = 0
+        self.changed_s: dict[str, float] = {}
+        self.now_s = 100.0
+        self.classes: tuple[str, ...] = ("person", "cup")
+        self.counts = {"looks": 3}
+        self.skipped = {"stale": 2}
+        self.lag_s, self.took_s = 0.08, 0.03
+        self.picture: Picture | None = None
+        self.shown = 0
+
+    def show(self) -> Picture | None:
+        self.shown += 1
+        return self.picture
+
+    def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]:
+        gone = tuple(t for t in self.sight.things if thing_id in (None, t.id))
+        self.sight = Sight(things=tuple(t for t in self.sight.things if t not in gone))
+        return gone
+
+
 @cache
 def two_room() -> Site:
     """Read the site once: it is frozen, and two hundred tests begin with it."""
@@ -200,6 +226,7 @@ class FakeServices:
         self.robot = FakeRobot(status)
         self.ears = FakeEars()
         self.budget = FakeBudget()
+        self.eyes = FakeEyes()
         self.brain: Brain = OfflineBrain()
         self.site = two_room()
         self.memory = Memory(self.site)

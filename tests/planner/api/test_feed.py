@@ -11,13 +11,13 @@ import pytest
 from starlette.websockets import WebSocketDisconnect
 
 from planner.api import Access
-from planner.api.feed import ROBOT_S, SCAN_S, Feed, Listener
+from planner.api.feed import ROBOT_S, SCAN_S, STANDING_S, Feed, Listener
 from planner.mission import Leg
 from planner.route import RoutePoint
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.wire.examples import STATUS
-from wire import Mode
+from wire import Mode, Twist2
 
 HOST = {"host": "127.0.0.1:8420"}
 TOKEN = "a token of many characters/+"
@@ -49,10 +49,25 @@ async def watched(services: FakeServices, clock: Clock) -> tuple[Feed, Listener]
     return feed, listener
 
 
-def test_robot_and_scan_come_at_their_rates_and_no_faster() -> None:
+@pytest.mark.parametrize(
+    ("mode", "v_mps", "robot_s"),
+    [
+        (Mode.HOLD, 0.0, STANDING_S),
+        (Mode.HOLD, -0.05, ROBOT_S),
+        (Mode.ACTIVE, 0.0, ROBOT_S),
+        (None, 0.0, STANDING_S),
+    ],
+)
+def test_robot_and_scan_come_at_their_rates_and_no_faster(
+    mode: Mode | None, v_mps: float, robot_s: float
+) -> None:
     async def story() -> None:
-        clock = Clock()
-        feed, listener = await watched(FakeServices(), clock)
+        services, clock = FakeServices(), Clock()
+        measured = Twist2(v_mps=v_mps, w_radps=0.0)
+        services.robot._status = (
+            None if mode is None else STATUS.model_copy(update={"mode": mode, "measured": measured})
+        )
+        feed, listener = await watched(services, clock)
         counts = {"robot": 0, "scan": 0, "path": 0}
         for tick in range(1, 101):
             clock.now_s = tick * 0.02
@@ -60,7 +75,7 @@ def test_robot_and_scan_come_at_their_rates_and_no_faster() -> None:
             if listener._waiting:
                 for frame in await taken(listener):
                     counts[str(frame["kind"])] += 1
-        assert counts["robot"] == pytest.approx(2.0 / ROBOT_S, abs=4)
+        assert counts["robot"] == pytest.approx(2.0 / robot_s, abs=3)
         assert counts["scan"] == pytest.approx(2.0 / SCAN_S, abs=2)
         assert counts["path"] == 0
         feed.leave(listener)

@@ -1,0 +1,120 @@
+"""Serve what was seen: the things remembered on the map, and forgetting them. An operator's act."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+from fastapi import APIRouter, Path
+
+from planner.api.ports import Services
+from planner.api.problems import Problem
+from planner.api.sayings import saying_of
+from planner.vision.labels import named
+
+if TYPE_CHECKING:
+    from planner.vision import Look, Thing
+
+ThingId = Annotated[str, Path(min_length=1, max_length=120)]
+RETOLD_S = 2.0
+"""A thing that changed is told so long in each event: whoever missed one has it from the next."""
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the routes of things."""
+    router = APIRouter(prefix="/v1/objects", tags=["objects"])
+
+    @router.get("", operation_id="list_objects")
+    async def objects() -> dict[str, Any]:
+        """List what was seen and is remembered, why nothing is seen now, and what could be."""
+        return objects_view(services)
+
+    @router.delete("", operation_id="forget_objects")
+    async def forget_all() -> dict[str, Any]:
+        """Forget all that was seen; what is there will be seen again."""
+        return {"forgotten": [thing.id for thing in services.eyes.forget()]}
+
+    @router.delete("/{thing_id}", operation_id="forget_object")
+    async def forget(thing_id: ThingId) -> dict[str, Any]:
+        """Forget one thing."""
+        known = {thing.id for thing in services.eyes.sight.things}
+        if thing_id not in known:
+            names = ", ".join(sorted(known)[:20]) or "none"
+            raise Problem(404, "unknown_object", f"got {thing_id[:60]!r}; known: {names}")
+        return {"forgotten": [thing.id for thing in services.eyes.forget(thing_id)]}
+
+    return router
+
+
+def objects_view(services: Services) -> dict[str, Any]:
+    """Return all that is known by eye."""
+    eyes = services.eyes
+    sight = eyes.sight
+    return {
+        "version": eyes.version,
+        **_blind(sight.blind),
+        "classes": [{"id": label, "name": _named(label)} for label in eyes.classes],
+        "objects": [thing_view(thing, eyes.now_s) for thing in sight.things],
+    }
+
+
+def sight_view(services: Services) -> dict[str, Any]:
+    """Return the newest look and the things that changed of late: what a page draws."""
+    eyes = services.eyes
+    sight, now_s = eyes.sight, eyes.now_s
+    since_s = now_s - RETOLD_S
+    changed = (t for t in sight.things if eyes.changed_s.get(t.id, now_s) >= since_s)
+    return {
+        "version": eyes.version,
+        **_blind(sight.blind),
+        "look": None if sight.look is None else _look(sight.look, now_s),
+        "things": [thing_view(thing, now_s) for thing in changed],
+    }
+
+
+def thing_view(thing: Thing, now_s: float) -> dict[str, Any]:
+    """Return one thing as people and pages read it."""
+    return {
+        "id": thing.id,
+        "label": thing.label,
+        "name": _named(thing.label, thing.color),
+        "color": thing.color,
+        "x_m": round(thing.x_m, 2),
+        "y_m": round(thing.y_m, 2),
+        "z_m": round(thing.z_m, 2),
+        "sigma_m": round(thing.sigma_m, 2),
+        "confidence": round(thing.confidence, 2),
+        "age_s": round(max(0.0, now_s - thing.seen_s), 1),
+        "room": thing.room,
+        "sightings": thing.sightings,
+    }
+
+
+def _look(look: Look, now_s: float) -> dict[str, Any]:
+    here = look.here or ("",) * len(look.detections)
+    return {
+        "seq": look.seq,
+        "age_s": round(max(0.0, now_s - look.taken_s), 2),
+        "width": look.width,
+        "height": look.height,
+        "placed": look.base_in_map is not None,
+        "boxes": [
+            {
+                "label": seen.label,
+                "name": _named(seen.label, seen.color),
+                "score": round(seen.score, 2),
+                "box": [round(edge) for edge in seen.box],
+                "color": seen.color,
+                "id": thing_id or None,
+            }
+            for seen, thing_id in zip(look.detections, here, strict=True)
+        ],
+    }
+
+
+def _named(label: str, color: str | None = None) -> dict[str, str]:
+    return named(label, color).model_dump()
+
+
+def _blind(code: str | None) -> dict[str, Any]:
+    message = saying_of(code).get("message") if code is not None else None
+    return {"blind": code, "message": message}
