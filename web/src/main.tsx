@@ -26,6 +26,7 @@ import {
   taught,
   wantsSnapshot,
 } from "./state/store";
+import { startVisible } from "./state/visible";
 import { listen } from "./stop/keys";
 import { startStopper, stop } from "./stop/stopper";
 import type { Known } from "./wire/types";
@@ -47,6 +48,7 @@ startStopper((message) => socket.send(message));
 listen(stop);
 startToken();
 startLanguage();
+startVisible();
 startClock();
 effect(() => {
   if (wantsSnapshot.value) socket.send({ snapshot: true });

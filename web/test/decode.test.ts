@@ -19,6 +19,18 @@ describe("decode", () => {
     });
   });
 
+  it("takes of progress what is a number", () => {
+    const change = { type: "progress", goal: "a", step: 0, left_m: 1.5, left_rad: "2" };
+    const progress = { goal: "a", step: 0, left_m: 1.5 };
+    expect(decode(text({ seq: 5, kind: "progress", change }))).toEqual({
+      seq: 5,
+      kind: "progress",
+      progress,
+    });
+    const nameless = { ...change, goal: null };
+    expect(decode(text({ seq: 5, kind: "progress", change: nameless }))).toBeNull();
+  });
+
   const whole = text(snapshot());
   it.each([1, 2, 10, 100, whole.length - 1])("takes no half frame (%i characters)", (length) => {
     expect(decode(whole.slice(0, length))).toBeNull();

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { FIRST_MS, LONGEST_MS, waitMs } from "../src/net/backoff";
 import { fixed, seconds } from "../src/panels/format";
-import { busy, sorted } from "../src/state/goals";
+import { busy, sorted, withProgress } from "../src/state/goals";
+import { whole } from "../src/panels/Draft";
 import { goal } from "./examples";
 
 describe("back-off", () => {
@@ -50,5 +51,26 @@ describe("goals", () => {
   it("that are paused or ended keep nobody waiting", () => {
     expect(busy([goal("a", "paused"), goal("b", "failed")])).toBe(false);
     expect(busy([goal("a", "queued")])).toBe(true);
+  });
+});
+
+describe("progress", () => {
+  const steps = ["go_to", "wait"].map((kind) => whole({ kind, state: "running", left_m: 2.04 }));
+  const plan = { kind: "plan", steps, code: null, text: null, options: [] };
+  const goals = [goal("a", "running", { plan }), goal("b")];
+
+  it("is put into its step alone", () => {
+    const after = withProgress(goals, { goal: "a", step: 1, left_s: 3 });
+    expect(after[0]?.plan?.steps).toEqual([steps[0], { ...steps[1], left_s: 3 }]);
+    expect(after[1]).toBe(goals[1]);
+  });
+
+  it.each([
+    ["reads as before", { goal: "a", step: 0, left_m: 1.96 }],
+    ["is of another goal", { goal: "c", step: 0, left_m: 1 }],
+    ["is of a goal without a plan", { goal: "b", step: 0, left_m: 1 }],
+    ["is of no step", { goal: "a", step: 2, left_m: 1 }],
+  ])("changes nothing where it %s", (_, progress) => {
+    expect(withProgress(goals, progress)).toBe(goals);
   });
 });

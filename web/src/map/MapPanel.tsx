@@ -1,14 +1,29 @@
 /** Show the map, and make a click on it a goal: at once when idle, after a choice when busy. */
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
 import { picked, picking } from "../state/picking";
-import { about, age, grid, isBusy, pageFresh, path, places, robot, scan } from "../state/store";
+import { steady } from "../state/steady";
+import {
+  about,
+  age,
+  grid,
+  isBusy,
+  pageFresh,
+  pageHeard,
+  path,
+  places,
+  scan,
+  scanFresh,
+  status,
+} from "../state/store";
+import { visible } from "../state/visible";
 import type { Place } from "../wire/types";
 import { type Point, resolve } from "./resolve";
+import { samePose, sameScan } from "./unmoved";
 import { MapView } from "./view";
 
 type Choice = { readonly place: Place; readonly left: number; readonly top: number };
@@ -50,11 +65,23 @@ function follow(view: MapView): (() => void)[] {
     }),
     effect(() => drawing.showPicked(picked.value)),
     effect(() => view.showPicking(picking.value)),
-    effect(() => drawing.showPath(path.value, !pageFresh.value)),
-    effect(() => drawing.showScan(scan.value, !fresh(age("scan")))),
-    effect(() => drawing.showRobot(robot.value?.status?.base_in_map ?? null, !fresh(poseAge()))),
+    effect(() => drawing.showPath(path.value)),
+    effect(() => drawing.greyPath(!pageFresh.value)),
+    effect(() => seen(() => drawing.showScan(scanNow.value))),
+    effect(() => drawing.greyScan(!scanFresh.value)),
+    effect(() => seen(() => drawing.showRobot(poseNow.value))),
+    effect(() => drawing.greyRobot(!poseFresh.value)),
   ];
 }
+
+/** Draw only while somebody can see it; whoever comes back sees what is so then. */
+function seen(draw: () => void): void {
+  if (visible.value) draw();
+}
+
+const scanNow = steady(() => scan.value, sameScan);
+const poseNow = steady(() => status.value?.base_in_map ?? null, samePose);
+const poseFresh = computed(() => fresh(poseAge()));
 
 /** The pose is the bridge's, made of localization: it is as old as the older of the two. */
 function poseAge(): number | null {
@@ -114,9 +141,9 @@ function Ask({ choice: { place, left, top } }: { choice: Choice }) {
 
 function Ages() {
   const old = [
-    fresh(poseAge()) ? null : t("map.stale", { age: seconds(poseAge()) }),
-    fresh(age("scan")) ? null : t("map.scan_stale", { age: seconds(age("scan")) }),
+    poseFresh.value ? null : t("map.stale", { age: seconds(poseAge()) }),
+    scanFresh.value ? null : t("map.scan_stale", { age: seconds(age("scan")) }),
   ].filter((text) => text !== null);
-  if (robot.value === null || old.length === 0) return null;
+  if (!pageHeard.value || old.length === 0) return null;
   return <p class="map-ages">{old.join(" · ")}</p>;
 }

@@ -1,6 +1,7 @@
 /**
- * Draw what lies and moves on the map as one SVG in metres, y up: fence, zones, scan, path, robot.
- * Leaflet scales it; nothing here knows pixels.
+ * Draw what lies and moves on the map as SVG in metres, y up: fence, zones, scan, path, robot.
+ * Leaflet scales it; nothing here knows pixels. What moves has a layer of its own, so that a browser
+ * paints nothing else for it.
  */
 import type { Grid, Path, Pose, Scan } from "../wire/types";
 import { type Point, unwound } from "./resolve";
@@ -12,11 +13,17 @@ type Outline = readonly (readonly [number, number])[];
 export const outlineOf = (points: Outline): string =>
   `M${points.map(([x, y]) => `${x} ${y}`).join("L")}`;
 
+const APART_CM = 3; // nearer to the one before, a dot lies under it
+
 /** Return dots: lines of no length with round ends. */
 export function dots(scan: Scan): string {
   let path = "";
+  let [lastX, lastY] = [Number.NaN, Number.NaN];
   for (let index = 0; index + 1 < scan.length; index += 2) {
-    path += `M${(scan[index] ?? 0) / 100} ${(scan[index + 1] ?? 0) / 100}h0`;
+    const [x, y] = [scan[index] ?? 0, scan[index + 1] ?? 0];
+    if (Math.hypot(x - lastX, y - lastY) < APART_CM) continue;
+    [lastX, lastY] = [x, y];
+    path += `M${x / 100} ${y / 100}h0`;
   }
   return path;
 }
@@ -30,8 +37,15 @@ function make<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
+function layer(name: string, ...content: readonly SVGElement[]): SVGSVGElement {
+  const svg = make("svg", { class: name, "aria-hidden": "true" });
+  const up = make("g", { transform: "scale(1,-1)" });
+  up.append(...content);
+  svg.append(up);
+  return svg;
+}
+
 export class Drawing {
-  readonly svg = make("svg", { class: "drawing", "aria-hidden": "true" });
   private readonly fence = make("path", { class: "fence" });
   private readonly zones = make("path", { class: "zone" });
   private readonly scan = make("path", { class: "scan" });
@@ -40,13 +54,17 @@ export class Drawing {
   private readonly picked = make("circle", { class: "picked", r: "0.2" });
   private readonly robot = make("g", { class: "robot" });
   private degrees = 0;
+  /** From the lowest up; all cover the same. */
+  readonly layers: readonly SVGSVGElement[] = [
+    layer("layer", this.scan),
+    layer("drawing", this.zones, this.fence, this.path, this.goal, this.picked),
+    layer("layer", this.robot),
+  ];
 
   constructor() {
-    const up = make("g", { transform: "scale(1,-1)" });
-    up.append(this.zones, this.fence, this.scan, this.path, this.goal, this.picked, this.robot);
-    this.svg.append(up);
     this.showBody(0.3);
-    this.showRobot(null, true);
+    this.showRobot(null);
+    this.greyRobot(true);
     this.showPath(null);
     this.showPicked(null);
   }
@@ -63,7 +81,8 @@ export class Drawing {
     const { x_m, y_m } = grid.origin;
     const wide = grid.width * grid.resolution_m;
     const high = grid.height * grid.resolution_m;
-    this.svg.setAttribute("viewBox", `${x_m} ${-(y_m + high)} ${wide} ${high}`);
+    for (const svg of this.layers)
+      svg.setAttribute("viewBox", `${x_m} ${-(y_m + high)} ${wide} ${high}`);
     const { allowed, keep_outs, speed_zones } = grid.fence;
     const closed = (outlines: readonly Outline[]): string =>
       outlines.map((outline) => `${outlineOf(outline)}Z`).join("");
@@ -83,17 +102,14 @@ export class Drawing {
     );
   }
 
-  showRobot(pose: Pose | null, stale: boolean): void {
+  showRobot(pose: Pose | null): void {
     this.robot.style.display = pose ? "" : "none";
-    this.robot.classList.toggle("stale", stale);
     if (!pose) return;
     this.degrees = unwound(this.degrees, (pose.yaw_rad * 180) / Math.PI);
     this.robot.style.transform = `translate(${pose.x_m}px, ${pose.y_m}px) rotate(${this.degrees}deg)`;
   }
 
-  showPath(path: Path | null, stale = false): void {
-    this.path.classList.toggle("stale", stale);
-    this.goal.classList.toggle("stale", stale);
+  showPath(path: Path | null): void {
     const last = path?.points.at(-1);
     this.path.setAttribute("d", path && last ? outlineOf(path.points) : "");
     this.goal.style.display = last ? "" : "none";
@@ -101,8 +117,20 @@ export class Drawing {
     this.goal.setAttribute("cy", String(last?.[1] ?? 0));
   }
 
-  showScan(scan: Scan, stale: boolean): void {
+  showScan(scan: Scan): void {
     this.scan.setAttribute("d", dots(scan));
+  }
+
+  greyRobot(stale: boolean): void {
+    this.robot.classList.toggle("stale", stale);
+  }
+
+  greyPath(stale: boolean): void {
+    this.path.classList.toggle("stale", stale);
+    this.goal.classList.toggle("stale", stale);
+  }
+
+  greyScan(stale: boolean): void {
     this.scan.classList.toggle("stale", stale);
   }
 }

@@ -55,7 +55,8 @@ export class MapView {
     this.shown = L.latLngBounds([bottom, left], [top, right]);
     this.drawing.cover(grid);
     if (first) {
-      L.svgOverlay(this.drawing.svg, boundsOf(grid), { pane: "overlayPane" }).addTo(this.map);
+      for (const layer of this.drawing.layers)
+        L.svgOverlay(layer, boundsOf(grid), { pane: "overlayPane" }).addTo(this.map);
       this.map.fitBounds(this.shown, { animate: false });
     }
     this.map.setMaxBounds(this.shown.pad(0.5));

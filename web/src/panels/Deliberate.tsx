@@ -8,7 +8,7 @@ import { t } from "../i18n";
 import type { Act } from "../net/api";
 import { hasKey, needsKey, setKey } from "../net/proof";
 import { order } from "../state/acts";
-import { status } from "../state/store";
+import { shownStatus } from "../state/store";
 
 const OPEN_MS = 15_000;
 
@@ -41,7 +41,7 @@ export function Deliberate({ kind, where }: { kind: Act; where: string }) {
 
 function Question({ kind, close }: { kind: Act; close: () => void }) {
   const yes = useRef<HTMLButtonElement>(null);
-  const signs = needsKey(status.value) && kind !== "disarm" && kind !== "estop";
+  const signs = needsKey(shownStatus.value) && kind !== "disarm" && kind !== "estop";
   useEffect(() => {
     yes.current?.focus();
     const timer = setTimeout(close, OPEN_MS); // a question left open must not wait for a slip

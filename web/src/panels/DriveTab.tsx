@@ -1,7 +1,8 @@
 /** Gather what a person needs to drive: the goal box, what runs, what waits, what was before. */
+import { computed } from "@preact/signals";
 import { t, word } from "../i18n";
 import { act, doInstead, give, moveBy } from "../state/acts";
-import { age, pageFresh, sortedGoals } from "../state/store";
+import { age, currentGoals, pageFresh, pageHeard, pastGoals, queuedGoals } from "../state/store";
 import type { Goal } from "../wire/types";
 import { GoalBox } from "./GoalBox";
 import { seconds } from "./format";
@@ -13,34 +14,45 @@ import { reasonWords } from "./steps";
 const SHOWN_PAST = 20;
 
 export function DriveTab() {
-  const { current, queued, past } = sortedGoals.value;
-  const stale = pageFresh.value || age("page") === null ? "" : "stale";
   return (
     <>
       <GoalBox />
       <MindLine />
-      <section class={`card ${stale}`} aria-labelledby="now-title" id="now">
-        <h2 id="now-title">
-          {t("goal.now")}
-          {stale && <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>}
-        </h2>
-        {current.length === 0 && <p class="fine">{t("goal.none")}</p>}
-        {current.map((goal) => (
-          <GoalCard key={goal.id} goal={goal} />
-        ))}
-      </section>
-      {queued.length > 0 && <Queue goals={queued} running={current.find(runs)} />}
+      <Now />
+      <Queue />
       <Meter />
-      {past.length > 0 && <Past goals={past.slice(0, SHOWN_PAST)} />}
+      <Past />
     </>
   );
 }
 
-const runs = (goal: Goal): boolean => goal.state === "running";
+function Now() {
+  const stale = pageFresh.value || !pageHeard.value ? "" : "stale";
+  return (
+    <section class={`card ${stale}`} aria-labelledby="now-title" id="now">
+      <h2 id="now-title">
+        {t("goal.now")}
+        {stale && <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>}
+      </h2>
+      {currentGoals.value.length === 0 && <p class="fine">{t("goal.none")}</p>}
+      {currentGoals.value.map((goal) => (
+        <GoalCard key={goal.id} goal={goal} />
+      ))}
+    </section>
+  );
+}
 
-type QueueProps = { readonly goals: readonly Goal[]; readonly running: Goal | undefined };
+const running = computed(() => currentGoals.value.find((goal) => goal.state === "running")?.id);
 
-function Queue({ goals, running }: QueueProps) {
+/** Do a queued goal now, in place of whatever runs by then. */
+function instead(goal: Goal): void {
+  const runs = currentGoals.value.find(({ id }) => id === running.value);
+  if (runs) void doInstead(goal, runs);
+}
+
+function Queue() {
+  const goals = queuedGoals.value;
+  if (goals.length === 0) return null;
   return (
     <section
       class={`card ${pageFresh.value ? "" : "stale"}`}
@@ -77,8 +89,8 @@ function Queue({ goals, running }: QueueProps) {
                   ↓
                 </button>
               )}
-              {running && (
-                <button type="button" onClick={() => void doInstead(goal, running)}>
+              {running.value !== undefined && (
+                <button type="button" onClick={() => instead(goal)}>
                   {t("goal.instead")}
                 </button>
               )}
@@ -98,7 +110,9 @@ function Queue({ goals, running }: QueueProps) {
   );
 }
 
-function Past({ goals }: { goals: readonly Goal[] }) {
+function Past() {
+  const goals = pastGoals.value.slice(0, SHOWN_PAST);
+  if (goals.length === 0) return null;
   return (
     <section class="card" aria-labelledby="past-title" id="past">
       <h2 id="past-title">{t("goal.past")}</h2>

@@ -1,18 +1,17 @@
 /** Say in a whole sentence, over everything, that what is shown is not now. */
 import { t } from "../i18n";
-import { age, open, pageFresh } from "../state/store";
-import { fresh } from "../state/moment";
+import { age, bridgeFresh, bridgeHeard, open, pageFresh, pageHeard } from "../state/store";
 import { seconds } from "./format";
 
 export function Lost() {
-  const [page, bridge] = [age("page"), age("status")];
-  if (page === null) return null; // nothing has been shown yet
-  if (!open.value || !pageFresh.value) return <Strip why="planner" forS={page} />;
-  if (bridge === null) return <p class="lost">{t("lost.never")}</p>;
-  return fresh(bridge) ? null : <Strip why="bridge" forS={bridge} />;
+  if (!pageHeard.value) return null; // nothing has been shown yet
+  if (!open.value || !pageFresh.value) return <Strip why="planner" />;
+  if (!bridgeHeard.value) return <p class="lost">{t("lost.never")}</p>;
+  return bridgeFresh.value ? null : <Strip why="bridge" />;
 }
 
-function Strip({ why, forS }: { why: "planner" | "bridge"; forS: number }) {
+function Strip({ why }: { why: "planner" | "bridge" }) {
+  const forS = age(why === "planner" ? "page" : "status");
   return (
     <p class="lost" id="lost" data-why={why} role="status">
       {t(`lost.${why}`)}

@@ -1,7 +1,9 @@
 /** Say what keeps the robot from driving, in sentences, with the button that a person may press. */
+import { computed } from "@preact/signals";
 import { rowWords, t, word } from "../i18n";
 import type { Act } from "../net/api";
-import { age, bridgeFresh, status } from "../state/store";
+import { age, bridgeFresh, shownStatus } from "../state/store";
+import { steady } from "../state/steady";
 import type { Status } from "../wire/types";
 import { Deliberate } from "./Deliberate";
 import { seconds } from "./format";
@@ -9,13 +11,14 @@ import { seconds } from "./format";
 /** Why the black box takes nothing: said while driving too, for it keeps nobody from driving on. */
 const UNRECORDED = new Set(["recorder_down", "disk_full"]);
 
+const reasonsNow = steady(() => (shownStatus.value ? reasons(shownStatus.value) : []));
+const remedyNow = computed(() => (shownStatus.value ? remedyOf(shownStatus.value) : null));
+
 export function Notice() {
-  const said = status.value;
-  if (said === null) return null;
-  const items = reasons(said);
+  const items = reasonsNow.value;
   if (items.length === 0) return null;
   const stale = bridgeFresh.value ? "" : "stale";
-  const remedy = remedyOf(said);
+  const remedy = remedyNow.value;
   return (
     <section
       class={`card notice ${remedy ? "asks" : "tells"} ${stale}`}

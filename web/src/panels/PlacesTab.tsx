@@ -4,7 +4,8 @@ import { useEffect } from "preact/hooks";
 import { say, t, word } from "../i18n";
 import { forget, give, teach } from "../state/acts";
 import { forgetPick, picked, picking } from "../state/picking";
-import { mostTaught, pageFresh, robot, taught } from "../state/store";
+import { steady } from "../state/steady";
+import { mostTaught, pageFresh, shownStatus, taught } from "../state/store";
 import type { Pose, Taught } from "../wire/types";
 import { fixed } from "./format";
 
@@ -87,11 +88,15 @@ function Name({ id, words, label, lang }: NameProps) {
   );
 }
 
+const hereNow = steady(() => {
+  const pose = shownStatus.value?.base_in_map ?? null;
+  return pose && pair(pose); // as it reads
+});
+
 /** Choose between where the robot stands and a point that is clicked. */
 function Where() {
-  const here = robot.value?.status?.base_in_map ?? null;
   const point = picked.value;
-  const at = point ? { x_m: point.x, y_m: point.y } : here;
+  const at = point ? pair({ x_m: point.x, y_m: point.y }) : hereNow.value;
   return (
     <fieldset class="where">
       <legend>{t("places.where")}</legend>
@@ -108,7 +113,7 @@ function Where() {
         </button>
       </div>
       <p class="fine" role="status">
-        {picking.value ? t("places.click") : at ? t("places.at", pair(at)) : t("places.nowhere")}
+        {picking.value ? t("places.click") : at ? t("places.at", at) : t("places.nowhere")}
       </p>
     </fieldset>
   );

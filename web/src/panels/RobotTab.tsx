@@ -3,7 +3,16 @@ import { rowWords, say, t, word } from "../i18n";
 import { forgetKey, hasKey, needsKey } from "../net/proof";
 import { Plots } from "../plots/Plots";
 import { fresh } from "../state/moment";
-import { age, bridgeFresh, gaps, ignored, mind, pageFresh, robot, status } from "../state/store";
+import {
+  age,
+  bridgeFresh,
+  gaps,
+  ignored,
+  mind,
+  pageFresh,
+  shown,
+  shownStatus,
+} from "../state/store";
 import type { Status } from "../wire/types";
 import { Deliberate, KeyBox } from "./Deliberate";
 import { fixed, seconds } from "./format";
@@ -26,7 +35,7 @@ function Pairs({ pairs }: { pairs: readonly Pair[] }) {
 }
 
 export function RobotTab() {
-  const said = status.value;
+  const said = shownStatus.value;
   const stale = bridgeFresh.value ? "" : "stale";
   return (
     <>
@@ -78,7 +87,7 @@ function State({ said }: { said: Status }) {
         pairs={[
           [t("robot.mode"), word("mode", said.mode)],
           [t("robot.held"), said.held ? word("reason", said.held.reason) : t("robot.no")],
-          [t("robot.room"), nameOf(robot.value?.room ?? null) || "–"],
+          [t("robot.room"), nameOf(shown.value?.room ?? null) || "–"],
           [
             t("robot.pose"),
             pose
@@ -191,7 +200,7 @@ function WhoPlans() {
 const SOURCES = ["page", "status", "localization", "odometry", "scan"] as const;
 
 function Links() {
-  const ticks = status.value?.ticks;
+  const ticks = shownStatus.value?.ticks;
   return (
     <section class="card" aria-labelledby="links-title" id="links">
       <h2 id="links-title">{t("links.title")}</h2>

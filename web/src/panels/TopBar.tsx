@@ -1,12 +1,24 @@
 /** Show who speaks to this page and how fresh it is, and let the person choose the language. */
+import { computed } from "@preact/signals";
 import { choose, language, t, word } from "../i18n";
-import { fresh } from "../state/moment";
-import { age, bridgeFresh, open, robot, status } from "../state/store";
+import {
+  age,
+  bridgeFresh,
+  bridgeHeard,
+  open,
+  pageFresh,
+  pageHeard,
+  shown,
+  shownStatus,
+} from "../state/store";
 import { seconds } from "./format";
 import { toGoalBox } from "./Tabs";
 
+const siteNow = computed(() => shown.value?.site);
+const modeNow = computed(() => shownStatus.value?.mode ?? "none");
+
 export function TopBar() {
-  const site = robot.value?.site;
+  const site = siteNow.value;
   return (
     <header class="topbar">
       <a
@@ -42,7 +54,7 @@ export function TopBar() {
 }
 
 function Mode() {
-  const mode = status.value?.mode ?? "none";
+  const mode = modeNow.value;
   return (
     <span
       class={`chip mode mode-${mode} ${bridgeFresh.value ? "" : "stale"}`}
@@ -54,16 +66,18 @@ function Mode() {
   );
 }
 
+/** Say how the page hears; while all is well it says so without counting. */
+function hearing(): readonly [text: string, state: string] {
+  if (!pageHeard.value) return [t("link.connecting"), "stale"];
+  if (!open.value || !pageFresh.value)
+    return [t("link.lost", { age: seconds(age("page")) }), "bad"];
+  if (!bridgeHeard.value) return [t("link.never"), "bad"];
+  if (!bridgeFresh.value) return [t("link.bridge_silent", { age: seconds(age("status")) }), "bad"];
+  return [t("link.live"), "good"];
+}
+
 function Link() {
-  const [page, bridge] = [age("page"), age("status")];
-  let text = t("link.live");
-  let state = "good";
-  if (page === null) [text, state] = [t("link.connecting"), "stale"];
-  else if (!open.value || !fresh(page))
-    [text, state] = [t("link.lost", { age: seconds(page) }), "bad"];
-  else if (bridge === null) [text, state] = [t("link.never"), "bad"];
-  else if (!fresh(bridge))
-    [text, state] = [t("link.bridge_silent", { age: seconds(bridge) }), "bad"];
+  const [text, state] = hearing();
   return (
     <span class={`chip link ${state}`} id="link" data-state={state}>
       <span class="dot" aria-hidden="true" />

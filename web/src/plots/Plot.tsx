@@ -1,10 +1,11 @@
-/** Draw the last minute of some values with uPlot, four times a second. Knows no robot. */
+/** Draw the last minute of some values with uPlot, twice a second. Knows no robot. */
 
-import { effect } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { type Sample, series, WINDOW_S } from "../state/history";
 import { history, now } from "../state/store";
+import { visible } from "../state/visible";
 import { span } from "./span";
 
 export type Line = {
@@ -15,6 +16,10 @@ export type Line = {
 };
 
 const HEIGHT_PX = 120;
+const PERIOD_MS = 500;
+
+/** Change twice a second, and not at all while nobody looks. */
+const beat = computed(() => visible.value && Math.floor(now.value.monotonicMs / PERIOD_MS));
 
 export function Plot({
   title,
@@ -41,9 +46,10 @@ export function Plot({
     };
     theme.addEventListener("change", again);
     const end = effect(() => {
+      if (beat.value === false) return;
       const data = series(
         history.samples,
-        now.value.monotonicMs / 1000,
+        now.peek().monotonicMs / 1000,
         lines.map((line) => line.value),
       );
       plot.setData(data as uPlot.AlignedData);

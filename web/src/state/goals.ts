@@ -1,5 +1,5 @@
 /** Sort goals for the page: what runs, what waits for a person, what is queued, what has ended. */
-import type { Goal } from "../wire/types";
+import type { Goal, Progress, Step } from "../wire/types";
 
 const ENDED = new Set(["succeeded", "failed", "refused", "cancelled"]);
 
@@ -35,4 +35,26 @@ export function sorted(goals: readonly Goal[]): Sorted {
 /** Say whether a new goal would have to wait. */
 export function busy(goals: readonly Goal[]): boolean {
   return goals.some((goal) => ["running", "planning", "queued"].includes(goal.state));
+}
+
+type Left = Partial<Pick<Step, "left_m" | "left_rad" | "left_s">>;
+
+/** Return what is left as a person reads it: to the decimetre, the degree and the second. */
+const readable = ({ left_m, left_rad, left_s }: Left): string =>
+  [
+    [left_m, 10],
+    [left_rad, 180 / Math.PI],
+    [left_s, 1],
+  ]
+    .map(([left, fine]) => (typeof left === "number" ? Math.round(left * (fine ?? 1)) : ""))
+    .join();
+
+/** Put what is left of a step into its goal; the very same goals where it would read the same. */
+export function withProgress(goals: readonly Goal[], progress: Progress): readonly Goal[] {
+  const { goal: id, step: index, ...left } = progress;
+  const plan = goals.find((goal) => goal.id === id)?.plan;
+  const before = plan?.steps[index];
+  if (!plan || !before || readable(before) === readable(left)) return goals;
+  const steps = plan.steps.map((step, at) => (at === index ? { ...step, ...left } : step));
+  return goals.map((goal) => (goal.id === id ? { ...goal, plan: { ...plan, steps } } : goal));
 }

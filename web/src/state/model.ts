@@ -3,6 +3,7 @@
  * no screen. What an unknown or broken frame may change is a counter.
  */
 import type { About, Draft, Frame, Goal, Path, Robot, Scan, Usage } from "../wire/types";
+import { withProgress } from "./goals";
 import { type Moment, since } from "./moment";
 
 export const MAX_GOALS = 60;
@@ -104,6 +105,8 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         goals: withGoal(model.goals, frame.goal),
         drafts: thoughtAbout(model.drafts, [frame.goal]),
       };
+    case "progress":
+      return { ...model, goals: withProgress(model.goals, frame.progress) };
     case "thinking":
       return { ...model, drafts: withDraft(model.drafts, frame.draft) };
     case "usage":

@@ -1,16 +1,22 @@
 /** Hold the page's signals: the one place that components read and the socket writes. */
 import { batch, computed, signal } from "@preact/signals";
 import { decode } from "../wire/decode";
-import type { Goal, Grid, Place, Taught } from "../wire/types";
+import type { Goal, Grid, Place, Robot, Taught } from "../wire/types";
 import { busy, sorted } from "./goals";
 import { History } from "./history";
 import { advance, ageOf, connected, EMPTY, type Model, withGoal } from "./model";
 import { fresh, type Moment, moment } from "./moment";
+import { steady } from "./steady";
+import { turning } from "./turning";
 
 const TICK_MS = 200;
+const EARLY_MS = 30; // frames come each 100 ms: the second one after a tick is the next, not the third
 
 const model = signal<Model>(EMPTY);
+/** Up to when the page speaks: ages are as of it, and so is `shown`. */
 export const now = signal<Moment>(moment());
+/** The robot as panels show it: at most five times a second, at once at a turning point. */
+export const shown = signal<Robot | null>(null);
 export const open = signal(false); // the socket is open
 export const places = signal<readonly Place[]>([]);
 export const taught = signal<readonly Taught[]>([]);
@@ -18,9 +24,10 @@ export const mostTaught = signal(0);
 export const grid = signal<Grid | null>(null);
 export const history = new History();
 
-export const robot = computed(() => model.value.robot);
-export const mind = computed(() => model.value.robot?.brain ?? null);
+/** The bridge's newest word, as it comes: to act upon and to draw. Panels read `shown`. */
 export const status = computed(() => model.value.robot?.status ?? null);
+export const shownStatus = computed(() => shown.value?.status ?? null);
+export const mind = steady(() => shown.value?.brain ?? null);
 export const goals = computed(() => model.value.goals);
 export const drafts = computed(() => model.value.drafts);
 export const usage = computed(() => model.value.usage);
@@ -34,25 +41,43 @@ export const ignored = computed(() => model.value.ignored);
 export const gaps = computed(() => model.value.gaps);
 export const wantsSnapshot = computed(() => model.value.wantsSnapshot);
 export const sortedGoals = computed(() => sorted(goals.value));
+const sameItems = (kept: readonly Goal[], next: readonly Goal[]): boolean =>
+  kept.length === next.length && kept.every((goal, index) => goal === next[index]);
+export const currentGoals = steady(() => sortedGoals.value.current, sameItems);
+export const queuedGoals = steady(() => sortedGoals.value.queued, sameItems);
+export const pastGoals = steady(() => sortedGoals.value.past, sameItems);
 export const isBusy = computed(() => busy(goals.value));
 
-/** Return the age of a source as of the newest tick [s]. */
-export const age = (source: string): number | null => ageOf(model.value, source, now.value);
+/** Return the age of a source as of the newest tick [s]. Changes at each: ask it of the old alone. */
+export const age = (source: string): number | null => ageOf(model.peek(), source, now.value);
 
-export const pageFresh = computed(() => fresh(ageOf(model.value, "page", now.value)));
-export const bridgeFresh = computed(() => fresh(ageOf(model.value, "status", now.value)));
+export const pageFresh = computed(() => fresh(age("page")));
+export const bridgeFresh = computed(() => fresh(age("status")));
+export const scanFresh = computed(() => fresh(age("scan")));
+/** Say whether anything has been heard yet, of the planner and of the bridge. */
+export const pageHeard = computed(() => age("page") !== null);
+export const bridgeHeard = computed(() => age("status") !== null);
 
 /** Take what came over the socket. */
 export function receive(data: unknown): void {
   const at = moment();
   batch(() => {
     model.value = advance(model.value, decode(data), at);
-    if (at.monotonicMs - now.value.monotonicMs >= TICK_MS) now.value = at;
+    if (due(at) || turning(model.value.robot) !== turning(shown.value)) show(at);
   });
   const { robot: seen, about: body } = model.value;
   if (seen?.status && body && fresh(seen.ages_s.status ?? null)) {
     history.take(seen.status, body.base, at.monotonicMs / 1000);
   }
+}
+
+const due = (at: Moment): boolean => at.monotonicMs - now.peek().monotonicMs >= TICK_MS - EARLY_MS;
+
+function show(at: Moment): void {
+  batch(() => {
+    now.value = at;
+    shown.value = model.peek().robot;
+  });
 }
 
 export function began(): void {
@@ -72,6 +97,7 @@ export function learn(goal: Goal): void {
 /** Let time pass, so that what is old shows its age. */
 export function startClock(): void {
   setInterval(() => {
-    now.value = moment();
+    const at = moment();
+    if (due(at)) show(at);
   }, TICK_MS);
 }

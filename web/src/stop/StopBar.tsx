@@ -2,7 +2,8 @@
 import { t } from "../i18n";
 import { seconds } from "../panels/format";
 import { limitWords } from "../panels/steps";
-import { age, bridgeFresh, status } from "../state/store";
+import { age, bridgeFresh, shownStatus } from "../state/store";
+import { steady } from "../state/steady";
 import type { StopState } from "./machine";
 import { stop, stopState } from "./stopper";
 
@@ -54,22 +55,30 @@ function says(state: StopState): string {
   }
 }
 
-/** Say whether the robot moves, as measured; grey with its age when that is old. */
-function Motion() {
-  const said = status.value;
-  if (said === null) return <p class="motion stale">{t("motion.unknown")}</p>;
+/** What is said of the robot's motion, and what bounds it; null before the bridge has been heard. */
+const motionNow = steady(() => {
+  const said = shownStatus.value;
+  if (said === null) return null;
   const speed = Math.abs(said.measured.v_mps);
   const moving = speed > 0.02 || Math.abs(said.measured.w_radps) > 0.05;
-  const words = moving ? t("motion.moving", { speed: speed.toFixed(2) }) : t("motion.standing");
-  const { limits } = said;
+  const { v_mps, by } = said.limits;
+  return {
+    words: moving ? t("motion.moving", { speed: speed.toFixed(2) }) : t("motion.standing"),
+    limit: said.drive.enabled
+      ? t("motion.limit", { speed: v_mps.toFixed(2), what: limitWords(by) })
+      : null,
+  };
+});
+
+/** Say whether the robot moves, as measured; grey with its age when that is old. */
+function Motion() {
+  const motion = motionNow.value;
+  if (motion === null) return <p class="motion stale">{t("motion.unknown")}</p>;
+  const { words, limit } = motion;
   return bridgeFresh.value ? (
     <p class="motion">
       {words}
-      {said.drive.enabled && (
-        <span class="fine limit">
-          {t("motion.limit", { speed: limits.v_mps.toFixed(2), what: limitWords(limits.by) })}
-        </span>
-      )}
+      {limit && <span class="fine limit">{limit}</span>}
     </p>
   ) : (
     <p class="motion stale">{t("motion.stale", { words, age: seconds(age("status")) })}</p>

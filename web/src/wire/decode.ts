@@ -2,7 +2,18 @@
  * Turn what came over the socket into a frame, or nothing. Half frames, unknown kinds and numbers
  * that are not finite are no frames; whoever calls counts them.
  */
-import type { BridgeEvent, Draft, Frame, Goal, Path, Robot, Scan, Status, Usage } from "./types";
+import type {
+  BridgeEvent,
+  Draft,
+  Frame,
+  Goal,
+  Path,
+  Progress,
+  Robot,
+  Scan,
+  Status,
+  Usage,
+} from "./types";
 
 type Bag = { readonly [key: string]: unknown };
 
@@ -104,6 +115,18 @@ export function isGoal(value: unknown): value is Goal {
   );
 }
 
+function progressOf(value: Bag): Progress | null {
+  const { goal, step: index, left_m, left_rad, left_s } = value;
+  if (!text(goal) || !finite(index)) return null;
+  return {
+    goal,
+    step: index,
+    ...(finite(left_m) ? { left_m } : {}),
+    ...(finite(left_rad) ? { left_rad } : {}),
+    ...(finite(left_s) ? { left_s } : {}),
+  };
+}
+
 const isDraft = (value: Bag): boolean =>
   text(value.goal) &&
   text(value.text) &&
@@ -167,6 +190,10 @@ export function decode(data: unknown): Frame | null {
       return isScan(came.scan) ? { seq, kind: "scan", scan: came.scan } : null;
     case "goal":
       return isGoal(change.goal) ? { seq, kind: "goal", goal: change.goal } : null;
+    case "progress": {
+      const progress = progressOf(change);
+      return progress && { seq, kind: "progress", progress };
+    }
     case "thinking":
       return isDraft(change) ? { seq, kind: "thinking", draft: change as unknown as Draft } : null;
     case "usage":

@@ -152,6 +152,15 @@ export type Goal = {
   readonly updated: string;
 };
 
+/** What is left of a goal's running step. */
+export type Progress = {
+  readonly goal: string;
+  readonly step: number;
+  readonly left_m?: number;
+  readonly left_rad?: number;
+  readonly left_s?: number;
+};
+
 /** What a model has cost; null limits are none. */
 export type Usage = {
   readonly model: string | null;
@@ -221,6 +230,7 @@ export type Frame = { readonly seq: number } & (
   | { readonly kind: "path"; readonly path: Path | null }
   | { readonly kind: "scan"; readonly scan: Scan }
   | { readonly kind: "goal"; readonly goal: Goal }
+  | { readonly kind: "progress"; readonly progress: Progress }
   | { readonly kind: "thinking"; readonly draft: Draft }
   | { readonly kind: "usage"; readonly usage: Usage }
   | { readonly kind: "places"; readonly version: number }
