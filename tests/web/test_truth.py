@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.e2e
 
 NEAR_M = 0.25
-"""The stand-in's noise, and the page's glide of 0.12 s from one pose to the next."""
+"""The stand-in's noise, and the pixel below which the page lets its robot be."""
 PAST_S = 1.6
 """What is shown as now is at most a second old; the rest is the way there and a busy machine."""
 SURE_MOVING_MPS = 0.10
