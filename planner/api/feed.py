@@ -1,4 +1,4 @@
-"""Make what every page watches once, however many watch: robot, scan, path and meter, as JSON.
+"""Make what every page watches once, however many watch: robot, scan, path, meter, sight, as JSON.
 
 Latest wins: a listener that falls behind skips to the newest and never holds the others up. Runs
 only while somebody listens. Knows no socket.
@@ -12,7 +12,9 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from planner.api.objects import sight_view
 from planner.api.robot import path_view, robot_view, scan_view
+from planner.api.sightnews import SightNews
 from planner.api.usage import usage_view
 from wire import Mode
 
@@ -66,6 +68,7 @@ class Feed:
         self._driven: tuple[str, int] | None = None
         self._metered = 0
         self._places = 0
+        self._sight = SightNews(services)
 
     def listen(self) -> Listener:
         """Begin to listen; the first listener starts the looking."""
@@ -109,6 +112,8 @@ class Feed:
         if version != self._places:
             self._places = version
             self._offer("places", {"version": version})
+        if self._sight.due(now_s):
+            self._offer("sight", {"sight": sight_view(self._services)})
         if now_s - self._scan_s >= SCAN_S:
             self._scan_s = now_s
             self._offer("scan", {"scan": scan_view(self._services)})
