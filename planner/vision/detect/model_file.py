@@ -15,7 +15,7 @@ from planner.vision.detect.decoders import Choice, choose
 from planner.vision.detect.facts import Facts, Shape
 from planner.vision.detect.names import names_in, names_of
 from planner.vision.detect.onnx_file import OnnxFile, examine
-from planner.vision.detect.session import RUN_ERRORS, Array, Session
+from planner.vision.detect.session import RUN_ERRORS, Array, Session, last_words
 from planner.vision.detect.size import Input, find_input
 from planner.vision.failure import VisionFailure
 
@@ -54,7 +54,7 @@ def open_model(wanted: Wanted) -> Model:
         VisionFailure: a code of :data:`planner.vision.failure.REFUSALS`.
     """
     file = examine(wanted.path)
-    session = Session(wanted.path, wanted.threads, wanted.provider)
+    session = Session(wanted.path, file, wanted.threads, wanted.provider)
     taken = find_input(session.inputs, session.metadata, wanted.input_px)
     beside: dict[str, Array] = {}
     if taken.sizes is not None:
@@ -71,8 +71,8 @@ def _facts(wanted: Wanted, session: Session, taken: Input, beside: dict[str, Arr
     try:
         outputs = session.run({taken.name: grey, **beside})
     except RUN_ERRORS as error:
-        text = " ".join(str(error).split())[:300]
-        raise VisionFailure("model_broken", f"it failed on a trial picture: {text}") from None
+        text = f"it failed on a trial picture: {last_words(error)}"
+        raise VisionFailure("model_broken", text) from None
     names = [slot.name for slot in session.outputs]
     return Facts(
         outputs={name: _shape(found) for name, found in zip(names, outputs, strict=True)},

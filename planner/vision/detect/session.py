@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from onnxruntime.capi import onnxruntime_pybind11_state
 
 from planner.vision.detect import providers as providers_
+from planner.vision.detect.onnx_file import OnnxFile
 from planner.vision.failure import VisionFailure
 
 Array = NDArray[np.generic]
@@ -33,6 +34,7 @@ RUN_ERRORS: tuple[type[Exception], ...] = (
 """What a session may end in: the library's own errors have no base of their own."""
 QUIET = 3
 """Errors alone: warnings of a stranger's graph tell its owner nothing."""
+MAX_WORDS = 240
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +53,16 @@ class Slot:
 class Session:
     """Run one model."""
 
-    def __init__(self, path: Path, threads: int, provider: str | None = None) -> None:
+    def __init__(
+        self, path: Path, file: OnnxFile, threads: int, provider: str | None = None
+    ) -> None:
         """Load it.
+
+        Args:
+            path: of the model.
+            file: what the model says of itself, for the words of a refusal.
+            threads: that think at once.
+            provider: short name of what the owner set.
 
         Raises:
             VisionFailure: ``model_broken``, ``model_too_new`` or ``provider_unavailable``.
@@ -64,7 +74,7 @@ class Session:
                 str(path), sess_options=options(threads), providers=list(chosen.names)
             )
         except RUN_ERRORS as error:
-            raise _refusal(path, error) from None
+            raise _refusal(path, file, error) from None
         self.provider, self.provider_why = chosen.told(self._session.get_providers())
         self.inputs = tuple(map(_slot, self._session.get_inputs()))
         self.outputs = tuple(map(_slot, self._session.get_outputs()))
@@ -93,9 +103,16 @@ def _slot(node: Any) -> Slot:
     return Slot(str(node.name), tuple(node.shape), str(node.type))
 
 
-def _refusal(path: Path, error: Exception) -> VisionFailure:
-    text = " ".join(str(error).split())
-    lower = text.lower()
-    newer = "opset" in lower and ("guarantee" in lower or "under development" in lower)
-    code = "model_too_new" if newer or "unsupported model ir version" in lower else "model_broken"
-    return VisionFailure(code, f"{path.name}: {text[:300]}")
+def _refusal(path: Path, file: OnnxFile, error: Exception) -> VisionFailure:
+    text = last_words(error)
+    newer = "opset" in text.lower() and "guarantee" in text.lower()
+    if newer or "unsupported model ir version" in text.lower():
+        needs = f"operators {file.opset}, format {file.ir_version}"
+        detail = f"{path.name} needs {needs}; onnxruntime is {ort.__version__}: {text}"
+        return VisionFailure("model_too_new", detail)
+    return VisionFailure("model_broken", f"{path.name}: {text}")
+
+
+def last_words(error: Exception) -> str:
+    """Return the end of what the library says; before it stand its own files and functions."""
+    return " ".join(str(error).split())[-MAX_WORDS:]

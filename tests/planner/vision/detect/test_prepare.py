@@ -1,0 +1,119 @@
+"""Follow single pixels into a model's input, and boxes back out of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planner.vision.detect.found import Found, believed, in_picture
+from planner.vision.detect.nms import suppress
+from planner.vision.detect.prepare import BORDER, Preparer, Recipe, place
+
+BLUE, GREEN, RED = (250, 20, 10), (20, 240, 10), (20, 10, 230)
+IMAGENET = Recipe("stretched", "rgb", 1 / 255, (0.485, 0.456, 0.406), (0.229, 0.224, 0.225))
+UNIT = Recipe("centred", "rgb", 1 / 255)
+NORMAL_RED = (
+    *((230 / 255 - 0.485) / 0.229, (10 / 255 - 0.456) / 0.224, (20 / 255 - 0.406) / 0.225),
+)
+
+
+@pytest.mark.parametrize(
+    ("recipe", "first", "border"),
+    [
+        (Recipe("corner", "bgr"), RED, BORDER),
+        (UNIT, tuple(side / 255 for side in RED[::-1]), BORDER / 255),
+        (IMAGENET, NORMAL_RED, None),
+    ],
+)  # fmt: skip
+def test_a_picture_is_placed_ordered_and_scaled(
+    recipe: Recipe, first: tuple[float, ...], border: float | None
+) -> None:
+    preparer = Preparer(recipe, 64, 64)
+    buffer, placed = preparer.prepare(np.full((48, 96, 3), RED, np.uint8))
+    assert buffer.shape == (1, 3, 64, 64)
+    assert buffer.dtype == np.float32
+    assert buffer.flags.c_contiguous
+    inside = buffer[0, :, placed.top : placed.top + placed.height, :]
+    assert np.allclose(inside, np.array(first).reshape(3, 1, 1), atol=1e-5)
+    if border is not None:
+        assert placed.height == 32
+        outside = np.delete(buffer, np.s_[placed.top : placed.top + 32], axis=2)
+        assert np.allclose(outside, border)
+
+
+def test_one_buffer_serves_every_picture_and_keeps_nothing_of_the_last() -> None:
+    used = Preparer(UNIT, 64, 64)
+    pictures = ((96, 48, RED), (48, 96, GREEN), (64, 64, BLUE), (96, 48, GREEN))
+    for width, height, color in pictures:
+        picture = np.full((height, width, 3), color, np.uint8)
+        buffer, placed = used.prepare(picture)
+        again, _ = used.prepare(picture)
+        assert again is buffer
+        fresh, where = Preparer(UNIT, 64, 64).prepare(picture)
+        assert placed == where
+        assert np.array_equal(buffer, fresh)
+
+
+@given(
+    picture=st.tuples(st.integers(1, 500), st.integers(1, 500)),
+    size=st.sampled_from([(64, 64), (320, 256), (416, 416)]),
+    fit=st.sampled_from(["centred", "corner", "stretched"]),
+)
+@settings(max_examples=50)
+def test_a_box_comes_back_from_where_it_was_placed(
+    picture: tuple[int, int], size: tuple[int, int], fit: str
+) -> None:
+    placed = place(picture, size, fit)
+    assert 0 <= placed.left <= placed.left + placed.width <= size[0]
+    assert 0 <= placed.top <= placed.top + placed.height <= size[1]
+    whole = (placed.left, placed.top, placed.left + placed.width, placed.top + placed.height)
+    found = Found(np.array([whole], np.float32), np.ones(1, np.float32), np.zeros(1, np.intp))
+    (box,) = in_picture(found, placed, *picture).boxes
+    assert box == pytest.approx((0, 0, *picture), abs=0.01)
+
+
+def test_only_possible_rows_are_believed() -> None:
+    boxes = np.array([[0, 0, 9, 9]] * 7, np.float32)
+    boxes[1, 2] = np.nan
+    scores = np.array([0.9, 0.9, np.nan, 1.5, 0.9, 1.0005, 0.3], np.float32)
+    classes = np.array([0, 0, 0, 0, 5, 1, 1])
+    kept = believed(Found(boxes, scores, classes), 0.4, 2)
+    assert kept.scores.tolist() == pytest.approx([0.9, 1.0])
+
+
+def test_slivers_and_what_lies_outside_the_picture_are_left_out() -> None:
+    boxes = np.array([[-90, -90, -5, -5], [10, 10, 10.4, 40], [-5, -5, 900, 900]], np.float32)
+    found = Found(boxes, np.ones(3, np.float32), np.zeros(3, np.intp))
+    kept = in_picture(found, place((64, 64), (64, 64), "centred"), 64, 64)
+    assert kept.boxes.tolist() == [[0, 0, 64, 64]]
+
+
+def overlap(one: list[float], other: list[float]) -> float:
+    wide = min(one[2], other[2]) - max(one[0], other[0])
+    high = min(one[3], other[3]) - max(one[1], other[1])
+    if wide <= 0 or high <= 0:
+        return 0.0
+    areas = [(it[2] - it[0]) * (it[3] - it[1]) for it in (one, other)]
+    return wide * high / (sum(areas) - wide * high)
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 40))
+@settings(max_examples=30)
+def test_suppression_is_the_greedy_one_class_by_class(seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    corners = rng.uniform(0, 60, (count, 2))
+    boxes = np.concatenate((corners, corners + rng.uniform(5, 40, (count, 2))), axis=1)
+    scores = rng.permutation(count).astype(np.float32) / count * 0.5 + 0.4
+    found = Found(boxes.astype(np.float32), scores.astype(np.float32), rng.integers(0, 3, count))
+    kept: list[int] = []
+    for row in np.argsort(-found.scores):
+        rivals = [it for it in kept if found.classes[it] == found.classes[row]]
+        if all(
+            overlap(found.boxes[it].tolist(), found.boxes[row].tolist()) <= 0.5 for it in rivals
+        ):
+            kept.append(int(row))
+    got = suppress(found)
+    assert got.boxes.tolist() == found.only(np.array(kept)).boxes.tolist()
+    assert got.classes.tolist() == found.classes[kept].tolist()

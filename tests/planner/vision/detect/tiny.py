@@ -1,0 +1,165 @@
+"""Make detectors of every layout that see what a test wants: picture in, constants out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from onnx import TensorProto, helper, numpy_helper, save
+
+Array = NDArray[Any]
+SIDE = 64
+CELLS = 64 + 16 + 4
+NAMES = ("person", "cup")
+OPSET, IR_VERSION = 17, 8
+ULTRALYTICS = {"names": "{0: 'person', 1: 'cup'}", "stride": "32", "task": "detect"}
+QUERIES = 10
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a model is to see: a box in input pixels, a class, a score."""
+
+    box: tuple[float, float, float, float]
+    number: int
+    score: float
+
+
+def model(
+    path: Path,
+    outputs: Mapping[str, Array],
+    shape: Sequence[int | str] = (1, 3, SIDE, SIDE),
+    metadata: Mapping[str, str] | None = None,
+    **more: Any,
+) -> Path:
+    """Write a model of constants. More: ``kind`` of the input, ``beside`` it, ``opset``, ``ir``."""
+    nodes = [helper.make_node("Identity", [f"{name}_is"], [name]) for name in outputs]
+    graph = helper.make_graph(
+        nodes,
+        "tiny",
+        [
+            helper.make_tensor_value_info("images", more.get("kind", TensorProto.FLOAT), shape),
+            *more.get("beside", ()),
+        ],
+        [
+            helper.make_tensor_value_info(
+                name, helper.np_dtype_to_tensor_dtype(value.dtype), value.shape
+            )
+            for name, value in outputs.items()
+        ],
+        [numpy_helper.from_array(value, f"{name}_is") for name, value in outputs.items()],
+    )
+    return write(path, graph, metadata or {}, more.get("opset", OPSET), more.get("ir", IR_VERSION))
+
+
+def write(
+    path: Path, graph: Any, metadata: Mapping[str, str], opset: int = OPSET, ir: int = IR_VERSION
+) -> Path:
+    """Write a graph as a model file."""
+    made = helper.make_model(graph, opset_imports=[helper.make_opsetid("", opset)], ir_version=ir)
+    helper.set_model_props(made, dict(metadata))
+    save(made, path)
+    return path
+
+
+def sizes() -> Any:
+    """Return the input by which RT-DETR and D-FINE ask for the picture's size."""
+    return helper.make_tensor_value_info("orig_target_sizes", TensorProto.INT64, (1, 2))
+
+
+def centred(box: Sequence[float]) -> tuple[float, float, float, float]:
+    """Return a box by centre and size."""
+    left, top, right, bottom = box
+    return (left + right) / 2, (top + bottom) / 2, right - left, bottom - top
+
+
+def yolov8(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return 1 x (4 + classes) x cells."""
+    out = np.zeros((1, 4 + len(NAMES), CELLS), np.float32)
+    for cell, it in enumerate(seen):
+        out[0, :4, cell] = centred(it.box)
+        out[0, 4 + it.number, cell] = it.score
+    return {"output0": out}
+
+
+def yolov8_turned(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return 1 x cells x (4 + classes)."""
+    return {"output0": np.ascontiguousarray(yolov8(seen)["output0"].transpose(0, 2, 1))}
+
+
+def yolov5(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return 1 x (3 x cells) x (5 + classes)."""
+    out = np.zeros((1, 3 * CELLS, 5 + len(NAMES)), np.float32)
+    for row, it in enumerate(seen):
+        out[0, row, :4] = centred(it.box)
+        out[0, row, 4] = 1.0
+        out[0, row, 5 + it.number] = it.score
+    return {"output": out}
+
+
+def yolox(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return the raw grid; what is seen goes to cells of the coarser grids, row 64 and on."""
+    out = np.zeros((1, CELLS, 5 + len(NAMES)), np.float32)
+    for number, it in enumerate(seen):
+        x, y, wide, high = centred(it.box)
+        column, line = number % 4, number // 4  # of the grid of 4 x 4 cells of 16 px
+        row = 64 + 4 * line + column
+        out[0, row, :2] = x / 16 - column, y / 16 - line
+        out[0, row, 2:4] = np.log((wide / 16, high / 16))
+        out[0, row, 4] = it.score
+        out[0, row, 5 + it.number] = 1.0
+    return {"output": out}
+
+
+def end_to_end(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return 1 x n x 6."""
+    out = np.zeros((1, QUERIES, 6), np.float32)
+    for row, it in enumerate(seen):
+        out[0, row] = (*it.box, it.score, it.number)
+    return {"output0": out}
+
+
+def rtdetr(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return labels, boxes and scores."""
+    labels, boxes = np.zeros((1, QUERIES), np.int64), np.zeros((1, QUERIES, 4), np.float32)
+    scores = np.zeros((1, QUERIES), np.float32)
+    for row, it in enumerate(seen):
+        labels[0, row], boxes[0, row], scores[0, row] = it.number, it.box, it.score
+    return {"labels": labels, "boxes": boxes, "scores": scores}
+
+
+def rtdetr_rows(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return 1 x n x (4 + classes), boxes in shares of the input."""
+    out = np.zeros((1, QUERIES, 4 + len(NAMES)), np.float32)
+    for row, it in enumerate(seen):
+        out[0, row, :4] = np.array(centred(it.box)) / SIDE
+        out[0, row, 4 + it.number] = it.score
+    return {"output0": out}
+
+
+def rfdetr(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return boxes in shares and logits, with one class more than have a name."""
+    dets = np.zeros((1, QUERIES, 4), np.float32)
+    labels = np.full((1, QUERIES, len(NAMES) + 1), -9.0, np.float32)
+    for row, it in enumerate(seen):
+        dets[0, row] = np.array(centred(it.box)) / SIDE
+        labels[0, row, it.number] = np.log(it.score / (1 - it.score))
+    return {"dets": dets, "labels": labels}
+
+
+Layout = Callable[[Sequence[Seen]], dict[str, Array]]
+
+
+def jpeg(width: int, height: int, color: tuple[int, int, int] = (0, 0, 255)) -> bytes:
+    """Return a picture of one colour (blue, green, red)."""
+    return encoded(".jpg", np.full((height, width, 3), color, np.uint8))
+
+
+def encoded(kind: str, picture: Array) -> bytes:
+    """Return a picture as a file of that kind."""
+    return bytes(cv2.imencode(kind, picture)[1].tobytes())
