@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.camera.rooms import FLOOR, SURFACES, WALL
-from sim.camera.texture import Woven
+from sim.camera.texture import Plan, Woven
 from sim.site.plan import room_rects
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Painter:
             numbers: the id of every part.
         """
         self._look = look
-        self._rooms = list(room_rects(home).values())
+        self._plan = Plan(list(room_rects(home).values()))
         paints = [part.paint for thing in things for part in thing.parts]
         palette = [look.skirting, look.skirting, look.ceiling, *paints]
         self._floors = [_onto(palette, texture) for texture in look.floors]
@@ -100,16 +100,15 @@ class Painter:
 
     def _woven(self, covers: list[Woven], x: Floats, y: Floats, u: Floats, v: Floats) -> Numbers:
         """Return colour numbers at u, v of the textures that the rooms around x, y have."""
-        which = np.zeros(len(x), dtype=np.int8)
-        for index, room in enumerate(self._rooms):
-            within = (x >= room.x0) & (x <= room.x1)
-            within &= (y >= room.y0) & (y <= room.y1)
-            which[within] = index % len(covers)
+        which = self._plan.rooms(x, y)
+        present = np.flatnonzero(np.bincount(which))
+        if len(present) == 1:  # nearly always
+            whole: Numbers = covers[int(present[0]) % len(covers)].at(u, v)
+            return whole
         found = np.empty(len(x), dtype=np.int32)
-        for index, cover in enumerate(covers):
-            part = np.flatnonzero(which == index)
-            if len(part):
-                found[part] = cover.at(u[part], v[part])
+        for room in present:
+            part = np.flatnonzero(which == room)
+            found[part] = covers[int(room) % len(covers)].at(u[part], v[part])
         return found
 
 

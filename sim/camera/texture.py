@@ -14,12 +14,14 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from sim.camera.appearance import Texture
     from sim.camera.parts import Rgb
+    from sim.site import Rect
 
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int32]
 _SHADES: Final = 7
 _SEAM: Final = 0.04
 """Width of the gap between planks, as a share of theirs."""
+_CELL_M: Final = 0.05
 
 
 class Woven:
@@ -46,6 +48,38 @@ class Woven:
         board = np.floor(b * np.float32(1 / 6) + row * np.float32(1 / 3)).astype(np.int32)
         shade = (column * 73 + board * 151) % _SHADES
         return self._first + shade + _SHADES * (a - row < _SEAM)
+
+
+class Plan:
+    """Know the room of many points at once: a grid of numbers, since a test for each costs more."""
+
+    def __init__(self, rooms: list[Rect]) -> None:
+        self._x0, self._y0 = min(room.x0 for room in rooms), min(room.y0 for room in rooms)
+        x1, y1 = max(room.x1 for room in rooms), max(room.y1 for room in rooms)
+        # A cell more all around: what lies outside gets the room of the edge, the first's number.
+        shape = (_cell(y1 - self._y0) + 3, _cell(x1 - self._x0) + 3)
+        self._grid = np.zeros(shape, dtype=np.int32)
+        for number, room in enumerate(rooms):
+            rows = slice(_cell(room.y0 - self._y0) + 1, _cell(room.y1 - self._y0) + 1)
+            columns = slice(_cell(room.x0 - self._x0) + 1, _cell(room.x1 - self._x0) + 1)
+            self._grid[rows, columns] = number
+
+    def rooms(self, x: Floats, y: Floats) -> Numbers:
+        """Return each point's room, by its number; 0 outside."""
+        scale = np.float32(1.0 / _CELL_M)
+        rows, columns = self._grid.shape
+        row = ((y - np.float32(self._y0)) * scale + np.float32(1.0)).astype(np.int32)
+        column = ((x - np.float32(self._x0)) * scale + np.float32(1.0)).astype(np.int32)
+        np.clip(row, 0, rows - 1, out=row)
+        np.clip(column, 0, columns - 1, out=column)
+        row *= columns
+        row += column
+        found: Numbers = np.take(self._grid.reshape(-1), row)
+        return found
+
+
+def _cell(length_m: float) -> int:
+    return round(length_m / _CELL_M)
 
 
 def _two(texture: Texture) -> list[Rgb]:

@@ -47,32 +47,38 @@ class View:
         Returns:
             None for a box that lies outside the picture.
         """
-        seen = (boxes - self.eye) @ self.turn
         windows: list[tuple[slice, slice, float] | None] = [None] * len(boxes)
-        for index in np.flatnonzero(seen[..., 0].max(axis=1) > NEAR_M):
-            windows[index] = self._window(seen[index])
+        seen = (boxes - self.eye) @ self.turn
+        nearest, farthest = seen[..., 0].min(axis=1), seen[..., 0].max(axis=1)
+        whole = np.flatnonzero(nearest >= NEAR_M)
+        for index, window in zip(whole, self._project(seen[whole]), strict=True):
+            windows[index] = window
+        for index in np.flatnonzero((nearest < NEAR_M) & (farthest > NEAR_M)):
+            windows[index] = self._project(_cut(seen[index])[None])[0]
         return windows
 
-    def _window(self, box: Floats) -> tuple[slice, slice, float] | None:
-        points = box[box[:, 0] >= NEAR_M]
-        if len(points) < len(box):  # partly behind: cut its edges where the picture begins
-            start, end = box[_EDGES[:, 0]], box[_EDGES[:, 1]]
-            cut = (start[:, 0] >= NEAR_M) != (end[:, 0] >= NEAR_M)
-            start, end = start[cut], end[cut]
-            share = (NEAR_M - start[:, 0]) / (end[:, 0] - start[:, 0])
-            points = np.vstack((points, start + share[:, None] * (end - start)))
+    def _project(self, points: Floats) -> list[tuple[slice, slice, float] | None]:
+        """Return the window around each of n sets of points that all lie ahead."""
         camera, focal = self.camera, focal_px(self.camera)
-        u = camera.width_px / 2 - focal * points[:, 1] / points[:, 0]
-        v = camera.height_px / 2 - focal * points[:, 2] / points[:, 0]
-        column = (_inside(u.min(), camera.width_px), _inside(u.max() + 1.0, camera.width_px))
-        row = (_inside(v.min(), camera.height_px), _inside(v.max() + 1.0, camera.height_px))
-        if column[0] >= column[1] or row[0] >= row[1]:
-            return None
-        return slice(*row), slice(*column), float(points[:, 0].min())
+        scaled = points[..., 1:] * (-focal / points[..., :1])
+        middle = np.array([camera.width_px, camera.height_px]) / 2
+        most = (camera.width_px, camera.height_px)
+        low = np.clip(scaled.min(axis=1) + middle, 0, most).astype(int).tolist()
+        high = np.clip(scaled.max(axis=1) + middle + 1.0, 0, most).astype(int).tolist()
+        ahead = points[..., 0].min(axis=1).tolist()
+        return [
+            (slice(r0, r1), slice(c0, c1), near) if r0 < r1 and c0 < c1 else None
+            for (c0, r0), (c1, r1), near in zip(low, high, ahead, strict=True)
+        ]
 
 
-def _inside(value: float, size: int) -> int:
-    return int(min(max(value, 0.0), float(size)))
+def _cut(box: Floats) -> Floats:
+    """Return the corners ahead of a box, and where its edges come out from behind the camera."""
+    start, end = box[_EDGES[:, 0]], box[_EDGES[:, 1]]
+    cut = (start[:, 0] >= NEAR_M) != (end[:, 0] >= NEAR_M)
+    start, end = start[cut], end[cut]
+    share = (NEAR_M - start[:, 0]) / (end[:, 0] - start[:, 0])
+    return np.vstack((box[box[:, 0] >= NEAR_M], start + share[:, None] * (end - start)))
 
 
 def rays(camera: CameraConfig) -> Floats:
