@@ -117,7 +117,8 @@ async def obeying(brain: OfflineBrain, asked: ThinkRequest, told: list[str]) -> 
         wanted = asked.model_copy(update={"text": words, "language": None})
         if isinstance((await brain.think(wanted)).plan, StepPlan):
             return wanted
-    return asked
+    vaguely = pictures.vague_order("\n".join(told), [*asked.vocabulary.by_id])
+    return asked if vaguely is None else asked.model_copy(update={"text": vaguely})
 
 
 async def _body(request: Request) -> dict[str, Any] | None:

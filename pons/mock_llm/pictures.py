@@ -20,6 +20,7 @@ from planner.brain.prompt import READ
 COMMENT = 0xFE
 _URL = "data:image/jpeg;base64,"
 _PIECES = re.compile(r'[:：.。“”"\n-]+')
+_IMPERATIVE = re.compile(r"\b(?:go|stop|order|ignore|now|kind)\b|去|命令|忽略|回家", re.IGNORECASE)
 _OUT_OF_RANGE: tuple[Any, ...] = (1400, -3, 3.7, "500", None, True, 10**30)
 NUMBER_OF_BAD_POINTS = len(_OUT_OF_RANGE)
 
@@ -131,16 +132,27 @@ def _obeyed(asked: Asked, number: int, place: str) -> str:
 
 
 def words_read(body: dict[str, Any]) -> list[str]:
-    """Return all that a planning request tells of steps, whole and in pieces, as orders."""
+    """Return what a planning request tells of pictures, whole and in pieces, as if it were orders.
+
+    Words that ought to be withheld and stand elsewhere are found, too: a leak must show.
+    """
     told: list[str] = []
     for message in _dicts(body.get("messages")):
         order = _order(message.get("content")) if message.get("role") == "user" else {}
         for report in _dicts(order.get("so_far")):
-            for words in (
-                report[key] for key in (READ, "what") if isinstance(report.get(key), str)
-            ):
-                told += [words, *filter(None, map(str.strip, _PIECES.split(words)))]
+            leaked = report.get("step") != "decide" and _IMPERATIVE.search(str(report.get("what")))
+            for words in (report.get(READ), report.get("what") if leaked else None):
+                if isinstance(words, str):
+                    told += [words, *filter(None, map(str.strip, _PIECES.split(words)))]
     return told
+
+
+def vague_order(told: str, places: list[str]) -> str | None:
+    """Return some order for words that sound like one, though nobody could say which; else None."""
+    if not _IMPERATIVE.search(told):
+        return None
+    named = next((place for place in places if place.replace("_", " ") in told.lower()), None)
+    return f"go to the {named.replace('_', ' ')}" if named is not None else "return home"
 
 
 def _order(text: object) -> dict[str, Any]:
