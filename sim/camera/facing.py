@@ -69,7 +69,8 @@ def _from_wall(home: Home, box: Rect, class_id: str) -> float:
     if class_id == "bed" or class_id in _LONG_BACK:
         along_x = long_x if class_id == "bed" else not long_x
         gaps = {f: gap for f, gap in gaps.items() if (f in (_EAST, _WEST)) == along_x}
-    return min(gaps, key=lambda front: gaps[front])
+    # Of two walls equally near, the one along a long side: cupboards open on theirs.
+    return min(gaps, key=lambda front: (round(gaps[front], 2), (front in (_EAST, _WEST)) == long_x))
 
 
 def _of_door(home: Home, x_m: float, y_m: float) -> float:
