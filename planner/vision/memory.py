@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
-from math import exp, isfinite
+from math import exp
 from typing import TYPE_CHECKING
 
 from planner.vision.joining import Placed, fused, joined, single
 from planner.vision.kinds import kind_of
 from planner.vision.records import Thing
+from wire.geometry import MAX_COORDINATE_M
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -133,8 +134,9 @@ def recalled(things: Iterable[Thing], now_s: float) -> Remembered:
 
 def _sound(p: Placed) -> bool:
     spot = p.spot
-    finite = all(map(isfinite, (spot.x_m, spot.y_m, spot.z_m, spot.sigma_m)))
-    return finite and 0.0 < p.score <= 1.0 and spot.sigma_m > 0.0
+    far = MAX_COORDINATE_M
+    somewhere = all(-far <= v <= far for v in (spot.x_m, spot.y_m, spot.z_m))
+    return somewhere and 0.0 < p.score <= 1.0 and 0.0 < spot.sigma_m <= far
 
 
 def _first(id_: str, p: Placed, now_s: float) -> Kept:
