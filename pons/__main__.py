@@ -60,6 +60,7 @@ def parser() -> argparse.ArgumentParser:
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
     _replay(words)
+    _detect(words)
     for name, what in _APART.items():
         words.add_parser(name, help=f"{what}: {name} --help")
     return top
@@ -95,6 +96,16 @@ def _replay(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     again.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
     again.add_argument("--json", action="store_true", help="with --with-model")
     again.add_argument("--yes", action="store_true", help="with --with-model: do not ask")
+
+
+def _detect(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    word = words.add_parser("detect", help="try a detector on pictures: what it is, what it sees")
+    word.add_argument("images", nargs="+", type=Path, metavar="IMAGE", help="JPEG or PNG")
+    word.add_argument("--model", type=Path, metavar="FILE", help="ONNX, in place of the owner's")
+    word.add_argument("--labels", type=Path, metavar="FILE", help="its class names, one a line")
+    word.add_argument("--decoder", help="how its output is read, in place of what is found out")
+    word.add_argument("--json", action="store_true")
+    word.add_argument("--out", type=Path, metavar="FILE", help="write the picture with its boxes")
 
 
 def _places(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -202,7 +213,9 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
     return goals.act(settings, said.word, said.goal)
 
 
-_TOOLS = frozenset({"doctor", "why", "braking", "fence", "places", "calibrate", "fault", "replay"})
+_TOOLS = frozenset(
+    {"doctor", "why", "braking", "fence", "places", "calibrate", "fault", "replay", "detect"}
+)
 
 
 def _tool(settings: Settings, said: argparse.Namespace) -> int:
@@ -246,6 +259,10 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
         from pons import fault
 
         return fault.run(settings, said.names, seconds=said.seconds)
+    if said.word == "detect":
+        from pons import detect
+
+        return detect.run(settings, said)
     from pons import replay
 
     if said.with_model is not None:

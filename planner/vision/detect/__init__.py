@@ -4,11 +4,11 @@ The planner's own process never imports this; its door is :class:`planner.vision
 """
 
 from planner.vision.detect.detector import Detector
-from planner.vision.detect.draw import drawn
+from planner.vision.detect.draw import drawn, save
 from planner.vision.detect.inner import depth_at
 from planner.vision.detect.model_file import Wanted
 from planner.vision.detect.pictures import shrink, unpack_color, unpack_depth
 
 __all__ = [
-    "Detector", "Wanted", "depth_at", "drawn", "shrink", "unpack_color", "unpack_depth"
+    "Detector", "Wanted", "depth_at", "drawn", "save", "shrink", "unpack_color", "unpack_depth"
 ]  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 
 import cv2
 
@@ -28,3 +29,11 @@ def drawn(picture: Picture, detections: Iterable[Detection]) -> Picture:
         for color, thickness in ((BEHIND, 3), (LINE, 1)):  # readable on any ground
             cv2.putText(copy, text, at, FONT, TEXT_SCALE, color, thickness, cv2.LINE_AA)
     return copy
+
+
+def save(picture: Picture, path: Path) -> bool:
+    """Write a picture in the format of the file's name; tell whether that worked."""
+    try:
+        return bool(cv2.imwrite(str(path), picture))
+    except cv2.error:  # no such format
+        return False
