@@ -10,7 +10,7 @@ from pathlib import Path
 from random import Random
 
 from sim.site.files import site_files
-from sim.site.load import parse_home
+from sim.site.load import load_home, parse_home
 from wire import Misconfigured
 
 HALL_M = 14.0
@@ -31,6 +31,18 @@ def made_home(parent: Path, seed: int) -> Path:
         except Misconfigured as error:
             refused = error
     raise refused or Misconfigured("no_home", "nothing was drawn")
+
+
+def stocked(
+    parent: Path, site: Path, objects: dict[str, object], people: dict[str, object] | None = None
+) -> Path:
+    """Write a site's home into a folder of its own, with these things and people in it.
+
+    Raises:
+        Misconfigured: they can't be there.
+    """
+    home = load_home(site).model_dump(mode="json", by_alias=True, exclude_none=True)
+    return _written(parent, {**home, "objects": objects, "people": people or {}})
 
 
 def hall(parent: Path) -> Path:

@@ -6,7 +6,7 @@ is a notebook that outlives this object, so that a kill loses what was not yet w
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, cast
 
@@ -15,12 +15,12 @@ from lockstep.thinking import at_once
 from planner.brain import is_stop, language_of
 from planner.link import Identity, WireBus
 from planner.link.lidar import points_in_map
-from planner.mission.effects import AskBrain, AskRoute, DropBrain, Journal, SayAloud
+from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, Journal, SayAloud
 from planner.mission.engine import Engine, Output
-from planner.mission.events import Event, Restarted, Stopped, Submitted, Tick
+from planner.mission.events import Event, Restarted, Sighted, Stopped, Submitted, Tick, Told
 from planner.mission.facts import facts_of
 from planner.mission.records import Book, Mission
-from planner.mission.skills import Way
+from planner.mission.skills import Answer, Eyesight, Way
 from planner.mission.thinking import thinker
 from planner.route import RouteFailure, RouteRequest
 from wire import VIRTUAL_KEY, OpKind, Scan, Status, Stop, signed_request
@@ -29,10 +29,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from lockstep.bus import Port
+    from lockstep.eyes import EyesSide
     from lockstep.pace import Pace
     from lockstep.scene import Scene
     from planner.brain import Brain
     from planner.plan import Language
+    from planner.vision.records import Sight
     from wire.session import Session
 
 WALL_OFFSET_S = 1_700_000_000.0
@@ -66,6 +68,7 @@ class PlannerSide:
         now_s: float,
     ) -> None:
         self.planner_id = planner_id
+        self._eyes: EyesSide | None = None
         self.said: list[str] = []
         self._scene, self._port, self._pace = scene, port, pace
         self._notebook = notebook
@@ -94,7 +97,13 @@ class PlannerSide:
 
     def think_with(self, brain: Brain) -> None:
         """Let this brain turn sentences into plans."""
-        self._think = thinker(brain, self._scene.vocabulary)
+        self._brain = brain
+
+    def see_with(self, eyes: EyesSide) -> None:
+        """Use these eyes from now on."""
+        self._eyes = eyes
+        eyesight = Eyesight(self._scene.robot.camera, eyes.classes)
+        self.engine.book = replace(self.engine.book, eyes=eyesight, sight=eyes.sight)
 
     def leave(self) -> None:
         """Be gone, as after SIGKILL."""
@@ -109,11 +118,18 @@ class PlannerSide:
             self._status = status
             self._insistence.hear(status)
             self._do(self.engine.status(status, now_s))
+        if self._eyes is not None:
+            self._eyes.hear(self._bus.odometry(), self._bus.localization())
         while self._later and self._later[0][0] <= tick:
             self._do(heappop(self._later)[2](now_s))
         if tick % self._pace.planner_tick_period == 0:
             self._do(self.engine.event(Tick(), now_s))
         self._insistence.tick(tick)
+
+    def sighted(self, sight: Sight, now_s: float) -> None:
+        """Take what the eyes say."""
+        classes = self._eyes.classes if self._eyes is not None else ()
+        self._do(self.engine.event(Sighted(sight, classes), now_s))
 
     def event(self, event: Event, now_s: float) -> None:
         """Take a person's command."""
@@ -166,6 +182,8 @@ class PlannerSide:
                     self._in(self._pace.brain, self._thinking(effect))
                 case AskRoute():
                     self._in(self._pace.route, self._routing(effect))
+                case AskEyes():
+                    self._in(self._pace.brain, self._telling(effect))
                 case Journal():
                     self._in(self._pace.journal, self._writing(effect))
                 case SayAloud():
@@ -180,7 +198,13 @@ class PlannerSide:
         heappush(self._later, (self._port.bus.tick + delay, self._count, act))
 
     def _thinking(self, ask: AskBrain) -> Callable[[float], Output]:
-        event = at_once(self._think(ask))
+        think = thinker(self._brain, self._scene.vocabulary, None, self.engine.book.means)
+        event = at_once(think(ask))
+        return lambda now_s: self.engine.event(event, now_s)
+
+    def _telling(self, ask: AskEyes) -> Callable[[float], Output]:
+        answer = Answer(failure="camera_silent") if self._eyes is None else self._eyes.answer(ask)
+        event = Told(ask.id, ask.ticket, answer)
         return lambda now_s: self.engine.event(event, now_s)
 
     def _writing(self, entry: Journal) -> Callable[[float], Output]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from lockstep.eyes import EyesSide
 from lockstep.said import Said
+from lockstep.sighted import TruthFinder
 from lockstep.world import TooLong, World
 from planner.mission.events import Cancel, Pause, Reply, Resume
 from wire import Mode
@@ -12,6 +14,7 @@ from wire import Mode
 if TYPE_CHECKING:
     from lockstep.disturbance import Disturbance
     from lockstep.insist import Request
+    from lockstep.sighted import Finder
     from planner.brain import Brain
     from planner.plan import Language
     from wire import OpKind, Pose2
@@ -109,6 +112,16 @@ class Together(World):
                 raise TooLong(f"not armed; {self.describe()}")
         self.run_until(lambda w: w.status.mode is Mode.HOLD, limit_s)
 
+    def open_eyes(self, finder: Finder | None = None) -> EyesSide:
+        """Let the planner see from now on, by the simulator's truth or by another finder."""
+        if self.eyes is None:
+            camera, seed = self.scene.robot.camera, self.seed
+            self.eyes = EyesSide(self.scene, finder or TruthFinder(camera, seed))
+            self.planner.see_with(self.eyes)
+        elif finder is not None:
+            self.eyes.look_with(finder)
+        return self.eyes
+
     # What goes wrong ----------------------------------------------------------------------------
 
     def kill_planner(self) -> None:
@@ -144,6 +157,10 @@ class Together(World):
     def remove_obstacle(self) -> None:
         """Take it away again."""
         self.sim.remove_obstacle()
+
+    def put(self, name: str, pose: Pose2 | None) -> None:
+        """Put a person or an object of the home somewhere, or take it away."""
+        self.sim.place_thing(name, pose)
 
     def teleport(self, base_in_map: Pose2) -> None:
         """Carry the robot somewhere; its wheels notice nothing."""

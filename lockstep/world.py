@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
+    from lockstep.eyes import EyesSide
     from planner.brain import Brain
     from wire import DriveCommand, Pose2, Status, Twist2
 
@@ -64,7 +65,7 @@ class World:
             pace: how long messages, routes, plans and the disk take.
             step: the bridge's core, or a wrapper that measures it.
         """
-        self.pace = pace or Pace()
+        self.pace, self.seed = pace or Pace(), seed
         self.scene = scene(folder_of(site), robot or RobotDescription())
         latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
         self.bus = Bus(seed, latency)
@@ -81,6 +82,7 @@ class World:
         self._planners = 0
         self._frozen = False
         self._localizing = True
+        self.eyes: EyesSide | None = None
         self._hooked = 0
         self._hooks: list[tuple[int, int, Callable[[Any], None]]] = []
         self.start_planner()
@@ -98,6 +100,8 @@ class World:
             f"planner-{self._planners}",
             self.now_s,
         )
+        if self.eyes is not None:
+            self._planner.see_with(self.eyes)
 
     @property
     def planner(self) -> PlannerSide:
@@ -139,6 +143,13 @@ class World:
         self.bridge.turn(now_s)
         if self._planner is not None and not self._frozen:
             self._planner.turn(now_s)
+            self._look(self._planner, now_s)
+
+    def _look(self, planner: PlannerSide, now_s: float) -> None:
+        """Let the eyes take their turn, where there are some."""
+        sight = self.eyes.turn(self.sim, self.bus.tick, now_s) if self.eyes is not None else None
+        if sight is not None:
+            planner.sighted(sight, now_s)
 
     def run(self, seconds: float) -> None:
         """Let simulated time pass [s]."""

@@ -10,13 +10,13 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Drive, Gaze, Scene, Way
+from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot
 from planner.mission.skills.seen import away_m
 from wire import Pose2, wrap
 
 if TYPE_CHECKING:
     from planner.mission.skills.eyesight import Wanted
-    from planner.mission.skills.notes import Notes
 
 LOOKS = 3
 """New pictures in each direction: a detector misses now and then."""
@@ -29,8 +29,8 @@ MORE_M, SLOWEST_MPS, LEG_S = 10.0, 0.1, 60.0
 
 def look_round(
     scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
-) -> Drive | Gaze | None:
-    """Return the next leg or gaze, or None when every spot was looked round from."""
+) -> Drive | Gaze | Notes:
+    """Return the next leg or gaze; the notes alone once every spot was looked round from."""
     notes = scene.notes
     here = next((s for s in spots if s.key == notes.spot), None)
     if here is None:
@@ -86,12 +86,12 @@ def leg_to(
 
 def _go(
     scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
-) -> Drive | Gaze | None:
+) -> Drive | Gaze | Notes:
     """Return the way to the next spot, or the first gaze where the robot is there already."""
     notes = scene.notes
     spot = next((s for s in spots if s.key not in notes.spots), None)
     if spot is None:
-        return None
+        return notes
     there = notes.but(spot=spot.key, views=(), turned=None)
     if spot.key == HERE or away_m(pose, spot.at) <= THERE_M:
         return look_round(scene.but(there), pose, spots, wanted)

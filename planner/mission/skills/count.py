@@ -10,6 +10,7 @@ from __future__ import annotations
 from planner.mission.skills.act import Act, Done, Later, Scene
 from planner.mission.skills.around import look_round
 from planner.mission.skills.find import unknown
+from planner.mission.skills.notes import Notes
 from planner.mission.skills.search import begin, spent, spots, within
 from planner.mission.skills.seen import apart, confirmed, wanted_of
 from planner.mission.skills.tell import counted, looked_in, room_name
@@ -26,8 +27,9 @@ def count(scene: Scene) -> Act:
     pose = scene.pose
     scene = begin(scene, pose, wanted)
     next_ = look_round(scene, pose, spots(scene, pose), None)
-    if next_ is not None and spent(scene) is None:
+    if not isinstance(next_, Notes) and spent(scene) is None:
         return next_
+    scene = scene.but(next_) if isinstance(next_, Notes) else scene
     seen = confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
     number = len(apart(filter(within(scene), seen)))
     what = counted(number, wanted.label, wanted.color)

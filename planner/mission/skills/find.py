@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from planner.mission.skills.act import Act, Cannot, Done, Later, Scene
 from planner.mission.skills.eyesight import Wanted
+from planner.mission.skills.notes import Notes
 from planner.mission.skills.search import search, spent
 from planner.mission.skills.seen import found, wanted_of
 from planner.mission.skills.tell import found_at, known_things, looked_in
@@ -27,7 +28,7 @@ def find(scene: Scene) -> Act:
     next_ = search(scene, scene.pose, wanted)
     if isinstance(next_, Thing):
         return _found(scene, next_)
-    return next_ if next_ is not None else not_found(scene, wanted)
+    return not_found(scene.but(next_), wanted) if isinstance(next_, Notes) else next_
 
 
 def _found(scene: Scene, thing: Thing) -> Done:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from planner.mission.skills.act import Act, Cannot, Done, Drive, Gaze, Later, Scene
 from planner.mission.skills.around import leg_to, look_round, spin
 from planner.mission.skills.find import unknown
+from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import short_of
 from planner.mission.skills.seen import away_m, bearing, turn_to, wanted_of
@@ -23,7 +24,6 @@ from planner.plan import Code, message
 
 if TYPE_CHECKING:
     from planner.mission.skills.eyesight import Wanted
-    from planner.mission.skills.notes import Notes
     from planner.vision.records import Thing
     from wire import Pose2
 
@@ -37,6 +37,7 @@ SAME_M = 2.0
 FACE_RAD = 0.35
 LOST_S, FOLLOW_S = 25.0, 300.0
 GAZE_LOOKS, GAZE_S = 10, 8.0
+FIRST_LOOKS = 3
 ROUND = 1
 
 
@@ -102,6 +103,8 @@ def _lost(scene: Scene, pose: Pose2) -> Act:
     gone_s = scene.spent_s - notes.seen_s
     if gone_s > LOST_S:
         return _give_up(gone_s)
+    if at is None and notes.stage < ROUND:  # nobody yet: they may well stand ahead
+        return Gaze(FIRST_LOOKS, notes=notes, then=notes.but(stage=ROUND), watch=True)
     if at is not None and notes.stage < ROUND:
         then = notes.but(stage=ROUND)
         if away_m(pose, at[:2]) <= KEEP_M / 2:
@@ -114,7 +117,7 @@ def _lost(scene: Scene, pose: Pose2) -> Act:
 def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> Act:
     at = (pose.x_m, pose.y_m)
     act = look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
-    return replace(act, watch=True) if act is not None else _give_up(gone_s)
+    return _give_up(gone_s) if isinstance(act, Notes) else replace(act, watch=True)
 
 
 def _give_up(gone_s: float) -> Cannot:

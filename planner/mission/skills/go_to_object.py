@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
 from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, spin
 from planner.mission.skills.find import not_found, unknown
+from planner.mission.skills.notes import Notes
 from planner.mission.skills.search import search, short_of, within
 from planner.mission.skills.seen import (
     away_m,
@@ -33,7 +34,6 @@ from planner.vision.records import Thing
 
 if TYPE_CHECKING:
     from planner.mission.skills.eyesight import Wanted
-    from planner.mission.skills.notes import Notes
     from wire import Pose2
 
 SHORT_M, ROBOT_M = 0.5, 0.3
@@ -61,7 +61,7 @@ def go_to_object(scene: Scene) -> Act:
     if isinstance(thing, Thing):
         notes = scene.notes.but(label=thing.label, color=thing.color, aim=None)
         return set_off(scene, scene.pose, notes, spot_of(thing), wanted)
-    return thing if thing is not None else _gone(scene, wanted)
+    return _gone(scene.but(thing), wanted) if isinstance(thing, Notes) else thing
 
 
 def set_off(

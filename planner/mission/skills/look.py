@@ -10,15 +10,20 @@ one leg and one turn about.
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Act, Done, Gaze, Inquire, Later, Scene
 from planner.mission.skills.around import LOOKS, look_round
+from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import begin, spots, within
 from planner.mission.skills.seen import apart, confirmed, fits, mentioned
 from planner.mission.skills.tell import counted, listed, room_name
 from planner.plan import Bilingual, Code
 from planner.vision.labels import named
+
+if TYPE_CHECKING:
+    from wire import Pose2
 
 _ROUND = re.compile(r"\b(?:around|round|everywhere|surroundings)\b|四周|周围|到处|四处|环顾|环境")
 GAZED, ASKED = 1, 2
@@ -31,32 +36,31 @@ def looks_round(question: str) -> bool:
 
 def look(scene: Scene) -> Act:
     """Return the next look, or the answer."""
-    if scene.pose is None:
+    pose = scene.pose
+    if pose is None:
         return Later()
     question = scene.step.text or ""
-    scene = begin(scene, scene.pose, None)
+    scene = begin(scene, pose, None)
     notes = scene.notes
     if notes.stage < GAZED:
-        next_ = _next(scene, question)
-        if next_ is not None:
+        next_ = _next(scene, pose, question)
+        if not isinstance(next_, Notes):
             return next_
+        notes = next_.but(stage=GAZED)
     if scene.eyes.model and notes.stage < ASKED:
         return Inquire(question, then=notes.but(stage=ASKED))
     read = scene.answer.text if scene.answer is not None else None
     return Done({"rooms": notes.rooms}, Code.SEEN, _seen(scene, question), read)
 
 
-def _next(scene: Scene, question: str) -> Act | None:
-    """Return the next leg or gaze, or None when enough was looked at."""
-    pose = scene.pose
-    if pose is None:
-        return Later()
-    if scene.step.place is None and not looks_round(question):
+def _next(scene: Scene, pose: Pose2, question: str) -> Act | Notes:
+    """Return the next leg or gaze, or the notes when enough was looked at."""
+    if scene.step.place is not None:
+        return look_round(scene, pose, spots(scene, pose)[:1], None)
+    if not looks_round(question):
         return Gaze(LOOKS + 1, then=scene.notes.but(stage=GAZED))
-    if scene.step.place is None:
-        at = scene.notes.here or (pose.x_m, pose.y_m)
-        return look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
-    return look_round(scene, pose, spots(scene, pose)[:1], None)
+    at = scene.notes.here or (pose.x_m, pose.y_m)
+    return look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
 
 
 def _seen(scene: Scene, question: str) -> Bilingual:
@@ -66,7 +70,7 @@ def _seen(scene: Scene, question: str) -> Bilingual:
     things = apart(t for t in confirmed(scene.sight, None, since_s) if inside(t))
     place = room_name(scene.facts, scene.step.place)
     en, zh = (f" in the {place.en}", f"在{place.zh}") if place is not None else ("", "")
-    asked = mentioned(question, scene.language, scene.eyes.classes)
+    asked = mentioned(question, scene.eyes.classes)
     if asked is not None:
         fitting = [t for t in things if fits(t, asked)]
         if not fitting:

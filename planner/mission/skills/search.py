@@ -1,7 +1,7 @@
 """Search for one thing: look again at what is remembered, then look round in rooms. Pure.
 
-``search`` returns the next leg or gaze, the thing itself once a gaze has confirmed it, or None when
-all was looked at or the budget is spent. What is seen on the way is gone to at once.
+``search`` returns the next leg or gaze, the thing itself once a gaze has confirmed it, or its notes
+when all was looked at or the budget is spent. What is seen on the way is gone to at once.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from planner.vision.records import Thing
 
 if TYPE_CHECKING:
     from planner.mission.skills.eyesight import Wanted
+    from planner.mission.skills.notes import Notes
     from wire import Pose2
 
 VIEW_M = 1.6
@@ -40,15 +41,15 @@ AWAY = 2.5
 """A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
 
 
-def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | None:
-    """Return what to do next, the thing that was found, or None."""
+def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | Notes:
+    """Return what to do next, or the thing that was found, or the notes when it was not."""
     scene = begin(scene, pose, wanted)
     inside = within(scene)
     seen = [t for t in _confirmed(scene, wanted) if inside(t)]
     if seen:
         return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)))
     if spent(scene) is not None:
-        return None
+        return scene.notes
     known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.notes.tried]
     if known:
         nearest = min(known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))

@@ -7,7 +7,7 @@ from math import atan2, hypot
 from typing import TYPE_CHECKING
 
 from planner.mission.skills.eyesight import Wanted
-from planner.plan import Found, Language
+from planner.plan import Found
 from planner.vision.kinds import kind_of
 from planner.vision.labels import resolve
 from wire import wrap
@@ -36,21 +36,20 @@ def wanted_of(scene: Scene) -> Wanted | None:
     return Wanted(*found) if found is not None else None
 
 
-def mentioned(text: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:
     """Return the first thing that a whole sentence names, the longest name that fits."""
-    for words in _pieces(text.casefold(), language):
-        found = resolve(words, language, classes)
+    for words in _pieces(text.casefold()):
+        found = resolve(words, None, classes)
         if found is not None:
             return Wanted(*found)
     return None
 
 
-def _pieces(text: str, language: Language) -> Iterable[str]:
-    if language is Language.ZH:
-        for run in _CHINESE.findall(text):
-            for length in range(min(LONGEST_ZH, len(run)), 0, -1):
-                yield from (run[at : at + length] for at in range(len(run) - length + 1))
-        return
+def _pieces(text: str) -> Iterable[str]:
+    """Yield the runs of words of a sentence that may be a name, the longest first."""
+    for run in _CHINESE.findall(text):
+        for length in range(min(LONGEST_ZH, len(run)), 0, -1):
+            yield from (run[at : at + length] for at in range(len(run) - length + 1))
     words = _WORD.findall(text)
     for length in range(LONGEST_EN, 0, -1):
         yield from (" ".join(words[at : at + length]) for at in range(len(words) - length + 1))
