@@ -38,12 +38,12 @@ MAX_BYTES = 4_000_000
 MAX_HOURS = 2.0
 """For drawing, fitting, exporting and scoring together, on two cores."""
 
-FRAMES_A_HOME = 20
-HOMES_A_SHARD = 10
 FRAMES = 20_000
 UNSEEN_FRAMES = 500
-EMPTY_FRAMES = 200
+BARE_FRAMES = 300
 """Pictures of homes that hold nothing of ours, to count what is seen where nothing is."""
+FRAMES_A_HOME = {"train": 10, "unseen": 5, "bare": 5}
+HOMES_A_SHARD = 20
 
 GOAL_MAP50 = 0.85
 GOAL_FALSE = 0.02

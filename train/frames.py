@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from train.boxes import Box, Hull
     from wire import CameraConfig, Pose2
 
-SHARD = FRAMES_A_HOME * HOMES_A_SHARD
 CODE = ("sim/camera", "sim/site", "train/homes.py", "train/furnish.py", "train/scatter.py",
         "train/views.py", "train/boxes.py", "train/frames.py")  # fmt: skip
 INTERRUPTED = 130
@@ -53,7 +52,7 @@ def main(arguments: list[str] | None = None) -> int:
     except OtherRecipe as error:
         print(f"train.frames: {error}", file=sys.stderr)
         return 2
-    left = missing(given.out, -(-given.count // SHARD))
+    left = missing(given.out, shards(given.kind, given.count))
     began_s = time.monotonic()
     # Two processes of one thread each are quicker than one of two.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -69,6 +68,11 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
+def shards(kind: Kind, count: int) -> int:
+    """Return how many shards hold so many frames."""
+    return -(-count // (FRAMES_A_HOME[kind] * HOMES_A_SHARD))
+
+
 def recipe(kind: Kind) -> dict[str, Any]:
     """Return what a folder's frames depend on, the code that draws them included."""
     root = Path(__file__).resolve().parents[1]
@@ -79,7 +83,7 @@ def recipe(kind: Kind) -> dict[str, Any]:
             digest.update(file.read_bytes())
     return {
         "kind": kind,
-        "frames_a_home": FRAMES_A_HOME,
+        "frames_a_home": FRAMES_A_HOME[kind],
         "homes_a_shard": HOMES_A_SHARD,
         "size": [WIDTH_PX, HEIGHT_PX],
         "code": digest.hexdigest(),
@@ -90,12 +94,12 @@ def draw_shard(folder: Path, kind: Kind, index: int) -> int:
     """Draw the homes of one shard and write it."""
     frames: list[Framed] = []
     for seed in range(index * HOMES_A_SHARD, (index + 1) * HOMES_A_SHARD):
-        frames += home_frames(drawn_home(kind, seed), f"{kind} {seed}")
+        frames += home_frames(drawn_home(kind, seed), f"{kind} {seed}", FRAMES_A_HOME[kind])
     write(folder, index, frames)
     return index
 
 
-def home_frames(home: Home, name: str, count: int = FRAMES_A_HOME) -> list[Framed]:
+def home_frames(home: Home, name: str, count: int) -> list[Framed]:
     """Draw one home, in one light and from one camera, from many places."""
     random = Random(f"frames {name}")
     rng = np.random.default_rng(random.getrandbits(64))
