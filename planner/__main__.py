@@ -44,8 +44,8 @@ def main(arguments: list[str] | None = None) -> int:
         )
     )
     server.run()
-    if planner.refused is not None:
-        print(f"planner: {planner.refused}", file=sys.stderr)
+    if planner.detector.refused is not None:
+        print(f"planner: {planner.detector.refused}", file=sys.stderr)
         return REFUSED
     return 0 if server.started else 1
 

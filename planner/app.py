@@ -18,13 +18,7 @@ from planner.mission import Memory, MissionJournal, Missions, Rules
 from planner.robot import LinkedRobot
 from planner.route import RouteLimits, RouteWorker
 from planner.settings import load_settings
-from planner.vision import VisionFailure, VisionWorker
-from planner.vision.eyes import Means, Sightseer
-from planner.vision.failure import REFUSALS
-from planner.vision.pictures import WireCamera
-from planner.vision.poses import Poses
-from planner.vision.seeing import Scenery
-from planner.vision.store import ThingStore
+from planner.sight import Opening, eyes_of, looker_of
 from planner.voice import VoiceWorker
 from planner.world import FenceProposals, Site, TaughtPlaces
 from wire import RobotDescription, fingerprint, load_robot
@@ -84,11 +78,13 @@ class Planner:
         self.memory.listen(lambda: self.ears.know(self._spoken()))
         link = Link(WireBus(self._session), self.description)
         self.robot = LinkedRobot(link, self.description)
-        self._detector = VisionWorker(self.settings.vision)
+        self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None
-        self.refused: VisionFailure | None = None
-        """Why the owner's detector can't be used: a person must act."""
-        self.eyes = self._eyes(link, where.home)
+        worker = self.detector.worker
+        self.eyes = eyes_of(
+            worker, self.settings.vision, link, self._session,
+            self.description, self.site, where.home,
+        )  # fmt: skip
         self.goals = Missions(
             site=self.memory,
             robot=self.description,
@@ -97,22 +93,7 @@ class Planner:
             brain=self.brain,
             journal=self._journal,
         )
-
-    def _eyes(self, link: Link, home: Path) -> Sightseer:
-        """Return the eyes, which the link tells how the robot moves."""
-        map_id = self.site.map_id
-        poses = Poses(map_id)
-        link.tell(poses)
-        return Sightseer(
-            Means(
-                scenery=Scenery(self.site, self.description.camera),
-                camera=WireCamera(self._session),
-                detector=self._detector,
-                poses=poses,
-                store=ThingStore.in_home(home, map_id),
-                rate_hz=self.settings.vision.rate_hz,
-            )
-        )
+        self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
     def _spoken(self) -> list[str]:
         """Return the English names that may be said, the taught ones too."""
@@ -131,29 +112,20 @@ class Planner:
 
     async def start(self) -> None:
         """Start the route process, then the missions; the detector's opens beside them."""
-        self._opening = asyncio.create_task(self._open(), name="open detector")
+        self._opening = asyncio.create_task(self.detector.open(), name="open detector")
         await self._router.start()
         self.ears.warm()
-        await self.eyes.start()
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
-
-    async def _open(self) -> None:
-        try:
-            await self._detector.start()
-        except VisionFailure as failure:
-            if failure.code in REFUSALS:
-                self.refused = failure
-            else:
-                log.error("the eyes stay shut: %s", failure)
+        await self.eyes.start()
 
     async def close(self) -> None:
         """End all parts; what ran comes back paused in the next process."""
-        await self.goals.close()
         await self.eyes.close()
+        await self.goals.close()
         if self._opening is not None:
             self._opening.cancel()
             await asyncio.gather(self._opening, return_exceptions=True)
-        await self._detector.close()
+        await self.detector.worker.close()
         await self._router.close()
         await self.ears.close()
         if self._model is not None:
@@ -205,8 +177,8 @@ async def _end_with(planner: Planner) -> None:
     whoever supervises it starts it anew, with the map's costs worked out for that fence.
     """
     while (failure := planner.goals.failed) is None:
-        if planner.refused is not None:
-            log.critical("the detector that is set can't be used: %s", planner.refused)
+        if planner.detector.refused is not None:
+            log.critical("the detector that is set can't be used: %s", planner.detector.refused)
             break
         if await asyncio.to_thread(planner.fence_is_old):
             log.warning("fence_changed: leaving, so that the next start routes by the new fence")

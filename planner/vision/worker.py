@@ -89,14 +89,14 @@ class VisionWorker:
         answer, _ = await self._kept.ask(head, bodies, timeout_s)
         return self._counted(read_look(answer))
 
-    async def crop(self, image: Image, long_side: int, timeout_s: float = LOOK_S) -> bytes:
+    async def crop(self, picture: bytes, long_side: int, timeout_s: float = LOOK_S) -> bytes:
         """Return a picture as JPEG whose longer side is at most so long [px], without metadata.
 
         Raises:
             VisionFailure: ``picture_*``, ``detector_down`` or ``detector_timed_out``.
         """
         head = {"long_side": max(1, long_side)}
-        _, data = await self._kept.ask(head, (image.data,), timeout_s)
+        _, data = await self._kept.ask(head, (picture,), timeout_s)
         return data
 
     async def depth_at(

@@ -137,10 +137,10 @@ def test_bad_pictures_are_skipped_and_counted_and_the_process_lives(
 
 def test_a_picture_is_made_small_for_others(worker: VisionWorker, loop: asyncio.Runner) -> None:
     async def story() -> None:
-        header = read_header(await worker.crop(image(JPEG), 32))
+        header = read_header(await worker.crop(JPEG, 32))
         assert header is not None
         assert (header.kind, header.width, header.height) == ("jpeg", 32, 24)
-        assert await code_of(worker.crop(image(b"no picture"), 32)) == "picture_not_known"
+        assert await code_of(worker.crop(b"no picture", 32)) == "picture_not_known"
 
     run(story, loop)
 
@@ -152,7 +152,7 @@ def test_who_gives_up_waiting_leaves_the_next_answer_whole(
         first = pid(worker)
         os.kill(first, signal.SIGSTOP)
         try:
-            asked = asyncio.create_task(worker.crop(image(JPEG), 32))
+            asked = asyncio.create_task(worker.crop(JPEG, 32))
             await asyncio.sleep(0)
             asked.cancel()
             with pytest.raises(asyncio.CancelledError):
@@ -171,7 +171,7 @@ def test_killed_in_the_middle_or_frozen_it_fails_typed_and_comes_back(model: Pat
             first = pid(worker)
             os.kill(first, signal.SIGSTOP)  # so that the request is surely unanswered
             asked = asyncio.create_task(worker.look(image(JPEG), None))
-            beside = asyncio.create_task(worker.crop(image(JPEG), 9))
+            beside = asyncio.create_task(worker.crop(JPEG, 9))
             await asyncio.sleep(0)
             os.kill(first, signal.SIGKILL)
             assert await code_of(asked) == "detector_down"
@@ -208,7 +208,7 @@ def test_without_a_model_pictures_are_still_made_small() -> None:
         await worker.start(LIMIT_S)
         assert (worker.about, worker.classes) == (None, ())
         assert await code_of(worker.look(image(JPEG), None)) == "no_detector"
-        assert await worker.crop(image(JPEG), 32)
+        assert await worker.crop(JPEG, 32)
         child = pid(worker)
         await worker.close()
         await worker.close()

@@ -1,0 +1,110 @@
+"""Put the eyes together: camera, detector, poses and memory, and the model asked about pictures."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING
+
+from planner.brain import FallbackBrain
+from planner.brain.lookfall import FallbackLooker
+from planner.brain.looking import Detected, NotSent
+from planner.plan import Bilingual
+from planner.vision import VisionFailure, VisionWorker
+from planner.vision.eyes import Means, Sightseer
+from planner.vision.failure import REFUSALS
+from planner.vision.labels import named
+from planner.vision.pictures import WireCamera
+from planner.vision.poses import Poses
+from planner.vision.seeing import Scenery
+from planner.vision.store import ThingStore
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from planner.brain import Brain
+    from planner.brain.endpoint import EndpointBrain
+    from planner.link import Link
+    from planner.settings import VisionSettings
+    from planner.world import Site
+    from wire import RobotDescription
+    from wire.session import Session
+
+log = logging.getLogger(__name__)
+
+
+class Opening:
+    """Own the detector's process: open it beside everything else, and say if it is refused."""
+
+    def __init__(self, settings: VisionSettings, robot: RobotDescription) -> None:
+        self.worker = VisionWorker(settings)
+        self.refused: VisionFailure | None = None
+        """Why the owner's detector can't be used: a person must act."""
+        self._wanted = robot.camera.kind != "none"
+
+    async def open(self) -> None:
+        """Start the process, if there is a camera; a process that dies later is started anew."""
+        if not self._wanted:
+            return
+        try:
+            await self.worker.start()
+        except VisionFailure as failure:
+            if failure.code in REFUSALS:
+                self.refused = failure
+            else:
+                log.error("the eyes stay shut: %s", failure)
+
+
+def eyes_of(
+    worker: VisionWorker,
+    settings: VisionSettings,
+    link: Link,
+    session: Session,
+    robot: RobotDescription,
+    site: Site,
+    home: Path,
+) -> Sightseer:
+    """Return the eyes, which the link tells from now on how the robot moves."""
+    poses = Poses(site.map_id)
+    link.tell(poses)
+    return Sightseer(
+        Means(
+            scenery=Scenery(site, robot.camera),
+            camera=WireCamera(session),
+            detector=worker,
+            poses=poses,
+            store=ThingStore.in_home(home, site.map_id),
+            rate_hz=settings.rate_hz,
+        )
+    )
+
+
+def looker_of(
+    model: EndpointBrain | None, brain: Brain, worker: VisionWorker
+) -> FallbackLooker | None:
+    """Return whoever asks the owner's model about pictures; None without a model.
+
+    Where no picture may be sent to it, each goal that would have sent one is told why.
+    """
+    if model is None:
+        return None
+
+    async def shrink(jpeg: bytes, long_side: int) -> bytes:
+        try:
+            return await worker.crop(jpeg, long_side)
+        except VisionFailure as failure:
+            raise NotSent(str(failure), why="bad_picture") from None
+
+    looker = model.looker(shrink)
+    if looker.refuses is not None:
+        log.info("no picture goes to %s: %s", model.address.host, looker.refuses)
+    breaker = brain.breaker if isinstance(brain, FallbackBrain) else None
+    return FallbackLooker(looker, _by_detector, breaker)
+
+
+def _by_detector(_: str, seen: Sequence[Detected]) -> tuple[Bilingual, bool | None]:
+    """Tell what the detector saw; whether that answers the question nobody says."""
+    names = [named(one.label, one.color) for one in seen]
+    en = ", ".join(name.en for name in names) or "nothing that I know"
+    zh = "、".join(name.zh for name in names) or "没有认识的物体"
+    return Bilingual(en=f"I see: {en}.", zh=f"我看到：{zh}。"), None
