@@ -38,7 +38,6 @@ def routes(services: Services) -> APIRouter:
             media_type=kind,
             headers={
                 "cache-control": "no-store",
-                "x-content-type-options": "nosniff",
                 "x-pons-seq": str(picture.color.header.seq),
                 "x-pons-age-s": f"{age_s:.3f}",
             },

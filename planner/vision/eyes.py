@@ -19,7 +19,7 @@ from planner.vision.handed import Handed
 from planner.vision.keeping import Keeper
 from planner.vision.labels import canonical
 from planner.vision.memory import Remembered, aged, forget, recalled
-from planner.vision.pictures import SILENT_S, Pictures
+from planner.vision.pictures import Pictures
 from planner.vision.pointing import pixel, point_on_map
 from planner.vision.ports import PointRefused
 from planner.vision.project import View
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-POLL_S, IDLE_POLL_S = 0.01, 0.05
+POLL_S, IDLE_POLL_S = 0.01, 0.03
 IDLE_HZ = 2.0
 """Nobody asks, yet what is passed is remembered."""
 EARLY_S = 0.02
@@ -69,7 +69,7 @@ class Sightseer:
         self._means, self._clock = means, clock
         camera = means.scenery.camera
         self._there = camera.kind != "none"
-        self._pictures = Pictures(means.camera, max(SILENT_S, 2.5 / camera.rate_hz))
+        self._pictures = Pictures(means.camera, camera.rate_hz)
         self._memory = Remembered()
         self._look: Look | None = None
         self._down: str | None = None if means.detector is not None else "no_detector"

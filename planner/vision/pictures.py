@@ -24,7 +24,7 @@ FROZEN_AFTER = 5
 """Pictures with new stamps, each the bytes of the one before: no sensor is so free of noise."""
 SAME_CLOCK_S = 60.0
 """A stamp farther from our clock is of another host's: it tells nothing here."""
-DEPTH_WAIT_S = 0.06
+DEPTH_WAIT_S = 0.03
 AS_GOOD_S = 0.25
 """A picture with depth is handed out rather than one newer by so little without."""
 DEPTH_GONE_S = 2.0
@@ -66,8 +66,10 @@ class _Heard:
 class Pictures:
     """Keep the newest picture and what is to be said of its kind."""
 
-    def __init__(self, camera: Camera, silent_s: float = SILENT_S) -> None:
-        self._camera, self._silent_s = camera, silent_s
+    def __init__(self, camera: Camera, rate_hz: float = 10.0) -> None:
+        """Take pictures of a camera that is to send so many a second."""
+        self._camera = camera
+        self._silent_s, self._lies_s = max(SILENT_S, 2.5 / rate_hz), 0.5 / rate_hz
         self._heard: _Heard | None = None
         self._depth: tuple[Image, float] | None = None
         self._whole: Picture | None = None
@@ -106,9 +108,15 @@ class Pictures:
         self._join()
 
     def ready(self, now_s: float) -> Picture | None:
-        """Hand out the newest picture, once, if it is worth thinking upon."""
+        """Hand out the newest picture, once, if it is worth thinking upon.
+
+        One that lies here for half a period already is left: the next comes sooner than that one
+        is as old again.
+        """
         heard = self._heard
         if heard is None or heard.offered or self._repeats >= FROZEN_AFTER:
+            return None
+        if not now_s - heard.heard_s <= self._lies_s:
             return None
         if not now_s - heard.picture.taken_s <= OLDEST_S:
             self._pass("stale")
