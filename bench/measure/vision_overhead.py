@@ -1,0 +1,219 @@
+"""Measure what a look costs beside the bare model: the same model, threads and frames, by turns.
+
+Raw is ``session.run`` on an input that lies ready in the cache. A look is all that Pons does: fit
+the picture in, run, read the output, suppress, name colours; a second row unpacks the JPEG too. Not
+in either: depth, and the pipe between the processes, which has a row of its own.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from statistics import median
+from typing import TYPE_CHECKING, Any
+
+from bench.processes import rss_mb
+from bench.report import Row, row_of
+from planner.settings import VisionSettings
+from planner.vision import VisionWorker
+from planner.vision.worker import DEFAULT_MODEL
+from pons.settings import CHECKOUT
+from wire import Image, ImageHeader
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from bench.lab import Lab
+
+NAME = "vision_overhead"
+TITLE = "looks beside the bare model, and the vision process's memory"
+LONG_ONLY = False
+OUTSIDE = CHECKOUT.parent / "shared" / "data"
+SIZE = (320, 240)
+"""The camera's, as robot.toml has it."""
+FRAMES = 8
+THREADS = 1
+GOAL = "<= 5 %"
+GOAL_MEMORY = "<= 180"
+LOOKS = 60
+WAYS = ("raw", "look", "jpeg", "opencv")
+
+
+@dataclass(frozen=True)
+class Subject:
+    """One model to measure."""
+
+    name: str
+    model: Path
+    labels: Path | None = None
+
+
+def measure(lab: Lab) -> list[Row]:
+    """Measure each model that is there."""
+    rows: list[Row] = []
+    for subject in _subjects():
+        if subject.model.is_file():
+            rows += _measured(lab, subject)
+        else:
+            note = f"no {subject.model.name} here"
+            rows.append(Row(subject.name, "", GOAL, value="none", note=note, valid=False))
+    return rows
+
+
+def _measured(lab: Lab, subject: Subject) -> list[Row]:
+    rounds = lab.count(12, 40)
+    rows: list[Row] = []
+    for data in lab.slices(f"rounds.{subject.name}", 1, lambda _: _rounds(subject, rounds)):
+        rows += _time_rows(subject, data)
+    for data in lab.slices(f"worker.{subject.name}", 1, lambda _: _worker(subject)):
+        rows += _worker_rows(subject, data)
+    return rows
+
+
+def _subjects() -> tuple[Subject, ...]:
+    labels = OUTSIDE / "models" / "coco_classes.txt"
+    return (
+        Subject("yolox_nano", OUTSIDE / "models" / "yolox_nano.onnx", labels),
+        Subject("default", DEFAULT_MODEL),
+    )
+
+
+def _time_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
+    raw = data["raw"]
+    base = f"{FRAMES} frames of {SIZE[0]}x{SIZE[1]}, {THREADS} thread, per frame, by rounds"
+    rows = [row_of(f"{subject.name}: raw session.run", "ms", "", raw, base)]
+    for way, inside in (
+        ("look", "fit in, run, read, suppress, colours"),
+        ("jpeg", "the same and unpacking the JPEG"),
+    ):
+        over = [100 * (one / bare - 1) for one, bare in zip(data[way], raw, strict=True)]
+        rows.append(row_of(f"{subject.name}: {way} over raw", "%", GOAL, over, inside))
+    if data["opencv"]:
+        rows.append(
+            row_of(f"{subject.name}: OpenCV's dnn", "ms", "", data["opencv"], "forward alone")
+        )
+    else:
+        rows.append(
+            Row(f"{subject.name}: OpenCV's dnn", "ms", "", value="none", note=data["refused"])
+        )
+    return rows
+
+
+def _worker_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
+    pipe = f"{LOOKS} looks; what asking adds to what the process itself takes"
+    return [
+        row_of(f"{subject.name}: asking the process", "ms", "", data["pipe_ms"], pipe),
+        row_of(f"{subject.name}: process's memory", "MB", GOAL_MEMORY, data["rss_mb"], "resident"),
+    ]
+
+
+def _rounds(subject: Subject, count: int) -> dict[str, Any]:
+    """Return milliseconds a frame of each way, round by round, the ways in turning order."""
+    import numpy as np
+
+    from planner.vision.detect import Detector, Wanted, unpack_color
+
+    detector = Detector(Wanted(subject.model, subject.labels, provider="cpu", threads=THREADS))
+    jpegs = frames()
+    pictures: list[Any] = [unpack_color(jpeg) for jpeg in jpegs]
+    inputs = [detector.prepare(picture).copy() for picture in pictures]
+    buffer = detector.prepare(pictures[0])
+    session, feeds = detector.model.session, detector.feeds(buffer)
+    network, refused = _opencv(subject.model)
+
+    def ready(number: int) -> None:
+        np.copyto(buffer, inputs[number])  # as a look leaves it: in the cache
+
+    def opencv(number: int) -> None:
+        network.setInput(inputs[number])
+        network.forward(network.getUnconnectedOutLayersNames())
+
+    ways: dict[str, tuple[Callable[[int], Any], Callable[[int], Any]]] = {
+        "raw": (ready, lambda _: session.run(feeds)),
+        "look": (_nothing, lambda number: detector.find(pictures[number])),
+        "jpeg": (_nothing, lambda number: detector.look(jpegs[number])),
+    }
+    if network is not None:
+        ways["opencv"] = (_nothing, opencv)
+    found: dict[str, Any] = {way: [] for way in WAYS} | {"refused": refused}
+    for turn in range(count + 1):
+        order = list(ways)[turn % len(ways) :] + list(ways)[: turn % len(ways)]
+        for way in order:
+            took_ms = _frame_ms(*ways[way])
+            if turn:  # the first warms everything up
+                found[way].append(took_ms)
+    return found
+
+
+def _nothing(_: int) -> None:
+    """Get nothing ready."""
+
+
+def _frame_ms(ready: Callable[[int], Any], work: Callable[[int], Any]) -> float:
+    """Return the median over the frames, so that one frame's bad luck is not the round's."""
+    took_ms = []
+    for number in range(FRAMES):
+        ready(number)
+        began_s = time.perf_counter()
+        work(number)
+        took_ms.append((time.perf_counter() - began_s) * 1e3)
+    return median(took_ms)
+
+
+def _opencv(model: Path) -> tuple[Any, str]:
+    """Return OpenCV's own reading of a model, or why there is none."""
+    import cv2
+
+    try:
+        return cv2.dnn.readNetFromONNX(str(model)), ""
+    except cv2.error as error:
+        return None, f"it can't read the model: {' '.join(str(error).split())[-80:]}"
+
+
+def frames() -> Sequence[bytes]:
+    """Return pictures as a camera sends them: rooms where there are photographs, else noise."""
+    import cv2
+    import numpy as np
+
+    paths = sorted((OUTSIDE / "images").glob("*.jpg"))[:FRAMES]
+    read = [cv2.imread(str(path)) for path in paths]
+    pictures: list[Any] = [
+        cv2.resize(picture, SIZE, interpolation=cv2.INTER_AREA)
+        for picture in read
+        if picture is not None
+    ]
+    rng = np.random.default_rng(6)
+    while len(pictures) < FRAMES:
+        coarse = rng.integers(0, 255, (12, 16, 3), np.uint8)
+        pictures.append(cv2.resize(coarse, SIZE, interpolation=cv2.INTER_CUBIC))
+    return [cv2.imencode(".jpg", picture)[1].tobytes() for picture in pictures]
+
+
+def _worker(subject: Subject) -> dict[str, Any]:
+    """Ask a process of its own; return what asking costs and what it holds in memory."""
+    settings = VisionSettings(
+        model=subject.model, labels=subject.labels, provider="cpu", threads=THREADS
+    )
+    return asyncio.run(_asked(VisionWorker(settings)))
+
+
+async def _asked(worker: VisionWorker) -> dict[str, Any]:
+    jpegs = frames()
+    header = ImageHeader(
+        boot_id="bench", seq=1, stamp_s=0.0, width=SIZE[0], height=SIZE[1],
+        focal_px=SIZE[0], center_x_px=SIZE[0] / 2, center_y_px=SIZE[1] / 2,
+    )  # fmt: skip
+    pipe_ms, used_mb = [], []
+    await worker.start()
+    try:
+        for number in range(LOOKS):
+            began_s = time.perf_counter()
+            result = await worker.look(Image(header, jpegs[number % FRAMES]), None)
+            pipe_ms.append((time.perf_counter() - began_s - result.took_s) * 1e3)
+            if number % 10 == 9 and worker.pid is not None:
+                used_mb.append(rss_mb(worker.pid))
+    finally:
+        await worker.close()
+    return {"pipe_ms": pipe_ms, "rss_mb": used_mb}
