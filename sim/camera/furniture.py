@@ -201,5 +201,5 @@ def cabinet(size: Size, coat: Coat) -> list[Part]:
         low, high = -y + index * width + 0.01, -y + (index + 1) * width - 0.01
         knob = high - 0.06 if index % 2 == 0 else low + 0.06
         parts.append(block((x - 0.02, x - 0.005), (low, high), (0.05, top - 0.05), coat.main))
-        parts.append(ball((x - 0.005, knob, 0.6 * top), 0.015, coat.metal))
+        parts.append(ball((x - 0.015, knob, 0.6 * top), 0.015, coat.metal))
     return parts

@@ -81,6 +81,8 @@ class Renderer:
     def _cast_things(self, view: View, canvas: Canvas, moved: dict[str, Pose2 | None]) -> None:
         placed = [self._placed(thing, moved) for thing in self._things]
         present = [index for index, at in enumerate(placed) if at is not None]
+        if not present:
+            return
         at = np.array([placed[index] for index in present])
         windows = view.windows(_carried(self._corners[present], at))
         seen = [(w[2], k) for k, w in enumerate(windows) if w is not None]
