@@ -28,6 +28,7 @@ from planner.mission.skills.seen import (
     wanted_of,
 )
 from planner.mission.skills.tell import called
+from planner.mission.skills.unanswered import not_pointed
 from planner.plan import Bilingual, Code, Found, message, same
 from planner.vision.kinds import kind_of
 from planner.vision.records import Thing
@@ -173,7 +174,5 @@ def _pointed(scene: Scene, pose: Pose2) -> Act:
     if scene.answer is None:  # interrupted before the answer was used
         return Inquire(words, point=True, then=notes)
     if scene.answer.at is None:
-        why = Bilingual(en="The vision model does not see it here.", zh="视觉模型在这里没有看到。")
-        said = message(Code.NOT_FOUND, thing=same(words), looked=why)
-        return Cannot(Code.NOT_FOUND, scene.answer.failure or "not_found", said)
+        return not_pointed(words, scene.answer)
     return set_off(scene, pose, notes, scene.answer.at)

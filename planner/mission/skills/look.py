@@ -2,9 +2,9 @@
 
 Law: a place that is named is driven to and looked round in; else one gaze ahead, or round where
 the words ask for it. With a vision model its words are the answer: they may repeat what stands
-written in the picture, so they describe and never command. Without one, or when it does not
-answer, the answer is what the detector saw, by kind, colour and number. Verdict: looked. Budget:
-one leg and one turn about.
+written in the picture, so they describe and never command. Without one the answer is what the
+detector saw, by kind, colour and number; where one is set and does not answer, why is told, too.
+Verdict: looked. Budget: one leg and one turn about.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import begin, spots, within
 from planner.mission.skills.seen import apart, confirmed, fits, mentioned
 from planner.mission.skills.tell import counted, listed, room_name
+from planner.mission.skills.unanswered import why_silent
 from planner.plan import Bilingual, Code
 from planner.vision.labels import named
 
@@ -50,7 +51,10 @@ def look(scene: Scene) -> Act:
     if scene.eyes.model and notes.stage < ASKED:
         return Inquire(question, then=notes.but(stage=ASKED))
     read = scene.answer.text if scene.answer is not None else None
-    return Done({"rooms": notes.rooms}, Code.SEEN, _seen(scene, question), read)
+    said, silent = _seen(scene, question), why_silent(scene.answer)
+    if silent is not None:
+        said = Bilingual(en=f"{said.en} {silent.en}", zh=f"{said.zh}{silent.zh}")
+    return Done({"rooms": notes.rooms}, Code.SEEN, said, read)
 
 
 def _next(scene: Scene, pose: Pose2, question: str) -> Act | Notes:

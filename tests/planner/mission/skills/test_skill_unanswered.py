@@ -1,0 +1,66 @@
+"""Check that a person hears why a model did not look, and why a point leads nowhere."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.brain.reasons import reason
+from planner.mission.skills import Scene
+from planner.mission.skills.act import Cannot, Done
+from planner.mission.skills.eyesight import Answer, Eyesight
+from planner.mission.skills.go_to_object import ANSWER, go_to_object
+from planner.mission.skills.look import ASKED, look
+from planner.mission.skills.notes import NOTHING
+from planner.plan import Code, same
+from tests.planner.mission.skills.scenes import scene
+from wire import CameraConfig
+
+EYES = Eyesight(CameraConfig(), ("cup",), model=True)
+SEEN = "I see nothing that I know"
+
+
+def after(kind: str, stage: int, answer: Answer, **step: str) -> Scene:
+    """Return a scene in which the model was asked."""
+    notes = NOTHING.but(stage=stage)
+    return scene(kind, step=step, notes=notes, eyes=EYES, answer=answer)
+
+
+@pytest.mark.parametrize(
+    "code", ["pictures_offhost", "no_pictures", "timeout", "out_of_budget", "bad_plan"]
+)
+def test_the_detector_speaks_and_says_why(code: str) -> None:
+    act = look(after("look", ASKED, Answer(failure=code), text="what is there?"))
+    assert isinstance(act, Done)
+    assert act.said is not None
+    assert act.said.en.startswith(SEEN)
+    assert act.said.en.endswith(reason(code).en)
+    assert act.said.zh.endswith(reason(code).zh)
+    assert act.read is None
+
+
+@pytest.mark.parametrize("answer", [Answer(text=same("a sofa")), Answer(failure="camera_silent")])
+def test_nothing_is_excused_where_nothing_went_wrong(answer: Answer) -> None:
+    act = look(after("look", ASKED, answer, text="what is there?"))
+    assert isinstance(act, Done)
+    assert act.said is not None
+    assert act.said.en.startswith(SEEN)
+    assert len(act.said.en) < len(SEEN) + 20
+    assert act.read == answer.text, "a model's words stand apart"
+
+
+@pytest.mark.parametrize(
+    ("failure", "code", "told"),
+    [
+        ("not_in_picture", Code.NOT_FOUND, "does not see it"),
+        ("pictures_offhost", Code.NOT_FOUND, reason("pictures_offhost").en),
+        ("no_pictures", Code.NOT_FOUND, reason("no_pictures").en),
+        ("point_on_wall", Code.POINT_REFUSED, "wall"),
+        ("point_off_map", Code.POINT_REFUSED, "outside"),
+    ],
+)
+def test_a_model_s_point_that_leads_nowhere_says_why(failure: str, code: Code, told: str) -> None:
+    act = go_to_object(after("go_to_object", ANSWER, Answer(failure=failure), object="dragon"))
+    assert isinstance(act, Cannot)
+    assert (act.code, act.reason) == (code, failure)
+    assert act.said is not None
+    assert told in act.said.en
