@@ -77,7 +77,7 @@ PIECES = {
 
 ROOMS: dict[str, tuple[tuple[str, float], ...]] = {
     "living": (
-        ("sofa", 0.95), ("tv", 0.7), ("low_table", 0.7), ("armchair", 0.5), ("armchair", 0.3),
+        ("sofa", 0.95), ("tv", 0.85), ("low_table", 0.7), ("armchair", 0.5), ("armchair", 0.3),
         ("plant", 0.5), ("cabinet", 0.5), ("shelf", 0.4), ("sofa", 0.2), ("crate", 0.15),
     ),
     "kitchen": (
@@ -86,7 +86,7 @@ ROOMS: dict[str, tuple[tuple[str, float], ...]] = {
     ),
     "bedroom": (
         ("bed", 0.97), ("wardrobe", 0.7), ("cabinet", 0.6), ("chair", 0.35), ("plant", 0.3),
-        ("tv", 0.3), ("desk", 0.25), ("crate", 0.2), ("bench", 0.3),
+        ("tv", 0.4), ("desk", 0.3), ("crate", 0.2), ("bench", 0.3),
     ),
     "study": (
         ("desk", 0.9), ("chair", 0.6), ("shelf", 0.8), ("crate", 0.4), ("plant", 0.4),

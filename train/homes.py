@@ -51,10 +51,10 @@ def _declared(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
         for words, item in furnished(random, kind, floor, bare=bare):
             furniture[f"{words}_{len(furniture)}"] = item | color(random, 0.6)
         if not bare:
-            objects += on_floor(random, floor, random.choice((0, 0, 1, 1, 2, 3)))
-            folk += people(random, floor, random.choice((0, 0, 0, 1, 1, 2)))
+            objects += on_floor(random, floor, random.choice((0, 1, 1, 2, 2, 3)))
+            folk += people(random, floor, random.choice((0, 0, 1, 1, 2)))
     if not bare:
-        objects += on_furniture(random, furniture, random.randint(4, 22))
+        objects += on_furniture(random, furniture, random.randint(8, 30))
         objects += _hung(random, rooms)
     first = next(iter(rooms.values()))
     return {
@@ -81,9 +81,9 @@ def _plan(
     rooms: dict[str, dict[str, Any]] = {}
     doors: list[dict[str, Any]] = []
     floors: dict[str, Floor] = {}
-    x, deep = 0.0, round(random.uniform(3.0, 5.5), 2)
+    x, deep = 0.0, round(random.uniform(2.8, 5.2), 2)
     for index in range(random.choice((1, 2, 2, 3, 3, 4))):
-        wide = round(random.uniform(2.8, 5.5), 2)
+        wide = round(random.uniform(2.6, 5.0), 2)
         name = f"room_{index}"
         box = [round(x, 2), 0.0, round(x + wide, 2), deep]
         pose = [round(x + wide / 2, 2), round(deep / 2, 2), float(random.choice((0, 90, -90)))]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from sim.site import Home, Solid
 
-LOOKED_AT = 0.7
+LOOKED_AT = 0.75
 NEAR_M, FAR_M = 0.5, 6.0
 AIM_RAD = 0.3
 """How far off the middle of the picture a thing that is looked at lies, one standard deviation."""
@@ -96,7 +96,7 @@ class Views:
                 continue
             away = hypot(target.x_m - pose.x_m, target.y_m - pose.y_m)
             # Near views are as likely as far ones: there is more floor far away.
-            if NEAR_M <= away <= FAR_M and random.random() < min(1.0, 1.2 / away):
+            if NEAR_M <= away <= FAR_M and random.random() < min(1.0, 1.8 / away):
                 bearing = atan2(target.y_m - pose.y_m, target.x_m - pose.x_m)
                 return Pose2(pose.x_m, pose.y_m, wrap(bearing + random.gauss(0.0, AIM_RAD)))
         return None
