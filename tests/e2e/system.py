@@ -26,7 +26,7 @@ from tests.e2e.polling import until
 ROOT = Path(__file__).resolve().parents[2]
 TWO_ROOM = ROOT / "sites" / "two_room"
 HOME_SITE = ROOT / "sites" / "home"
-CHILDREN = ("sim", "localization", "bridge", "planner")
+CHILDREN = ("sim", "localization", "bridge", "planner", "sim.camera")
 START_LIMIT_S = 40.0
 GONE_LIMIT_S = 10.0
 ENDED = ("succeeded", "failed", "refused", "cancelled")

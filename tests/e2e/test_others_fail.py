@@ -8,7 +8,9 @@ import pytest
 
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
-from wire import Mode
+from wire import Image, Mode, keys
+from wire.keys import Party
+from wire.session import open_session
 
 pytestmark = pytest.mark.e2e
 
@@ -64,3 +66,27 @@ def test_a_killed_localization_stops_the_robot_until_it_is_back(robot: Robot) ->
     )
     # The same planner, no stop, no disarm, under 5 s: going on needs no person.
     robot.arrive(place, goal)
+
+
+def test_a_killed_camera_stops_nobody_and_comes_back(robot: Robot) -> None:
+    pid = robot.system.child("sim.camera").pid
+    with open_session(Party.JUDGE, "r1", robot.system.home) as session:
+        pictures = session.image_subscriber(keys.CAMERA_COLOR)
+        before = until(pictures.newest, 20.0, "a picture", robot.system.said)
+        place, goal = robot.drive_off()
+        robot.system.kill("sim.camera")
+        robot.arrive(place, goal)
+        until(
+            lambda: robot.system.child("sim.camera").pid != pid,
+            20.0,
+            "another camera",
+            robot.system.said,
+        )
+        assert isinstance(before, Image)
+        boot = before.header.boot_id
+
+        def another() -> bool:
+            picture = pictures.newest()
+            return isinstance(picture, Image) and picture.header.boot_id != boot
+
+        until(another, 20.0, "its picture", robot.system.said)
