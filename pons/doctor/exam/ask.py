@@ -20,8 +20,9 @@ from planner.mission.facts import vocabulary_of
 from planner.plan import EVERY_KIND, Language
 from planner.settings import BudgetSettings, GoalLimits, Mode, ModelSettings, Settings
 from planner.world import Site
+from pons.doctor.exam.eyes import examine_eyes
 from pons.doctor.exam.questions import QUESTIONS, WORLD, Question
-from pons.doctor.exam.record import Cost, Exam, Marked, Result, Rung
+from pons.doctor.exam.record import Cost, Exam, Eyes, Marked, Result, Rung
 from pons.evals.cases import Case
 from pons.evals.matchers import wanted
 from pons.evals.score import judge
@@ -61,6 +62,7 @@ class _Room:
         """Return a brain that asks in one way, patient to the end of the exam at most."""
         timeout_s = max(0.5, min(self.model.timeout_s, self.left_s))
         changes = {"mode": mode, "timeout_s": timeout_s, "allow_offhost": True}
+        changes["allow_pictures_offhost"] = True  # the exam's own
         return EndpointBrain(self.model.model_copy(update=changes), self.home, meter=self.purse)
 
 
@@ -102,6 +104,7 @@ async def examine(
             room = _Room(purse, model, Path(folder), goal, began_s + caps.seconds, clock)
             rungs = [await _rung(room, mode) for mode in Mode]
             marked = await _answers(room, _best(rungs))
+            eyes = await _eyes(room, _best(rungs))
         spent = purse.usage(goal).goal
     finally:
         purse.close()
@@ -115,7 +118,7 @@ async def examine(
             money=spent.money,
         )
     host = Address.parse(model.url).host
-    return Exam(model.name, host, tuple(rungs), marked, cost, prompt_tokens(site))
+    return Exam(model.name, host, tuple(rungs), marked, eyes, cost, prompt_tokens(site))
 
 
 def _best(rungs: list[Rung]) -> Mode | None:
@@ -150,6 +153,19 @@ async def _answers(room: _Room, mode: Mode | None) -> tuple[Marked, ...]:
     finally:
         await brain.close()
     return tuple(marked)
+
+
+async def _eyes(room: _Room, mode: Mode | None) -> Eyes:
+    if mode is None or room.left_s <= 0.0:
+        return Eyes()
+    brain = room.brain(mode)
+    try:
+        async with asyncio.timeout(room.left_s):
+            return await examine_eyes(brain.looker(), room.goal)
+    except TimeoutError:
+        return Eyes("not_asked", "the time was up")
+    finally:
+        await brain.close()
 
 
 async def _ask(room: _Room, brain: Brain, question: Question) -> Marked:

@@ -58,7 +58,7 @@ def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> st
     return (
         f"The exam asks {model.name} at {host}, which is not this machine: at most {caps.calls} "
         f"calls in {caps.seconds:.0f} s, at most {sent} tokens sent and {written} written "
-        f"({money}). Only the exam's own sentences are sent.\n"
+        f"({money}). Only the exam's own sentences and a drawn picture are sent.\n"
         f"考试将调用 {host} 上的 {model.name}：最多 {caps.calls} 次、{caps.seconds:.0f} 秒，"
-        f"最多发送 {sent}、生成 {written} 个 token。只发送考题本身。"
+        f"最多发送 {sent}、生成 {written} 个 token。只发送考题本身和一张绘制的图。"
     )

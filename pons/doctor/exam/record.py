@@ -34,6 +34,15 @@ class Marked:
 
 
 @dataclass(frozen=True, slots=True)
+class Eyes:
+    """Say what a model made of a picture."""
+
+    result: Literal["right", "wrong", "none", "no_answer", "not_asked"] = "not_asked"
+    """``none``: it takes no pictures. ``wrong``: it takes them and does not see."""
+    why: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Cost:
     """Hold what the exam cost."""
 
@@ -53,6 +62,7 @@ class Exam:
     host: str
     rungs: tuple[Rung, ...] = ()
     marked: tuple[Marked, ...] = ()
+    eyes: Eyes = Eyes()
     cost: Cost = field(default_factory=Cost)
     prompt_tokens_here: int = 0
     """Of one call with this robot's own places."""

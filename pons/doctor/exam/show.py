@@ -19,6 +19,7 @@ def table(exam: Exam, found: Grade, currency: str | None) -> str:
         right = sum(m.result == "right" for m in asked)
         rows.append((part.value, f"{right} of {len(asked)} right" if asked else "not asked"))
     rows += [
+        ("pictures", _eyes(exam)),
         ("latency", _latency(exam)),
         ("tokens", _tokens(exam)),
         ("cost", _cost(exam, currency)),
@@ -51,6 +52,7 @@ def content(exam: Exam, found: Grade, currency: str | None) -> str:
             }
             for part in Part
         },
+        "pictures": asdict(exam.eyes),
         "latency_s": {
             "n": len(latencies),
             "p50": percentile(latencies, 0.50) if latencies else None,
@@ -79,6 +81,17 @@ def _modes(exam: Exam) -> str:
         return "yes" if right else f"taken, but {why}" if taken else f"no ({why})"
 
     return " · ".join(f"{r.mode} {word(r.right, r.taken, r.why[:60])}" for r in exam.rungs)
+
+
+def _eyes(exam: Exam) -> str:
+    word = {
+        "right": "seen: a drawn disc was named and pointed at",
+        "wrong": "taken, but not seen",
+        "none": "not taken",
+        "no_answer": "no answer",
+        "not_asked": "not asked",
+    }[exam.eyes.result]
+    return f"{word} ({exam.eyes.why})" if exam.eyes.why else word
 
 
 def _latency(exam: Exam) -> str:

@@ -5,14 +5,19 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import cast
 
 import pytest
 
+from planner.brain import BrainDown, PlanRejected
+from planner.brain.jpeg import jpeg_size
+from planner.brain.looking import Described, Looker, NotSent, NotThere, Pointed
 from planner.budget import Ledger, Purse
 from planner.budget.day import utc_date
 from planner.budget.purse import OpenCall
+from planner.plan import BrainTag, same
 from planner.settings import (
     FILE,
     BudgetSettings,
@@ -25,6 +30,7 @@ from planner.settings import (
 from pons.__main__ import main
 from pons.doctor.exam import command, show
 from pons.doctor.exam.ask import PROMPT_TOKENS, Caps, examine
+from pons.doctor.exam.eyes import DISC, PICTURE, examine_eyes
 from pons.doctor.exam.grade import grade
 from pons.doctor.exam.questions import QUESTIONS, WORLD, Part
 from pons.doctor.exam.record import Exam, Marked, Result, Rung
@@ -64,6 +70,7 @@ def test_a_good_model_takes_every_mode_and_pays_for_its_calls(
     assert ledger.of_day(today).calls == exam.cost.calls > len(QUESTIONS)
     ledger.close()
     assert not (tmp_path / "model_dialects.json").exists()
+    assert exam.eyes.result == "wrong", "the mock takes pictures and has no eyes"
 
 
 @pytest.mark.parametrize(
@@ -83,6 +90,49 @@ def test_a_model_with_a_fault_is_graded_down(
     found = grade(exam)
     assert found.letter in letters
     assert all(reason.words.en and reason.words.zh for reason in found.reasons)
+
+
+TAG = BrainTag(name="m", version="1")
+
+
+@dataclass
+class Scripted:
+    """Look as a script says."""
+
+    words: str = "A red disc."
+    at: Pointed | NotThere = field(default_factory=lambda: Pointed(*DISC, TAG))
+    failure: Exception | None = None
+    tag: BrainTag = TAG
+
+    async def describe(self, *_: object, goal: str) -> Described:
+        assert goal == "exam"
+        if self.failure is not None:
+            raise self.failure
+        return Described(same(self.words), None, TAG)
+
+    async def point(self, *_: object, goal: str) -> Pointed | NotThere:
+        return self.at
+
+
+@pytest.mark.parametrize(
+    ("looker", "result", "why"),
+    [
+        (Scripted(), "right", ""),
+        (Scripted(at=Pointed(740, 500, TAG)), "wrong", "(740, 500)"),
+        (Scripted(at=NotThere(TAG)), "wrong", "nowhere"),
+        (Scripted("I see a red and a blue thing."), "wrong", "blue"),
+        (Scripted("A nice cat."), "wrong", "cat"),
+        (Scripted(failure=NotSent("x", why="no_pictures")), "none", "no_pictures"),
+        (Scripted(failure=BrainDown("x", why="timeout")), "no_answer", "timeout"),
+        (Scripted(failure=PlanRejected("twice")), "no_answer", "twice"),
+    ],
+)
+def test_whether_a_model_sees_is_found_out(looker: Scripted, result: str, why: str) -> None:
+    assert jpeg_size(PICTURE.jpeg) == (PICTURE.width, PICTURE.height)
+    eyes = asyncio.run(examine_eyes(cast("Looker", looker), "exam"))
+    assert eyes.result == result
+    assert why in eyes.why
+    assert why in show.table(replace(exam_of(), eyes=eyes), grade(exam_of()), None)
 
 
 @pytest.mark.parametrize(
