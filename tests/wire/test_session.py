@@ -171,3 +171,14 @@ def test_the_newest_picture_comes_whole_with_its_header(tmp_path: Path) -> None:
 
         assert until(heard)
         assert seen[-1] == Image(header, b"picture" * 1000)
+
+
+def test_a_picture_is_wanted_while_somebody_listens(tmp_path: Path) -> None:
+    with open_session(Party.CAMERA, "r1", tmp_path) as camera:
+        mouth = camera.image_publisher(CAMERA_COLOR)
+        assert not mouth.wanted
+        with open_session(Party.PLANNER, "r1", tmp_path) as planner:
+            ears = planner.image_subscriber(CAMERA_COLOR)
+            assert until(lambda: mouth.wanted)
+            assert ears.newest() is None
+        assert until(lambda: not mouth.wanted)
