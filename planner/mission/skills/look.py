@@ -43,7 +43,7 @@ def look(scene: Scene) -> Act:
     question = scene.step.text or ""
     scene = begin(scene, pose, None)
     notes = scene.notes
-    if notes.stage < GAZED:
+    if notes.stage < GAZED and not _model_alone(scene):
         next_ = _next(scene, pose, question)
         if not isinstance(next_, Notes):
             return next_
@@ -55,6 +55,12 @@ def look(scene: Scene) -> Act:
     if silent is not None:
         said = Bilingual(en=f"{said.en} {silent.en}", zh=f"{said.zh}{silent.zh}")
     return Done({"rooms": notes.rooms}, Code.SEEN, said, read)
+
+
+def _model_alone(scene: Scene) -> bool:
+    """Tell whether nothing but the model can say what is ahead: no gaze would ever end."""
+    alone = scene.eyes.model and scene.sight.blind == "no_detector"
+    return alone and scene.step.place is None
 
 
 def _next(scene: Scene, pose: Pose2, question: str) -> Act | Notes:

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from planner.brain.reasons import reason
 from planner.mission.skills import Scene
-from planner.mission.skills.act import Cannot, Done
+from planner.mission.skills.act import Cannot, Done, Inquire
 from planner.mission.skills.eyesight import Answer, Eyesight
 from planner.mission.skills.go_to_object import ANSWER, go_to_object
 from planner.mission.skills.look import ASKED, look
 from planner.mission.skills.notes import NOTHING
 from planner.plan import Code, same
+from planner.vision import Sight
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig
 
 EYES = Eyesight(CameraConfig(), ("cup",), model=True)
+NONE = "no_detector"
 SEEN = "I see nothing that I know"
 
 
@@ -46,6 +50,20 @@ def test_nothing_is_excused_where_nothing_went_wrong(answer: Answer) -> None:
     assert act.said.en.startswith(SEEN)
     assert len(act.said.en) < len(SEEN) + 20
     assert act.read == answer.text, "a model's words stand apart"
+
+
+def test_a_model_looks_alone_where_there_is_no_detector() -> None:
+    """No gaze would ever end there; a place that is named still has to be looked round in."""
+    ahead = scene("look", step={"text": "what is there?"}, eyes=EYES, sight=Sight(blind=NONE))
+    act = look(ahead)
+    assert isinstance(act, Inquire)
+    assert (act.words, act.point) == ("what is there?", False)
+    for other in (Sight(blind="camera_silent"), Sight()):
+        assert not isinstance(look(replace(ahead, sight=other)), Inquire)
+    there = scene(
+        "look", step={"text": "?", "place": "kitchen"}, eyes=EYES, sight=Sight(blind=NONE)
+    )
+    assert not isinstance(look(there), Inquire)
 
 
 @pytest.mark.parametrize(
