@@ -1,0 +1,343 @@
+"""Hold free space to points that are placed one by one, and to beams that are counted one by one.
+
+A lidar of 360 beams, one a degree, beam 0 ahead; what is not said otherwise came back from 7 m.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import asin, cos, degrees, hypot, inf, radians, sin
+
+import pytest
+
+from bridge.core import freespace
+from bridge.core.freespace import NOTHING_KNOWN, FreeLength, free_length
+from bridge.core.scanpicture import ScanPicture, Sector
+from wire import IDENTITY, Pose2, Scan, Twist2
+from wire.robot import LidarConfig
+
+RADIUS_M, DISC_M, REACH_M = 0.3, 0.35, 2.0
+EPS = 1e-6
+AHEAD, BACK = Twist2(0.5, 0.0), Twist2(-0.5, 0.0)
+
+
+@lru_cache(maxsize=64)
+def one_point(degree: int, range_m: float) -> ScanPicture:
+    return picture({degree: range_m})
+
+
+def picture(
+    seen: dict[int, float | None],
+    lidar: LidarConfig | None = None,
+    *,
+    first: int = 0,
+    count: int = 360,
+    others: float | None = 7.0,
+) -> ScanPicture:
+    """Return a scan's picture; ``seen`` tells the beams by degree that differ from the others."""
+    ranges = tuple(seen.get((first + i) % 360, others) for i in range(count))
+    scan = Scan(
+        boot_id="a",
+        seq=1,
+        stamp_s=0.0,
+        angle_min_rad=radians(first),
+        angle_increment_rad=radians(1),
+        range_min_m=0.12,
+        range_max_m=8.0,
+        ranges_m=ranges,
+    )
+    return ScanPicture.from_scan(scan, IDENTITY, lidar or LidarConfig())
+
+
+def centre(start: Pose2, twist: Twist2, gone_m: float) -> tuple[float, float]:
+    """Return where the disc is after so much of the arc, by the circle's centre."""
+    sign = 1.0 if twist.v_mps > 0.0 else -1.0
+    if twist.w_radps == 0.0:
+        along = sign * gone_m
+        return start.x_m + along * cos(start.yaw_rad), start.y_m + along * sin(start.yaw_rad)
+    radius = twist.v_mps / twist.w_radps
+    yaw = start.yaw_rad + sign * gone_m / radius
+    return (
+        start.x_m + radius * (sin(yaw) - sin(start.yaw_rad)),
+        start.y_m - radius * (cos(yaw) - cos(start.yaw_rad)),
+    )
+
+
+def walked_m(points: list[tuple[float, float]], start: Pose2, twist: Twist2) -> float:
+    """Walk the arc until the disc touches a point, and halve the last step until it is told."""
+
+    def touches(gone_m: float) -> bool:
+        x, y = centre(start, twist, gone_m)
+        return any(hypot(px - x, py - y) < DISC_M for px, py in points)
+
+    for step in range(201):
+        if touches(step * 0.01):
+            low, high = (step - 1) * 0.01, step * 0.01
+            for _ in range(40):
+                middle = (low + high) / 2
+                low, high = (low, middle) if touches(middle) else (middle, high)
+            return high
+    return REACH_M
+
+
+STARTS = (IDENTITY, Pose2(0.1, -0.05, 0.4), Pose2(-0.08, 0.1, -2.5))
+WAYS = (
+    AHEAD, BACK, Twist2(0.5, 0.5), Twist2(0.5, -0.5), Twist2(-0.4, 0.6), Twist2(0.3, 1.0),
+    Twist2(0.3, -1.0), Twist2(-0.3, -1.0), Twist2(0.1, 1.0), Twist2(-0.1, 0.8),
+)  # fmt: skip
+PLACED = ((0, 0.6), (8, 1.2), (352, 1.9), (30, 0.8), (75, 0.55), (110, 0.7), (180, 1.0),
+          (200, 0.6), (265, 0.7), (330, 1.5), (45, 2.3), (300, 0.5))  # fmt: skip
+
+
+@pytest.mark.parametrize("start", STARTS)
+@pytest.mark.parametrize("twist", WAYS)
+def test_a_point_ends_the_arc_where_the_disc_touches_it(start: Pose2, twist: Twist2) -> None:
+    for degree, range_m in PLACED:
+        point = (range_m * cos(radians(degree)), range_m * sin(radians(degree)))
+        if hypot(point[0] - start.x_m, point[1] - start.y_m) < DISC_M:
+            continue
+        free = free_length(one_point(degree, range_m), start, twist, RADIUS_M)
+        expected = walked_m([point], start, twist)
+        assert free.s_m == pytest.approx(expected, abs=1e-5), (degree, range_m)
+        assert (free.covered, free.touching) == (True, False)
+        nearer = free_length(one_point(degree, range_m), start, twist, RADIUS_M, 0.4)
+        assert nearer.s_m == pytest.approx(min(0.4, expected), abs=1e-5), (degree, range_m)
+    several = {degree: range_m for degree, range_m in PLACED if range_m >= 0.7}
+    points = [(r * cos(radians(d)), r * sin(radians(d))) for d, r in several.items()]
+    assert free_length(picture(dict(several)), start, twist, RADIUS_M).s_m == pytest.approx(
+        walked_m(points, start, twist), abs=1e-5
+    )
+
+
+def test_the_lidar_beside_the_middle_moves_the_points_with_it() -> None:
+    lidar = LidarConfig(x_m=0.2, y_m=0.1)
+    made = picture({0: 1.0}, lidar)  # a point at (1.2, 0.1)
+    expected = 1.2 - (DISC_M**2 - 0.1**2) ** 0.5
+    assert free_length(made, IDENTITY, AHEAD, RADIUS_M).s_m == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    ("twist", "moved", "known"),
+    [
+        (AHEAD, 1.0, True),
+        (AHEAD, 1.0 + EPS, False),
+        (Twist2(inf, 0.0), 0.0, False),
+        (Twist2(0.5, inf), 0.0, False),
+        (Twist2(0.5, 0.6e9), 0.0, False),
+        (Twist2(1e-4, 0.0), 0.0, True),
+    ],
+)
+def test_what_cannot_be_judged_is_not_free(twist: Twist2, moved: float, known: bool) -> None:
+    free = free_length(picture({}), Pose2(0.0, moved, 0.0), twist, RADIUS_M)
+    assert free == (FreeLength(REACH_M, True, True, False) if known else NOTHING_KNOWN)
+
+
+def test_a_turn_in_place_is_free_and_says_what_touches() -> None:
+    for range_m, touching in ((0.36, False), (0.349, True)):
+        made = picture({90: range_m})
+        for twist in (Twist2(0.0, 1.0), Twist2(0.99e-4, 0.0), Twist2(0.0, -1.0)):
+            free = free_length(made, IDENTITY, twist, RADIUS_M, 1.5)
+            assert free == FreeLength(1.5, True, True, touching)
+    there = Pose2(0.0, 0.5, 0.0)  # a turn where it is now, not where it was at the scan
+    assert free_length(picture({90: 0.8}), there, Twist2(0.0, 1.0), RADIUS_M).touching
+    assert not free_length(picture({90: 0.2}), there, Twist2(0.0, 1.0), 0.2).touching
+
+
+@pytest.mark.parametrize(
+    ("radius_m", "twist", "clear"),
+    [
+        (0.34, AHEAD, True),  # 0.34 m ahead: nearer at once
+        (0.34, BACK, False),
+        (0.34, Twist2(0.5, 1.0), True),
+        (0.34, Twist2(-0.5, 1.0), False),
+        (0.305, AHEAD, True),
+    ],
+)
+def test_inside_the_margin_only_what_loses_nothing_goes_on(
+    radius_m: float, twist: Twist2, clear: bool
+) -> None:
+    free = free_length(picture({0: radius_m}), IDENTITY, twist, RADIUS_M)
+    assert (free.s_m, free.touching) == ((0.0, False) if clear else (REACH_M, True))
+
+
+def test_a_loss_of_a_fifth_of_a_millimetre_is_none_but_at_contact() -> None:
+    """Beside a point, 2 cm on, a way that leans towards it by an angle comes that much nearer."""
+    for side, clearance_m, lost_m, free in (
+        (90, 0.34, 1.5e-4, True), (90, 0.34, 2.5e-4, False), (270, 0.34, 1.5e-4, True),
+        (90, 0.3105, 1.5e-4, True), (90, 0.3095, 1.5e-4, False), (90, 0.3095, -1e-5, True),
+    ):  # fmt: skip
+        made = picture({side: clearance_m})
+        lean = asin(lost_m / 0.02 + 0.02 / (2 * clearance_m))
+        start = Pose2(0.0, 0.0, lean if side == 90 else -lean)
+        gone = free_length(made, start, AHEAD, RADIUS_M)
+        assert gone.touching is free, (side, clearance_m, lost_m)
+        assert (gone.s_m == 0.0) is not free
+
+
+@pytest.mark.parametrize(("bend", "free"), [(1.02, True), (1.2, False), (-1.2, True)])
+def test_a_loss_that_begins_after_5_cm_is_one(bend: float, free: bool) -> None:
+    # a circle whose centre lies 0.34 m / bend aside, where the point is: it draws in with the path
+    twist = Twist2(0.1, 0.1 * bend / 0.34)
+    assert free_length(picture({90: 0.34}), IDENTITY, twist, RADIUS_M).touching is free
+
+
+def test_having_passed_beside_something_it_touches_no_nearer() -> None:
+    # 0.34 m aside: what is clear now may stay so, less a millimetre
+    made = picture({90: 0.34, 20: 0.9})
+    x, y = 0.9 * cos(radians(20)), 0.9 * sin(radians(20))
+    expected = x - ((0.34 - 1e-3) ** 2 - y**2) ** 0.5
+    free = free_length(made, IDENTITY, AHEAD, RADIUS_M)
+    assert free.s_m == pytest.approx(expected)
+    assert free.touching
+
+
+def counted(back: set[int], twist: Twist2, first: int = 0, count: int = 360) -> bool:
+    """Tell whether a way is known where these beams alone came back."""
+    seen: dict[int, float | None] = dict.fromkeys([i % 360 for i in back], 7.0)
+    made = picture(seen, first=first, count=count, others=None)
+    return free_length(made, IDENTITY, twist, RADIUS_M).known
+
+
+def span(low: int, high: int) -> set[int]:
+    return set(range(low, high + 1))
+
+
+# half way, 1 m ahead, the disc fills asin(0.35) = 20.49 degrees to either side; 41 beams in all
+# along an arc of 1 m the sector is from 22.50 - 27.21 to 45.00 + 14.33 degrees: 64 beams
+@pytest.mark.parametrize(
+    ("twist", "low", "high"),
+    [
+        (AHEAD, -20, 20),
+        (BACK, 160, 200),
+        (Twist2(0.5, 0.5), -4, 59),
+        (Twist2(0.5, -0.5), -59, 4),
+        (Twist2(-0.5, -0.5), 121, 184),
+        (Twist2(-0.5, 0.5), 176, 239),
+    ],
+)
+def test_a_way_is_known_where_half_of_its_beams_came_back(
+    twist: Twist2, low: int, high: int
+) -> None:
+    need = (high - low + 2) // 2
+    elsewhere = span(high + 1, low + 359)
+    assert counted(span(low, low + need - 1) | elsewhere, twist)
+    assert not counted(span(low + 1, low + need - 1) | elsewhere, twist)
+    assert counted(span(high - need + 1, high) | elsewhere, twist)
+    assert not counted(span(high - need + 1, high - 1) | elsewhere, twist)
+    assert counted(span(low, high), twist)
+    assert not counted(elsewhere, twist)
+
+
+def test_an_end_within_the_disc_is_seen_all_around() -> None:
+    # a circle of 8 cm ends after a quarter turn, 11 cm off: half a turn, about its direction
+    tight = Twist2(0.08, 1.0)
+    low, high = -67, 135  # 90 degrees right of 22.5, half way, and 90 left of 45, at the end
+    need = (high - low + 2) // 2
+    assert counted(span(low, low + need - 1), tight)
+    assert not counted(span(low - 9, low + need - 2), tight)
+    assert counted(span(high - need + 1, high), tight)
+    assert not counted(span(high - need + 2, high + 9), tight)
+
+
+def test_what_lies_within_a_tenth_of_the_disc_has_no_direction() -> None:
+    # the circle's end is 2.8 cm off: no direction but ahead
+    tight = Twist2(0.02, 1.0)
+    assert counted(span(-60, 35), tight)  # 96 of the 180 ahead
+    assert counted(span(-35, 60), tight)
+    assert not counted(span(-40, 45), tight)
+
+
+@pytest.mark.parametrize(
+    ("missing", "disc", "moved", "lidar_x", "few"),
+    [
+        (0, 0.35, 0.0, 0.0, True),
+        (18, 0.35, 0.0, 0.0, True),  # 2 x 20.49 - 3 = 37.97 degrees
+        (19, 0.35, 0.0, 0.0, False),
+        (14, 0.35, 0.1, 0.2, True),  # 2 x asin(0.35 / 1.3) = 31.24 degrees
+        (15, 0.35, 0.1, 0.2, False),
+        (14, 0.35, 0.1, -0.2, True),
+        (15, 0.35, 0.1, -0.2, False),
+        (88, 1.5, 0.0, 0.0, True),
+        (89, 1.5, 0.0, 0.0, False),
+    ],
+)
+def test_so_few_are_missing_that_no_sector_lacks_half(
+    missing: int, disc: float, moved: float, lidar_x: float, few: bool
+) -> None:
+    gone: dict[int, float | None] = dict.fromkeys(range(missing), None)
+    made = picture(gone, LidarConfig(x_m=lidar_x))
+    assert freespace._few_missing(made, disc, moved) is few
+    turned = picture(gone, LidarConfig(y_m=lidar_x))
+    assert freespace._few_missing(turned, disc, moved) is few
+
+
+def test_of_no_beams_none_is_missing_and_nothing_known() -> None:
+    assert not freespace._few_missing(picture({}, count=0), DISC_M, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("first", "count", "twist", "covered"),
+    [
+        (-21, 43, AHEAD, True),
+        (-19, 40, AHEAD, False),
+        (-21, 40, AHEAD, False),
+        (-6, 68, Twist2(0.5, 0.5), True),
+        (-2, 68, Twist2(0.5, 0.5), False),
+        (-60, 66, Twist2(0.5, -0.5), True),
+        (159, 43, BACK, True),
+        (161, 43, BACK, False),
+    ],
+)
+def test_a_way_out_of_the_field_is_not_entered(
+    first: int, count: int, twist: Twist2, covered: bool
+) -> None:
+    made = picture({}, first=first, count=count)
+    free = free_length(made, IDENTITY, twist, RADIUS_M)
+    assert free == FreeLength(REACH_M if covered else 0.0, True, covered, False)
+
+
+@pytest.mark.parametrize(
+    ("first", "count", "middle", "half", "beams"),
+    [
+        (0, 360, 0.0, 10.2, 21), (0, 360, 0.4, 10.2, 20), (0, 360, 180.0, 0.4, 1),
+        (0, 360, 359.9, 10.2, 21), (-90, 181, 0.0, 200.0, 181), (-90, 181, 90.0, 10.2, 11),
+        (-90, 181, -90.0, 10.2, 11), (-90, 181, 180.0, 10.2, 0), (-90, 181, 120.0, 40.2, 11),
+        (200, 360, 195.0, 10.2, 21), (0, 400, 20.0, 10.2, 42), (0, 360, 0.5, -1.0, 0),
+        (0, 360, 3.0, 0.0, 1), (350, 30, 5.0, 90.0, 30), (0, 360, 720.4, 10.2, 20),
+    ],
+)  # fmt: skip
+def test_beams_of_a_sector(first: int, count: int, middle: float, half: float, beams: int) -> None:
+    made = picture({}, first=first, count=count)
+    sector = made.sector(radians(middle), radians(half))
+    assert (sector.beams, sector.returned) == (beams, beams)
+    gone = picture({}, first=first, count=count, others=None).sector(radians(middle), radians(half))
+    assert (gone.beams, gone.returned) == (beams, 0)
+    far = picture({}, first=first, count=count, others=8.0 + EPS)
+    assert far.sector(radians(middle), radians(half)).returned == 0
+
+
+def test_half_of_the_beams_is_enough_and_none_are_not() -> None:
+    assert Sector(4, 2, True).known
+    assert Sector(5, 3, True).known
+    assert not Sector(5, 2, True).known
+    assert not Sector(0, 0, True).known
+
+
+@pytest.mark.parametrize(
+    ("middle", "half", "covered"),
+    [
+        (0.0, 90.9, True), (0.0, 91.6, False), (45.0, 46.0, True), (45.0, 47.1, False),
+        (-45.0, 45.9, True), (-45.0, 46.1, False), (180.0, 1.0, False), (-91.0 + 0.1, 0.0, True),
+        (-91.1, 0.0, False),
+    ],
+)  # fmt: skip
+def test_a_field_covers_a_beam_more_than_it_has(middle: float, half: float, covered: bool) -> None:
+    made = picture({}, first=-90, count=181)  # from -91 to 92 degrees, the spare beam counted
+    assert made.sector(radians(middle), radians(half)).covered is covered
+
+
+def test_a_whole_turn_is_a_turn() -> None:
+    assert picture({}).whole
+    assert picture({}, count=400).whole
+    assert not picture({}, count=359).whole
+    assert degrees(picture({}).step_rad) == pytest.approx(1.0)
