@@ -11,7 +11,7 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 UNITS = ROOT / "deploy" / "systemd"
-PROCESSES = ("sim", "localization", "bridge", "planner")
+PROCESSES = ("sim", "localization", "bridge", "planner", "camera")
 PORT = "8420"
 
 Unit = dict[str, dict[str, list[str]]]

@@ -84,7 +84,7 @@ def test_targets_start_what_is_there() -> None:
     for target in UNITS.glob("*.target"):
         for wanted in unit(target)["Unit"]["Wants"][0].split():
             assert (UNITS / wanted).is_file(), wanted
-    for name in ("sim", "localization"):
+    for name in ("sim", "localization", "camera"):
         assert services()[name]["Install"]["WantedBy"] == ["pons-sim.target"]
 
 
