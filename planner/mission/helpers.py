@@ -12,6 +12,7 @@ from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain
 from planner.mission.events import Planned, Told
 from planner.mission.eyedoor import EyeDoor
 from planner.mission.skills import Way
+from planner.mission.skills.eyesight import Answer
 from planner.plan import Code, Outcome, message
 from planner.route import RouteFailure, RoutePoint, RouteRequest, RouteResult
 
@@ -55,6 +56,7 @@ class Helpers:
         self._router = router
         self._answers = answers
         self._thoughts: dict[str, asyncio.Task[None]] = {}
+        self._inquiries: dict[int, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     def help(self, ask: AskBrain | AskRoute | AskEyes | DropBrain) -> None:
@@ -69,7 +71,12 @@ class Helpers:
             case AskRoute():
                 self.spawn(self._search(ask))
             case AskEyes():
-                self.spawn(self._inquire(ask))
+                self._inquiries[ask.ticket] = self._start(self._inquire(ask))
+
+    def await_answer(self, ticket: int | None) -> None:
+        """Cancel every question about a picture but this one: nobody waits for the others."""
+        for other in [t for t in self._inquiries if t != ticket]:
+            self._inquiries.pop(other).cancel()
 
     def spawn(self, work: Coroutine[Any, Any, None]) -> None:
         """Run something beside, and keep hold of it until it ends."""
@@ -111,7 +118,15 @@ class Helpers:
             self._answers.planned(answer)
 
     async def _inquire(self, ask: AskEyes) -> None:
-        self._answers.told(await self._eyes.ask(ask))
+        try:
+            told = await self._eyes.ask(ask)
+        except Exception:
+            # As with a brain: whatever sees, its fault must not end the planner.
+            log.exception("the eyes failed on goal %s", ask.id)
+            told = Told(ask.id, ask.ticket, Answer(failure="unavailable"))
+        if self._inquiries.get(ask.ticket) is asyncio.current_task():
+            del self._inquiries[ask.ticket]
+            self._answers.told(told)
 
     async def _search(self, ask: AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()

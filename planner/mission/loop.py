@@ -34,7 +34,7 @@ from planner.mission.helpers import Answers, Helpers, Router, Think
 from planner.mission.hub import Hub
 from planner.mission.journal import GoalKey, MissionJournal
 from planner.mission.records import Book, Rules
-from planner.mission.reducer import looks
+from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.safekeeping import Safekeeping
 from planner.mission.sight import at_rest
 from planner.mission.skills import Eyesight
@@ -236,6 +236,8 @@ class Loop:
         for effect in output.effects:
             self._do(effect)
         self._attend()
+        if self._helpers is not None:
+            self._helpers.await_answer(asked_about_picture(self.book))
 
     def _attend(self) -> None:
         """Have the eyes look at their full rate while a step needs them."""

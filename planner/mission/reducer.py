@@ -82,6 +82,12 @@ def wish(book: Book) -> Wish:
     return Wish(mission.id, walk.leg if walk is not None and driven else None)
 
 
+def asked_about_picture(book: Book) -> int | None:
+    """Return the ticket of the question about the picture whose answer is waited for, if one is."""
+    walk = book.walk
+    return walk.ticket if walk is not None and walk.kind == "inquire" else None
+
+
 def looks(book: Book) -> bool:
     """Tell whether the running step needs eyes now."""
     mission = book.missions.get(book.running) if book.running is not None else None

@@ -24,7 +24,8 @@ _UNSEEN = Bilingual(en="The vision model does not see it here.", zh="视觉模�
 
 def why_silent(answer: Answer | None) -> Bilingual | None:
     """Return why the model said nothing, where that is to be told: the detector spoke instead."""
-    return REASONS.get(answer.failure or "") if answer is not None else None
+    failure = answer.failure if answer is not None else None
+    return REASONS.get("timeout" if failure == "timed_out" else failure or "")
 
 
 def point_refused(code: str) -> Cannot:

@@ -30,10 +30,14 @@ def after(kind: str, stage: int, answer: Answer, **step: str) -> Scene:
 
 
 @pytest.mark.parametrize(
-    "code", ["pictures_offhost", "no_pictures", "timeout", "out_of_budget", "bad_plan"]
+    ("failure", "code"),
+    [
+        *((c, c) for c in ("pictures_offhost", "no_pictures", "out_of_budget", "bad_plan")),
+        ("timed_out", "timeout"),
+    ],
 )
-def test_the_detector_speaks_and_says_why(code: str) -> None:
-    act = look(after("look", ASKED, Answer(failure=code), text="what is there?"))
+def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
+    act = look(after("look", ASKED, Answer(failure=failure), text="what is there?"))
     assert isinstance(act, Done)
     assert act.said is not None
     assert act.said.en.startswith(SEEN)

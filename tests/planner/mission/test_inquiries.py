@@ -1,0 +1,114 @@
+"""Check that a question about the picture ends with whoever asked, and can't end the planner."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import cast
+
+import pytest
+
+from planner.mission.effects import AskEyes
+from planner.mission.events import Told
+from planner.mission.eyedoor import EyeDoor
+from planner.mission.helpers import Answers, Helpers, Router, Think
+from planner.mission.records import Book, Walk
+from planner.mission.reducer import asked_about_picture
+from planner.mission.skills.eyesight import Answer
+from planner.plan import Language, same
+from tests.planner.mission.fakes import FACTS
+
+Door = Callable[[AskEyes], Awaitable[Told]]
+
+
+class Asking:
+    """Hold helpers whose eyes are a function, and what came of them."""
+
+    def __init__(self, door: Door) -> None:
+        self.told: list[Told] = []
+        self.broken: list[BaseException] = []
+        nobody = cast("Think", None), cast("Router", None)
+        answers = Answers(
+            planned=lambda _: None,
+            routed=lambda *_: None,
+            obstacles=lambda: (),
+            told=self.told.append,
+            broken=self.broken.append,
+        )
+        eyes = EyeDoor(None)
+        eyes.ask = door  # type: ignore[method-assign,assignment]  # another way to see
+        self.helpers = Helpers(*nobody, answers, eyes)
+
+    async def ask(self, ticket: int) -> None:
+        """Ask, and let it begin."""
+        self.helpers.help(AskEyes("g1", ticket, Language.EN, "what is there?"))
+        await asyncio.sleep(0)
+
+
+def answered(ask: AskEyes) -> Told:
+    return Told(ask.id, ask.ticket, Answer(text=same("a sofa")))
+
+
+def test_a_question_nobody_waits_for_is_cancelled_at_once() -> None:
+    ended: list[int] = []
+
+    async def hang(ask: AskEyes) -> Told:
+        try:
+            await asyncio.Event().wait()
+        finally:
+            ended.append(ask.ticket)
+        return answered(ask)
+
+    async def story() -> Asking:
+        asking = Asking(hang)
+        await asking.ask(1)
+        asking.helpers.await_answer(1)
+        await asyncio.sleep(0)
+        assert ended == [], "it is waited for"
+        await asking.ask(2)
+        asking.helpers.await_answer(2)
+        await asyncio.sleep(0)
+        assert ended == [1]
+        asking.helpers.await_answer(None)
+        await asyncio.sleep(0)
+        assert ended == [1, 2]
+        await asking.helpers.close()
+        return asking
+
+    asking = asyncio.run(story())
+    assert (asking.told, asking.broken) == ([], [])
+
+
+def test_an_answer_is_told_and_a_fault_of_the_eyes_is_one() -> None:
+    async def see(ask: AskEyes) -> Told:
+        if ask.ticket == 2:
+            raise ZeroDivisionError("a fault of ours")
+        return answered(ask)
+
+    async def story() -> Asking:
+        asking = Asking(see)
+        for ticket in (1, 2):
+            await asking.ask(ticket)
+        await asyncio.sleep(0)
+        await asking.helpers.close()
+        return asking
+
+    asking = asyncio.run(story())
+    assert [told.answer for told in asking.told] == [
+        Answer(text=same("a sofa")),
+        Answer(failure="unavailable"),
+    ]
+    assert asking.broken == [], "the mission loop goes on"
+
+
+@pytest.mark.parametrize(
+    ("walk", "ticket"),
+    [
+        (None, None),
+        (Walk("inquire", 1, ticket=7), 7),
+        (Walk("drive", 1, ticket=7), None),
+        (Walk("gaze", 1), None),
+    ],
+)
+def test_who_waits_is_told_by_the_walk(walk: Walk | None, ticket: int | None) -> None:
+    assert asked_about_picture(Book(FACTS, walk=walk)) == ticket
