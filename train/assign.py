@@ -33,57 +33,43 @@ def _area(box: Tensor) -> Tensor:
 
 
 def within(middles: Tensor, boxes: Tensor, least_px: float) -> Tensor:
-    """Say (B, M, N) which middles (2, N) lie in which boxes (B, M, 4), tiny ones widened."""
-    centre = (boxes[..., :2] + boxes[..., 2:]) / 2
-    half = ((boxes[..., 2:] - boxes[..., :2]) / 2).clamp(min=least_px)
-    off = (middles.T[None, None] - centre[:, :, None]).abs()
-    return (off <= half[:, :, None]).all(-1)
+    """Say (M, N) which middles (2, N) lie in which boxes (M, 4), tiny ones widened."""
+    centre = (boxes[:, :2] + boxes[:, 2:]) / 2
+    half = ((boxes[:, 2:] - boxes[:, :2]) / 2).clamp(min=least_px)
+    off = (middles[None] - centre[:, :, None]).abs()
+    return (off <= half[:, :, None]).all(1)
 
 
 @torch.no_grad()
 def assign(
-    scores: Tensor, said: Tensor, middles: Tensor, boxes: Tensor, labels: Tensor, real: Tensor
+    scores: Tensor, said: Tensor, middles: Tensor, boxes: Tensor, labels: Tensor
 ) -> tuple[Tensor, Tensor, Tensor]:
-    """Match cells with boxes.
+    """Match the cells of one picture with its boxes, of which there is at least one.
 
     Args:
-        scores: (B, N, classes), 0 to 1, as said now.
-        said: (B, N, 4) boxes as said now [px].
+        scores: (N, classes), 0 to 1, as said now.
+        said: (N, 4) boxes as said now [px].
         middles: (2, N) [px].
-        boxes: (B, M, 4) true boxes [px], padded.
-        labels: (B, M) their classes.
-        real: (B, M) false where padded.
+        boxes: (M, 4) true boxes [px].
+        labels: (M) their classes.
 
     Returns:
-        answering (B, N) whether a cell answers for a box; wanted (B, N, classes) the scores asked
-        of it; box (B, N) the index of its box.
+        answering (N) whether a cell answers for a box; wanted (N, classes) the scores asked of it;
+        owner (N) the index of its box.
     """
-    m = boxes.shape[1]
-    overlaps = overlap(boxes[:, :, None], said[:, None])  # (B, M, N)
-    asked = labels[:, :, None].expand(-1, -1, scores.shape[1])
-    told = scores.transpose(1, 2).gather(1, asked)
-    worth = told.pow(SCORE_POWER) * overlaps.pow(OVERLAP_POWER)
-    inside = within(middles, boxes, NEAR_PX) & real[:, :, None]
-    worth = torch.where(inside, worth + TINY, torch.zeros_like(worth))
-    best, cell = worth.topk(CELLS_A_BOX, 2)
-    chosen = torch.zeros_like(worth).scatter_(2, cell, (best > 0).float()) > 0
+    count = len(boxes)
+    overlaps = overlap(boxes[:, None], said[None])  # (M, N)
+    worth = scores.T[labels].pow(SCORE_POWER) * overlaps.pow(OVERLAP_POWER) + TINY
+    worth = worth * within(middles, boxes, NEAR_PX)
+    best, cell = worth.topk(CELLS_A_BOX, 1)
+    chosen = torch.zeros_like(worth).scatter_(1, cell, (best > 0).float()) > 0
     # A cell that two boxes want answers for the one that it overlaps more.
-    rank = torch.where(chosen, overlaps + TINY, torch.zeros_like(overlaps))
-    chosen &= rank == rank.amax(1, keepdim=True)
-    owner = (chosen * torch.arange(m)[None, :, None]).amax(1)  # (B, N)
-    chosen &= owner[:, None] == torch.arange(m)[None, :, None]
-    return (*_wanted(chosen, worth, overlaps, labels, owner), owner)
-
-
-def _wanted(
-    chosen: Tensor, worth: Tensor, overlaps: Tensor, labels: Tensor, owner: Tensor
-) -> tuple[Tensor, Tensor]:
-    nothing = torch.zeros_like(worth)
-    worth = torch.where(chosen, worth, nothing)
-    most = worth.amax(2, keepdim=True).clamp(min=TINY)
-    reach = torch.where(chosen, overlaps, nothing).amax(2, keepdim=True)
-    score = (worth / most * reach).amax(1)  # (B, N)
-    answering = chosen.any(1)
-    label = labels.gather(1, owner)
-    hot = torch.nn.functional.one_hot(label, len(CLASSES)).to(score.dtype)
-    return answering, hot * (score * answering)[..., None]
+    rank = (overlaps + TINY) * chosen
+    chosen &= rank == rank.amax(0, keepdim=True)
+    owner = (chosen * torch.arange(count)[:, None]).amax(0)
+    chosen &= owner[None] == torch.arange(count)[:, None]
+    worth, reach = worth * chosen, (overlaps * chosen).amax(1, keepdim=True)
+    most = worth.amax(1, keepdim=True).clamp(min=TINY)
+    score = (worth / most * reach).amax(0)
+    hot = torch.nn.functional.one_hot(labels[owner], len(CLASSES)).to(score.dtype)
+    return chosen.any(0), hot * score[:, None], owner

@@ -54,7 +54,7 @@ def augmented(frame: Framed, random: Generator) -> tuple[Picture, Things]:
         picture = lit(picture, random)
     if random.random() < 0.15:
         picture = np.asarray(cv2.GaussianBlur(picture, (3, 3), 0), np.uint8)
-    if random.random() < 0.3:
+    if random.random() < 0.2:
         picture = grained(picture, random)
     if random.random() < 0.25:
         picture = squeezed(picture, int(random.integers(40, 90)))
@@ -104,8 +104,10 @@ def lit(picture: Picture, random: Generator) -> Picture:
 
 def grained(picture: Picture, random: Generator) -> Picture:
     """Add a sensor's noise."""
-    noise = random.normal(0.0, random.uniform(1.0, 7.0), picture.shape)
-    return (picture + noise).round().clip(0, 255).astype(np.uint8)
+    noise = random.standard_normal(picture.shape, np.float32)
+    noise *= np.float32(random.uniform(1.0, 7.0))
+    noise += picture
+    return np.clip(noise + np.float32(0.5), 0, 255).astype(np.uint8)
 
 
 def squeezed(picture: Picture, quality: int) -> Picture:

@@ -28,7 +28,7 @@ LAST_RATE = 0.02
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """Hold pictures (B, 3, 240, 320), RGB from 0 to 1, and what is in them (B, M, 6), padded."""
+    """Hold pictures (B, 240, 320, 3), RGB from 0 to 1, and what is in them (B, M, 6), padded."""
 
     pictures: NDArray[np.float32]
     targets: NDArray[np.float32]
@@ -55,10 +55,10 @@ class Feeder:
             augmented(self._frames[index], np.random.default_rng([seed, epoch, int(index), 1]))
             for index in chosen
         ]
-        pictures = np.empty((size, 3, HEIGHT_PX, WIDTH_PX), np.float32)
+        pictures = np.empty((size, HEIGHT_PX, WIDTH_PX, 3), np.float32)
         for i, (picture, _) in enumerate(seen):
-            pictures[i] = picture.transpose(2, 0, 1)
-        return Batch(pictures / np.float32(255), padded([things for _, things in seen]))
+            np.multiply(picture, np.float32(1 / 255), out=pictures[i])
+        return Batch(pictures, padded([things for _, things in seen]))
 
     def rate(self, step: int) -> float:
         """Return the learning rate of a step: a ramp, then a cosine."""

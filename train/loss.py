@@ -33,20 +33,27 @@ def loss(
     middles, strides = grid
     said = corners(sides, middles[None], strides[None]).transpose(1, 2)
     logits = logits.transpose(1, 2)
-    boxes, kind = targets[..., 1:5], targets[..., 5]
-    labels = targets[..., 0].long()
-    answering, wanted, owner = assign(
-        logits.detach().sigmoid(), said.detach(), middles, boxes, labels, kind > 0
-    )
-    spared = (within(middles, boxes, 0.0) & (kind < 0)[:, :, None]).any(1) & ~answering
+    scores, now = logits.detach().sigmoid(), said.detach()
+    wanted, judged = torch.zeros_like(scores), torch.ones_like(scores[..., :1])
+    answers, trues, weights = [], [], []
+    for i, rows in enumerate(targets):
+        asked = rows[rows[:, 5] > 0]
+        answering = torch.zeros(middles.shape[1], dtype=torch.bool)
+        if len(asked):
+            boxes, labels = asked[:, 1:5], asked[:, 0].long()
+            answering, wanted[i], owner = assign(scores[i], now[i], middles, boxes, labels)
+            answers.append(said[i][answering])
+            trues.append(boxes[owner[answering]])
+            weights.append(wanted[i][answering].sum(-1))
+        spared = within(middles, rows[rows[:, 5] < 0, 1:5], 0.0).any(0) & ~answering
+        judged[i, spared] = 0.0
     whole = wanted.sum().clamp(min=1.0)
     told = binary_cross_entropy_with_logits(logits, wanted, reduction="none")
-    score_loss = (told * ~spared[..., None]).sum() / whole
-    if not bool(answering.any()):
+    score_loss = (told * judged).sum() / whole
+    if not answers:
         return score_loss, sides.sum() * 0.0
-    true = boxes.gather(1, owner[..., None].expand(-1, -1, 4))[answering]
-    weight = wanted.sum(-1)[answering]
-    box_loss = ((1 - complete(said[answering], true)) * weight).sum() / whole
+    close = complete(torch.cat(answers), torch.cat(trues))
+    box_loss = ((1 - close) * torch.cat(weights)).sum() / whole
     return score_loss, BOX_WEIGHT * box_loss
 
 

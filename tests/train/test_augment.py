@@ -84,7 +84,7 @@ def test_each_epoch_shows_every_frame_once() -> None:
     feeder = Feeder(frames, Schedule(epochs=2, batch=2))
     assert (feeder.steps_an_epoch, feeder.steps) == (2, 4)
     batch = feeder.batch(1)
-    assert batch.pictures.shape == (2, 3, HEIGHT_PX, WIDTH_PX)
+    assert batch.pictures.shape == (2, HEIGHT_PX, WIDTH_PX, 3)
     assert 0.0 <= batch.pictures.min() <= batch.pictures.max() <= 1.0
     assert np.array_equal(batch.pictures, feeder.batch(1).pictures)
     first = {int(row[0]) for step in (0, 1) for row in feeder.batch(step).targets[:, 0]}
