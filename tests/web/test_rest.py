@@ -41,6 +41,11 @@ def writes(page: Page) -> int:
     return int(page.evaluate(_COUNT, LOOKED_MS))
 
 
+def hide(page: Page, state: str) -> None:
+    """Let the page be ``hidden`` or ``visible``, as another tab in front makes it."""
+    page.evaluate(_HIDE, state)
+
+
 def test_the_page_of_a_standing_robot_rests(robot: Robot, open_page: OpenPage) -> None:
     page = open_page()
     page.wait_for_timeout(500)
@@ -54,10 +59,10 @@ def test_a_hidden_page_draws_no_map_and_shows_what_is_so_when_it_is_seen_again(
 ) -> None:
     page = open_page()
     set_off(robot, anywhere(robot))
-    page.evaluate(_HIDE, "hidden")
+    hide(page, "hidden")
     before = page.evaluate(_DRAWN)
     page.wait_for_timeout(1000)
     assert page.evaluate(_DRAWN) == before
-    page.evaluate(_HIDE, "visible")
+    hide(page, "visible")
     assert page.evaluate(_DRAWN) != before
     watch(robot, page, 0.5)

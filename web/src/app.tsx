@@ -1,5 +1,6 @@
 /** Lay the page out: the bar above, map and views, Stop below on every view. */
 import { MapPanel } from "./map/MapPanel";
+import { Camera } from "./eyes/Camera";
 import { tokenNeeded } from "./net/token";
 import { Announcer } from "./panels/Announcer";
 import { Boundary } from "./panels/Boundary";
@@ -25,6 +26,7 @@ export function App({ again }: { again: () => void }) {
           <Boundary>
             {tokenNeeded.value ? <TokenForm used={again} /> : null}
             <Notice />
+            <Camera />
             <Tabs />
           </Boundary>
         </div>

@@ -6,22 +6,26 @@ import "./styles/layout.css";
 import "./styles/panels.css";
 import "./styles/places.css";
 import "./styles/map.css";
+import "./styles/eyes.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";
 import { App } from "./app";
+import { startCamera } from "./eyes/Camera";
 import { startLanguage } from "./i18n";
-import { fetchGrid, fetchPlaces } from "./net/api";
+import { fetchGrid, fetchObjects, fetchPlaces } from "./net/api";
 import { EventSocket } from "./net/socket";
 import { startToken, tokenNeeded } from "./net/token";
 import {
   began,
   grid,
+  learnThings,
   mostTaught,
   open,
   places,
   placesVersion,
   receive,
+  sight,
   startClock,
   taught,
   wantsSnapshot,
@@ -35,6 +39,7 @@ const RETRY_MS = 2000;
 
 const socket = new EventSocket({
   opened: () => {
+    thingsVersion = -1; // another planner may count anew
     began();
     void load();
   },
@@ -49,6 +54,7 @@ listen(stop);
 startToken();
 startLanguage();
 startVisible();
+startCamera();
 startClock();
 effect(() => {
   if (wantsSnapshot.value) socket.send({ snapshot: true });
@@ -73,6 +79,18 @@ effect(() => {
 async function again(): Promise<void> {
   await fetchPlaces().then(learnPlaces, () => undefined);
 }
+
+let thingsVersion = -1;
+
+/** Load the things anew where some came or went; what fails is tried at the next change. */
+effect(() => {
+  const version = sight.value?.version ?? -1;
+  if (version === thingsVersion) return;
+  thingsVersion = version;
+  void fetchObjects().then(learnThings, () => {
+    thingsVersion = -1;
+  });
+});
 
 let loading = false;
 void load(); // beside the socket's opening, not after it

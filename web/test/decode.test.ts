@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { decode } from "../src/wire/decode";
-import { goal, robot, snapshot, status } from "./examples";
+import { cup, goal, robot, sight, snapshot, status } from "./examples";
 
 const text = (frame: object): string => JSON.stringify(frame);
 
@@ -12,6 +12,9 @@ describe("decode", () => {
       "robot",
     );
     expect(decode(text({ seq: 3, kind: "goal", change: { goal: goal("a") } }))?.kind).toBe("goal");
+    expect(decode(text({ seq: 3, kind: "sight", sight }))?.kind).toBe("sight");
+    const none = { version: 0, blind: "no_camera", message: cup.name, look: null, things: [] };
+    expect(decode(text({ seq: 3, kind: "sight", sight: none }))?.kind).toBe("sight");
     expect(decode(text({ seq: 4, kind: "stopped", confirmed: false }))).toEqual({
       seq: 4,
       kind: "stopped",
@@ -63,6 +66,28 @@ describe("decode", () => {
     [
       "a path of strings",
       { seq: 1, kind: "path", path: { goal: "g", leg: 1, points: [["1", "2"]] } },
+    ],
+    [
+      "a thing that is nowhere",
+      { seq: 1, kind: "sight", sight: { ...sight, things: [{ ...cup, x_m: null }] } },
+    ],
+    [
+      "a look of no size",
+      { seq: 1, kind: "sight", sight: { ...sight, look: { ...sight.look, width: "wide" } } },
+    ],
+    [
+      "half a box",
+      {
+        seq: 1,
+        kind: "sight",
+        sight: {
+          ...sight,
+          look: {
+            ...sight.look,
+            boxes: [{ label: "cup", name: cup.name, score: 1, box: [1, 2, 3], id: null }],
+          },
+        },
+      },
     ],
     ["a scan with a hole", { seq: 1, kind: "scan", scan: [1, null] }],
   ])("takes nothing with %s", (_, frame) => {

@@ -1,5 +1,5 @@
 /** Hold a status, a robot and goals as the planner sends them. */
-import type { Goal, Robot, Status, Usage } from "../src/wire/types";
+import type { Goal, Robot, Sight, Status, Thing, Usage } from "../src/wire/types";
 
 const still = { v_mps: 0, w_radps: 0 };
 
@@ -69,6 +69,32 @@ export const usage: Usage = {
   refused: null,
 };
 
+export const cup: Thing = {
+  id: "cup_1",
+  label: "cup",
+  name: { en: "red cup", zh: "红色的杯子" },
+  color: "red",
+  x_m: 1,
+  y_m: 2,
+  sigma_m: 0.08,
+  confidence: 0.9,
+  age_s: 0.2,
+  room: "kitchen",
+};
+
+export const sight: Sight = {
+  version: 3,
+  blind: null,
+  message: null,
+  look: {
+    seq: 12,
+    width: 320,
+    height: 240,
+    boxes: [{ label: "cup", name: cup.name, score: 0.81, box: [10, 20, 40, 60], id: "cup_1" }],
+  },
+  things: [cup],
+};
+
 export const snapshot = (seq = 1): object => ({
   seq,
   kind: "snapshot",
@@ -79,4 +105,5 @@ export const snapshot = (seq = 1): object => ({
   scan: [100, 200],
   usage,
   places_version: 0,
+  sight,
 });

@@ -2,8 +2,9 @@ import { describe, expect, it } from "vitest";
 import { dots } from "../src/map/drawing";
 import { Cells, nameSpot } from "../src/map/cells";
 import { pixels, rgb, tinted } from "../src/map/raster";
-import { contains, middle, resolve, unwound } from "../src/map/resolve";
+import { contains, middle, resolve, thingAt, unwound } from "../src/map/resolve";
 import type { Grid, Place } from "../src/wire/types";
+import { cup } from "./examples";
 
 const pose = (x_m: number, y_m: number) => ({ x_m, y_m, yaw_rad: 0 });
 const square = [
@@ -38,6 +39,15 @@ describe("a click", () => {
     expect(resolve([room, sofa], { x: 2.5, y: 2.5 })?.id).toBe("kitchen");
     expect(resolve([room, sofa], { x: 3.5, y: 2.5 })).toBeNull();
     expect(resolve([], { x: 1, y: 1 })).toBeNull();
+  });
+});
+
+describe("a click on a thing", () => {
+  it("means the nearest one under it, and none where it lies beside all", () => {
+    const near = { ...cup, id: "cup_2", x_m: 1.2 };
+    expect(thingAt([cup, near], { x: 1.15, y: 2 })?.id).toBe("cup_2");
+    expect(thingAt([cup, near], { x: 1.05, y: 1.9 })?.id).toBe("cup_1");
+    expect(thingAt([cup, near], { x: 1, y: 2.3 })).toBeNull();
   });
 });
 

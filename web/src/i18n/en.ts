@@ -107,6 +107,7 @@ export const en = {
 
   "tab.drive": "Drive",
   "tab.places": "Places",
+  "tab.objects": "Things",
   "tab.robot": "Robot",
   "tab.log": "Log",
   "tab.label": "Views",
@@ -172,6 +173,25 @@ export const en = {
   "by_whom.sentence": "by a sentence",
   "by_whom.cli": "by the command line",
   "by_whom.api": "by the API",
+
+  "camera.title": "Camera",
+  "camera.label": "What the camera sees",
+  "camera.nothing": "Nothing that it knows is in view.",
+
+  "blind.no_camera": "This robot has no camera.",
+  "blind.no_detector": "No detector is set, so things in the picture are not told apart.",
+  "blind.camera_silent": "No picture comes from the camera.",
+  "blind.camera_frozen": "The camera sends one and the same picture again and again.",
+  "blind.detector_down": "The detector does not answer; it is being started anew.",
+
+  "objects.title": "Things it has seen",
+  "objects.none": "Nothing has been seen yet.",
+  "objects.now": "in view",
+  "objects.ago": "seen {age} ago",
+  "objects.sure": "{share} sure",
+  "objects.within": "within {metres}",
+  "objects.go": "Go to it",
+  "objects.order": "go to the {what}",
 
   "talk.idle": "Hold to talk",
   "talk.listening": "Listening … let go to send",

@@ -106,6 +106,7 @@ export const zh: Record<Key, string> = {
 
   "tab.drive": "驾驶",
   "tab.places": "地点",
+  "tab.objects": "物体",
   "tab.robot": "机器人",
   "tab.log": "日志",
   "tab.label": "视图",
@@ -171,6 +172,25 @@ export const zh: Record<Key, string> = {
   "by_whom.sentence": "通过一句话",
   "by_whom.cli": "通过命令行",
   "by_whom.api": "通过接口",
+
+  "camera.title": "摄像头",
+  "camera.label": "摄像头看到的画面",
+  "camera.nothing": "画面中没有它认识的东西。",
+
+  "blind.no_camera": "这台机器人没有摄像头。",
+  "blind.no_detector": "没有设置检测模型，无法识别画面中的物体。",
+  "blind.camera_silent": "摄像头没有传来画面。",
+  "blind.camera_frozen": "摄像头一直发送同一张画面。",
+  "blind.detector_down": "检测进程没有响应，正在重新启动。",
+
+  "objects.title": "见过的物体",
+  "objects.none": "还没有见过任何物体。",
+  "objects.now": "正看着",
+  "objects.ago": "{age}前见过",
+  "objects.sure": "把握 {share}",
+  "objects.within": "误差约 {metres}",
+  "objects.go": "过去",
+  "objects.order": "去{what}那里",
 
   "talk.idle": "按住说话",
   "talk.listening": "正在听…松开即发送",

@@ -1,6 +1,8 @@
 /** Show the map, and make a click on it a goal: at once when idle, after a choice when busy. */
 import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { things } from "../eyes/sight";
+import { orderTo } from "../eyes/words";
 import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
 import { give, tell } from "../state/acts";
@@ -21,12 +23,13 @@ import {
   status,
 } from "../state/store";
 import { visible } from "../state/visible";
-import type { Place } from "../wire/types";
-import { type Point, resolve } from "./resolve";
+import { type Point, resolve, thingAt } from "./resolve";
 import { samePose, sameScan } from "./unmoved";
 import { MapView } from "./view";
 
-type Choice = { readonly place: Place; readonly left: number; readonly top: number };
+/** What a click means: its name, and the order to go there. */
+type Target = { readonly name: string; readonly order: string };
+type Choice = Target & { readonly left: number; readonly top: number };
 
 const choice = signal<Choice | null>(null);
 
@@ -59,6 +62,7 @@ function follow(view: MapView): (() => void)[] {
     effect(() => {
       view.showNames(places.value, (shown) => say(shown.name)); // and again in another language
     }),
+    effect(() => view.showThings(things.value, (shown) => say(shown.name))),
     effect(() => view.showZoom(t("map.zoom_in"), t("map.zoom_out"))),
     effect(() => {
       if (about.value) drawing.showBody(about.value.base.radius_m);
@@ -96,23 +100,31 @@ function clicked(point: Point, view: MapView): void {
     picking.value = false;
     return;
   }
-  const place = resolve(places.value, point);
-  if (place === null) {
+  const target = targetAt(point);
+  if (target === null) {
     tell(t("map.nothing"));
   } else if (isBusy.value) {
-    choice.value = { place, ...view.pixel(point) };
+    choice.value = { ...target, ...view.pixel(point) };
   } else {
-    void go(place, false);
+    void go(target.order, false);
   }
 }
 
-async function go(place: Place, replace: boolean): Promise<void> {
+function targetAt(point: Point): Target | null {
+  const thing = thingAt(things.value, point);
+  if (thing !== null) return { name: say(thing.name), order: orderTo(thing) };
+  const place = resolve(places.value, point);
+  if (place === null) return null;
+  const name = say(place.name);
+  return { name, order: t("goal.to", { name }) };
+}
+
+async function go(text: string, replace: boolean): Promise<void> {
   choice.value = null;
-  const text = t("goal.to", { name: say(place.name) });
   if (await give(text, replace)) tell(t("goal.sent", { text }));
 }
 
-function Ask({ choice: { place, left, top } }: { choice: Choice }) {
+function Ask({ choice: { name, order, left, top } }: { choice: Choice }) {
   const box = useRef<HTMLFieldSetElement>(null);
   useEffect(() => {
     const element = box.current;
@@ -124,12 +136,12 @@ function Ask({ choice: { place, left, top } }: { choice: Choice }) {
     element.querySelector("button")?.focus();
   }, [left, top]);
   return (
-    <fieldset ref={box} class="map-choice" aria-label={say(place.name)}>
-      <strong class="clip">{t("map.busy", { name: say(place.name) })}</strong>
-      <button type="button" class="main" onClick={() => void go(place, true)}>
+    <fieldset ref={box} class="map-choice" aria-label={name}>
+      <strong class="clip">{t("map.busy", { name })}</strong>
+      <button type="button" class="main" onClick={() => void go(order, true)}>
         {t("goal.replace")}
       </button>
-      <button type="button" onClick={() => void go(place, false)}>
+      <button type="button" onClick={() => void go(order, false)}>
         {t("goal.queue")}
       </button>
       <button type="button" class="quiet" onClick={() => (choice.value = null)}>

@@ -1,5 +1,5 @@
 /** Find what a click on the map means: a place near it, else the room around it. Pure. */
-import type { Place } from "../wire/types";
+import type { Place, Thing } from "../wire/types";
 
 export const NEAR_M = 0.45;
 
@@ -19,6 +19,17 @@ export function resolve(places: readonly Place[], point: Point): Place | null {
     (place) => place.kind === "room" && place.polygon && contains(place.polygon, point),
   );
   return room ?? null;
+}
+
+export const ON_M = 0.25;
+
+/** Return the thing that lies at a point, if one does: the nearest. */
+export function thingAt(things: readonly Thing[], point: Point): Thing | null {
+  const near = things
+    .map((thing) => ({ thing, away: Math.hypot(thing.x_m - point.x, thing.y_m - point.y) }))
+    .filter(({ away }) => away <= ON_M)
+    .sort((a, b) => a.away - b.away)[0];
+  return near?.thing ?? null;
 }
 
 /** Say whether a polygon holds a point: crossings of a ray to the right. */

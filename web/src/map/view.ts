@@ -1,10 +1,11 @@
 /** Put the drawing, the map's picture and the names into Leaflet. Knows no signal and no goal. */
 import * as L from "leaflet";
-import type { Grid, Place } from "../wire/types";
+import type { Grid, Place, Thing } from "../wire/types";
 import { Cells, nameSpot } from "./cells";
 import { Drawing } from "./drawing";
 import { colour, picture, tinted } from "./raster";
 import type { Point } from "./resolve";
+import { Things } from "./things";
 
 const SMALL_PX_PER_M = 38; // below it only rooms have names
 const TINTS = ["--tint-0", "--tint-1", "--tint-2", "--tint-3"];
@@ -13,6 +14,7 @@ export class MapView {
   readonly drawing = new Drawing();
   private readonly map: L.Map;
   private readonly names = L.layerGroup();
+  private readonly things = new Things();
   private image: L.ImageOverlay | null = null;
   private zoom: L.Control.Zoom | null = null;
   private cells: Cells | null = null;
@@ -40,6 +42,7 @@ export class MapView {
       doubleClickZoom: false,
     });
     this.names.addTo(this.map);
+    this.things.layer.addTo(this.map);
     this.map.on("click", (event: L.LeafletMouseEvent) =>
       onClick({ x: event.latlng.lng, y: event.latlng.lat }),
     );
@@ -71,6 +74,10 @@ export class MapView {
     this.nameOf = nameOf;
     if (others) this.paint();
     this.writeNames();
+  }
+
+  showThings(things: readonly Thing[], nameOf: (thing: Thing) => string): void {
+    this.things.show(things, nameOf);
   }
 
   private writeNames(): void {

@@ -1,5 +1,5 @@
 /** Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. */
-import type { Bilingual, Goal, Grid, Known, Pose, Taught } from "../wire/types";
+import type { Bilingual, Goal, Grid, Known, Objects, Pose, Taught } from "../wire/types";
 import type { OperatorProof } from "./proof";
 import { authorization, tokenNeeded } from "./token";
 
@@ -31,16 +31,23 @@ export async function call(
   };
   if (body instanceof ArrayBuffer) request.body = body;
   else if (body !== undefined) request.body = JSON.stringify(body);
-  let answer: Response;
+  const answer = await asked(path, request);
+  const content = (await answer.json().catch(() => ({}))) as Json;
+  if (answer.ok) return content;
+  throw refusal(answer, content);
+}
+
+async function asked(path: string, request: RequestInit): Promise<Response> {
   try {
-    answer = await fetch(path, request);
+    return await fetch(path, request);
   } catch {
     throw new ApiError("planner_silent", "");
   }
-  const content = (await answer.json().catch(() => ({}))) as Json;
-  if (answer.ok) return content;
+}
+
+function refusal(answer: Response, content: Json): ApiError {
   if (answer.status === 401) tokenNeeded.value = true;
-  throw new ApiError(
+  return new ApiError(
     typeof content.code === "string" ? content.code : `http_${answer.status}`,
     typeof content.detail === "string" ? content.detail : "",
     (content.message as Bilingual | undefined) ?? null,
@@ -129,4 +136,24 @@ export async function forgetPlace(id: string): Promise<void> {
 
 export async function fetchGrid(): Promise<Grid> {
   return (await call("GET", "/v1/map")) as Grid;
+}
+
+export async function fetchObjects(): Promise<Objects> {
+  return (await call("GET", "/v1/objects")) as Objects;
+}
+
+export async function forgetObject(id: string): Promise<void> {
+  await call("DELETE", `/v1/objects/${encodeURIComponent(id)}`);
+}
+
+/** Fetch the camera's newest picture. */
+export async function fetchPicture(): Promise<Blob> {
+  const signal = AbortSignal.timeout(TIMEOUT_MS);
+  const answer = await asked("/v1/camera.jpg", {
+    headers: authorization(),
+    signal,
+    cache: "no-store",
+  });
+  if (answer.ok) return answer.blob();
+  throw refusal(answer, {});
 }

@@ -5,14 +5,16 @@ import { useRef } from "preact/hooks";
 import { t } from "../i18n";
 import { DriveTab } from "./DriveTab";
 import { LogTab } from "./LogTab";
+import { ObjectsTab } from "./ObjectsTab";
 import { PlacesTab } from "./PlacesTab";
 import { RobotTab } from "./RobotTab";
 
-type TabId = "drive" | "places" | "robot" | "log";
+type TabId = "drive" | "places" | "objects" | "robot" | "log";
 
 const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "drive", View: DriveTab },
   { id: "places", View: PlacesTab },
+  { id: "objects", View: ObjectsTab },
   { id: "robot", View: RobotTab },
   { id: "log", View: LogTab },
 ];

@@ -6,6 +6,7 @@ import {
   ApiError,
   actOnGoal,
   answerGoal,
+  forgetObject,
   forgetPlace,
   type GoalVerb,
   giveGoal,
@@ -93,6 +94,14 @@ export function forget(place: Taught): Promise<boolean> {
   return attempt(async () => {
     await forgetPlace(place.id);
     tell(t("places.gone", { name: say(place.name) }));
+    return undefined;
+  });
+}
+
+export function forgetThing(id: string, what: string): Promise<boolean> {
+  return attempt(async () => {
+    await forgetObject(id);
+    tell(t("places.gone", { name: what }));
     return undefined;
   });
 }

@@ -2,9 +2,10 @@
  * Hold what the page knows, and how each frame changes it. Pure: told the time, knows no socket and
  * no screen. What an unknown or broken frame may change is a counter.
  */
-import type { About, Draft, Frame, Goal, Path, Robot, Scan, Usage } from "../wire/types";
+import type { About, Draft, Frame, Goal, Path, Robot, Scan, Sight, Usage } from "../wire/types";
 import { withProgress } from "./goals";
 import { type Moment, since } from "./moment";
+import { type KnownThing, retold } from "./things";
 
 export const MAX_GOALS = 60;
 export const MAX_LOG = 200;
@@ -27,6 +28,8 @@ export type Model = {
   readonly drafts: readonly Draft[]; // of goals that are thought about now
   readonly usage: Usage | null;
   readonly placesVersion: number; // changes when a place is taught or forgotten
+  readonly sight: Sight | null;
+  readonly things: readonly KnownThing[];
   readonly about: About | null;
   readonly path: Path | null;
   readonly scan: Scan;
@@ -46,6 +49,8 @@ export const EMPTY: Model = {
   drafts: [],
   usage: null,
   placesVersion: 0,
+  sight: null,
+  things: [],
   about: null,
   path: null,
   scan: [],
@@ -87,6 +92,8 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         drafts: thoughtAbout(model.drafts, frame.goals),
         usage: frame.usage,
         placesVersion: frame.places_version,
+        sight: frame.sight,
+        things: retold(model.things, frame.sight.things, now),
         about: frame.about,
         path: frame.path,
         scan: frame.scan,
@@ -111,6 +118,10 @@ function take(model: Model, frame: Frame, now: Moment): Model {
       return { ...model, drafts: withDraft(model.drafts, frame.draft) };
     case "usage":
       return { ...model, usage: frame.usage };
+    case "sight": {
+      const things = retold(model.things, frame.sight.things, now);
+      return { ...model, sight: frame.sight, things };
+    }
     case "places":
       return { ...model, placesVersion: frame.version };
     case "gap":

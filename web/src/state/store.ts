@@ -1,12 +1,13 @@
 /** Hold the page's signals: the one place that components read and the socket writes. */
 import { batch, computed, signal } from "@preact/signals";
 import { decode } from "../wire/decode";
-import type { Goal, Grid, Place, Robot, Taught } from "../wire/types";
+import type { Goal, Grid, Objects, Place, Robot, Taught } from "../wire/types";
 import { busy, sorted } from "./goals";
 import { History } from "./history";
 import { advance, ageOf, connected, EMPTY, type Model, withGoal } from "./model";
 import { fresh, type Moment, moment } from "./moment";
 import { steady } from "./steady";
+import { listed } from "./things";
 import { turning } from "./turning";
 
 const TICK_MS = 200;
@@ -32,6 +33,9 @@ export const goals = computed(() => model.value.goals);
 export const drafts = computed(() => model.value.drafts);
 export const usage = computed(() => model.value.usage);
 export const placesVersion = computed(() => model.value.placesVersion);
+export const sight = computed(() => model.value.sight);
+/** The things that the robot remembers, each with when it was last spoken of. */
+export const known = computed(() => model.value.things);
 export const about = computed(() => model.value.about);
 export const path = computed(() => model.value.path);
 export const scan = computed(() => model.value.scan);
@@ -92,6 +96,11 @@ export function learn(goal: Goal): void {
   const known = model.value.goals.find((one) => one.id === goal.id);
   if (known && known.updated > goal.updated) return;
   model.value = { ...model.value, goals: withGoal(model.value.goals, goal) };
+}
+
+/** Take the whole list of things. */
+export function learnThings({ objects }: Objects): void {
+  model.value = { ...model.value, things: listed(objects, moment()) };
 }
 
 /** Let time pass, so that what is old shows its age. */

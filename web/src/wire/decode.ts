@@ -11,6 +11,7 @@ import type {
   Progress,
   Robot,
   Scan,
+  Sight,
   Status,
   Usage,
 } from "./types";
@@ -155,6 +156,36 @@ const isPath = (value: unknown): value is Path | null =>
 
 const isScan = (value: unknown): value is Scan => all(value, finite);
 
+const isBox = (value: unknown): boolean =>
+  bag(value) &&
+  text(value.label) &&
+  words(value.name) &&
+  finite(value.score) &&
+  Array.isArray(value.box) &&
+  value.box.length === 4 &&
+  value.box.every(finite) &&
+  textOrNull(value.id);
+
+const isLook = (value: unknown): boolean =>
+  bag(value) && [value.seq, value.width, value.height].every(finite) && all(value.boxes, isBox);
+
+const isThing = (value: unknown): boolean =>
+  bag(value) &&
+  text(value.id) &&
+  text(value.label) &&
+  words(value.name) &&
+  textOrNull(value.color) &&
+  textOrNull(value.room) &&
+  [value.x_m, value.y_m, value.sigma_m, value.confidence, value.age_s].every(finite);
+
+const isSight = (value: unknown): value is Sight =>
+  bag(value) &&
+  finite(value.version) &&
+  textOrNull(value.blind) &&
+  (value.message === null || words(value.message)) &&
+  (value.look === null || isLook(value.look)) &&
+  all(value.things, isThing);
+
 const isAbout = (value: unknown): boolean =>
   bag(value) &&
   bag(value.base) &&
@@ -179,7 +210,8 @@ export function decode(data: unknown): Frame | null {
         isPath(came.path) &&
         isScan(came.scan) &&
         isUsage(came.usage) &&
-        finite(came.places_version)
+        finite(came.places_version) &&
+        isSight(came.sight)
         ? (came as Frame)
         : null;
     case "robot":
@@ -198,6 +230,8 @@ export function decode(data: unknown): Frame | null {
       return isDraft(change) ? { seq, kind: "thinking", draft: change as unknown as Draft } : null;
     case "usage":
       return isUsage(came.usage) ? { seq, kind: "usage", usage: came.usage } : null;
+    case "sight":
+      return isSight(came.sight) ? { seq, kind: "sight", sight: came.sight } : null;
     case "places":
       return finite(came.version) ? { seq, kind: "places", version: came.version } : null;
     case "say":

@@ -205,6 +205,49 @@ export type Path = {
   readonly points: readonly (readonly [number, number])[];
 };
 
+/** What was found in a picture: left, top, right, bottom in its pixels, y down. */
+export type Box = {
+  readonly label: string;
+  readonly name: Bilingual;
+  readonly score: number;
+  readonly box: readonly [number, number, number, number];
+  readonly id: string | null; // the thing on the map that it is
+};
+
+/** One picture that was thought upon. */
+export type Look = {
+  readonly seq: number;
+  readonly width: number;
+  readonly height: number;
+  readonly boxes: readonly Box[];
+};
+
+/** A thing that the robot remembers; its name says its colour too. */
+export type Thing = {
+  readonly id: string;
+  readonly label: string;
+  readonly name: Bilingual;
+  readonly color: string | null;
+  readonly x_m: number;
+  readonly y_m: number;
+  readonly sigma_m: number;
+  readonly confidence: number;
+  readonly age_s: number;
+  readonly room: string | null;
+};
+
+/** What eyes report: `things` are those of which there is news, `version` counts their coming and going. */
+export type Sight = {
+  readonly version: number;
+  readonly blind: string | null;
+  readonly message: Bilingual | null;
+  readonly look: Look | null;
+  readonly things: readonly Thing[];
+};
+
+/** All things that are remembered. */
+export type Objects = { readonly version: number; readonly objects: readonly Thing[] };
+
 /** x, y, x, y, … in map, centimetres. */
 export type Scan = readonly number[];
 
@@ -225,6 +268,7 @@ export type Frame = { readonly seq: number } & (
       readonly scan: Scan;
       readonly usage: Usage;
       readonly places_version: number;
+      readonly sight: Sight;
     }
   | { readonly kind: "robot"; readonly robot: Robot }
   | { readonly kind: "path"; readonly path: Path | null }
@@ -233,6 +277,7 @@ export type Frame = { readonly seq: number } & (
   | { readonly kind: "progress"; readonly progress: Progress }
   | { readonly kind: "thinking"; readonly draft: Draft }
   | { readonly kind: "usage"; readonly usage: Usage }
+  | { readonly kind: "sight"; readonly sight: Sight }
   | { readonly kind: "places"; readonly version: number }
   | { readonly kind: "say"; readonly text: string }
   | { readonly kind: "act"; readonly accepted: boolean; readonly code: string }

@@ -1,0 +1,36 @@
+/** Say what is known of a thing, and what is in a picture, in the person's language. */
+import { say, t } from "../i18n";
+import { fixed, seconds } from "../panels/format";
+import { nameOf } from "../panels/steps";
+import type { Box, Look, Thing } from "../wire/types";
+
+/** Younger than this it is looked at now. */
+export const IN_VIEW_S = 3;
+
+/** Return the order that a person would give to go there. */
+export const orderTo = (thing: Pick<Thing, "name">): string =>
+  t("objects.order", { what: say(thing.name) });
+
+export const agoWords = (ageS: number): string =>
+  ageS < IN_VIEW_S
+    ? t("objects.now")
+    : t("objects.ago", { age: ageS < 10 ? t("unit.s", { n: fixed(ageS, 0) }) : seconds(ageS) });
+
+export const percent = (share: number): string => fixed(share * 100, 0, "%");
+
+/** Say where a thing is and how well that is known. */
+export const knownWords = (thing: Thing, ageS: number): string =>
+  [
+    nameOf(thing.room),
+    agoWords(ageS),
+    t("objects.sure", { share: percent(thing.confidence) }),
+    t("objects.within", { metres: fixed(thing.sigma_m, 2, "m") }),
+  ]
+    .filter((fact) => fact !== "")
+    .join(" · ");
+
+export const boxWords = (box: Box): string => `${say(box.name)} ${percent(box.score)}`;
+
+/** List what is in a picture. */
+export const lookWords = (look: Look): string =>
+  look.boxes.length === 0 ? t("camera.nothing") : look.boxes.map(boxWords).join(" · ");
