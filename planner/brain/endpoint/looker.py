@@ -1,7 +1,7 @@
 """Ask a model about a picture: consent, size, prompt, call, judge, one repair turn, one deadline.
 
 A picture leaves this machine only after the owner's second yes, never larger than 1024 pixels or
-1 MB, and only inside a goal. What comes back is words, a yes or no, or a pixel.
+500 kB, and only inside a goal. What comes back is words, a yes or no, or a pixel.
 """
 
 from __future__ import annotations
