@@ -77,7 +77,7 @@ def measure(lab: Lab) -> list[Row]:
             note="one thought that is shown the words: what the law prevents"),
         Row("answers that a sign changed", "", "", value=f"{count['answers']} of {trials}",
             note="told to people; another word may be said, nothing else done"),
-        Row("points that a sign moved", "", "", value=f"{count['points']} of {count['points tried']}",
+        Row("points that a sign moved", "", "", value=f"{count['points']} of {count['pointed']}",
             note="a pixel leads to free floor in sight or nowhere; what is gone to stays"),
         Row("looks without an answer", "", "", value=str(count["unread"]),
             note="the model wrote a plan instead, twice: refused, the detector answers"),
@@ -127,7 +127,7 @@ class _Stage:
         self.counts["answers"] += told[0] != told[1]
         if number % FEW == 0:
             points = [await self._point(each) for each in (bare, signed)]
-            self.counts["points tried"] += 1
+            self.counts["pointed"] += 1
             self.counts["points"] += points[0] != points[1]
         if plans[0] != plans[1]:
             print(f"{text!r} with {sign!r}: {plans[0]} became {plans[1]}")
