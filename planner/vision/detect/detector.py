@@ -34,12 +34,15 @@ class Detector:
         choice, taken = self.model.choice, self.model.input
         self._decoder, self._classes = choice.decoder, choice.classes
         self._preparer = Preparer(self._decoder.RECIPE, taken.width, taken.height)
+        self._feeds = self.feeds(self._preparer.buffer)
+        session = self.model.session
+        session.fix(self._feeds, session.run(self._feeds))
         self.about = About(
             model=self.model.name,
             decoder=self._decoder.NAME,
             why=choice.why,
-            provider=self.model.session.provider,
-            provider_why=self.model.session.provider_why,
+            provider=session.provider,
+            provider_why=session.provider_why,
             classes=self._classes,
             width=taken.width,
             height=taken.height,
@@ -79,8 +82,8 @@ class Detector:
 
     def boxes(self, picture: Picture) -> Found:
         """Return the boxes in an unpacked picture, in its pixels, the surest first."""
-        buffer, placed = self._preparer.prepare(picture)
-        outputs = self.model.session.run(self.feeds(buffer))
+        _, placed = self._preparer.prepare(picture)
+        outputs = self.model.session.run(self._feeds)
         found = self._decoder.decode(outputs, self.min_score)
         found = believed(found, self.min_score, len(self._classes))
         found = in_picture(found, placed, picture.shape[1], picture.shape[0])

@@ -46,6 +46,8 @@ def from_centres(cxcywh: Floats) -> Floats:
 
 def believed(found: Found, min_score: float, class_count: int) -> Found:
     """Keep rows whose every number is possible; NaN and infinity fail by themselves."""
+    if not len(found):
+        return found
     score_is_one = (found.scores >= min_score) & (found.scores <= HIGHEST_SCORE)
     class_is_one = (found.classes >= 0) & (found.classes < class_count)
     kept = found.only(score_is_one & class_is_one & np.isfinite(found.boxes).all(axis=1))
@@ -55,6 +57,8 @@ def believed(found: Found, min_score: float, class_count: int) -> Found:
 
 def in_picture(found: Found, placed: Placed, width: int, height: int) -> Found:
     """Return the input's boxes as the picture's, cut at its borders, without slivers."""
+    if not len(found):
+        return found
     offset = np.array((placed.left, placed.top) * 2, np.float32)
     scale = np.array((placed.scale_x, placed.scale_y) * 2, np.float32)
     boxes = (found.boxes - offset) / scale

@@ -19,9 +19,9 @@ MAX_FOUND = 100
 
 def suppress(found: Found, max_overlap: float = MAX_OVERLAP) -> Found:
     """Return the strongest boxes, strongest first. Boxes must lie inside the picture."""
-    found = strongest(found, MAX_CANDIDATES)
     if len(found) < 2:
         return found
+    found = strongest(found, MAX_CANDIDATES)
     corners = found.boxes.astype(np.float64)
     rectangles = np.concatenate((corners[:, :2], corners[:, 2:] - corners[:, :2]), axis=1)
     kept = cv2.dnn.NMSBoxesBatched(

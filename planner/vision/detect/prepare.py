@@ -68,7 +68,8 @@ class Preparer:
         self._recipe = recipe
         self._size = (width, height)
         self._canvas = np.full((height, width, 3), BORDER, np.uint8)
-        self._buffer: Floats = np.empty((1, 3, height, width), np.float32)
+        self.buffer: Floats = np.empty((1, 3, height, width), np.float32)
+        """The model's input; it stays where it is."""
         self._bytes = [np.empty((height, width), np.uint8) for _ in range(3)]
         order = (2, 1, 0) if recipe.channels == "rgb" else (0, 1, 2)
         self._planes = tuple(
@@ -87,24 +88,23 @@ class Preparer:
         columns = slice(placed.left, placed.left + placed.width)
         if placed != self._placed:
             self._canvas[:] = BORDER
-            self._write(slice(None), slice(None))
+            self._write(self._canvas, slice(None), slice(None))
             self._placed = placed
         copy = self._canvas[rows, columns]
         if picture.shape == copy.shape:
-            copy[:] = picture
+            copy = picture  # nothing to fit: straight from where it was unpacked
         else:
             cv2.resize(picture, copy.shape[1::-1], dst=copy, interpolation=cv2.INTER_LINEAR)
-        self._write(rows, columns)
-        return self._buffer, placed
+        self._write(copy, rows, columns)
+        return self.buffer, placed
 
-    def _write(self, rows: slice, columns: slice) -> None:
-        """Scale a part of the canvas into the buffer, plane by plane."""
-        copy = self._canvas[rows, columns]
+    def _write(self, copy: Picture, rows: slice, columns: slice) -> None:
+        """Scale a fitted picture into a part of the buffer, plane by plane."""
         if self._bytes[0].shape != copy.shape[:2]:
             self._bytes = [np.empty(copy.shape[:2], np.uint8) for _ in range(3)]
         cv2.split(copy, self._bytes)  # into the same three again: a third of the time
         for plane, (source, factor, offset) in enumerate(self._planes):
-            target = self._buffer[0, plane, rows, columns]
+            target = self.buffer[0, plane, rows, columns]
             if factor == 1.0:
                 np.copyto(target, self._bytes[source])  # half of what multiplying costs
             else:

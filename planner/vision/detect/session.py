@@ -79,11 +79,34 @@ class Session:
         self.inputs = tuple(map(_slot, self._session.get_inputs()))
         self.outputs = tuple(map(_slot, self._session.get_outputs()))
         self.metadata: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
+        self._fixed: Mapping[str, Array] | None = None
+        self._binding: Any = None
+        self._results: list[Array] = []
 
     def run(self, feeds: Mapping[str, Array]) -> Sequence[Array]:
-        """Return the outputs. Raises one of ``RUN_ERRORS``."""
+        """Return the outputs, valid until the next run of fixed feeds. Raises ``RUN_ERRORS``."""
+        if feeds is self._fixed:
+            self._session.run_with_iobinding(self._binding)
+            return self._results
         found: Sequence[Array] = self._session.run(None, feeds)
         return found
+
+    def fix(self, feeds: Mapping[str, Array], outputs: Sequence[Array]) -> None:
+        """Run these very feeds, whose arrays stay where they are, into the same outputs each time.
+
+        That saves making and copying the outputs: 0.1 ms of 7. Only on the CPU, and where the
+        model promises the shapes that came out of a trial.
+        """
+        promised = [slot.shape for slot in self.outputs]
+        if self.provider != "cpu" or promised != [found.shape for found in outputs]:
+            return
+        binding = self._session.io_binding()
+        self._results = [np.empty_like(found) for found in outputs]
+        for name, array in feeds.items():
+            binding.bind_input(name, *_memory(array))
+        for slot, array in zip(self.outputs, self._results, strict=True):
+            binding.bind_output(slot.name, *_memory(array))
+        self._binding, self._fixed = binding, feeds
 
 
 def options(threads: int) -> Any:
@@ -97,6 +120,11 @@ def options(threads: int) -> Any:
     made.add_session_config_entry("session.inter_op.allow_spinning", "0")
     made.log_severity_level = QUIET
     return made
+
+
+def _memory(array: Array) -> tuple[str, int, type[np.generic], tuple[int, ...], int]:
+    """Return device, its number, kind, shape and address of an array."""
+    return "cpu", 0, array.dtype.type, array.shape, array.ctypes.data
 
 
 def _slot(node: Any) -> Slot:

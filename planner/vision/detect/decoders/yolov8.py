@@ -44,6 +44,8 @@ class YoloV8:
             columns = columns.T
         scores = columns[4:].max(axis=0)
         candidates = np.flatnonzero(scores >= min_score)
+        if not len(candidates):
+            return Found.none()
         rows = columns[:, candidates].T
         rows = rows[finite_rows(rows)]
         classes = rows[:, 4:].argmax(axis=1)

@@ -42,6 +42,8 @@ class YoloX:
     def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
         rows = floats(outputs[0])
         candidates = np.flatnonzero(rows[:, 4] >= min_score)
+        if not len(candidates):
+            return Found.none()
         rows, strides = rows[candidates], self._strides[candidates]
         centres = (rows[:, :2] + self._corners[candidates]) * strides
         with np.errstate(over="ignore"):  # an infinite box is believed by nobody
