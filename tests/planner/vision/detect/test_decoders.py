@@ -139,3 +139,15 @@ def test_a_thousand_boxes_come_out_as_a_hundred_at_most(tmp_path: Path) -> None:
     out[0, 2:4], out[0, 4] = 0.9, 0.5
     looking = detector(case, tmp_path, {"output0": out})
     assert len(looking.look(tiny.jpeg(WIDTH, HEIGHT)).detections) <= 100
+
+
+def test_every_picture_itself_reaches_the_model(tmp_path: Path) -> None:
+    """A model whose score is the red of its input sees red pictures alone, one after another."""
+    box = np.array([[[16, 16, 48, 48, 0, 1]]], np.float32)
+    score = np.array([[[0, 0, 0, 0, 1, 0]]], np.float32)
+    red = np.array([1, 0, 0], np.float32).reshape(1, 3, 1, 1)
+    path = tiny.live(tmp_path / "red.onnx", box, score, red, tiny.ULTRALYTICS)
+    looking = Detector(Wanted(path))
+    for color, expected in (((0, 0, 255), [1.0]), ((255, 0, 0), []), ((9, 9, 204), [0.8])):
+        found = looking.look(tiny.jpeg(tiny.SIDE, tiny.SIDE, color)).detections
+        assert [round(it.score, 1) for it in found] == expected

@@ -57,6 +57,29 @@ def model(
     return write(path, graph, metadata or {}, more.get("opset", OPSET), more.get("ir", IR_VERSION))
 
 
+def live(path: Path, base: Array, by: Array, weights: Array, metadata: Mapping[str, str]) -> Path:
+    """Write a model that puts out base + by x (the weighted mean of each channel of its input)."""
+    made = helper.make_graph(
+        [
+            helper.make_node("GlobalAveragePool", ["images"], ["means"]),
+            helper.make_node("Mul", ["means", "weights"], ["weighted"]),
+            helper.make_node("ReduceSum", ["weighted", "axes"], ["sum"], keepdims=0),
+            helper.make_node("Mul", ["by", "sum"], ["grown"]),
+            helper.make_node("Add", ["base", "grown"], ["output0"]),
+        ],
+        "live",
+        [helper.make_tensor_value_info("images", TensorProto.FLOAT, (1, 3, SIDE, SIDE))],
+        [helper.make_tensor_value_info("output0", TensorProto.FLOAT, base.shape)],
+        [
+            numpy_helper.from_array(weights, "weights"),
+            numpy_helper.from_array(np.array([0, 1, 2, 3], np.int64), "axes"),
+            numpy_helper.from_array(by, "by"),
+            numpy_helper.from_array(base, "base"),
+        ],
+    )
+    return write(path, made, metadata)
+
+
 def write(
     path: Path, graph: Any, metadata: Mapping[str, str], opset: int = OPSET, ir: int = IR_VERSION
 ) -> Path:
