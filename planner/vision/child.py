@@ -76,7 +76,8 @@ def _looked(detector: Detector, head: dict[str, Any], body: bytes) -> dict[str, 
     cut = int(head["color"])
     width, height = head["size"]
     depth = body[cut:] if head["deep"] else None
-    return look_head(detector.look(body[:cut], depth, (int(width), int(height))))
+    said, focal_px = (int(width), int(height)), float(head["focal"])
+    return look_head(detector.look(body[:cut], depth, said, focal_px))
 
 
 def _depth_at(head: dict[str, Any], body: bytes) -> float | None:

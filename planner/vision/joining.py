@@ -11,7 +11,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.vision.colors import may_be
-from planner.vision.kinds import kind_of
+from planner.vision.kinds import LARGE_M, kind_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,11 +23,11 @@ GATE = 9.0
 """Three standard deviations, squared."""
 MOST_APART_M = 1.0
 """Beyond its own size nothing standing is joined, however poor the measurement."""
-LARGE_M = 0.5
-"""Things of at least this reach may show as two boxes side by side."""
 SMALL_M = 0.25
-UNLIKE_SMALL, UNLIKE_LARGE = 2 * GATE, 4.0
+UNLIKE_SURE, UNLIKE_MAYBE = 2 * GATE, 4.0
 """What another colour adds: a red cup is never a blue one; on a sofa, light may fool."""
+NEUTRAL = frozenset({"black", "gray", "white", "brown"})
+"""What shadow, glare and the table beneath make of any colour: unlike, but not for sure."""
 ALIKE = 1.0
 """What a colour that light may have changed adds."""
 OVERLAP, OVERLAP_OTHER, INSIDE = 0.5, 0.85, 0.8
@@ -137,7 +137,8 @@ def _unlike(thing: Thing, p: Placed) -> float:
         return 0.0
     if may_be(thing.color, p.color):
         return ALIKE
-    return UNLIKE_SMALL if kind.reach_m < SMALL_M else UNLIKE_LARGE
+    doubtful = kind.reach_m >= SMALL_M or NEUTRAL & {thing.color, p.color}
+    return UNLIKE_MAYBE if doubtful else UNLIKE_SURE
 
 
 def _parts(pairs: dict[str, Placed], left: Sequence[Placed]) -> dict[int, str]:

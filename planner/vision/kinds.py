@@ -9,6 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+LARGE_M = 0.5
+"""Things of at least this reach show by their sides, and may show as two boxes."""
+MIDDLE = (0.25, 0.25, 0.75, 0.75)
+"""The part of a box that is most surely the thing: left, top, right, bottom, as shares."""
+ENOUGH = 0.3
+"""Share of that part which the thing has at least: a leg or a leaf before it has less."""
+
 
 @dataclass(frozen=True, slots=True)
 class Kind:
@@ -23,12 +30,38 @@ class Kind:
     reach_m: float = 0.15
     """Half of its greatest extent on the floor plane."""
     behind_m: float = 0.10
-    """How far its middle lies behind the surface that is seen."""
+    """How far its middle lies behind the surface that is seen, from its broad side."""
     height_m: float = 0.30
     perched: bool = False
     """It often stands on something: the foot of its box need not be on the floor."""
     mobile: bool = False
     """It walks by itself."""
+    least_m: tuple[float, float] = (0.0, 0.0)
+    """Width and height that every one of it has; 0 where that is not known."""
+
+    part: tuple[float, float, float, float] = MIDDLE
+    """Where in its box its depth is read."""
+    enough: float = ENOUGH
+
+    def middle_m(self, width_m: float) -> float:
+        """Return how far its middle lies behind what is seen of it, so wide as it shows [m].
+
+        What is large shows its broad side or its narrow one: a box of sides L and S, turned
+        anyhow, shows about as much more in width as it has less in depth.
+        """
+        if self.reach_m < LARGE_M:
+            return min(self.behind_m, width_m / 2) if self.reach_m < 0.2 else self.behind_m
+        behind_m = self.reach_m + self.behind_m - width_m / 2
+        return min(max(behind_m, self.behind_m), self.reach_m)
+
+    def nearest_m(self, width_px: float, height_px: float, focal_px: float) -> float:
+        """Return how far away a box of it must be at least [m]; 0 where nobody can tell.
+
+        It may be hidden in part: then one of width and height shows whole.
+        """
+        if not (width_px > 0.0 and height_px > 0.0):
+            return 0.0
+        return focal_px * min(self.least_m[0] / width_px, self.least_m[1] / height_px)
 
 
 def _k(
@@ -37,16 +70,22 @@ def _k(
     *,
     perched: bool = False,
     mobile: bool = False,
+    least_m: tuple[float, float] = (0.0, 0.0),
+    part: tuple[float, float, float, float] = MIDDLE,
+    enough: float = ENOUGH,
 ) -> Kind:
     """Return a kind of "id; English, synonyms; Chinese, synonyms" and (reach, behind, height)."""
     id_, en, zh = (part.strip() for part in names.split(";"))
     english, chinese = ([w.strip() for w in part.split(",")] for part in (en, zh))
     return Kind(
         id_, english[0], chinese[0], tuple(english[1:]), tuple(chinese[1:]),
-        *sizes, perched=perched, mobile=mobile,
+        *sizes, perched=perched, mobile=mobile, least_m=least_m, part=part, enough=enough,
     )  # fmt: skip
 
 
+TOP = (0.15, 0.03, 0.85, 0.45)
+"""Of what stands on legs: below, one looks through it, or something stands before it."""
+HIGH = (0.30, 0.05, 0.70, 0.50)
 _CUTLERY = (0.10, 0.02, 0.03)
 _FRUIT = (0.06, 0.04, 0.08)
 _FOOD = (0.10, 0.06, 0.08)
@@ -58,18 +97,20 @@ HOME: tuple[Kind, ...] = (
        "somebody, someone, anybody, anyone, visitor, guest, adult, people, folk; "
        "人, 人们, 有人, 谁, 人员, 人类, 行人, 男人, 女人, 男的, 女的, 男孩, 女孩, 男孩子, 女孩子, "
        "小孩, 小孩子, 孩子, 小朋友, 老人, 老人家, 客人, 访客, 先生, 女士, 婴儿, 宝宝",
-       (0.30, 0.12, 1.65), mobile=True),
-    _k("chair; chair, seat, stool, armchair; 椅子, 椅, 座椅, 凳子, 扶手椅", (0.30, 0.20, 0.90)),
-    _k("sofa; sofa, couch, settee; 沙发, 长沙发, 沙发椅", (1.00, 0.40, 0.80)),
+       (0.30, 0.12, 1.65), mobile=True, part=HIGH, least_m=(0.25, 0.9)),
+    _k("chair; chair, seat, stool, armchair; 椅子, 椅, 座椅, 凳子, 扶手椅", (0.30, 0.04, 0.90),
+       part=TOP, enough=0.15, least_m=(0.30, 0.70)),
+    _k("sofa; sofa, couch, settee; 沙发, 长沙发, 沙发椅", (1.05, 0.42, 0.80), least_m=(0.7, 0.6)),
     _k("table; table, desk, dining table, diningtable, coffee table; "
-       "桌子, 桌, 餐桌, 饭桌, 茶几, 书桌, 写字台", (0.70, 0.35, 0.70)),
-    _k("bed; bed; 床, 床铺, 大床", (1.10, 0.85, 0.50)),
+       "桌子, 桌, 餐桌, 饭桌, 茶几, 书桌, 写字台", (0.65, 0.33, 0.70), part=TOP, enough=0.2),
+    _k("bed; bed; 床, 床铺, 大床", (1.05, 0.80, 0.50), least_m=(0.8, 0.35)),
     _k("tv; tv, television, telly, tv set, tvmonitor, tv monitor, monitor, screen; "
        "电视, 电视机, 显示器, 屏幕", (0.55, 0.05, 0.60), perched=True),
-    _k("fridge; fridge, refrigerator, icebox; 冰箱, 电冰箱, 雪柜", (0.40, 0.33, 1.70)),
+    _k("fridge; fridge, refrigerator, icebox; 冰箱, 电冰箱, 雪柜", (0.40, 0.33, 1.70),
+       least_m=(0.45, 0.8)),
     _k("plant; plant, potted plant, pottedplant, houseplant, flowerpot; "
        "植物, 盆栽, 绿植, 盆景, 花盆, 花草", (0.22, 0.18, 0.80)),
-    _k("door; door; 门, 房门", (0.45, 0.03, 2.00)),
+    _k("door; door; 门, 房门", (0.45, 0.03, 2.00), least_m=(0.0, 1.8)),
     _k("box; box, carton, package, parcel, cardboard box, crate; "
        "箱子, 盒子, 纸箱, 纸盒, 包裹, 箱, 盒", (0.20, 0.14, 0.28)),
     _k("cup; cup, mug, teacup, coffee cup, tumbler; "

@@ -30,6 +30,8 @@ SIGMA_PX = 2.0
 """Of a box's edge."""
 EDGE_PX = 2.0
 """A box that comes so near to the picture's edge is cut off there."""
+SLIVER_PX = 12.0
+"""So little of what is cut off tells nothing of where its middle is."""
 SIGMA_LEAST_M = 0.02
 PERCHED_SHARE = 0.4
 """Of the way: what may stand on a table lies anywhere before where its foot meets the floor."""
@@ -76,6 +78,8 @@ def place(view: View, seen: Detection) -> Spot | None:
     left, top, right, bottom = seen.box
     if not (all(map(isfinite, seen.box)) and left < right and top < bottom):
         return None
+    if _cut_off(view, seen) and min(right - left, bottom - top) < SLIVER_PX:
+        return None
     if seen.depth_m is not None:
         return _by_depth(view, seen, seen.depth_m)
     return _by_floor(view, seen)
@@ -88,21 +92,22 @@ def _by_depth(view: View, seen: Detection, depth_m: float) -> Spot | None:
     kind, focal_px = kind_of(seen.label), view.header.focal_px
     ray = ray_of(view, (left + right) / 2, (top + bottom) / 2)
     width_m = (right - left) * depth_m / focal_px
-    behind_m = min(kind.behind_m, width_m / 2) if kind.reach_m < 0.2 else kind.behind_m
+    cut = _cut_off(view, seen)
+    behind_m = kind.behind_m if cut else kind.middle_m(width_m)
     range_m = depth_m * hypot(ray.ahead, ray.left) + behind_m
     noise_m = FINEST_M + PER_METRE2 * depth_m * depth_m
     along_m = hypot(noise_m, seen.depth_spread_m / 2, behind_m / 2)
     across_m = depth_m * SIGMA_PX / focal_px + 0.05 * width_m
-    if _cut_off(view, seen):
-        across_m += kind.reach_m / 2
+    if cut:
+        across_m, along_m = across_m + kind.reach_m / 2, hypot(along_m, kind.reach_m / 2)
     z_m = view.camera.z_m + depth_m * ray.up
     return _spot(view, atan2(ray.left, ray.ahead), range_m, z_m, (along_m, across_m))
 
 
 def _by_floor(view: View, seen: Detection) -> Spot | None:
     left, top, right, bottom = seen.box
-    if not bottom < view.header.height - EDGE_PX:
-        return None  # its foot is below the picture: it is nearer than that, nobody knows how much
+    if _cut_off(view, seen):
+        return None  # its foot may be outside the picture: nobody knows how much nearer it is
     foot = ray_of(view, (left + right) / 2, bottom)
     reached = _floor_m(view, foot)
     if reached is None:

@@ -84,6 +84,7 @@ class VisionWorker:
             "color": len(color.data),
             "deep": depth is not None,
             "size": [header.width, header.height],
+            "focal": header.focal_px,
         }
         bodies = (color.data,) if depth is None else (color.data, depth.data)
         answer, _ = await self._kept.ask(head, bodies, timeout_s)

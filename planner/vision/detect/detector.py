@@ -10,12 +10,15 @@ import time
 from collections.abc import Mapping, Sequence
 
 from planner.vision.detect.found import Found, believed, in_picture
-from planner.vision.detect.inner import look_inside
+from planner.vision.detect.hints import hints
+from planner.vision.detect.inner import ANY, look_inside
 from planner.vision.detect.model_file import Model, Wanted, open_model
 from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
 from planner.vision.detect.pictures import Depth, Picture, unpack_color, unpack_depth
 from planner.vision.detect.prepare import Floats, Preparer
 from planner.vision.detect.session import RUN_ERRORS, Array
+from planner.vision.kinds import kind_of
+from planner.vision.labels import canonical
 from planner.vision.records import Detection
 from planner.vision.result import About, LookResult
 
@@ -33,6 +36,7 @@ class Detector:
         self.min_score = min_score
         choice, taken = self.model.choice, self.model.input
         self._decoder, self._classes = choice.decoder, choice.classes
+        self._kinds = [kind_of(canonical(label)) for label in self._classes]
         self._preparer = Preparer(self._decoder.RECIPE, taken.width, taken.height)
         self._feeds = self.feeds(self._preparer.buffer)
         session = self.model.session
@@ -49,7 +53,11 @@ class Detector:
         )
 
     def look(
-        self, color: bytes, depth: bytes | None = None, said: tuple[int, int] | None = None
+        self,
+        color: bytes,
+        depth: bytes | None = None,
+        said: tuple[int, int] | None = None,
+        focal_px: float | None = None,
     ) -> LookResult:
         """Return what a picture shows.
 
@@ -57,6 +65,7 @@ class Detector:
             color: JPEG, or PNG of eight bits.
             depth: 16-bit PNG in millimetres, of the same size.
             said: width and height as whoever sent the picture said.
+            focal_px: the camera's, where it is known: how large a thing shows bounds how near.
         """
         began_s = time.monotonic()
         picture = unpack_color(color, said)
@@ -67,18 +76,20 @@ class Detector:
         if isinstance(far, str):
             return _skipped(far, began_s)
         try:
-            detections = self.find(picture, far)
+            detections = self.find(picture, far, focal_px)
         except RUN_ERRORS:
             return _skipped("detector_failed", began_s)
         return LookResult(detections, width, height, time.monotonic() - began_s)
 
-    def find(self, picture: Picture, depth: Depth | None = None) -> tuple[Detection, ...]:
+    def find(
+        self, picture: Picture, depth: Depth | None = None, focal_px: float | None = None
+    ) -> tuple[Detection, ...]:
         """Return the detections in an unpacked picture, the surest first.
 
         Raises:
             RuntimeError: or another of ``RUN_ERRORS``: the model failed on it.
         """
-        return self._detections(self.boxes(picture), picture, depth)
+        return self._detections(self.boxes(picture), picture, depth, focal_px)
 
     def boxes(self, picture: Picture) -> Found:
         """Return the boxes in an unpacked picture, in its pixels, the surest first."""
@@ -98,13 +109,18 @@ class Detector:
         return {self.model.input.name: buffer, **self.model.beside}
 
     def _detections(
-        self, found: Found, picture: Picture, depth: Depth | None
+        self, found: Found, picture: Picture, depth: Depth | None, focal_px: float | None
     ) -> tuple[Detection, ...]:
+        kinds = [self._kinds[number] for number in found.classes]
+        size = (picture.shape[1], picture.shape[0])
+        told = [ANY] * len(found) if depth is None else hints(found.boxes, kinds, size, focal_px)
         made: list[Detection] = []
-        for box, score, number in zip(found.boxes, found.scores, found.classes, strict=True):
+        for box, score, number, hint in zip(
+            found.boxes, found.scores, found.classes, told, strict=True
+        ):
             if not (label := self._classes[number]):
                 continue
-            seen = look_inside(picture, depth, box)
+            seen = look_inside(picture, depth, box, hint)
             left, top, right, bottom = _numbers(box)
             made.append(
                 Detection(
