@@ -85,6 +85,12 @@ def test_a_wheel_runs_away_beyond_all_that_was_sent(
     assert list(tick.s.watch.sent) == [Sent(100.0, left, left, right, right)]
 
 
+def test_a_tenth_of_a_second_is_enough() -> None:
+    tick = at(STILL, Twist2(1.0, 0.0))
+    tick.s.watch.sent, tick.s.watch.runaway_s, tick.dt_s = (), 0.05, 0.05
+    assert rows_of(tick, "runaway") == ["RUNAWAY.0"]
+
+
 def test_the_slack_is_the_same_all_the_way() -> None:
     # what was sent of late may still show, and anything between it and standing
     recent = (Sent(9.0, 0.3, 0.4, -0.4, -0.3), Sent(9.5, 0.0, 0.1, 0.0, 0.1))
@@ -95,6 +101,8 @@ def test_the_slack_is_the_same_all_the_way() -> None:
     )  # fmt: skip
     for left, right, fits in cases:
         assert detect_motion._fits(recent, left, right) is fits, (left, right)
+    fast = (Sent(9.0, 0.5, 0.6, -0.6, -0.5),)  # and slower than that
+    assert detect_motion._fits(fast, 0.2, -0.2)
     assert detect_motion._fits((), 0.15, -0.15)
     assert not detect_motion._fits((), 0.15 + EPS, 0.0)
     assert not detect_motion._fits((), 0.0, -0.15 - EPS)

@@ -5,6 +5,7 @@ A lidar of 360 beams, one a degree, beam 0 ahead; what is not said otherwise cam
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from math import asin, cos, degrees, hypot, inf, radians, sin
 
@@ -33,6 +34,7 @@ def picture(
     first: int = 0,
     count: int = 360,
     others: float | None = 7.0,
+    sight_m: float | None = None,
 ) -> ScanPicture:
     """Return a scan's picture; ``seen`` tells the beams by degree that differ from the others."""
     ranges = tuple(seen.get((first + i) % 360, others) for i in range(count))
@@ -46,7 +48,7 @@ def picture(
         range_max_m=8.0,
         ranges_m=ranges,
     )
-    return ScanPicture.from_scan(scan, IDENTITY, lidar or LidarConfig())
+    return ScanPicture.from_scan(scan, IDENTITY, lidar or LidarConfig(), sight_m)
 
 
 def centre(start: Pose2, twist: Twist2, gone_m: float) -> tuple[float, float]:
@@ -80,7 +82,7 @@ def walked_m(points: list[tuple[float, float]], start: Pose2, twist: Twist2) -> 
     return REACH_M
 
 
-STARTS = (IDENTITY, Pose2(0.1, -0.05, 0.4), Pose2(-0.08, 0.1, -2.5))
+STARTS = (IDENTITY, Pose2(0.1, -0.05, 0.4), Pose2(-0.6, 0.5, -2.0))
 WAYS = (
     AHEAD, BACK, Twist2(0.5, 0.5), Twist2(0.5, -0.5), Twist2(-0.4, 0.6), Twist2(0.3, 1.0),
     Twist2(0.3, -1.0), Twist2(-0.3, -1.0), Twist2(0.1, 1.0), Twist2(-0.1, 0.8),
@@ -109,6 +111,46 @@ def test_a_point_ends_the_arc_where_the_disc_touches_it(start: Pose2, twist: Twi
     )
 
 
+@lru_cache(maxsize=64)
+def sighted(degree: int, range_m: float, sight_m: float | None, *, beside: bool) -> ScanPicture:
+    lidar = LidarConfig(x_m=0.2, y_m=-0.1) if beside else LidarConfig()
+    return picture({degree: range_m}, lidar, sight_m=sight_m)
+
+
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("twist", [*WAYS, Twist2(0.0, 1.0), Twist2(0.01, 0.9)])
+def test_points_out_of_sight_are_found_where_they_matter(twist: Twist2, beside: bool) -> None:
+    here = Pose2(0.15, -0.1, 0.3)
+    for degree, range_m in ((0, 2.2), (14, 0.52), (180, 0.6), (300, 1.5)):
+        for reach_m in (0.5, 2.0):
+            whole = sighted(degree, range_m, None, beside=beside)
+            free = free_length(whole, here, twist, RADIUS_M, reach_m)
+            for sight_m in (0.2, 0.5, 0.9, 1.4, 1.9):
+                near = sighted(degree, range_m, sight_m, beside=beside)
+                assert free_length(near, here, twist, RADIUS_M, reach_m) == free, (degree, sight_m)
+
+
+def test_a_nearer_point_that_is_seen_later_counts() -> None:
+    for twist in (Twist2(0.5, 0.02), Twist2(0.5, -0.02)):
+        points = [(r * cos(radians(d)), r * sin(radians(d))) for d, r in ((5, 1.9), (355, 1.3))]
+        free = free_length(picture({5: 1.9, 355: 1.3}), IDENTITY, twist, RADIUS_M)
+        assert free.s_m == pytest.approx(walked_m(points, IDENTITY, twist), abs=1e-5)
+
+
+def test_what_is_at_contact_already_is_not_free_for_a_whole_circle() -> None:
+    for degree in range(-45, 46, 10):
+        at = picture({degree % 360: DISC_M * (1 + 1e-12)})
+        for twist in (Twist2(0.5, 0.5), Twist2(0.5, -0.5), Twist2(0.2, 0.4)):
+            assert free_length(at, IDENTITY, twist, RADIUS_M).s_m < 1e-4
+
+
+def test_half_a_millimetre_of_a_graze_counts() -> None:
+    beside = replace(picture({}), xs_m=(0.05,), ys_m=(-0.3495,), nearest_m=0.35)
+    for twist in (AHEAD, Twist2(0.5, 0.005)):
+        free = free_length(beside, IDENTITY, twist, RADIUS_M)
+        assert free.s_m == pytest.approx(0.05 - (0.35**2 - 0.3495**2) ** 0.5, abs=1e-4)
+
+
 def test_the_lidar_beside_the_middle_moves_the_points_with_it() -> None:
     lidar = LidarConfig(x_m=0.2, y_m=0.1)
     made = picture({0: 1.0}, lidar)  # a point at (1.2, 0.1)
@@ -132,9 +174,15 @@ def test_what_cannot_be_judged_is_not_free(twist: Twist2, moved: float, known: b
     assert free == (FreeLength(REACH_M, True, True, False) if known else NOTHING_KNOWN)
 
 
+def test_the_slowest_that_is_no_turn_in_place_has_a_way() -> None:
+    assert free_length(picture({0: 0.6}), IDENTITY, Twist2(1e-4, 0.0), RADIUS_M).s_m == (
+        pytest.approx(0.25)
+    )
+
+
 def test_a_turn_in_place_is_free_and_says_what_touches() -> None:
-    for range_m, touching in ((0.36, False), (0.349, True)):
-        made = picture({90: range_m})
+    for degree, range_m, touching in ((90, 0.36, False), (90, 0.349, True), (0, 0.35, False)):
+        made = picture({degree: range_m})
         for twist in (Twist2(0.0, 1.0), Twist2(0.99e-4, 0.0), Twist2(0.0, -1.0)):
             free = free_length(made, IDENTITY, twist, RADIUS_M, 1.5)
             assert free == FreeLength(1.5, True, True, touching)
@@ -157,7 +205,7 @@ def test_inside_the_margin_only_what_loses_nothing_goes_on(
     radius_m: float, twist: Twist2, clear: bool
 ) -> None:
     free = free_length(picture({0: radius_m}), IDENTITY, twist, RADIUS_M)
-    assert (free.s_m, free.touching) == ((0.0, False) if clear else (REACH_M, True))
+    assert free == FreeLength(0.0 if clear else REACH_M, True, True, not clear)
 
 
 def test_a_loss_of_a_fifth_of_a_millimetre_is_none_but_at_contact() -> None:
@@ -191,11 +239,13 @@ def test_having_passed_beside_something_it_touches_no_nearer() -> None:
     assert free.touching
 
 
-def counted(back: set[int], twist: Twist2, first: int = 0, count: int = 360) -> bool:
+def counted(
+    back: set[int], twist: Twist2, start: Pose2 = IDENTITY, lidar: LidarConfig | None = None
+) -> bool:
     """Tell whether a way is known where these beams alone came back."""
     seen: dict[int, float | None] = dict.fromkeys([i % 360 for i in back], 7.0)
-    made = picture(seen, first=first, count=count, others=None)
-    return free_length(made, IDENTITY, twist, RADIUS_M).known
+    made = picture(seen, lidar, others=None)
+    return free_length(made, start, twist, RADIUS_M).known
 
 
 def span(low: int, high: int) -> set[int]:
@@ -204,28 +254,37 @@ def span(low: int, high: int) -> set[int]:
 
 # half way, 1 m ahead, the disc fills asin(0.35) = 20.49 degrees to either side; 41 beams in all
 # along an arc of 1 m the sector is from 22.50 - 27.21 to 45.00 + 14.33 degrees: 64 beams
+LEFT, ASIDE = Pose2(0.0, 0.0, radians(90)), LidarConfig(x_m=0.3, y_m=0.1)
+
+
 @pytest.mark.parametrize(
-    ("twist", "low", "high"),
+    ("twist", "start", "lidar", "low", "high"),
     [
-        (AHEAD, -20, 20),
-        (BACK, 160, 200),
-        (Twist2(0.5, 0.5), -4, 59),
-        (Twist2(0.5, -0.5), -59, 4),
-        (Twist2(-0.5, -0.5), 121, 184),
-        (Twist2(-0.5, 0.5), 176, 239),
+        (AHEAD, IDENTITY, None, -20, 20),
+        (AHEAD, LEFT, None, 70, 110),
+        (Twist2(0.5, 0.5), LEFT, None, 86, 149),
+        (AHEAD, IDENTITY, ASIDE, -37, 21),  # from 0.3 m on and 0.1 m left: 0.71 m half way
+        (BACK, IDENTITY, None, 160, 200),
+        (Twist2(0.5, 0.5), IDENTITY, None, -4, 59),
+        (Twist2(0.5, -0.5), IDENTITY, None, -59, 4),
+        (Twist2(-0.5, -0.5), IDENTITY, None, 121, 184),
+        (Twist2(-0.5, 0.5), IDENTITY, None, 176, 239),
     ],
 )
 def test_a_way_is_known_where_half_of_its_beams_came_back(
-    twist: Twist2, low: int, high: int
+    twist: Twist2, start: Pose2, lidar: LidarConfig | None, low: int, high: int
 ) -> None:
     need = (high - low + 2) // 2
     elsewhere = span(high + 1, low + 359)
-    assert counted(span(low, low + need - 1) | elsewhere, twist)
-    assert not counted(span(low + 1, low + need - 1) | elsewhere, twist)
-    assert counted(span(high - need + 1, high) | elsewhere, twist)
-    assert not counted(span(high - need + 1, high - 1) | elsewhere, twist)
-    assert counted(span(low, high), twist)
-    assert not counted(elsewhere, twist)
+    for back, known in (
+        (span(low, low + need - 1) | elsewhere, True),
+        (span(low + 1, low + need - 1) | elsewhere, False),
+        (span(high - need + 1, high) | elsewhere, True),
+        (span(high - need + 1, high - 1) | elsewhere, False),
+        (span(low, high), True),
+        (elsewhere, False),
+    ):
+        assert counted(back, twist, start, lidar) is known
 
 
 def test_an_end_within_the_disc_is_seen_all_around() -> None:
@@ -240,8 +299,8 @@ def test_an_end_within_the_disc_is_seen_all_around() -> None:
 
 
 def test_what_lies_within_a_tenth_of_the_disc_has_no_direction() -> None:
-    # the circle's end is 2.8 cm off: no direction but ahead
-    tight = Twist2(0.02, 1.0)
+    # the circle's end is 3.3 cm off: no direction but ahead
+    tight = Twist2(0.0235, 1.0)
     assert counted(span(-60, 35), tight)  # 96 of the 180 ahead
     assert counted(span(-35, 60), tight)
     assert not counted(span(-40, 45), tight)
@@ -273,6 +332,7 @@ def test_so_few_are_missing_that_no_sector_lacks_half(
 
 def test_of_no_beams_none_is_missing_and_nothing_known() -> None:
     assert not freespace._few_missing(picture({}, count=0), DISC_M, 0.0)
+    assert freespace._few_missing(picture({}, count=1), DISC_M, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -312,12 +372,15 @@ def test_beams_of_a_sector(first: int, count: int, middle: float, half: float, b
     assert (sector.beams, sector.returned) == (beams, beams)
     gone = picture({}, first=first, count=count, others=None).sector(radians(middle), radians(half))
     assert (gone.beams, gone.returned) == (beams, 0)
+    last = picture({}, first=first, count=count, others=8.0)
+    assert last.sector(radians(middle), radians(half)).returned == beams
     far = picture({}, first=first, count=count, others=8.0 + EPS)
     assert far.sector(radians(middle), radians(half)).returned == 0
 
 
 def test_half_of_the_beams_is_enough_and_none_are_not() -> None:
     assert Sector(4, 2, True).known
+    assert Sector(1, 1, True).known
     assert Sector(5, 3, True).known
     assert not Sector(5, 2, True).known
     assert not Sector(0, 0, True).known
@@ -341,3 +404,13 @@ def test_a_whole_turn_is_a_turn() -> None:
     assert picture({}, count=400).whole
     assert not picture({}, count=359).whole
     assert degrees(picture({}).step_rad) == pytest.approx(1.0)
+
+
+def test_a_point_is_kept_for_where_the_robot_is_not_for_where_its_lidar_is() -> None:
+    lidar = LidarConfig(x_m=0.3, y_m=0.1)
+    made = picture({180: 0.75}, lidar, sight_m=0.5)  # 0.46 m from the middle of the robot
+    assert made.xs_m == pytest.approx((-0.45,))
+    assert made.ys_m == pytest.approx((0.1,))
+    again_xs, again_ys = made.points(0.5 + EPS)
+    assert (again_xs[180], again_ys[180]) == pytest.approx((-0.45, 0.1))
+    assert (len(made.points(0.5)[0]), len(again_xs)) == (1, 360)
