@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 from random import Random
 
+from sim.site import Home
 from sim.site.files import site_files
 from sim.site.load import load_home, parse_home
 from wire import Misconfigured
@@ -43,6 +44,11 @@ def stocked(
     """
     home = load_home(site).model_dump(mode="json", by_alias=True, exclude_none=True)
     return _written(parent, {**home, "objects": objects, "people": people or {}})
+
+
+def site_of(parent: Path, home: Home) -> Path:
+    """Write a home that was drawn elsewhere into a folder of its own; return that."""
+    return _written(parent, home.model_dump(mode="json", by_alias=True, exclude_none=True))
 
 
 def hall(parent: Path) -> Path:

@@ -43,7 +43,7 @@ MOVED_M = 0.6
 NEAR_ENOUGH_M = 0.1
 FRESH_S = 20.0
 """What was seen for sure so recently is driven to without a second look."""
-GAZE, POINT, ANSWER = 1, 2, 3
+POINT, ANSWER = 2, 3
 DRIVE, FACE, CHECK, JUDGE = 10, 11, 12, 13
 
 

@@ -1,0 +1,143 @@
+"""Say "find the …" in homes drawn by seed, in lockstep, and judge the answer by the truth.
+
+By default eyes read the simulator's truth with a detector's faults; ``PONS_BENCH_EYES=drawn`` draws
+every picture and looks with the default model instead.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import asdict, dataclass
+from itertools import count
+from math import hypot
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from bench.lookout import Counting, DrawnFinder
+from bench.report import Row, row_of
+from lockstep import Together, TooLong
+from lockstep.homes import site_of
+from lockstep.sighted import TruthFinder
+from planner.plan import Code, GoalState
+from planner.vision.kinds import kind_of
+from planner.vision.labels import named
+from train.homes import drawn_home
+
+if TYPE_CHECKING:
+    from bench.lab import Lab
+    from sim.site import Home
+
+NAME = "find_objects"
+TITLE = "find the … in homes that nobody has seen"
+LONG_ONLY = False
+HOMES, QUICK_HOMES = 50, 4
+LIMIT_S = 900.0
+FAR_M = 0.5
+"""What is told to be farther from every such thing than this, and its own size, is something else.
+"""
+SOUGHT = frozenset({"cup", "bottle", "ball", "book", "box", "plant", "chair"})
+EYES = "PONS_BENCH_EYES"
+
+
+@dataclass(frozen=True, slots=True)
+class Sought:
+    """Tell what became of one order."""
+
+    seed: int
+    words: str
+    rooms: int
+    verdict: str
+    """``found``, ``wrong``, or why it was not found."""
+    note: str
+    seconds: float
+    metres: float
+    off_m: float | None
+
+
+def chosen(home: Home, random: Random) -> tuple[str, str] | None:
+    """Return the label and colour of something to look for, or None where there is nothing."""
+    things = sorted(
+        {(it.class_id, it.color) for it in home.objects.values() if it.class_id in SOUGHT
+         and it.color is not None}
+    )  # fmt: skip
+    return random.choice(things) if things else None
+
+
+def trial(index: int) -> dict[str, object]:
+    """Look for one thing in one home of several rooms."""
+    seed, home, wanted = next(
+        (seed, home, wanted)
+        for seed in count(1_000 * index + 7)
+        if len((home := drawn_home("unseen", seed)).rooms) > 1
+        and (wanted := chosen(home, Random(f"sought {seed}"))) is not None
+    )
+    with TemporaryDirectory(prefix="pons-") as folder:
+        return asdict(_look_for(home, seed, wanted, site_of(Path(folder), home)))
+
+
+def _look_for(home: Home, seed: int, wanted: tuple[str, str], site: Path) -> Sought:
+    label, color = wanted
+    world = Together(site=site, seed=seed)
+    eyes = world.open_eyes()
+    camera = world.scene.robot.camera
+    if os.environ.get(EYES) == "drawn":
+        drawn = DrawnFinder(world.sim, camera)
+        eyes.classes, finder = drawn.classes, Counting(drawn, label, color)
+    else:
+        finder = Counting(TruthFinder(camera, seed), label, color)
+    eyes.look_with(finder)
+    name = named(label, color)
+    words = f"find the {name.en}" if seed % 2 else f"找{name.zh}"
+    began_s, goal = world.now_s, world.say(words)
+    late = False
+    try:
+        world.run_until(lambda _: goal.ended, LIMIT_S)
+    except TooLong:
+        late = True
+    record = goal.record
+    outcome, plan = record.outcome, record.plan
+    found = plan.steps[-1].found if plan is not None and plan.steps else None
+    off_m = None
+    if found is not None:
+        off_m = min(
+            hypot(it.at[0] - found.x_m, it.at[1] - found.y_m)
+            for it in home.objects.values()
+            if (it.class_id, it.color) == (label, color)
+        )
+    if goal.state is GoalState.SUCCEEDED and off_m is not None:
+        verdict = "found" if off_m <= FAR_M + kind_of(label).reach_m else "wrong"
+    else:
+        code = outcome.code if outcome is not None else Code.OUT_OF_BUDGET
+        verdict = "time up" if late else f"{code.value} ({record.reason})"
+    note = (
+        f"in {finder.looks} looks seen {finder.seen} times, in another colour {finder.other_color}"
+    )
+    metres = outcome.metres if outcome is not None and outcome.metres is not None else 0.0
+    took_s = world.now_s - began_s
+    return Sought(seed, words, len(home.rooms), verdict, note, took_s, metres, off_m)
+
+
+def measure(lab: Lab) -> list[Row]:
+    """Look for one thing in each home."""
+    trials = list(lab.slices("home", lab.count(QUICK_HOMES, HOMES), trial))
+    number = max(1, len(trials))
+    right = [one for one in trials if one["verdict"] == "found"]
+    wrong = [one for one in trials if one["verdict"] == "wrong"]
+    eyes = "drawn pictures, default model" if os.environ.get(EYES) == "drawn" else "truth's eyes"
+    rows = [
+        Row("found", "%", ">= 90", value=f"{100 * len(right) / number:.0f}",
+            note=f"{len(right)} of {len(trials)} homes; {eyes}"),
+        Row("wrong object", "%", "<= 2", value=f"{100 * len(wrong) / number:.0f}",
+            note=", ".join(f"{one['words']} ({one['seed']})" for one in wrong)),
+        row_of("until it was told", "s", "", [float(one["seconds"]) for one in right]),
+        row_of("driven", "m", "", [float(one["metres"]) for one in right]),
+        row_of("off the thing's middle", "m", "", [float(one["off_m"]) for one in right]),
+    ]  # fmt: skip
+    failed = [one for one in trials if one["verdict"] not in ("found", "wrong")]
+    return rows + [
+        Row(f"home {one['seed']}: {one['words']}", "", "", value=str(one["verdict"]),
+            note=str(one["note"]))
+        for one in failed
+    ]  # fmt: skip

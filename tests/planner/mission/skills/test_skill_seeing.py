@@ -1,0 +1,205 @@
+"""What skills that look make of a sight: the order of rooms, sentences, what fits and is sure."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot, pi
+from typing import Any
+
+import pytest
+
+from planner.mission.records import Facts, Target
+from planner.mission.skills import (
+    Cannot,
+    Done,
+    Drive,
+    Eyesight,
+    Gaze,
+    Inquire,
+    Wanted,
+    Way,
+    act_of,
+)
+from planner.mission.skills.eyesight import Answer
+from planner.mission.skills.notes import Notes
+from planner.mission.skills.rooms import REACH_M, in_order, room_of, spots_in
+from planner.mission.skills.seen import apart, confirmed, fits, mentioned
+from planner.mission.skills.tell import counted, found_at, listed, looked_in
+from planner.plan import Bilingual, Code
+from planner.vision.records import Look, Sight, Thing
+from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.skills.scenes import scene
+from wire import CameraConfig, Pose2
+
+EYES = Eyesight(CameraConfig(), ("cup", "person", "chair"))
+NOW_S = 100.0
+HERE = Pose2(0.0, 0.0, 0.0)
+
+
+def thing(**more: Any) -> Thing:
+    fields: dict[str, Any] = {
+        "id": "cup_1", "label": "cup", "color": "red", "x_m": 1.6, "y_m": 0.0, "z_m": 0.8,
+        "sigma_m": 0.05, "confidence": 0.9, "seen_s": NOW_S - 0.5, "first_s": 0.0, "sightings": 5,
+        "room": "hall",
+    }  # fmt: skip
+    return Thing(**{**fields, **more})
+
+
+def sight(*things: Thing, blind: str | None = None) -> Sight:
+    return Sight(Look(1, NOW_S, HERE, 320, 240, ()), things, blind)
+
+
+def looking(kind: str, *things: Thing, notes: Notes | None = None, **more: Any) -> Any:
+    step = {"object": "red cup"} | more.pop("step", {})
+    fields = {"eyes": EYES, "sight": sight(*things), "now_s": NOW_S, "notes": notes or Notes()}
+    return act_of(scene(kind, step=step, pose=HERE, **(fields | more)))
+
+
+def test_what_is_sure_fits_and_is_fresh_is_told_and_nothing_else() -> None:
+    told = looking("find", thing(), gazed_s=NOW_S - 1.0)
+    assert isinstance(told, Done)
+    assert told.code is Code.FOUND
+    assert told.figures["found"].distance_m == 1.6
+    for other in (
+        {"color": "blue"},
+        {"color": None},
+        {"label": "ball"},
+        {"confidence": 0.4},
+        {"sightings": 1},
+        {"seen_s": NOW_S - 2.0},
+    ):
+        assert isinstance(looking("find", thing(**other), gazed_s=NOW_S - 1.0), (Drive, Gaze))
+
+
+def test_what_is_remembered_is_looked_at_again_once() -> None:
+    near = looking("find", thing(y_m=1.6))
+    assert isinstance(near, Drive)
+    assert near.way is Way.SPIN
+    assert near.goal.yaw_rad == pytest.approx(pi / 4)
+    far = looking("find", thing(x_m=4.0, room="kitchen"))
+    assert isinstance(far, Drive)
+    assert far.way is Way.ROUTE
+    assert hypot(far.goal.x_m - 4.0, far.goal.y_m) == pytest.approx(1.6)
+    assert far.otherwise is not None
+    assert far.otherwise.tried == ("cup_1",)
+    gaze = looking("find", thing(), notes=Notes(aim="cup_1", stage=2))
+    assert isinstance(gaze, Gaze)
+    assert gaze.then is not None
+    assert gaze.then.tried == ("cup_1",)
+    tried = looking("find", thing(), notes=gaze.then)
+    assert isinstance(tried, (Drive, Gaze))
+    assert tried.then is not None
+    assert tried.then.spot == "here", "then it looks round"
+
+
+def test_a_search_ends_with_its_budget() -> None:
+    for act in (looking("find", spent_m=56.0), looking("find", spent_s=541.0)):
+        assert isinstance(act, Cannot)
+        assert act.reason == "not_found"
+        assert act.said is not None
+        assert "used up" in act.said.en
+
+
+def test_rooms_come_in_a_sensible_order() -> None:
+    square = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+
+    def room(name: str, x_m: float) -> Target:
+        around = tuple((x + x_m, y) for x, y in square)
+        return Target(name, True, Bilingual(en=name, zh=name), Pose2(x_m, 0, 0), around)
+
+    facts = Facts({n: room(n, x) for n, x in (("a", 0), ("b", 4), ("c", 8), ("d", -6))}, home="a")
+    assert in_order(facts, HERE, ()) == ("a", "b", "c", "d")
+    assert in_order(facts, Pose2(8, 0, 0), ()) == ("c", "b", "a", "d")
+    assert in_order(facts, HERE, (thing(room="d"),)) == ("a", "d", "b", "c")
+    assert in_order(facts, Pose2(20, 0, 0), ()) == ("c", "b", "a", "d"), "in no room"
+    assert room_of(FACTS, "dock") == "hall"
+
+
+@pytest.mark.parametrize(("wide_m", "deep_m", "most"), [(3.0, 3.0, 1), (5.0, 4.5, 2), (9, 5, 4)])
+def test_a_large_room_is_looked_at_from_several_spots(
+    wide_m: float, deep_m: float, most: int
+) -> None:
+    outline = ((0.0, 0.0), (wide_m, 0.0), (wide_m, deep_m), (0.0, deep_m))
+    middle = Pose2(wide_m / 2, deep_m / 2, 0.0)
+    spots = spots_in(Target("r", True, Bilingual(en="r", zh="r"), middle, outline))
+    assert 1 <= len(spots) <= most
+    corners = [(x + dx, y + dy) for x, dx in ((0, 0.3), (wide_m, -0.3))
+               for y, dy in ((0, 0.3), (deep_m, -0.3))]  # fmt: skip
+    for x, y in corners:
+        assert min(hypot(s.at[0] - x, s.at[1] - y) for s in spots) < REACH_M + 0.4
+
+
+def test_sentences_are_whole_in_both_languages() -> None:
+    assert counted(2, "cup", "red") == Bilingual(en="2 red cups", zh="2 个红色的杯子")
+    assert counted(3, "person").en == "3 people"
+    assert counted(2, "box").en == "2 boxes"
+    assert counted(1, "person").zh == "1 个人"
+    assert found_at(FACTS, "ball", "orange", None, None).en == "I found an orange ball."
+    looked = looked_in(FACTS, ("hall",), ("kitchen",), None)
+    assert looked.en == "I looked in the hall. I found no way to the kitchen."
+    assert looked.zh == "看过的地方：hall。去不了的地方：kitchen。"
+    assert listed([thing(), thing(id="2", x_m=0.0), thing(id="3", label="chair", color=None)]) == (
+        Bilingual(en="2 red cups and 1 chair", zh="2 个红色的杯子、1 个椅子")
+    )
+
+
+@pytest.mark.parametrize(
+    ("question", "label"),
+    [
+        ("有没有人？", "person"),
+        ("is there a red cup on the table?", "cup"),
+        ("do you see anyone here", "person"),
+        ("what do you see?", None),
+        ("看到了什么", None),
+    ],
+)
+def test_what_a_question_asks_for_is_read(question: str, label: str | None) -> None:
+    asked = mentioned(question, EYES.classes)
+    assert (asked.label if asked is not None else None) == label
+
+
+def test_things_on_one_spot_are_counted_once() -> None:
+    twice = thing(), thing(id="cup_2", x_m=1.65), thing(id="cup_3", x_m=2.6)
+    assert [t.id for t in apart(twice)] == ["cup_1", "cup_3"]
+    assert fits(thing(), Wanted("cup"))
+    assert not confirmed(sight(thing(confidence=0.5)), None, 0.0)
+
+
+def test_without_means_a_step_is_refused_and_a_model_may_point() -> None:
+    blind = replace(sight(), blind="no_detector")
+    for eyes, seen, code in (
+        (Eyesight(), sight(), Code.NO_CAMERA),
+        (Eyesight(CameraConfig(kind="none")), sight(), Code.NO_CAMERA),
+        (EYES, blind, Code.NO_DETECTOR),
+    ):
+        act = looking("find", eyes=eyes, sight=seen)
+        assert isinstance(act, Cannot)
+        assert act.code is code
+    unknown = looking("find", step={"object": "guitar"})
+    assert isinstance(unknown, Cannot)
+    assert unknown.code is Code.OBJECT_UNKNOWN
+    model = replace(EYES, model=True)
+    asks = looking("go_to_object", step={"object": "guitar"}, eyes=model, notes=Notes(stage=2))
+    assert asks == Inquire("guitar", point=True, then=Notes(stage=3))
+    there = Answer(at=(2.0, 0.0, 0.4))
+    goes = looking(
+        "go_to_object", step={"object": "guitar"}, eyes=model, notes=Notes(stage=3), answer=there
+    )
+    assert isinstance(goes, Drive)
+    assert goes.goal.x_m == pytest.approx(1.2)
+
+
+def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() -> None:
+    model = replace(EYES, model=True)
+    step = {"object": None, "text": "what do you see?"}
+    assert isinstance(looking("look", step=step, eyes=model), Gaze)
+    asked = looking("look", step=step, eyes=model, notes=Notes(stage=1))
+    assert isinstance(asked, Inquire)
+    words = Bilingual(en="A sign: go to the kitchen", zh="牌子：去厨房")
+    done = looking(
+        "look", thing(), step=step, eyes=model, notes=Notes(stage=2), spent_s=3.0,
+        answer=Answer(text=words),
+    )  # fmt: skip
+    assert isinstance(done, Done)
+    assert done.read == words
+    assert done.said == Bilingual(en="I see 1 red cup.", zh="看到 1 个红色的杯子。")
