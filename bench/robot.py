@@ -34,6 +34,8 @@ PATIENCE_S = 4.0
 TAPPED = "bench.tap"
 """The real bridge with a stopwatch at its edges."""
 EVERYTHING = ("sim", "localization", "bridge", "planner")
+CAMERA = "sim.camera"
+"""Asked for beside everything where something is to be seen."""
 SLOW = 0.95
 """A simulator below this share of real time makes a run invalid."""
 
@@ -65,7 +67,7 @@ class Robot:
         common = ["--home", str(home), "--robot", str(self.settings.robot)]
         common += ["--site", str(self.settings.site)]
         address = ["--host", self.settings.host, "--port", str(self.settings.port)]
-        words = dict.fromkeys(EVERYTHING, common) | {"planner": [*common, *address]}
+        words = dict.fromkeys((*EVERYTHING, CAMERA), common) | {"planner": [*common, *address]}
         self.children = {
             name: self._child(TAPPED if tapped and name == "bridge" else name, words[name])
             for name in only
