@@ -13,7 +13,7 @@ from dataclasses import replace
 from planner.brain.endpoint.client import Client
 from planner.brain.endpoint.dialect import Body, Dialect, body_of, quiet_of
 from planner.brain.endpoint.dialects import Dialects
-from planner.brain.endpoint.pictures import why_refused
+from planner.brain.endpoint.pictures import not_taken, why_refused
 from planner.brain.endpoint.reading import StreamBroken, Told
 from planner.brain.endpoint.reply import Reply, read_reply
 from planner.brain.endpoint.status import BadRequest
@@ -39,7 +39,7 @@ class Asker:
         self._quiet = frozenset(quiet_of(settings))
         self._breaks = 0
         self._sightless = False
-        """It refused a picture in every way, and did not say why; until the next start."""
+        """It refused a picture and did not say plainly why; until the next start."""
 
     @property
     def pictures(self) -> bool | None:
@@ -105,12 +105,18 @@ class Asker:
                 return self._read(content, dialect, form)
 
     def _about_the_picture(self, no: BadRequest) -> None:
-        """Raise where a refusal's words are about the picture, and remember that of any picture."""
-        why = why_refused(str(no).lower())
+        """Raise where a refusal's words are about the picture.
+
+        What is said plainly of all pictures is remembered; what only sounds like it, until the next
+        start.
+        """
+        said = str(no).lower()
+        why = why_refused(said)
         if why is None:
             return
-        if why == "no_pictures" and self._settings.pictures is None:
+        if why == "no_pictures" and not_taken(said) and self._settings.pictures is None:
             self._dialects.keep(replace(self._dialects.now, pictures=False))
+        self._sightless = self._sightless or why == "no_pictures"
         raise NotSent(str(no), why=why) from None
 
     def _plainly(self, stream: bool, broken: StreamBroken) -> bool:

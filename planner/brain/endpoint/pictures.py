@@ -33,7 +33,9 @@ _AT_ALL = re.compile(
     r"\bimages?\b|image_url|vision|multi-?modal"
     r"|content.{0,60}\b(?:string|text)\b|\b(?:string|text)\b.{0,60}content"
 )
-_THE_WAY = re.compile(r"response_format|json_|tool_choice|\btools?\b|temperature|max_\w*tokens")
+_THE_WAY = re.compile(
+    r"response_format|json_|tool_choice|\btools?\b|temperature|max_\w*tokens|too long|context"
+)
 _DATA_URL = re.compile(rb'"data:image/jpeg;base64,[A-Za-z0-9+/=]*"')
 
 

@@ -130,6 +130,7 @@ def test_whatever_is_written_nothing_else_comes_of_it(value: object) -> None:
         ("response_format is not supported", None),
         ("this response_format is no text content", None),
         ("temperature must be 1", None),
+        ("invalid 'messages[0].content': string too long", None),
         ("bad request", None),
     ],
 )  # fmt: skip

@@ -202,6 +202,15 @@ def test_one_bad_picture_is_not_held_against_the_server(tmp_path: Path) -> None:
     assert json.loads((tmp_path / FILE).read_text("utf-8")).popitem()[1]["pictures"] is True
 
 
+@pytest.mark.parametrize("pictures", [None, True])
+def test_words_that_only_sound_like_it_count_until_the_next_start(
+    pictures: bool | None, tmp_path: Path
+) -> None:
+    server = Server(answer({"error": "messages[1].content must be a string"}, 400), wrote(SEES))
+    assert refused(server, tmp_path, pictures=pictures) == "no_pictures"
+    assert describe(server, tmp_path, pictures=pictures).seen is True
+
+
 def test_a_refusal_without_a_reason_counts_where_words_were_taken(
     tmp_path: Path, home: Vocabulary
 ) -> None:
