@@ -11,7 +11,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-DecoderName = Literal["yolov5", "yolov8", "end_to_end", "yolox", "rtdetr", "rtdetr_rows", "rfdetr"]
+DecoderName = Literal[
+    "yolov5", "yolov8", "end_to_end", "yolox", "yolox_decoded", "rtdetr", "rtdetr_rows", "rfdetr"
+]
 ProviderName = Literal["tensorrt", "cuda", "openvino", "coreml", "cpu"]
 
 

@@ -22,6 +22,8 @@ class Facts:
     width: int
     height: int
     """Of the input [px]."""
+    largest: float = 0.0
+    """Of the first output's numbers in the trial, by size."""
 
     @property
     def first(self) -> Shape:

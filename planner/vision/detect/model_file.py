@@ -81,7 +81,15 @@ def _facts(wanted: Wanted, session: Session, taken: Input, beside: dict[str, Arr
         names_from="metadata" if labels is None else "labels",
         width=taken.width,
         height=taken.height,
+        largest=_largest(outputs[0]),
     )
+
+
+def _largest(found: object) -> float:
+    """Return the largest number by size; NaN where one is none or there are none."""
+    if isinstance(found, np.ndarray) and found.dtype.kind == "f" and found.size:
+        return float(np.abs(found).max())
+    return float("nan")
 
 
 def _shape(found: object) -> Shape:

@@ -15,18 +15,20 @@ from planner.vision.detect.decoders.rtdetr_rows import RtDetrRows
 from planner.vision.detect.decoders.yolov5 import YoloV5
 from planner.vision.detect.decoders.yolov8 import YoloV8
 from planner.vision.detect.decoders.yolox import YoloX
+from planner.vision.detect.decoders.yolox_decoded import YoloXDecoded
 from planner.vision.detect.facts import Facts
 from planner.vision.detect.names import literal
 from planner.vision.failure import VisionFailure
 
 Kind = type[Decoder]
 ALL: dict[str, Kind] = {
-    kind.NAME: kind for kind in (YoloV5, YoloV8, EndToEnd, YoloX, RtDetr, RtDetrRows, RfDetr)
+    kind.NAME: kind
+    for kind in (YoloV5, YoloV8, EndToEnd, YoloX, YoloXDecoded, RtDetr, RtDetrRows, RfDetr)
 }
-BY_CLASSES: tuple[Kind, ...] = (YoloV8, YoloV5, YoloX)
+BY_CLASSES: tuple[Kind, ...] = (YoloV8, YoloV5, YoloX, YoloXDecoded)
 """Told apart by how many classes their shape makes beside how many names there are."""
 BY_NAMES: tuple[Kind, ...] = (RtDetr, RfDetr)
-BY_SHAPE: tuple[Kind, ...] = (YoloV5, YoloX, YoloV8, EndToEnd)
+BY_SHAPE: tuple[Kind, ...] = (YoloV5, YoloX, YoloXDecoded, YoloV8, EndToEnd)
 DETECT = "detect"
 
 

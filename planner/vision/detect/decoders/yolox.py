@@ -18,6 +18,9 @@ from planner.vision.detect.facts import Facts
 from planner.vision.detect.found import Found, from_centres
 from planner.vision.detect.prepare import Floats, Recipe
 
+RAW_REACH = 12.0
+"""Raw numbers are offsets and logarithms, 3.8 at most in ten pictures; decoded ones are pixels."""
+
 
 class YoloX:
     """Decode 1 x cells x (5 + classes)."""
@@ -37,7 +40,8 @@ class YoloX:
         shape = facts.first
         if len(facts.outputs) != 1 or len(shape) != 3 or shape[0] != 1 or shape[2] < 6:
             return None
-        return shape[2] - 5 if _strides(facts) is not None else None
+        fits = _strides(facts) is not None and facts.largest <= RAW_REACH
+        return shape[2] - 5 if fits else None
 
     def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
         rows = floats(outputs[0])

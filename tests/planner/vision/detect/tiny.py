@@ -139,6 +139,17 @@ def yolox(seen: Sequence[Seen]) -> dict[str, Array]:
     return {"output": out}
 
 
+def yolox_decoded(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return the grid as it is once decoded; every cell has its box."""
+    out = np.zeros((1, CELLS, 5 + len(NAMES)), np.float32)
+    out[0, :, :4] = (SIDE - 8, SIDE - 8, 9, 9)
+    for row, it in enumerate(seen):
+        out[0, row, :4] = centred(it.box)
+        out[0, row, 4] = it.score
+        out[0, row, 5 + it.number] = 1.0
+    return {"output": out}
+
+
 def end_to_end(seen: Sequence[Seen]) -> dict[str, Array]:
     """Return 1 x n x 6."""
     out = np.zeros((1, QUERIES, 6), np.float32)
