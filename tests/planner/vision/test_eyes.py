@@ -5,110 +5,18 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Coroutine
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from planner.vision import Detection, LookResult, PointRefused, Sight, Thing, VisionFailure
-from planner.vision.eyes import IDLE_HZ, REST_S, SHOWN_S, Means, Sightseer
+from planner.vision import PointRefused, Sight, VisionFailure
+from planner.vision.eyes import IDLE_HZ, REST_S, SHOWN_S, Sightseer
 from planner.vision.pictures import FROZEN_AFTER, OLDEST_S, Pictures
-from planner.vision.poses import Poses
-from planner.vision.seeing import Scenery
-from planner.vision.store import FILE, ThingStore
-from tests.planner.vision.scenes import CAMERA, box_of, image, two_room, view
-from wire import Image, Localization, Odometry, Pose2, Rejected, Twist2
-
-MAP_ID = two_room().map_id
-BOX, DEPTH_M = box_of(view(1.0, 1.5), 2.5, 1.5, 0.3, 0.1)
-CUP = Detection("Cup", 0.9, BOX, "red", DEPTH_M, 0.01)
-
-
-@dataclass
-class FakeCamera:
-    """Hand out what a test put in."""
-
-    colors: list[Image | Rejected] = field(default_factory=list)
-    depths: list[Image | Rejected] = field(default_factory=list)
-
-    def color(self) -> Image | Rejected | None:
-        newest, self.colors = self.colors[-1:], []
-        return newest[0] if newest else None
-
-    def depth(self) -> Image | Rejected | None:
-        newest, self.depths = self.depths[-1:], []
-        return newest[0] if newest else None
-
-
-@dataclass
-class FakeDetector:
-    """Find what a test says, when it says so."""
-
-    classes: tuple[str, ...] = ("Cup", "tvmonitor", "")
-    found: tuple[Detection, ...] = (CUP,)
-    failure: VisionFailure | None = None
-    skipped: str | None = None
-    slow: asyncio.Event | None = None
-    looks: list[tuple[int, bool]] = field(default_factory=list)
-    depth_m: float | None = 1.0
-
-    async def look(self, color: Image, depth: Image | None) -> LookResult:
-        self.looks.append((color.header.seq, depth is not None))
-        if self.slow is not None:
-            await self.slow.wait()
-        if self.failure is not None:
-            raise self.failure
-        return LookResult(self.found, 320, 240, 0.03, self.skipped)
-
-    async def depth_at(self, depth: Image, u_px: float, v_px: float) -> float | None:
-        if self.failure is not None:
-            raise self.failure
-        return self.depth_m
-
-
-class World:
-    """Be a robot that stands at (1.0, 1.5), its camera, its clock."""
-
-    def __init__(self, home: Path | None = None, **camera: Any) -> None:
-        self.now_s = 1_000.0
-        self.camera, self.detector, self.seq = FakeCamera(), FakeDetector(), 0
-        self.poses = Poses(MAP_ID)
-        store = None if home is None else ThingStore(home / FILE, MAP_ID, wall=lambda: self.now_s)
-        self.means = Means(
-            Scenery(two_room(), CAMERA.model_copy(update=camera)), self.camera, self.detector,
-            self.poses, store, rate_hz=10.0,
-        )  # fmt: skip
-        self.eyes = Sightseer(self.means, clock=lambda: self.now_s)
-        self.told: list[Sight] = []
-        self.eyes.listen(self.told.append)
-
-    def shoot(self, age_s: float = 0.05, data: bytes | None = None, *, depth: bool = True) -> None:
-        """Let a picture arrive that was taken a while ago."""
-        self.seq += 1
-        stamp_s = self.now_s - age_s
-        self.camera.colors.append(image(self.seq, stamp_s, data))
-        if depth:
-            self.camera.depths.append(image(self.seq, stamp_s, b"\x89PNG"))
-        here = Pose2(1.0, 1.5, 0.0)
-        self.poses.odometry(Odometry(odom_id="o", seq=self.seq, stamp_s=self.now_s,
-                                     base_in_odom=here, twist=Twist2(0.0, 0.0),
-                                     yaw_rate_radps=None))  # fmt: skip
-        self.poses.localization(Localization(odom_id="o", seq=self.seq, stamp_s=self.now_s,
-                                             odom_in_map=Pose2(0.0, 0.0, 0.0), quality=0.9,
-                                             map_id=MAP_ID))  # fmt: skip
-
-    async def turn(self, step_s: float = 0.1) -> None:
-        self.eyes.turn()
-        for _ in range(4):  # a look, its end, what follows from it
-            await asyncio.sleep(0)
-        self.now_s += step_s
-
-    async def film(self, seconds: float, hz: float = 10.0, **shot: Any) -> None:
-        for _ in range(round(seconds * hz)):
-            self.shoot(**shot)
-            await self.turn(1.0 / hz)
+from tests.planner.vision.scenes import image
+from tests.planner.vision.watching import MAP_ID, FakeCamera, World
+from wire import Localization, Pose2, Rejected
 
 
 def play(story: Coroutine[Any, Any, None]) -> None:
@@ -328,34 +236,6 @@ def test_what_was_seen_outlives_the_process(tmp_path: Path) -> None:
         assert World(tmp_path).means.store.load(0.0) == ()  # type: ignore[union-attr]
 
     play(story())
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (b"{", "objects_unreadable"),
-        (b"\xff\x00", "objects_unreadable"),
-        (b'{"map_id": "0000000000000000", "things": []}', "objects_of_another_map"),
-        (b'{"map_id": "%s", "things": [1]}' % MAP_ID.encode(), "objects_unreadable"),
-    ],
-)
-def test_a_file_that_is_not_ours_is_said_and_left(
-    text: bytes, said: str, tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    (tmp_path / FILE).write_bytes(text)
-    assert ThingStore.in_home(tmp_path, MAP_ID).load(1.0) == ()
-    assert said in caplog.text
-
-
-def test_a_clock_set_back_makes_nothing_younger_than_now(tmp_path: Path) -> None:
-    thing = Thing("cup_1", "cup", "red", 1.0, 2.0, 0.5, 0.05, 0.9, 100.0, 90.0, 3, None)
-    assert ThingStore(tmp_path / FILE, MAP_ID, wall=lambda: 9_000.0).save((thing,), 100.0)
-    for wall_s, seen_s in ((8_000.0, 50.0), (9_010.0, 40.0), (9e9, 50.0 - 365 * 86_400)):
-        (back,) = ThingStore(tmp_path / FILE, MAP_ID, wall=partial(float, wall_s)).load(50.0)
-        assert back.seen_s == pytest.approx(seen_s)
-        assert back.first_s <= back.seen_s
-    blocked = ThingStore(tmp_path / FILE / "below", MAP_ID)
-    assert not blocked.save((thing,), 100.0)
 
 
 def test_colour_waits_a_moment_for_its_depth() -> None:

@@ -1,0 +1,40 @@
+"""What was seen is kept in one file: whole, of this map, and never younger than it is."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from planner.vision import Thing
+from planner.vision.store import FILE, ThingStore
+from tests.planner.vision.watching import MAP_ID
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (b"{", "objects_unreadable"),
+        (b"\xff\x00", "objects_unreadable"),
+        (b'{"map_id": "0000000000000000", "things": []}', "objects_of_another_map"),
+        (b'{"map_id": "%s", "things": [1]}' % MAP_ID.encode(), "objects_unreadable"),
+    ],
+)
+def test_a_file_that_is_not_ours_is_said_and_left(
+    text: bytes, said: str, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / FILE).write_bytes(text)
+    assert ThingStore.in_home(tmp_path, MAP_ID).load(1.0) == ()
+    assert said in caplog.text
+
+
+def test_a_clock_set_back_makes_nothing_younger_than_now(tmp_path: Path) -> None:
+    thing = Thing("cup_1", "cup", "red", 1.0, 2.0, 0.5, 0.05, 0.9, 100.0, 90.0, 3, None)
+    assert ThingStore(tmp_path / FILE, MAP_ID, wall=lambda: 9_000.0).save((thing,), 100.0)
+    for wall_s, seen_s in ((8_000.0, 50.0), (9_010.0, 40.0), (9e9, 50.0 - 365 * 86_400)):
+        (back,) = ThingStore(tmp_path / FILE, MAP_ID, wall=partial(float, wall_s)).load(50.0)
+        assert back.seen_s == pytest.approx(seen_s)
+        assert back.first_s <= back.seen_s
+    blocked = ThingStore(tmp_path / FILE / "below", MAP_ID)
+    assert not blocked.save((thing,), 100.0)
