@@ -198,7 +198,8 @@ class PlannerSide:
         heappush(self._later, (self._port.bus.tick + delay, self._count, act))
 
     def _thinking(self, ask: AskBrain) -> Callable[[float], Output]:
-        think = thinker(self._brain, self._scene.vocabulary, None, self.engine.book.means)
+        book = self.engine.book
+        think = thinker(self._brain, self._scene.vocabulary, None, book.means, book.eyes.classes)
         event = at_once(think(ask))
         return lambda now_s: self.engine.event(event, now_s)
 

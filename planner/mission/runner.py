@@ -326,8 +326,8 @@ class Missions:
         return goal_id
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        mind = (self._brain, self.memory.vocabulary, self._hearing, self._book.means)
-        return await thinker(*mind)(ask)
+        eyes = (self._hearing, self._book.means, self._book.eyes.classes)
+        return await thinker(self._brain, self.memory.vocabulary, *eyes)(ask)
 
     def _age_s(self) -> float:
         heard = self.link.status

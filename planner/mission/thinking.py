@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from functools import lru_cache
 
 from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.protocol import Brain, ThinkRequest
@@ -12,12 +13,17 @@ from planner.mission.events import Planned
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Think
 from planner.plan import BARE, Code, Means, Outcome, Rejection, Vocabulary, message, validate_plan
+from planner.vision.kinds import HOME, kind_of
 
 log = logging.getLogger(__name__)
 
 
 def thinker(
-    brain: Brain, vocabulary: Vocabulary, hearing: Hearing | None = None, means: Means = BARE
+    brain: Brain,
+    vocabulary: Vocabulary,
+    hearing: Hearing | None = None,
+    means: Means = BARE,
+    classes: tuple[str, ...] = (),
 ) -> Think:
     """Return how this brain thinks about goals in this closed world; ``hearing`` listens."""
 
@@ -29,6 +35,7 @@ def thinker(
             language=ask.language,
             runnable=means.offered,
             blind=means.blind,
+            things=things_of(classes) if means.detector else frozenset(),
             goal=ask.id,
             observed=ask.observed,
             replan=ask.replan,
@@ -54,6 +61,15 @@ def thinker(
         return Planned(ask.id, judged, None, thought.brain)
 
     return think
+
+
+@lru_cache(maxsize=8)
+def things_of(classes: tuple[str, ...]) -> frozenset[str]:
+    """Return what people call the things that a detector knows, in both languages."""
+    kinds = [kind_of(label) for label in classes] if classes else HOME
+    return frozenset(
+        name for kind in kinds for name in (kind.en, kind.zh, *kind.also_en, *kind.also_zh)
+    )
 
 
 def _outcome(code: Code, **facts: str) -> Outcome:

@@ -38,6 +38,7 @@ class OfflineBrain:
             now=self._clock(),
             runnable=request.runnable,
             blind=request.blind,
+            things=request.things,
         )
         made = plan(request.text, request.vocabulary, context)
         return Thought(plan=rest_of(made, request.observed), brain=TAG)

@@ -26,6 +26,7 @@ from planner.brain.offline.meaning import (
 from planner.brain.offline.numbers import seconds
 from planner.brain.offline.places import go_to
 from planner.brain.offline.talk import Topic, topic_of
+from planner.brain.offline.things import up_to
 from planner.plan import Code, ComeBack, GoTo, Patrol, ReturnHome, Say, Wait
 
 FIRST_QUOTE = 0xF800
@@ -95,8 +96,11 @@ def ahead(reading: Reading, meaning: Steps) -> Reading:
 
 
 def drive_to(found: Match[str], reading: Reading) -> Meaning:
-    """Read the group `place` as a place to drive to."""
-    return go_to(found["place"], reading)
+    """Read the group `place` as a place to drive to, or as a thing to drive up to."""
+    meaning = go_to(found["place"], reading)
+    if isinstance(meaning, Steps):
+        return meaning
+    return up_to(found["place"], reading) or meaning
 
 
 def set_out(found: Match[str], reading: Reading) -> Meaning | None:

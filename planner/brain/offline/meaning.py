@@ -100,6 +100,7 @@ class Reading:
     language: Language
     quotes: tuple[str, ...] = ()
     now: datetime | None = None
+    things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
     scene: Scene = field(default_factory=Scene)
     opens: bool = False  # the clause opens the sentence, and others follow
 

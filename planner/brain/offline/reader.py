@@ -60,6 +60,7 @@ class Context(Frozen):
     now: datetime | None = None  # for "what time is it"
     runnable: frozenset[str] = RUNNABLE  # kinds of steps the robot can do
     blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
+    things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
 
 
 NOWHERE = Context()
@@ -103,7 +104,8 @@ def _understood(
     if vetoed is not None:
         return vetoed
     bare = _BORDERS.sub("", marked.text)
-    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now)
+    things = context.things if "go_to_object" in context.runnable else frozenset()
+    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now, things)
     topic = read_by((*TALK, *ZH_TALK), bare, reading)
     if isinstance(topic, About):
         return compose([topic], bare, setting)

@@ -1,0 +1,46 @@
+"""Turn the phrase of a drive into a thing to drive up to, where it names one that eyes know.
+
+"the red chair", "next to the box in the study", "客厅里红色的箱子旁边". Only the last word is
+looked at here: what the words beside it mean, and whether they mean anything, the eyes' own names
+decide before anything moves.
+"""
+
+from __future__ import annotations
+
+import re
+
+from planner.brain.offline.lexicon import MARK
+from planner.brain.offline.meaning import Reading, Steps
+from planner.plan import GoToObject
+
+_THE = r"(?:(?:the|a|an|my|our|your|this|that) )?"
+_EN = re.compile(
+    rf"(?:(?:over|up|close|next) to |near |by |beside |at )?{_THE}(?P<what>[a-z][a-z' -]*?)"
+    rf"(?: (?:in|inside|of) {_THE}(?P<at>{MARK}))?"
+)
+_ZH = re.compile(
+    rf"(?:(?P<at>{MARK})(?:里面?|里边|内)?的?)?(?:这个|那个|这把|那把)?(?P<what>[^{MARK[1:-1]}]+?)"
+    r"(?:的?(?:旁边|边上|附近|跟前|前面|面前|那边|那里|那儿|这边|这里|处))?"
+)
+
+
+def up_to(phrase: str, reading: Reading) -> Steps | None:
+    """Return the step that drives up to a thing, or None where the phrase names none."""
+    phrase = phrase.strip(" \"'")
+    found = _EN.fullmatch(phrase) or _ZH.fullmatch(phrase)
+    what = found["what"].strip(" 的") if found else ""
+    if found is None or not _known(what, reading.things):
+        return None
+    ids = reading.marked.mention(found["at"]).ids if found["at"] else (None,)
+    if len(ids) != 1:
+        return None
+    label = reading.marked.restore(what)
+    return Steps((GoToObject(object=label, place=ids[0]),), thing=label)
+
+
+def _known(what: str, things: frozenset[str]) -> bool:
+    """Tell whether a phrase ends in the name of something that eyes know."""
+    if not what.isascii():
+        return any(what.endswith(name) for name in things if not name.isascii())
+    words = what.split()
+    return any(" ".join(words[-count:]) in things for count in (1, 2, 3) if count <= len(words))
