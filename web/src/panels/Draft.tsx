@@ -54,6 +54,8 @@ const EMPTY: Step = {
   left_rad: null,
   left_s: null,
   reason: null,
+  said: null,
+  read: null,
 };
 
 /** Return a written step with every field, so that it reads as a step of a plan does. */

@@ -50,11 +50,18 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
             <span class="unseen"> ({word("state", step.state)})</span>
             {step.reason && <span class="reason"> {reasonWords(step.reason)}</span>}
             {verdict(step).length > 0 && <span class="fine"> {verdict(step).join(" · ")}</span>}
+            {steps.length > 1 && <Came step={step} />}
           </span>
         </li>
       ))}
     </ol>
   );
+}
+
+/** Say what a step that looked came to; a goal of one step says it as its outcome. */
+function Came({ step }: { step: Step }) {
+  const words = step.read ?? step.said ?? null;
+  return words && <span class="came">{say(words)}</span>;
 }
 
 function Question({ goal }: { goal: Goal }) {

@@ -95,7 +95,11 @@ function isRobot(value: unknown): value is Robot {
   );
 }
 
-const step = (value: unknown): boolean => bag(value) && text(value.kind) && text(value.state);
+const step = (value: unknown): boolean =>
+  bag(value) &&
+  text(value.kind) &&
+  text(value.state) &&
+  [value.said, value.read].every((said) => said === undefined || said === null || words(said));
 const option = (value: unknown): boolean => bag(value) && text(value.text) && words(value.label);
 
 export function isGoal(value: unknown): value is Goal {

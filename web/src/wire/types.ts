@@ -100,6 +100,8 @@ export type Step = {
   readonly left_rad: number | null;
   readonly left_s: number | null;
   readonly reason: string | null;
+  readonly said: Bilingual | null; // what a step that looks came to
+  readonly read: Bilingual | null; // what a model said of the picture: for people alone
 };
 
 export type Option = { readonly label: Bilingual; readonly text: string };
