@@ -22,20 +22,29 @@ from planner.mission.events import (
     Resume,
     Routed,
     Seen,
+    Sighted,
     Stopped,
     Submitted,
     Tick,
+    Told,
 )
 from planner.mission.records import Book, Mission
 from planner.mission.reducer import advance, wish
+from planner.mission.skills import Answer, Eyesight
 from planner.mission.table import ALLOWED, refusal
 from planner.plan import (
     Ask,
     Code,
+    Count,
     Decide,
+    Find,
+    Follow,
     GoalState,
     GoTo,
+    GoToObject,
+    GoToPoint,
     Language,
+    Look,
     Outcome,
     Patrol,
     Say,
@@ -46,9 +55,11 @@ from planner.plan import (
     message,
 )
 from planner.plan import Move as MoveStep
+from planner.vision.records import Look as LookSeen
+from planner.vision.records import Sight, Thing
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, row, status
-from wire import Action, Held, HeldReason, LegReport, Mode, Pose2, Twist2
+from wire import Action, CameraConfig, Held, HeldReason, LegReport, Mode, Pose2, Twist2
 
 IDS = ("g1", "g2", "g3")
 ids = st.sampled_from(IDS)
@@ -64,6 +75,12 @@ plans = st.lists(
             Patrol(places=("hall", "kitchen")),
             Ask(question="who?"),
             Decide(question="what now?"),
+            Find(object="cup"),
+            Count(object="cups", place="hall"),
+            Look(question="around?"),
+            Follow(object="me"),
+            GoToObject(object="red cup"),
+            GoToPoint(x=500, y=500),
         ]
     ),
     min_size=1,
@@ -102,7 +119,30 @@ def statuses(draw: st.DrawFn) -> dict[str, Any]:
     }
 
 
+things = st.lists(
+    st.builds(
+        Thing,
+        id=st.sampled_from(["cup_1", "person_1"]),
+        label=st.sampled_from(["cup", "person"]),
+        color=st.sampled_from([None, "red"]),
+        x_m=st.sampled_from([0.5, 2.0, 4.0]),
+        y_m=st.just(0.0),
+        z_m=st.just(0.8),
+        sigma_m=st.just(0.1),
+        confidence=st.sampled_from([0.2, 0.9]),
+        seen_s=st.sampled_from([0.0, 1e6]),
+        first_s=st.just(0.0),
+        sightings=st.sampled_from([1, 5]),
+        room=st.sampled_from([None, "hall"]),
+    ),
+    max_size=2,
+).map(tuple)
+blind = st.sampled_from([None, None, None, "camera_silent", "no_detector"])
+
 events = st.one_of(
+    st.tuples(st.just("sight"), things, blind),
+    st.tuples(st.just("sight"), things, blind),
+    st.tuples(st.just("told"), ids, st.sampled_from([None, (2.0, 0.0, 0.0)])),
     st.tuples(st.just("status"), statuses(), st.booleans()),
     st.tuples(st.just("submit"), ids, st.booleans(), st.booleans()),
     st.tuples(st.just("planned"), ids, plans | st.none()),
@@ -120,11 +160,14 @@ events = st.one_of(
 histories = st.lists(st.tuples(events, st.sampled_from([0.0, 0.05, 0.05, 1.0, 7.0])), max_size=60)
 
 
+EYES = Eyesight(CameraConfig(), model=True)
+
+
 class World:
     """Feed a history to the reducer and keep what a judge needs."""
 
     def __init__(self) -> None:
-        self.book, self.now_s, self.seq = Book(FACTS), 100.0, 0
+        self.book, self.now_s, self.seq = Book(FACTS, eyes=EYES), 100.0, 0
         self.disk: dict[str, Mission] = {}
         self.disk_queue: tuple[str, ...] = ()
         self.entries: list[Journal] = []
@@ -198,6 +241,12 @@ class World:
                 self.event(Journalled(max(0, self.book.written - back)))
             case ("tick",):
                 self.event(Tick())
+            case ("sight", seen, why):
+                self.seq += 1
+                look = LookSeen(self.seq, self.now_s, None, 320, 240, ())
+                self.event(Sighted(Sight(look, seen, why)))
+            case ("told", goal, at):
+                self.event(Told(goal, self.book.tickets, Answer(at=at, failure=None)))
             case _:
                 self.act(what)
 
@@ -251,7 +300,7 @@ class World:
                 self.disk.update({m.id: m for m in entry.missions})
                 self.disk_queue = entry.queue
         self.entries, self.written = [], {}
-        self.book = Book(FACTS)
+        self.book = Book(FACTS, eyes=EYES)
         self.acted = False
         self.event(Restarted(tuple(self.disk.values()), self.disk_queue, 0.0))
         assert wish(self.book) == STAND
