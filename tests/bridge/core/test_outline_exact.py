@@ -244,6 +244,7 @@ def test_long_and_short_segments_are_tried_against_all_that_they_can_meet() -> N
         (1.5, 1.5, 3.5, 1.5, True), (-2.0, 1.5, 8.0, 1.5, True), (-2.0, 2.5, 8.0, 2.5, False),
         (-2.0, 0.5, -3.5, 0.5, True), (8.5, 4.5, 8.5, 5.5, True), (1.9, 0.9, 3.1, 0.9, False),
         (1.0, 0.0, 1.0, 1.0, False), (2.5, 1.5, 2.5, 1.6, True), (4.0, 1.5, 2.5, 1.5, True),
+        (0.7, -0.6, 4.3, 3.0, True), (0.5, 1.5, 4.0, 1.5, True), (2.5, -0.9, 2.5, 4.0, True),
     ):  # fmt: skip
         assert ROOM.crosses(x0, y0, x1, y1) is crosses, (x0, y0, x1, y1)
         assert ROOM.crosses(x1, y1, x0, y0) is crosses
