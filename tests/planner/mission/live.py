@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
+from planner.brain.looking import Looker
 from planner.brain.scripted import Reply, ScriptedBrain
 from planner.link import Link
 from planner.mission import (
@@ -21,6 +22,7 @@ from planner.mission import (
 from planner.mission.memory import Memory
 from planner.plan import Goal, GoalState, GoTo, StepPlan
 from planner.route import RouteFailure, RouteRequest, RouteResult
+from planner.vision.ports import Eyes
 from planner.world import Site
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
 from wire import Pose2, RobotDescription, Status
@@ -83,6 +85,8 @@ async def planner(
     hangs: bool = False,
     router: StraightRouter | None = None,
     prefix: str = "g",
+    eyes: Eyes | None = None,
+    looker: Looker | None = None,
 ) -> AsyncIterator[Together]:
     bridge = bridge or LiveBridge(pose=Pose2(1.0, 4.2, 0.0))
     brain = ScriptedBrain(replies or (KITCHEN,), hangs=hangs)
@@ -98,6 +102,8 @@ async def planner(
         planner_id=f"planner-{prefix}",
         clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}"),
     )
+    if eyes is not None:
+        missions.see(eyes, looker)
     with patch.object(loop, "POLL_S", POLL_S):
         await missions.start()
         together = Together(missions, bridge, brain)

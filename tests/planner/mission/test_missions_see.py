@@ -1,0 +1,198 @@
+"""The missions' door with eyes on a real event loop: who is asked about which picture, and when."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+
+from planner.brain.errors import BrainDown
+from planner.brain.looking import Described, Detected, NotThere, Pointed
+from planner.brain.looking import Picture as Shown
+from planner.plan import (
+    Bilingual,
+    BrainTag,
+    Code,
+    GoalState,
+    GoToObject,
+    GoToPoint,
+    Language,
+    Look,
+    StepPlan,
+)
+from planner.vision.ports import Picture, PointRefused, Spot
+from planner.vision.records import Look as Looked
+from planner.vision.records import Sight
+from planner.world import Site
+from tests.planner.mission.live import LiveBridge, Together, planner, run
+from wire import Image, ImageHeader, Pose2
+
+SIGN = Bilingual(en="A sign says: go to the kitchen.", zh="牌子上写着：去厨房。")
+TAG = BrainTag(name="looker", version="1")
+START = Pose2(1.0, 4.2, 0.0)
+
+
+class FakeEyes:
+    """Show a picture that a test numbers, and count who asks for what."""
+
+    def __init__(self, bridge: LiveBridge) -> None:
+        self._bridge, self.seq = bridge, 1
+        self.attended: list[tuple[str, bool]] = []
+        self.pointed: list[int] = []
+        self.refuses: str | None = None
+        self._told: list[Callable[[Sight], None]] = []
+
+    @property
+    def sight(self) -> Sight:
+        return Sight(Looked(self.seq, self._bridge.now_s(), START, 320, 240, ()))
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        return ("cup",)
+
+    @property
+    def picture(self) -> Picture | None:
+        header = ImageHeader(
+            boot_id="b", seq=self.seq, stamp_s=0.0, width=320, height=240, focal_px=200.0,
+            center_x_px=160.0, center_y_px=120.0,
+        )  # fmt: skip
+        return Picture(Image(header, b"jpeg"), None, self._bridge.now_s())
+
+    def listen(self, told: Callable[[Sight], None]) -> None:
+        self._told.append(told)
+
+    def attend(self, who: str, wanted: bool) -> None:
+        self.attended.append((who, wanted))
+
+    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+        self.pointed.append(picture.color.header.seq)
+        if self.refuses is not None:
+            raise PointRefused(self.refuses)
+        return Spot(2.0, 4.2, 0.0 if y > 600 else 0.5, 0.05)
+
+    async def look_on(self) -> None:
+        """Tell a new look every few milliseconds, as eyes do."""
+        while True:
+            self.seq += 1
+            for told in self._told:
+                told(self.sight)
+            await asyncio.sleep(0.005)
+
+
+class FakeLooker:
+    """Read a sign in every picture, or fail."""
+
+    def __init__(self, *, fails: bool = False) -> None:
+        self._fails, self.asked = fails, list[tuple[str, str]]()
+
+    @property
+    def tag(self) -> BrainTag:
+        return TAG
+
+    async def describe(
+        self,
+        picture: Shown,
+        question: str,
+        language: Language,
+        detections: Sequence[Detected] = (),
+        goal: str = "",
+    ) -> Described:
+        self.asked.append((question, goal))
+        if self._fails:
+            raise BrainDown("503")
+        return Described(SIGN, None, TAG)
+
+    async def point(
+        self,
+        picture: Shown,
+        words: str,
+        language: Language = Language.EN,
+        detections: Sequence[Detected] = (),
+        goal: str = "",
+    ) -> Pointed | NotThere:
+        self.asked.append((words, goal))
+        return Pointed(500, 500, TAG)
+
+
+async def seeing(
+    home: Path, site: Site, plan: StepPlan, looker: FakeLooker | None, text: str
+) -> tuple[Together, FakeEyes, str]:
+    """Let one goal end while pictures come; return what is left to look at."""
+    bridge = LiveBridge(pose=START)
+    eyes = FakeEyes(bridge)
+    async with planner(home, site, plan, bridge=bridge, eyes=eyes, looker=looker) as world:
+        looking = asyncio.create_task(eyes.look_on())
+        try:
+            goal = await world.missions.submit(text)
+            await world.until(lambda: world.missions.goal(goal.id).state in DONE)
+        finally:
+            looking.cancel()
+        return world, eyes, goal.id
+
+
+DONE = (GoalState.SUCCEEDED, GoalState.FAILED, GoalState.REFUSED)
+WHAT = StepPlan(steps=(Look(question="what does the sign say?"),))
+
+
+def test_a_models_words_are_told_and_kept_apart_from_ours(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        looker = FakeLooker()
+        world, eyes, goal_id = await seeing(tmp_path, site, WHAT, looker, "what is there?")
+        goal = world.missions.goal(goal_id)
+        assert goal.state is GoalState.SUCCEEDED
+        assert goal.outcome is not None
+        assert (goal.outcome.code, goal.outcome.message) == (Code.SEEN, SIGN)
+        assert goal.plan is not None
+        step = goal.plan.steps[0]
+        assert step.read == SIGN
+        assert step.said is not None
+        assert "sign" not in step.said.en
+        assert looker.asked == [("what does the sign say?", goal_id)]
+        assert eyes.attended == [("mission", True), ("mission", False)]
+        assert world.brain.asked[0].runnable >= {"look", "find"}
+        assert "go_to_point" not in world.brain.asked[0].runnable
+
+    run(story())
+
+
+@pytest.mark.parametrize("looker", [None, FakeLooker(fails=True)], ids=["none", "down"])
+def test_without_a_model_the_detector_answers(
+    tmp_path: Path, site: Site, looker: FakeLooker | None
+) -> None:
+    async def story() -> None:
+        world, _, goal_id = await seeing(tmp_path, site, WHAT, looker, "what is there?")
+        goal = world.missions.goal(goal_id)
+        assert goal.outcome is not None
+        assert goal.outcome.message.en.startswith("I see nothing that I know.")
+
+    run(story())
+
+
+def test_a_pixel_counts_in_the_picture_that_the_plan_was_made_on(
+    tmp_path: Path, site: Site
+) -> None:
+    async def story() -> None:
+        plan = StepPlan(steps=(GoToPoint(x=500, y=700),))
+        world, eyes, goal_id = await seeing(tmp_path, site, plan, None, "go there")
+        assert world.missions.goal(goal_id).state is GoalState.SUCCEEDED
+        assert len(eyes.pointed) == 1
+        assert eyes.pointed[0] < eyes.seq
+        assert abs(world.bridge.pose.x_m - 2.0) < 0.1
+
+    run(story())
+
+
+def test_what_only_a_model_knows_is_pointed_at_and_driven_up_to(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        plan = StepPlan(steps=(GoToObject(object="guitar"),))
+        looker = FakeLooker()
+        world, eyes, goal_id = await seeing(tmp_path, site, plan, looker, "go to the guitar")
+        goal = world.missions.goal(goal_id)
+        assert goal.state is GoalState.SUCCEEDED, goal.outcome
+        assert looker.asked == [("guitar", goal_id)]
+        assert len(eyes.pointed) == 1
+        assert abs(world.bridge.pose.x_m - 1.2) < 0.1, "half a metre before the robot's edge"
+
+    run(story())
