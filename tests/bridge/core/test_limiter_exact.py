@@ -67,9 +67,10 @@ def test_a_stop_under_way_needs_less_path_by_what_it_already_brakes() -> None:
     assert braking == pytest.approx(0.125 + 0.5 * (0.16 / 20 + 0.01) + 1 / 2400)
 
 
-def test_what_a_wheel_that_stays_as_it_is_did_before_hurries_no_other() -> None:
-    # the left wheel keeps 0.2 m/s though it was slowing; the right one begins gently: 2 m/s3
-    after = shaped(Twist2(0.25, 0.2), LimiterState(Twist2(0.2, 0.0), -1.0, 0.0))
+@pytest.mark.parametrize("had", [-1.0, 1.0])
+def test_what_a_wheel_that_stays_as_it_is_did_before_hurries_no_other(had: float) -> None:
+    # the left wheel keeps 0.2 m/s though it was changing; the right one begins gently: 2 m/s3
+    after = shaped(Twist2(0.25, 0.2), LimiterState(Twist2(0.2, 0.0), had, 0.0))
     right = after.sent.v_mps + 0.25 * after.sent.w_radps
     assert right - 0.2 == pytest.approx(2.0 * DT * DT)
 
