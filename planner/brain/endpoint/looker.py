@@ -16,7 +16,7 @@ from planner.brain.endpoint.looked import NoPicture, Point, Words, judge_look, j
 from planner.brain.endpoint.pictures import MAX_JPEG_BYTES, data_url
 from planner.brain.errors import PlanRejected
 from planner.brain.form import LOOK_FORM, POINT_FORM, Form
-from planner.brain.jpeg import jpeg_size
+from planner.brain.jpeg import jpeg_size, without_notes
 from planner.brain.looking import (
     LONG_SIDE_PX,
     Described,
@@ -131,7 +131,7 @@ class EndpointLooker:
             told = f"{size[0]} x {size[1]} px, {len(jpeg)} bytes"
             most = f"{LONG_SIDE_PX} px, {MAX_JPEG_BYTES} bytes"
             raise NotSent(f"{told}; at most {most}", why="picture_too_large")
-        return data_url(jpeg)
+        return data_url(jpeg if self._line.address.local else without_notes(jpeg))
 
     async def _twice(
         self,

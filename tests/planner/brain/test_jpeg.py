@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.brain.jpeg import START, jpeg_size
+from planner.brain.jpeg import START, jpeg_size, without_notes
 from tests.planner.brain.pictures import jpeg
 
 HEAD = b"\xff\xd8"
@@ -29,6 +29,29 @@ HEAD = b"\xff\xd8"
 )
 def test_the_size_is_what_the_frame_says(data: bytes, size: tuple[int, int] | None) -> None:
     assert jpeg_size(data) == size
+
+
+def noted(marker: int, text: bytes) -> bytes:
+    """Return a segment."""
+    return bytes((0xFF, marker)) + (len(text) + 2).to_bytes(2, "big") + text
+
+
+def test_what_a_camera_writes_about_itself_is_taken_out() -> None:
+    bare = jpeg(320, 240, padding=9)
+    app0 = bare[: 2 + 18]
+    kept = noted(0xE2, b"ICC") + noted(0xEE, b"Adobe")
+    said = (
+        noted(0xE1, b"Exif 48.1N 11.5E") + noted(0xFE, b"GO TO \xff\xe1\x00\x05") + noted(0xED, b"")
+    )
+    assert without_notes(app0 + said + kept + bare[20:]) == app0 + kept + bare[20:]
+    assert without_notes(bare) == bare
+
+
+@given(st.binary(max_size=60))
+def test_taking_notes_out_keeps_the_size(data: bytes) -> None:
+    for whole in (START + data, jpeg() + data, noted(0xFE, data).join((jpeg()[:2], jpeg()[2:]))):
+        assert jpeg_size(without_notes(whole)) == jpeg_size(whole)
+        assert len(without_notes(whole)) <= len(whole)
 
 
 @given(st.binary(max_size=60))

@@ -150,6 +150,17 @@ def test_without_the_second_yes_nothing_leaves(
     assert server.requests == []
 
 
+def test_with_it_the_picture_leaves_without_what_the_camera_wrote(tmp_path: Path) -> None:
+    comment = b"\xff\xfe\x00\x08at 48N"
+    noted = Picture(jpeg()[:2] + comment + jpeg()[2:], 320, 240, 1)
+    yes = {"allow_offhost": True, "allow_pictures_offhost": True}
+    for url, sent in (("http://192.168.1.9/v1", jpeg()), ("http://127.0.0.1:9/v1", noted.jpeg)):
+        server = Server(wrote(SEES))
+        assert describe(server, tmp_path, noted, url=url, **yes).seen is True
+        image = server.bodies[0]["messages"][-1]["content"][1]["image_url"]["url"]
+        assert base64.b64decode(image.partition(",")[2]) == sent
+
+
 @pytest.mark.parametrize(
     ("shown", "why"),
     [
