@@ -5,8 +5,11 @@ from __future__ import annotations
 import argparse
 import logging
 import os
+import signal
 import sys
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import uvicorn
 
@@ -15,6 +18,9 @@ from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.app import Planner, Where, application
 from planner.world import SiteError
 from wire import Misconfigured
+
+if TYPE_CHECKING:
+    from types import FrameType
 
 REFUSED = 2
 MIN_TOKEN_CHARACTERS = 16
@@ -43,11 +49,22 @@ def main(arguments: list[str] | None = None) -> int:
             ws_per_message_deflate=False,  # squeezing small frames costs more than sending them
         )
     )
+    signal.signal(signal.SIGTERM, partial(_end, planner))
     server.run()
     if planner.detector.refused is not None:
         print(f"planner: {planner.detector.refused}", file=sys.stderr)
         return REFUSED
     return 0 if server.started else 1
+
+
+def _end(planner: Planner, number: int, _: FrameType | None) -> None:
+    """Die of a signal as anybody does, but where the set-up is refused: that is told first.
+
+    The server shuts down on a signal of its own, and then raises it again here.
+    """
+    if planner.detector.refused is None:
+        signal.signal(number, signal.SIG_DFL)
+        signal.raise_signal(number)
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:

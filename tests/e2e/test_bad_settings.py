@@ -18,10 +18,10 @@ REFUSED = 2
 QUICKLY_S = 20.0
 
 
-def refusal(system: System, *words: str) -> str:
+def refusal(system: System, *words: str, limit_s: float = QUICKLY_S) -> str:
     """Return what ``pons up`` says as it refuses; hold that it leaves nothing."""
     try:
-        done = system.pons("up", *words, timeout_s=QUICKLY_S)
+        done = system.pons("up", *words, timeout_s=limit_s)
         assert done.returncode == REFUSED, (done.stdout, done.stderr)
         assert not system.processes()
     finally:
@@ -69,6 +69,15 @@ def test_a_site_that_is_none(home: Path) -> None:
     said = refusal(System(home / "h", site=ROOT / "sites" / "castle"))
     assert "site_missing" in said
     assert "two_room" in said
+
+
+def test_a_detector_that_is_no_model(home: Path) -> None:
+    model = home / "best.onnx"
+    model.write_bytes(b"weights of another kind")
+    # It is opened by its own process, beside all that starts.
+    said = refusal(System(home / "h", PONS_VISION_MODEL=str(model)), limit_s=3 * QUICKLY_S)
+    assert "model_not_onnx" in said
+    assert "best.onnx" in said
 
 
 def test_a_port_that_somebody_uses(home: Path) -> None:
