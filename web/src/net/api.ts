@@ -32,9 +32,10 @@ export async function call(
   if (body instanceof ArrayBuffer) request.body = body;
   else if (body !== undefined) request.body = JSON.stringify(body);
   const answer = await asked(path, request);
-  const content = (await answer.json().catch(() => ({}))) as Json;
-  if (answer.ok) return content;
-  throw refusal(answer, content);
+  const content = (await answer.json().catch(() => null)) as Json | null;
+  if (!answer.ok) throw refusal(answer, content ?? {});
+  if (content === null) throw new ApiError("planner_silent", ""); // it broke off half-way
+  return content;
 }
 
 async function asked(path: string, request: RequestInit): Promise<Response> {
