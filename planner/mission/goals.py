@@ -19,6 +19,7 @@ from planner.mission.queue import (
 )
 from planner.mission.records import Mission
 from planner.mission.rethought import fingerprint, rethought
+from planner.mission.skills import NOTHING
 from planner.mission.turn import Turn
 from planner.mission.verdict import spot_at
 from planner.plan import (
@@ -259,7 +260,7 @@ def _forget_poses(turn: Turn, mission: Mission) -> None:
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
         finish(turn, mission, GoalState.FAILED, said, "map_changed")
     elif mission.map_id:
-        mission = turn.put(mission, accepted_at=None)
+        mission = turn.put(mission, accepted_at=None, notes=NOTHING)
         if mission.state is GoalState.PAUSED:
             said = Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED)
             turn.put(mission, outcome=said)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot
+from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from planner.world.polygon import area_m2, border_distance_m, contains
@@ -24,7 +24,8 @@ Point = tuple[float, float]
 
 REACH_M = 2.8
 """A cup is eight pixels high there, of 240."""
-STEP_M = 0.4
+STEP_M, MOST_POINTS = 0.4, 100
+"""Points at which a room is judged; a hall has no more of them than a room."""
 INSET_M = 0.5
 """A robot's middle keeps so far from a room's outline."""
 LEAST_LEFT = 0.12
@@ -115,10 +116,10 @@ def _far(a: Point, b: Point) -> bool:
 
 def _grid(outline: tuple[Point, ...], inset_m: float) -> list[Point]:
     xs, ys = [x for x, _ in outline], [y for _, y in outline]
-    columns = int((max(xs) - min(xs)) / STEP_M) + 1
-    rows = int((max(ys) - min(ys)) / STEP_M) + 1
+    step_m = max(STEP_M, sqrt((max(xs) - min(xs)) * (max(ys) - min(ys)) / MOST_POINTS))
+    columns, rows = int((max(xs) - min(xs)) / step_m) + 1, int((max(ys) - min(ys)) / step_m) + 1
     points = [
-        (min(xs) + c * STEP_M, min(ys) + r * STEP_M) for c in range(columns) for r in range(rows)
+        (min(xs) + c * step_m, min(ys) + r * step_m) for c in range(columns) for r in range(rows)
     ]
     return [
         p for p in points if contains(outline, *p) and border_distance_m(outline, *p) >= inset_m

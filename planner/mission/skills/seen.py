@@ -28,6 +28,8 @@ WORTH = 0.3
 _WORD = re.compile(r"[a-z0-9'-]+")
 _CHINESE = re.compile(r"[\u3400-\u9fff]+")
 LONGEST_EN, LONGEST_ZH = 3, 8
+READ = 120
+"""Characters of a question: each piece is looked up, on the event loop."""
 
 
 def wanted_of(scene: Scene) -> Wanted | None:
@@ -38,7 +40,7 @@ def wanted_of(scene: Scene) -> Wanted | None:
 
 def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:
     """Return the first thing that a whole sentence names, the longest name that fits."""
-    for words in _pieces(text.casefold()):
+    for words in _pieces(text[:READ].casefold()):
         found = resolve(words, None, classes)
         if found is not None:
             return Wanted(*found)
