@@ -205,14 +205,15 @@ ROOM = build_fence(
 
 
 def test_cells_hold_all_that_may_be_seen_from_them() -> None:
-    assert ROOM.cell_m == 0.25  # 12 m in 48
-    assert build_fence("0" * 16, (box(0, 0, 3, 24),)).cell_m == 0.5
-    assert build_fence("0" * 16, (box(0, 0, 25, 3),)).cell_m == pytest.approx(25 / 48)
+    room = build_fence("0" * 16, ROOM.allowed, ROOM.keep_outs)
+    assert (room.cell_m, room.cells) == (0.25, ROOM.cells)  # 12 m in 48
+    assert build_fence("0" * 16, (box(0, -12, 3, 12),)).cell_m == 0.5
+    assert build_fence("0" * 16, (box(-10, 0, 15, 3),)).cell_m == pytest.approx(25 / 48)
     assert build_fence("0" * 16, ()).cells == {}
-    low, high = min(ROOM.cells), max(ROOM.cells)
+    low, high = min(room.cells), max(room.cells)
     assert (low, high) == ((-16, -8), (40, 24))  # 1 m more than the outline, all around
     half = 0.125 * sqrt(2) + 1e-6
-    for (i, j), cell in ROOM.cells.items():
+    for (i, j), cell in room.cells.items():
         if (i + 3 * j) % 7:
             continue
         x, y = (i + 0.5) * 0.25, (j + 0.5) * 0.25
