@@ -56,7 +56,8 @@ MIN_SCORE = 0.4
 class Schedule:
     """Say how a network is fitted. The same schedule, frames and threads give the same weights."""
 
-    epochs: int = 24
+    epochs: int = 12
+    """So many fit into the hours above; more are better."""
     batch: int = 16
     peak_rate: float = 2e-3
     """Learning rate [1/step] after the warm-up; a cosine leads it to 2 % of that."""

@@ -39,8 +39,8 @@ def main(arguments: list[str] | None = None) -> int:
     torch.use_deterministic_algorithms(mode=True)
     schedule = replace(Schedule(), epochs=given.epochs)
     torch.manual_seed(schedule.seed)
-    frames = read_all(given.frames)
     try:
+        frames = read_all(given.frames)
         feeder = Feeder(frames, schedule)
         learner = Learner(feeder, schedule)
         learner.resume(given.out)

@@ -21,7 +21,7 @@ import onnxruntime
 from train.augment import decoded
 from train.budget import CLASSES, MIN_SCORE
 from train.score import Found, There, false_in_empty, mean_average_precision, scores
-from train.store import read_all
+from train.store import NoFrames, read_all
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -110,7 +110,7 @@ def judged(seen: Sequence[Picture], empty: Sequence[Picture]) -> dict[str, Any]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Score and print a table; return 0."""
+    """Score and print a table; return 0, or 2 without frames."""
     parser = argparse.ArgumentParser(prog="python -m train.judge", description=__doc__)
     parser.add_argument("--model", type=Path, required=True)
     parser.add_argument("--unseen", type=Path, required=True, help="frames of unseen homes")
@@ -118,9 +118,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--frames", type=int, default=500)
     parser.add_argument("--out", type=Path, help="a folder for judge.json")
     given = parser.parse_args(arguments)
+    try:
+        unseen, bare = read_all(given.unseen)[: given.frames], read_all(given.bare)
+    except NoFrames as error:
+        print(f"train.judge: {error}", file=sys.stderr)
+        return 2
     model = Model(given.model)
-    seen = pictures(read_all(given.unseen)[: given.frames], model.detect)
-    result = judged(seen, pictures(read_all(given.bare), model.detect))
+    seen = pictures(unseen, model.detect)
+    result = judged(seen, pictures(bare, model.detect))
     result["ms_p50"] = 1e3 * float(np.median(model.seconds))
     print(table(result))
     if given.out is not None:

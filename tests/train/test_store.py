@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from train.store import Framed, OtherRecipe, claim, missing, read, read_all, shard_path, write
+from train.store import (
+    Framed,
+    NoFrames,
+    OtherRecipe,
+    claim,
+    missing,
+    read,
+    read_all,
+    shard_path,
+    write,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,3 +46,8 @@ def test_a_folder_holds_one_recipe(tmp_path: Path) -> None:
     claim(folder, {"size": [320, 240], "kind": "train"})
     with pytest.raises(OtherRecipe, match="another recipe"):
         claim(folder, {"kind": "unseen", "size": [320, 240]})
+
+
+def test_a_folder_without_frames_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(NoFrames, match="holds no frames"):
+        read_all(tmp_path / "nowhere")
