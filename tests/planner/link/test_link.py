@@ -12,10 +12,19 @@ import pytest
 from planner.link import BridgeSilent, Link
 from planner.link.lidar import points_in_map
 from tests.planner.mission.fakes import FakeBridge
-from wire import OpRequest, Pose2, RobotDescription, Scan, Stop
+from wire import (
+    Localization,
+    Odometry,
+    OpRequest,
+    Pose2,
+    RobotDescription,
+    Scan,
+    Stop,
+    Twist2,
+)
 from wire.robot import LidarConfig
 
-ROBOT = RobotDescription()
+ROBOT, ORIGIN = RobotDescription(), Pose2(0.0, 0.0, 0.0)
 T = TypeVar("T")
 
 
@@ -93,6 +102,45 @@ def test_ages_run_on_our_own_clock() -> None:
     clock.now_s += 0.75
     assert link.status is not None
     assert link.status.age_s == pytest.approx(0.75)
+
+
+class Followed:
+    """Keep what a link tells of how the robot moves."""
+
+    def __init__(self) -> None:
+        self.heard: list[str] = []
+
+    def odometry(self, odometry: Odometry) -> None:
+        self.heard.append(f"odometry {odometry.seq}")
+
+    def localization(self, localization: Localization) -> None:
+        self.heard.append(f"localization {localization.seq}")
+
+
+class Moving(FakeBridge):
+    """Be a bridge whose robot is heard to move."""
+
+    def odometry(self) -> Odometry | None:
+        self.odom_m += 1.0
+        return Odometry(odom_id="o", seq=int(self.odom_m), stamp_s=1.0, base_in_odom=ORIGIN,
+                        twist=Twist2(0.0, 0.0), yaw_rate_radps=None)  # fmt: skip
+
+    def localization(self) -> Localization | None:
+        if self.odom_m != 1.0:
+            return None
+        return Localization(odom_id="o", seq=7, stamp_s=1.0, odom_in_map=ORIGIN, quality=0.9,
+                            map_id="0" * 16)  # fmt: skip
+
+
+def test_whoever_follows_is_told_every_move_once() -> None:
+    link, before, after = Link(Moving(), ROBOT, clock=Clock()), Followed(), Followed()
+    link.tell(before)
+    link.poll()
+    link.poll()
+    link.tell(after)
+    link.poll()
+    assert before.heard == ["odometry 1", "localization 7", "odometry 2", "odometry 3"]
+    assert after.heard == ["odometry 3"]
 
 
 def scan(*ranges_m: float | None) -> Scan:
