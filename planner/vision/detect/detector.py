@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 
+from planner.vision.colors_pixels import exposure
 from planner.vision.detect.found import Found, believed, in_picture
 from planner.vision.detect.hints import hints
 from planner.vision.detect.inner import ANY, look_inside
@@ -114,13 +115,14 @@ class Detector:
         kinds = [self._kinds[number] for number in found.classes]
         size = (picture.shape[1], picture.shape[0])
         told = [ANY] * len(found) if depth is None else hints(found.boxes, kinds, size, focal_px)
+        gain = exposure(picture) if len(found) else 1.0
         made: list[Detection] = []
         for box, score, number, hint in zip(
             found.boxes, found.scores, found.classes, told, strict=True
         ):
             if not (label := self._classes[number]):
                 continue
-            seen = look_inside(picture, depth, box, hint)
+            seen = look_inside(picture, depth, box, hint, gain)
             left, top, right, bottom = _numbers(box)
             made.append(
                 Detection(

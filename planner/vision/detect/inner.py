@@ -72,11 +72,16 @@ class _Sample:
         return foreground(beyond, enough) if left or nearest_m <= 0.0 else None
 
 
-def look_inside(picture: Picture, depth: Depth | None, box: Boxes, hint: Hint = ANY) -> Inner:
-    """Return colour and depth of the thing in a box: left, top, right, bottom [px]."""
+def look_inside(
+    picture: Picture, depth: Depth | None, box: Boxes, hint: Hint = ANY, gain: float = 1.0
+) -> Inner:
+    """Return colour and depth of the thing in a box: left, top, right, bottom [px].
+
+    Gain: what the picture lacks in light, for its colours.
+    """
     if depth is None:
         part = inner(box, picture.shape[1], picture.shape[0])
-        return Inner(prevailing(picture[part].reshape(-1, 3)), None, 0.0)
+        return Inner(prevailing(picture[part].reshape(-1, 3), gain), None, 0.0)
     sample = _sampled(picture, depth, box, hint.part, hint.others)
     measured = sample.thing(hint.enough)
     if measured is not None and not measured[len(measured) // 2] * MM >= hint.nearest_m:
@@ -84,10 +89,10 @@ def look_inside(picture: Picture, depth: Depth | None, box: Boxes, hint: Hint = 
         behind = whole.thing(ENOUGH_BEHIND, hint.nearest_m)
         sample, measured = (sample, measured) if behind is None else (whole, behind)
     if measured is None:
-        return Inner(prevailing(sample.pixels), None, 0.0)
+        return Inner(prevailing(sample.pixels, gain), None, 0.0)
     near = (sample.millimetres >= measured[0]) & (sample.millimetres <= measured[-1])
     low, middle, high = (float(measured[len(measured) * part // 4]) * MM for part in (1, 2, 3))
-    return Inner(prevailing(sample.pixels[near]), middle, (high - low) / 2)
+    return Inner(prevailing(sample.pixels[near], gain), middle, (high - low) / 2)
 
 
 def _sampled(

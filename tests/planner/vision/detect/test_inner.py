@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from planner.vision.colors_pixels import IDS, prevailing
+from planner.vision.colors_pixels import IDS, exposure, prevailing
 from planner.vision.detect.inner import inner, look_inside
 from planner.vision.detect.pictures import Depth, Picture
 
@@ -91,3 +91,18 @@ def test_where_colours_do_not_agree_there_is_none() -> None:
     )
     assert prevailing(thirds) is None
     assert prevailing(thirds[:2]) is None
+
+
+def test_a_dim_picture_is_brightened_before_colours_count() -> None:
+    lit = np.full((80, 80, 3), 240, np.uint8)
+    lit[30:50, 30:50] = (40, 48, 70)  # dark wood
+    dim = (lit // 2).astype(np.uint8)
+    assert exposure(lit) == 1.0
+    assert exposure(dim) == pytest.approx(235 / 120)
+    assert exposure(np.zeros((80, 80, 3), np.uint8)) == 4.0  # and no more, whatever the dark holds
+    for picture in (lit, dim):
+        gain = exposure(picture)
+        assert prevailing(picture[:20].reshape(-1, 3), gain) == "white"
+        assert prevailing(picture[30:50, 30:50].reshape(-1, 3), gain) == "brown"
+    assert prevailing(dim[:20].reshape(-1, 3)) == "gray"
+    assert prevailing(dim[30:50, 30:50].reshape(-1, 3)) == "black"
