@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from planner.mission.records import Book, Facts, Mission
 from planner.mission.skills import SKILLS, Eyesight
+from planner.mission.skills.seen import meant
 from planner.mission.skills.tell import known_things
 from planner.plan import NEEDS_DETECTOR, Code, Language, Outcome, StepRecord, message, same
-from planner.vision.labels import resolve
 
 
 def unwalkable(book: Book, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
@@ -42,7 +42,7 @@ def _unknown_thing(
         if step.kind not in NEEDS_DETECTOR or pointed:
             continue
         name = step.object or ""
-        if resolve(name, language, eyes.classes) is None:
+        if meant(name, language, eyes.classes) is None:
             said = message(Code.OBJECT_UNKNOWN, name=same(name), known=known_things(eyes.classes))
             return Outcome(code=Code.OBJECT_UNKNOWN, message=said)
     return None

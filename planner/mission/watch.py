@@ -35,6 +35,8 @@ SILENCE_S = 5.0
 """After so long without a word from the bridge nothing goes on unasked."""
 ROW_S = 30.0
 OBSTACLE_S = 300.0
+PATIENCE_S = 20.0
+"""What stands in the way of a leg that its step can do without is waited for so long."""
 IDLE_S = 30.0
 """A leg that is streamed and neither followed nor explained by a row for so long is given up."""
 REFUSED_S = 0.5
@@ -158,6 +160,9 @@ def _held_too_long(turn: Turn, status: Status) -> bool:
     since_s = walk.row_since_s if walk.row_since_s is not None else turn.now_s
     turn.walk(row_since_s=since_s)
     others = [r for r in rows if r.row not in GATES]
+    if walk.otherwise is not None and not others and turn.now_s - since_s > PATIENCE_S:
+        fail_step(turn, Cannot(Code.BLOCKED, "blocked"))  # the step goes on without this leg
+        return True
     if turn.now_s - since_s <= (ROW_S if others else OBSTACLE_S):
         return False
     worst = max(others, key=lambda r: r.for_s, default=None)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Drive, Gaze, Scene, Way
 from planner.mission.skills.notes import Notes
-from planner.mission.skills.rooms import HERE, Spot
+from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.seen import away_m
 from wire import Pose2, wrap
 
@@ -31,7 +31,8 @@ def look_round(
     scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
 ) -> Drive | Gaze | Notes:
     """Return the next leg or gaze; the notes alone once every spot was looked round from."""
-    notes = scene.notes
+    notes = _without_way(scene, pose, spots)
+    scene = scene.but(notes)
     here = next((s for s in spots if s.key == notes.spot), None)
     if here is None:
         return _go(scene, pose, spots, wanted)
@@ -95,9 +96,19 @@ def _go(
     there = notes.but(spot=spot.key, views=(), turned=None)
     if spot.key == HERE or away_m(pose, spot.at) <= THERE_M:
         return look_round(scene.but(there), pose, spots, wanted)
+    return leg_to(pose, spot.at, None, there, notes.but(missed=spot.key), wanted)
+
+
+def _without_way(scene: Scene, pose: Pose2, spots: tuple[Spot, ...]) -> Notes:
+    """Give up a spot to which the way was shut; in its room, look round from where one stands."""
+    notes = scene.notes
+    spot = next((s for s in spots if s.key == notes.missed), None)
+    if spot is None:
+        return notes
+    if spot.room is not None and room_at(scene.facts, (pose.x_m, pose.y_m)) == spot.room:
+        return notes.but(missed=None, spot=spot.key, views=(), turned=None)
     shut = (*notes.shut, spot.room) if spot.room and spot.room not in notes.shut else notes.shut
-    otherwise = notes.but(spots=(*notes.spots, spot.key), shut=shut)
-    return leg_to(pose, spot.at, None, there, otherwise, wanted)
+    return notes.but(missed=None, spots=(*notes.spots, spot.key), shut=shut)
 
 
 def _heading(scene: Scene, view: int) -> float:

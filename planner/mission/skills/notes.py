@@ -26,6 +26,8 @@ class Notes(Frozen):
     """Spots that are over: looked round from, or not to be reached."""
     rooms: tuple[str, ...] = ()
     """Rooms that were looked round in."""
+    missed: str | None = None
+    """The spot to which the way turned out to be shut."""
     shut: tuple[str, ...] = ()
     """Rooms to which there was no way."""
     here: tuple[float, float] | None = None

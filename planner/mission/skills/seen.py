@@ -7,7 +7,7 @@ from math import atan2, hypot
 from typing import TYPE_CHECKING
 
 from planner.mission.skills.eyesight import Wanted
-from planner.plan import Found
+from planner.plan import Found, Language
 from planner.vision.kinds import kind_of
 from planner.vision.labels import resolve
 from wire import wrap
@@ -25,6 +25,11 @@ SIGHTINGS = 2
 """One picture may err; two that agree seldom do."""
 WORTH = 0.3
 """Confidence from which a remembered thing is worth a second look."""
+SOMEBODY = frozenset(
+    {"me", "us", "you", "him", "her", "them", "he", "she", "they", "我", "我们", "你", "您"}
+    | {"他", "她", "他们", "她们"}
+)
+"""People by pronoun: who is meant, no eye can tell."""
 _WORD = re.compile(r"[a-z0-9'-]+")
 _CHINESE = re.compile(r"[\u3400-\u9fff]+")
 LONGEST_EN, LONGEST_ZH = 3, 8
@@ -34,7 +39,13 @@ READ = 120
 
 def wanted_of(scene: Scene) -> Wanted | None:
     """Return what the step's words mean to these eyes, or None."""
-    found = resolve(scene.step.object or "", scene.language, scene.eyes.classes)
+    return meant(scene.step.object or "", scene.language, scene.eyes.classes)
+
+
+def meant(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+    """Return what words mean to eyes that know these classes (none: not known yet), or None."""
+    somebody = words.strip().casefold() in SOMEBODY
+    found = resolve("person" if somebody else words, language, classes)
     return Wanted(*found) if found is not None else None
 
 
