@@ -8,7 +8,7 @@ pair of them would be.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tan
+from math import hypot, sqrt, tan
 from random import Random
 from typing import TYPE_CHECKING, Protocol
 
@@ -104,7 +104,10 @@ class TruthFinder:
         if not self._camera.depth_min_m <= depth_m <= self._camera.depth_max_m:
             return None
         focal = view.header.focal_px
-        wide, high = (extent * focal / middle[2] for extent in (thing.breadth_m, thing.height_m))
+        down_m = self._camera.z_m - thing.low_m - thing.height_m / 2
+        down = max(0.0, down_m) / hypot(down_m, middle[2])  # sine: what lies flat shows its top
+        upright_m = thing.height_m * sqrt(1.0 - down * down) + thing.depth_m * down
+        wide, high = (extent * focal / middle[2] for extent in (thing.breadth_m, upright_m))
         whole = (middle[0] - wide / 2, middle[1] - high / 2, middle[0] + wide / 2,
                  middle[1] + high / 2)  # fmt: skip
         box = _clipped(whole, view.header)
