@@ -76,6 +76,7 @@ class Tour:
     """Errors of what is remembered at the end."""
     ghosts: int
     twice: int
+    """Things that stand still and are remembered as two; a person may have come again."""
 
 
 class Lookout:
@@ -210,7 +211,8 @@ def _tour(lookout: Lookout, see: See, number: int) -> Tour:
             memory, _ = saw(scenery, memory, picture, seen, Stance(pose))
     nearest = [lookout.away_m(t.label, t.x_m, t.y_m) for t in memory.things]
     kept = [away_m for away_m, _ in nearest if away_m < GHOST_M]
-    told = [number for away_m, number in nearest if away_m < GHOST_M]
+    walks = {n for n, (class_id, _) in enumerate(lookout.truths) if kind_of(class_id).mobile}
+    told = [n for away_m, n in nearest if away_m < GHOST_M and n not in walks]
     return Tour(small, large, kept, len(nearest) - len(kept), len(told) - len(set(told)))
 
 

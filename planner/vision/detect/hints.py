@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.vision.detect.inner import Hint
-from planner.vision.kinds import Kind
+from planner.vision.kinds import TOP, Kind
 
 Boxes = NDArray[np.float32]
 LOWER_PX = 2.0
 MOSTLY = 0.5
 """A smaller box that lies so much in a larger one stands on or before it."""
 EDGE_PX = 2.0
+NEARLY_ALL = (0.1, 0.1, 0.9, 0.9)
 
 
 def hints(
@@ -26,9 +27,22 @@ def hints(
     Without a focal length nobody can tell from how large a thing shows how near it is.
     """
     return [
-        Hint(kind.part, kind.enough, _nearest_m(box, kind, size, focal_px), _before(boxes, row))
+        Hint(
+            _part(box, kind, size),
+            kind.enough,
+            _nearest_m(box, kind, size, focal_px),
+            _before(boxes, row),
+        )
         for row, (box, kind) in enumerate(zip(boxes, kinds, strict=True))
     ]
+
+
+def _part(box: Boxes, kind: Kind, size: tuple[int, int]) -> tuple[float, float, float, float]:
+    """Return where in a box depth is read.
+
+    What reaches below the picture is near, and beside its upper part much shows of what is behind.
+    """
+    return NEARLY_ALL if kind.part == TOP and box[3] >= size[1] - EDGE_PX else kind.part
 
 
 def _nearest_m(box: Boxes, kind: Kind, size: tuple[int, int], focal_px: float | None) -> float:
