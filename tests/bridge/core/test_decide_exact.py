@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
-
 from bridge.core.decide import _call, _tire, arrive, decide
 from bridge.core.state import Gate, RowUp
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import Action, HeldReason, Mode
 
@@ -27,7 +26,7 @@ def waiting(start: str, since_s: float | None, *, blocked: bool, must_stop: bool
     return tick
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "since_s", "blocked", "must_stop", "waits"),
     [
         ("hold_granted", None, False, True, True),
@@ -52,7 +51,7 @@ def test_a_mission_waits_while_it_stands_granted_before_trouble(
     assert tick.s.gate.blocked is (blocked and mission is not None)
 
 
-@pytest.mark.parametrize(
+@table(
     ("since_s", "blocked", "must_stop", "why"),
     [
         (30.0, False, True, "lidar_stale"),
@@ -73,7 +72,7 @@ def test_a_mission_that_waited_too_long_is_revoked_and_its_rest_kept(
     assert not tick.s.gate.blocked
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "age_s", "kept"),
     [("hold_granted", 0.0, True), ("hold_granted", 9.0, False), ("stopping_by_row", 9.0, True)],
 )
@@ -88,7 +87,7 @@ def test_a_horizon_grown_old_is_forgotten_where_the_robot_stands(
     assert (tick.s.leg.path is not None) is kept
 
 
-@pytest.mark.parametrize(
+@table(
     ("rows", "blocked", "mode", "why"),
     [
         ((), False, Mode.ACTIVE, ""),
@@ -122,14 +121,14 @@ def calling(start: str) -> Tick:
     return tick
 
 
-@pytest.mark.parametrize(("start", "source"), [("active", "W"), ("active_external", "X")])
+@table(("start", "source"), [("active", "W"), ("active_external", "X")])
 def test_who_calls_moves_the_robot(start: str, source: str) -> None:
     tick = calling(start)
     _call(tick)
     assert (tick.s.mode, tick.s.source) == (Mode.ACTIVE, source)
 
 
-@pytest.mark.parametrize("against", ["held", "mission", "blocked", "stopped", "mode", "silence"])
+@table("against", ["held", "mission", "blocked", "stopped", "mode", "silence"])
 def test_nobody_is_called_against_what_forbids_it(against: str) -> None:
     tick = calling("active")
     if against == "held":
@@ -150,7 +149,7 @@ def test_nobody_is_called_against_what_forbids_it(against: str) -> None:
     assert tick.s.mode is before
 
 
-@pytest.mark.parametrize(("resumes", "mode"), [(True, Mode.ACTIVE), (False, Mode.STOPPING)])
+@table(("resumes", "mode"), [(True, Mode.ACTIVE), (False, Mode.STOPPING)])
 def test_only_a_stop_that_may_go_on_goes_on(resumes: bool, mode: Mode) -> None:
     tick = tick_of(reached("stopping_by_row"))
     assert tick.s.stopping is not None
@@ -160,7 +159,7 @@ def test_only_a_stop_that_may_go_on_goes_on(resumes: bool, mode: Mode) -> None:
     assert tick.s.mode is mode
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "stands", "at_end", "mode"),
     [
         ("active", True, True, Mode.ACTIVE),  # its horizon is not the last of the leg
@@ -176,7 +175,7 @@ def test_nobody_arrives_before_the_end(start: str, stands: bool, at_end: bool, m
     assert tick.s.mode is mode
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "stands", "at_end", "mode"),
     [
         ("active", True, True, Mode.HOLD),

@@ -13,6 +13,7 @@ from bridge.core.state_watch import Flood
 from bridge.core.tick import Tick
 from bridge.core.window import filled
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 
 EPS = 1e-6
@@ -23,7 +24,7 @@ def at(start: str = "active") -> Tick:
     return tick_of(reached(start))
 
 
-@pytest.mark.parametrize(
+@table(
     ("level_s", "dt_s", "top_s", "dirty", "after_s"),
     [
         (0.0, 0.01, 1.0, True, 0.01),
@@ -41,7 +42,7 @@ def test_a_window_fills_four_times_as_fast_as_it_drains(
     assert filled(level_s, dt_s, top_s, dirty=dirty) == pytest.approx(after_s)
 
 
-@pytest.mark.parametrize(
+@table(
     ("facts", "before_s", "dt_s", "rows"),
     [
         (LoopFacts(late_s=0.005), (-0.9, -0.8, -0.7, -0.6), 0.01, []),
@@ -75,7 +76,7 @@ def test_a_late_loop_is_seen_at_its_edges(
         assert tick.s.loop.late_at_s[-1] == tick.now_s
 
 
-@pytest.mark.parametrize(
+@table(
     ("gaps_s", "ticks", "rows"),
     [
         ((-5.0,), 9, ["LOOP_LATE.1"]),
@@ -96,9 +97,7 @@ def test_three_gaps_in_ten_seconds(gaps_s: tuple[float, ...], ticks: int, rows: 
     assert len(tick.s.loop.gaps_at_s) == min(3, len(gaps_s) + bool(rows))
 
 
-@pytest.mark.parametrize(
-    ("granted", "virtual", "seen"), [(True, False, 0), (False, True, 0), (False, False, 1)]
-)
+@table(("granted", "virtual", "seen"), [(True, False, 0), (False, True, 0), (False, False, 1)])
 def test_rights_refused_matter_on_a_real_drive(granted: bool, virtual: bool, seen: int) -> None:
     tick = at()
     tick.s.loop = replace(tick.s.loop, real_time=granted)
@@ -149,7 +148,7 @@ def test_a_peak_of_current_counts_for_100_ms_and_heat_adds_up() -> None:
     assert dirty == []
 
 
-@pytest.mark.parametrize(
+@table(
     ("charge", "low_s", "empty_s", "up", "rows"),
     [
         (0.20, 1.995, 1.995, (), []),
@@ -179,7 +178,7 @@ def test_a_battery_is_low_after_two_seconds_until_well_above(
     assert [name for name, _ in dirty] == rows
 
 
-@pytest.mark.parametrize(
+@table(
     ("returns", "normal", "blind_s", "rows"),
     [
         (5, 100.0, 4.995, []),
@@ -205,7 +204,7 @@ def test_a_lidar_is_blind_where_few_beams_come_back(
     assert [name for name, _ in dirty] == rows
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "scan", "up", "seen"),
     [
         ("active", True, (), 0),
@@ -240,8 +239,8 @@ LIMITS = {
 """rate x 0.25 s x 1.2, and one more."""
 
 
-@pytest.mark.parametrize(("key", "limit"), LIMITS.items())
-@pytest.mark.parametrize("before", [False, True])
+@table(("key", "limit"), LIMITS.items())
+@table("before", [False, True])
 def test_each_key_has_its_limit_in_two_halves(key: str, limit: int, before: bool) -> None:
     for count, over in ((limit, False), (limit + 1, True)):
         tick = at()
@@ -254,7 +253,7 @@ def test_each_key_has_its_limit_in_two_halves(key: str, limit: int, before: bool
         assert tick.s.flood.key == (key if over else "")
 
 
-@pytest.mark.parametrize(
+@table(
     ("passed_s", "half_began", "counts", "before"),
     [
         (0.125 - EPS, False, 3, 2),

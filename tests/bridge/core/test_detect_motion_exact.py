@@ -12,6 +12,7 @@ from bridge.core.state import Gate
 from bridge.core.state_watch import Sent
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import STILL, Imu, Pose2, RobotDescription, Twist2, Waypoints
 
@@ -42,7 +43,7 @@ def last_place(tick: Tick) -> Pose2 | None:
     return tick.s.watch.progress_at
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "sent", "real", "had_s", "old_s", "rows", "left_s"),
     [
         # 0.4 m/s was sent; 0.15 m/s more is slack
@@ -135,7 +136,7 @@ def test_what_was_sent_is_kept_in_buckets_as_long_as_it_may_show() -> None:
     assert list(tick.s.watch.sent) == [STOOD, replace(begun, since_s=0.05)]
 
 
-@pytest.mark.parametrize(
+@table(
     ("sent", "real", "held"),
     [
         (Twist2(0.10, 0.0), STILL, False),
@@ -167,7 +168,7 @@ def test_what_is_asked_and_does_not_move_is_held(sent: Twist2, real: Twist2, hel
     assert tick.s.watch.stuck_s == 0.0
 
 
-@pytest.mark.parametrize(
+@table(
     ("left", "asked", "held"),
     [
         (0.03 - EPS, 0.5, True), (0.03 + EPS, 0.5, False), (-0.03 + EPS, 0.5, True),
@@ -176,7 +177,7 @@ def test_what_is_asked_and_does_not_move_is_held(sent: Twist2, real: Twist2, hel
         (0.024 - EPS, 0.12, True), (0.024 + EPS, 0.12, False),
     ],
 )  # fmt: skip
-@pytest.mark.parametrize("side", [-1.0, 1.0])
+@table("side", [-1.0, 1.0])
 def test_a_wheel_is_held_by_itself(left: float, asked: float, held: bool, side: float) -> None:
     base = RobotDescription.model_validate({"base": {"wheel_separation_m": 0.4}}).base
     sent = Twist2((asked + 0.3) / 2, side * (0.3 - asked) / 0.4)
@@ -218,7 +219,7 @@ def test_who_follows_nobody_is_not_watched_but_what_was_seen_drains() -> None:
     assert tick.s.grants.mission is not None
 
 
-@pytest.mark.parametrize(
+@table(
     ("gone", "waited_s", "seen", "anew"),
     [
         ((0.0, 0.0, 0.0), 5.0 - EPS, False, False),
@@ -253,7 +254,7 @@ def test_progress_is_2_cm_or_3_degrees_in_5_s(
     assert watch.progress_s == 50.0
 
 
-@pytest.mark.parametrize("why", ["blocked", "shut", "mode", "source", "no way"])
+@table("why", ["blocked", "shut", "mode", "source", "no way"])
 def test_progress_is_asked_of_waypoints_with_an_open_way_alone(why: str) -> None:
     start = {"mode": "hold_granted", "source": "teleop"}.get(why, "active")
     tick = at(STILL, STILL, start)
@@ -267,7 +268,7 @@ def test_progress_is_asked_of_waypoints_with_an_open_way_alone(why: str) -> None
     assert tick.s.watch.progress_at is None
 
 
-@pytest.mark.parametrize(
+@table(
     ("wheels", "gyro", "age_s", "had_s", "seen", "left_s"),
     [
         (0.5, 0.2 + EPS, 0.0, 0.495, False, 0.4925),

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-import pytest
-
 from bridge.core import (
     decide,
     detect_loop,
@@ -31,6 +29,7 @@ from bridge.core.state_orders import External
 from bridge.core.stopcurve import too_long
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from tests.bridge.core.test_stops_exact import PLAN, stop_of
 from wire import Mode, Pose2
@@ -209,7 +208,7 @@ CASES: tuple[tuple[str, float, Judge, object], ...] = (
 )
 
 
-@pytest.mark.parametrize(("start", "now_s", "judge", "expected"), CASES)
+@table(("start", "now_s", "judge", "expected"), CASES)
 def test_on_the_edge(start: str, now_s: float, judge: Judge, expected: object) -> None:
     tick = tick_of(reached(start))
     tick.now_s = now_s
@@ -229,7 +228,7 @@ def test_a_full_bucket_stays_full_and_an_empty_one_empty() -> None:
     assert tick.s.bad_bucket == 10.0
 
 
-@pytest.mark.parametrize(("sent_s", "lateness"), [(0.0, "before_jump"), (0.1, None)])
+@table(("sent_s", "lateness"), [(0.0, "before_jump"), (0.1, None)])
 def test_a_message_of_the_very_moment_of_a_jump_is_of_before(
     sent_s: float, lateness: str | None
 ) -> None:

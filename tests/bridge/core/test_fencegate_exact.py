@@ -5,10 +5,9 @@ from __future__ import annotations
 from itertools import product
 from math import cos, inf, pi, sin
 
-import pytest
-
 from bridge.core.fence import build_fence
 from bridge.core.fencegate import FENCE_MARGIN_M, INWARD_MPS, fence_scale
+from tests.bridge.core.table import table
 from wire import Pose2, RobotDescription, Twist2
 
 ROBOT = RobotDescription()
@@ -42,8 +41,8 @@ def stops_clear(pose: Pose2, twist: Twist2, k: float, late_s: float, share: floa
     return all(WALL_M - x >= FENCE_MARGIN_M for x in ends)
 
 
-@pytest.mark.parametrize("share", [1.0, 0.2])
-@pytest.mark.parametrize("late_s", [0.05, 0.4])
+@table("share", [1.0, 0.2])
+@table("late_s", [0.05, 0.4])
 def test_of_32_parts_so_many_pass_as_stop_clear_and_not_one_more(
     late_s: float, share: float
 ) -> None:
@@ -62,7 +61,7 @@ def test_of_32_parts_so_many_pass_as_stop_clear_and_not_one_more(
     assert len(seen) > 10
 
 
-@pytest.mark.parametrize(
+@table(
     ("pose", "twist", "scale"),
     [
         (Pose2(1.9, 0, 0), Twist2(1e-4, 0.0), 0.0),  # the slowest that is no turn in place

@@ -19,6 +19,7 @@ from bridge.core.state_braking import Learnt
 from bridge.core.tick import Tick
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import STILL, Mode, Twist2
 
@@ -71,7 +72,7 @@ def test_a_free_way_passes_whole() -> None:
     )
 
 
-@pytest.mark.parametrize("v_mps", [0.5, -0.5])
+@table("v_mps", [0.5, -0.5])
 def test_a_near_thing_slows(v_mps: float) -> None:
     tick = driving(0.45)
     passed = through(tick, Twist2(v_mps, 0.0))
@@ -87,7 +88,7 @@ def test_a_thing_too_near_shuts() -> None:
     assert (tick.s.motion.bound_by, tick.s.gate.shut_since_s) == ("obstacle", tick.now_s)
 
 
-@pytest.mark.parametrize(
+@table(
     ("asked", "passed", "by"),
     [
         (AHEAD, Twist2(0.2, 0.0), "unseen"),
@@ -110,7 +111,7 @@ def test_a_pressed_bumper_shuts() -> None:
     assert (tick.s.motion.bound_by, tick.s.gate.shut_since_s) == ("contact", tick.now_s)
 
 
-@pytest.mark.parametrize(
+@table(
     ("shut", "start", "before", "turned_rad", "after"),
     [
         (False, "active", Gate(shut_since_s=1.0, free_scans=2), 0.0, Gate(None, free_scans=2)),
@@ -146,7 +147,7 @@ def test_shut_for_half_a_second_without_turning_away_is_blocked(
     assert [code for code, _ in tick.events] == ["blocked"] * blocked
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "before", "asked", "range_m", "bumper", "after"),
     [
         ("hold", Gate(blocked=True, free_scans=3), AHEAD, 3.0, False, 4),
@@ -204,9 +205,9 @@ def test_a_scan_is_as_old_as_its_row_judges() -> None:
     assert tick.s.mode is Mode.ACTIVE
 
 
-@pytest.mark.parametrize("learnt", [Learnt(), Learnt(lag_more_s=0.2, decel_share=0.5)])
-@pytest.mark.parametrize("start", ["active", "teleop"])
-@pytest.mark.parametrize("v_mps", [0.4, 0.1, -0.4])
+@table("learnt", [Learnt(), Learnt(lag_more_s=0.2, decel_share=0.5)])
+@table("start", ["active", "teleop"])
+@table("v_mps", [0.4, 0.1, -0.4])
 def test_the_fence_counts_what_was_learnt_of_the_brakes(
     learnt: Learnt, start: str, v_mps: float
 ) -> None:
@@ -229,7 +230,7 @@ def test_the_fence_counts_what_was_learnt_of_the_brakes(
     assert _inside_fence(tick, twist) is twist
 
 
-@pytest.mark.parametrize(
+@table(
     ("asked", "passed"),
     [
         (Twist2(-0.05, 0.1), Twist2(-0.05, 0.1)),

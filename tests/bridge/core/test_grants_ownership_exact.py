@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
-
 from bridge.core import grants, ownership
 from bridge.core.state import RowUp
 from bridge.core.state_orders import Grants, MissionLeft, Ownership
 from bridge.core.tick import Tick
 from bridge.core.verdicts import refuse_openly
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import PROTOCOL, Grant, Heartbeat, Held, HeldReason, Hello, Owner
 
@@ -52,7 +51,7 @@ def test_a_grant_puts_the_last_one_in_the_book_and_takes_its_own_rest_out() -> N
     assert tick.s.grants is again
 
 
-@pytest.mark.parametrize(("after_s", "granted"), [(-0.01, True), (0.0, False), (0.01, False)])
+@table(("after_s", "granted"), [(-0.01, True), (0.0, False), (0.01, False)])
 def test_a_grant_knows_of_the_jump_or_is_dropped(after_s: float, granted: bool) -> None:
     tick = at("hold")
     sent_s = tick.s.voice.ring[-1]
@@ -71,7 +70,7 @@ def hello(tick: Tick, **more: object) -> Hello:
     return Hello.model_validate(said | more)
 
 
-@pytest.mark.parametrize("last", [None, "p2", "p1"])
+@table("last", [None, "p2", "p1"])
 def test_an_owner_is_taken_and_another_one_holds(last: str | None) -> None:
     tick = at("hold")
     tick.s.ownership = Ownership(last_owner_id=last, echo_s=None, waypoints_seq=7, external_seq=7)
@@ -88,7 +87,7 @@ def test_an_owner_is_taken_and_another_one_holds(last: str | None) -> None:
     assert tick.events[-1] == ("owner", "planner p2")
 
 
-@pytest.mark.parametrize(
+@table(
     ("change", "codes"),
     [
         ({"protocol": PROTOCOL + 1}, ["hello_protocol_mismatch"]),
@@ -130,7 +129,7 @@ def test_the_owners_own_hello_shows_that_it_lives() -> None:
     assert tick.reasons == []
 
 
-@pytest.mark.parametrize(
+@table(
     ("had_s", "back", "rightful", "used"),
     [
         (None, 0, True, True),

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from math import hypot, nan
 
-import pytest
-
 from bridge.core import horizon
 from bridge.core.fence import build_fence
 from bridge.core.horizon import check_horizon
+from tests.bridge.core.table import table
 from wire import Pose2, Waypoint
 
 FENCE = build_fence(
@@ -26,7 +25,7 @@ def test_fifty_points_are_as_many_as_may_come() -> None:
     assert check_horizon(line(51, 0.0625), HERE, 0.5, FENCE) == ("too_many_points",)
 
 
-@pytest.mark.parametrize(("where", "codes"), [(0, ["heading_not_last"]), (3, ["heading_not_last"])])
+@table(("where", "codes"), [(0, ["heading_not_last"]), (3, ["heading_not_last"])])
 def test_a_heading_in_the_middle_is_refused(where: int, codes: list[str]) -> None:
     points = line(5, 0.1)
     points[where] = points[where].model_copy(update={"heading_rad": 1.0})
@@ -46,7 +45,7 @@ def test_bounds_are_within() -> None:
 Point = tuple[float, float]
 
 
-@pytest.mark.parametrize(
+@table(
     ("robot", "points", "inside"),
     [
         ((4.9, 0.5), [(5.05, 0.5)], False),  # its only point lies in the keep-out

@@ -23,6 +23,7 @@ from bridge.core.kinematics import (
 from bridge.core.odometry import OdometryState, advance, along_arc, arc_end, rolled
 from bridge.core.wheelcontrol import AT_REST, Wheel, turned
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from wire import STILL, DriveState, Pose2, RobotDescription, Twist2
 from wire.geometry import MAX_COORDINATE_M, MAX_SPEED_MPS, MAX_TURN_RADPS
 
@@ -56,7 +57,7 @@ def test_rims_and_wheels_of_a_motion_and_back() -> None:
     assert wheels_of(Twist2(1e308, -1e308), BASE) == STOPPED
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
+@table("sign", [1.0, -1.0])
 def test_what_is_measured_is_held_within_what_may_be_said(sign: float) -> None:
     fast = twist_of(sign * 1e6, sign * 1e6, BASE)
     assert fast == Twist2(sign * MAX_SPEED_MPS, 0.0)
@@ -66,7 +67,7 @@ def test_what_is_measured_is_held_within_what_may_be_said(sign: float) -> None:
     assert twist_of(most, most, BASE).v_mps == pytest.approx(sign * MAX_SPEED_MPS)
 
 
-@pytest.mark.parametrize(
+@table(
     ("v", "w", "cap", "factor"),
     [
         (0.6, 0.0, 1.0, 1.0), (0.8, 0.0, 1.0, 0.75), (-0.8, 0.0, 1.0, 0.75),
@@ -114,9 +115,9 @@ def reading(left: float, right: float, *, speeds: tuple[float, float] = (0.0, 0.
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("yaw", [0.0, 2.0, -3.1])
-@pytest.mark.parametrize("turn", [1.0, -0.3, 2e-6, 1.9e-6, 0.0, 4.0])
-@pytest.mark.parametrize("length", [0.5, -0.2])
+@table("yaw", [0.0, 2.0, -3.1])
+@table("turn", [1.0, -0.3, 2e-6, 1.9e-6, 0.0, 4.0])
+@table("length", [0.5, -0.2])
 def test_an_arc_ends_on_its_circle(length: float, turn: float, yaw: float) -> None:
     pose = Pose2(1.0, -2.0, yaw)
     x, y = 1.0 + length * cos(yaw + turn / 2), -2.0 + length * sin(yaw + turn / 2)
@@ -151,7 +152,7 @@ def test_two_wheel_paths_make_an_arc() -> None:
     assert there.yaw_rad == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize(
+@table(
     ("left", "right", "rezero", "rolls", "jumps"),
     [
         (1.5, 4.5, False, (0.1, 0.5), 0),
@@ -179,7 +180,7 @@ def test_a_reading_rolls_the_robot_by_what_its_wheels_turned(
     assert (after.left_rad, after.right_rad) == (None if left != left else left, right)
 
 
-@pytest.mark.parametrize("had", [(None, 2.0), (1.0, None), (None, None)])
+@table("had", [(None, 2.0), (1.0, None), (None, None)])
 def test_without_a_zero_nothing_moves(had: tuple[float | None, float | None]) -> None:
     after = advance(OdometryState(Pose2(3, 4, 1), STILL, *had), reading(1.5, 2.5), BASE)
     assert after.base_in_odom == Pose2(3, 4, 1)
@@ -211,7 +212,7 @@ ROLLING = Wheel(0.2, 0.3, 1.9, 1.8, 2.0, 0.0)
 """At a meant speed of 2 rad/s 0.5 rad/s may be added: a share of 1."""
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
+@table("sign", [1.0, -1.0])
 def test_a_wheel_is_told_what_its_motor_needs(sign: float) -> None:
     """Ahead by 0.05 s of 0.4 m/s2 at a wheel of 0.2 m: 0.1 rad/s; then the dead zone's."""
     plain = told(AT_REST, sign * 2.0, None, sign * 0.4)
@@ -246,9 +247,7 @@ def test_a_wheel_is_told_what_its_motor_needs(sign: float) -> None:
     assert again.told_radps == sign * 2.0
 
 
-@pytest.mark.parametrize(
-    ("meant", "moves"), [(0.01, True), (-0.01, True), (0.0099, False), (-0.0099, False)]
-)
+@table(("meant", "moves"), [(0.01, True), (-0.01, True), (0.0099, False), (-0.0099, False)])
 def test_slower_than_a_creep_is_standing(meant: float, moves: bool) -> None:
     assert (told(ROLLING, meant) != AT_REST) is moves
 
@@ -270,7 +269,7 @@ def test_the_bound_is_a_share_of_speed_and_of_the_rim() -> None:
         assert told(wheel, meant).told_radps == pytest.approx(meant + 0.1 + bound)
 
 
-@pytest.mark.parametrize(
+@table(
     ("before", "told_before", "begins"),
     [(0.5, 2.0, 1.9), (1.0, 0.0, 1.0), (-2.0, -2.0, -2.0), (4.0, 0.0, 4.0), (4.1, 0.0, 0.0),
      (-4.0, -1.0, -4.0), (-4.1, -1.0, 0.0), (nan, 0.0, 0.0)],
@@ -286,7 +285,7 @@ def test_a_wheel_that_stood_begins_with_what_it_turns(
         assert told(wheel, 2.0, None).push == 0.0
 
 
-@pytest.mark.parametrize(
+@table(
     ("doubt_s", "off", "after"),
     [(0.05, 0.5, 0.0), (0.05, 0.5 + 1e-9, 0.06), (0.05, -0.5 - 1e-9, 0.06), (0.05, -0.5, 0.0),
      (0.05, nan, 0.06), (0.2, 0.0, 0.2), (0.3, 9.0, 0.3), (0.199, 0.0, 0.0)],
@@ -314,7 +313,7 @@ def test_a_robot_that_nothing_may_correct_is_fed_forward() -> None:
 
 
 # kp 0.5; in 0.01 s a share of 1 adds 0.1
-@pytest.mark.parametrize(
+@table(
     ("integral", "off", "spare", "grown", "whole"),
     [
         (0.2, 0.4, 9.0, 0.24, 0.44), (0.2, -0.4, 9.0, 0.16, -0.04), (-0.99, 0.4, 9.0, -0.95, -0.75),

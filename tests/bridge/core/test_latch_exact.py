@@ -12,6 +12,7 @@ from bridge.core.rows import STAGES, Clears
 from bridge.core.state import RowUp
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import Action, Mode
 
@@ -39,7 +40,7 @@ AUTO = sorted(n for n, s in STAGES.items() if s.clears is Clears.AUTO and s.clea
 STAY = sorted(n for n, s in STAGES.items() if s.clears is not Clears.AUTO and s.row != "BRAIN_LOST")
 
 
-@pytest.mark.parametrize("name", AUTO)
+@table("name", AUTO)
 def test_a_row_ends_when_it_has_been_clean_for_its_time(name: str) -> None:
     clean_s = STAGES[name].clean_s
     tick = up(tick_of(reached("active")), name, age_s=clean_s - EPS_S)
@@ -53,14 +54,14 @@ def test_a_row_ends_when_it_has_been_clean_for_its_time(name: str) -> None:
     assert tick.events == [("row_down", name)]
 
 
-@pytest.mark.parametrize("name", STAY)
+@table("name", STAY)
 def test_what_needs_somebody_stays(name: str) -> None:
     tick = up(tick_of(reached("hold")), name, age_s=1e6)
     latch.update(tick, [])
     assert set(tick.s.rows) == {name}
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "owned", "ends"),
     [
         ("hold", True, True),
@@ -80,7 +81,7 @@ def test_a_lost_brain_is_over_with_an_owner_where_nothing_moves(
     assert (tick.s.rows == {}) is ends
 
 
-@pytest.mark.parametrize(
+@table(
     ("names", "worst"),
     [
         ((), (Action.NONE, "", False)),
@@ -99,7 +100,7 @@ def test_the_worst_that_binds_is_found(
     assert latch.worst(up(tick_of(reached("active")), *names)) == worst
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "letters"),
     [
         ("active", "WW"),
@@ -117,7 +118,7 @@ def test_who_moves_and_who_may_is_named(start: str, letters: str) -> None:
         assert latch.sources(state) == state.source
 
 
-@pytest.mark.parametrize(
+@table(
     ("stage", "letters", "bound"),
     [
         ("POSE_LOST.1", "T", True),
@@ -132,7 +133,7 @@ def test_a_stage_binds_its_sources(stage: str, letters: str, bound: bool) -> Non
     assert latch.binds(STAGES[stage], letters) is bound
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "names", "zone_mps", "cap"),
     [
         ("active", (), None, (1.0, "robot")),
@@ -165,7 +166,7 @@ EVERY = ("BRAIN_LOST.0", "ENC_STALE.1", "DRIVER_NACK.1", "NOT_RT.0", "STUCK.0")
 """One of each way to end: grant, arm, reset, never, by itself."""
 
 
-@pytest.mark.parametrize(
+@table(
     ("clear", "left"),
     [
         (latch.clear_on_grant, EVERY[1:]),

@@ -13,6 +13,7 @@ from bridge.core.limiter import LimiterState
 from bridge.core.state_braking import UNLEARNT, Learnt, Ramp
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import STILL, RobotDescription, Twist2
 
@@ -37,7 +38,7 @@ def test_what_is_known_is_in_force() -> None:
         assert weak_share(Learnt(decel_share=share)) == factor
 
 
-@pytest.mark.parametrize(
+@table(
     ("known", "more_s", "from_mps", "after"),
     [
         (UNLEARNT, 0.01, 0.4, UNLEARNT),
@@ -82,7 +83,7 @@ def test_lag_is_worse_at_once_and_better_after_fifty(
     assert module._with_lag(known, more_s, from_mps) == after
 
 
-@pytest.mark.parametrize(
+@table(
     ("known", "share", "from_mps", "after"),
     [
         (UNLEARNT, 0.95, 0.5, UNLEARNT),
@@ -110,7 +111,7 @@ def test_stronger_brakes_count_after_fifty(
     assert module._with_better(known, share, from_mps) == after
 
 
-@pytest.mark.parametrize(
+@table(
     ("known", "share", "after"),
     [
         (UNLEARNT, 0.95, UNLEARNT),
@@ -129,7 +130,7 @@ def test_weaker_brakes_count_at_once(known: Learnt, share: float, after: Learnt)
 
 
 # between the marks, 0.375 and 0.125 m/s, brakes of 0.8 m/s2 take 0.3125 s
-@pytest.mark.parametrize(
+@table(
     ("known", "stop", "share", "better"),
     [
         (UNLEARNT, ramp(), 1.0, 0),
@@ -169,7 +170,7 @@ def test_what_a_better_slope_shows_is_told_with_its_slack() -> None:
     assert after.share_worst == pytest.approx(0.3125 / 0.5 / 0.85)
 
 
-@pytest.mark.parametrize(
+@table(
     ("known", "stop", "lag_s", "stops"),
     [
         # sent 0.2 m, rolled 0.23 m from 0.5 m/s: as late as it is said to be
@@ -203,7 +204,7 @@ def test_a_stop_sent_harder_than_it_brakes_ends_no_count_of_better_ones() -> Non
     assert after_stop(weak, ramp(sent_m=0.32, real_m=0.33), ROBOT).lag_better == 8
 
 
-@pytest.mark.parametrize(
+@table(
     ("known", "at_s", "sent_mps", "real_mps", "share"),
     [
         # late by 0.06 s and 0.08 s: 0.4 s of braking at 1.44 s after the start at 0.9 s
@@ -234,7 +235,7 @@ def test_a_stop_that_was_cut_teaches_what_it_braked_until_then(
     assert full.stops == 10**9
 
 
-@pytest.mark.parametrize(
+@table(
     ("at_s", "before", "after", "crossed_s"),
     [
         (None, 0.5, 0.4, None),
@@ -268,7 +269,7 @@ def ticking(sent: Twist2, was: Twist2, real: Twist2, measured: Twist2) -> tuple[
     return tick, before
 
 
-@pytest.mark.parametrize(
+@table(
     ("sent", "was", "begins"),
     [
         (0.39, 0.4, True), (-0.39, -0.4, True), (0.4, 0.4, False), (0.41, 0.4, False),
@@ -290,7 +291,7 @@ def test_a_ramp_begins_where_what_is_sent_falls(sent: float, was: float, begins:
         assert made.real_from_mps == pytest.approx(0.15)
 
 
-@pytest.mark.parametrize("why", ["unpowered", "unmeasured", "old", "slept"])
+@table("why", ["unpowered", "unmeasured", "old", "slept"])
 def test_no_ramp_begins_where_nothing_could_be_learnt(why: str) -> None:
     tick, before = ticking(Twist2(0.3, 0.0), Twist2(0.4, 0.0), STILL, STILL)
     before.s.motion.powered = why != "unpowered"
@@ -306,7 +307,7 @@ def test_no_ramp_begins_where_nothing_could_be_learnt(why: str) -> None:
 UNDER_WAY = Ramp(9.5, 0.4, 0.4, 0.31, 0.35, 0.1, 0.12, 0.01)
 
 
-@pytest.mark.parametrize(
+@table(
     ("sent", "real", "goes_on"),
     [
         (0.29, 0.34, True), (0.39, 0.34, True), (0.4, 0.34, False), (0.41, 0.34, False),
@@ -335,7 +336,7 @@ def test_a_ramp_goes_on_until_it_rises_to_its_beginning(
         assert (tick.s.ramp is not None) is kept
 
 
-@pytest.mark.parametrize("which", ["sent_high_s", "sent_low_s", "real_high_s", "real_low_s"])
+@table("which", ["sent_high_s", "sent_low_s", "real_high_s", "real_low_s"])
 def test_each_mark_is_its_own(which: str) -> None:
     low, real = "low" in which, "real" in which
     mark = 0.1 if low else 0.3

@@ -13,6 +13,7 @@ from bridge.core.state_orders import External
 from bridge.core.tick import Tick
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import STILL, Owner, Pose2, Twist2, Velocity, Waypoint, Waypoints
 
@@ -39,7 +40,7 @@ def horizon(tick: Tick, *xs: float, **more: object) -> Waypoints:
     return Waypoints.model_validate(made | more)
 
 
-@pytest.mark.parametrize(
+@table(
     ("more", "code", "score", "refusal"),
     [
         ({"planner_id": "p2"}, "not_owner", 3.0, None),
@@ -90,7 +91,7 @@ def test_every_fault_is_told_but_scored_once() -> None:
     assert tick.reasons == [], "no points need no pose"
 
 
-@pytest.mark.parametrize(
+@table(
     ("had_horizon", "had_goal", "final", "follow"),
     [
         (True, None, False, FollowState(turning=True)),
@@ -132,7 +133,7 @@ def test_a_new_leg_begins_with_nothing_of_the_old() -> None:
     assert (leg.leg, leg.refusal, leg.horizon, leg.path) == (3, "first_point_far", None, None)
 
 
-@pytest.mark.parametrize(
+@table(
     ("points", "final", "at_end", "stands", "arrived", "reached_leg"),
     [
         (True, True, True, True, True, True),
@@ -169,7 +170,7 @@ def test_what_is_left_is_told_where_it_is_known() -> None:
     assert residual(tick) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("against", ["", "none", "empty", "reached", "mission"])
+@table("against", ["", "none", "empty", "reached", "mission"])
 def test_a_horizon_calls_only_where_it_asks_for_motion(against: str) -> None:
     tick = driving()
     new = horizon(tick, *(() if against == "empty" else (1.1, 1.2)))
@@ -206,7 +207,7 @@ def test_another_brain_is_followed_as_its_hand_says() -> None:
         assert not external.calls(tick)
 
 
-@pytest.mark.parametrize(
+@table(
     ("change", "code", "score"),
     [("mission", "no_grant", 3.0), ("kind", "no_grant", 3.0), ("back", "seq_backwards", 4.0),
      ("again", "repeated", 3.0)],

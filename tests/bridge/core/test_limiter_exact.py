@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bridge.core.limiter import LimiterState, shape, stopping_m, tick_length
+from tests.bridge.core.table import table
 from wire import RobotDescription, Twist2
 
 ROBOT = RobotDescription()
@@ -16,7 +17,7 @@ def shaped(target: Twist2, memory: LimiterState, dt_s: float = DT) -> LimiterSta
     return shape(target, memory, BASE, LIMITS, dt_s)
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
+@table("sign", [1.0, -1.0])
 def test_from_rest_either_way_the_gentle_jerk_counts(sign: float) -> None:
     after = shaped(Twist2(0.5 * sign, 0.0), LimiterState())
     assert after.sent.v_mps == pytest.approx(sign * 2.0 * DT * DT), "2 m/s3, not 10"
@@ -37,7 +38,7 @@ def test_one_wheel_that_starts_makes_the_change_no_stop() -> None:
     assert 0.4 - left <= 2.0 * DT * DT + 1e-12, "2 m/s3, not 10"
 
 
-@pytest.mark.parametrize(
+@table(
     ("dt_s", "length_s"),
     [(0.004, 0.005), (0.005, 0.005), (0.0053, 0.0053), (0.02, 0.02), (0.021, 0.02), (0.027, 0.02),
      (float("nan"), 0.01), (-1.0, 0.005)],
@@ -67,7 +68,7 @@ def test_a_stop_under_way_needs_less_path_by_what_it_already_brakes() -> None:
     assert braking == pytest.approx(0.125 + 0.5 * (0.16 / 20 + 0.01) + 1 / 2400)
 
 
-@pytest.mark.parametrize("had", [-1.0, 1.0])
+@table("had", [-1.0, 1.0])
 def test_what_a_wheel_that_stays_as_it_is_did_before_hurries_no_other(had: float) -> None:
     # the left wheel keeps 0.2 m/s though it was changing; the right one begins gently: 2 m/s3
     after = shaped(Twist2(0.25, 0.2), LimiterState(Twist2(0.2, 0.0), had, 0.0))
@@ -90,7 +91,7 @@ def test_the_jerk_counts_where_the_room_is_just_enough() -> None:
         assert 0.3 - after.sent.v_mps == pytest.approx(slowed_mps)
 
 
-@pytest.mark.parametrize(
+@table(
     ("dt_s", "period_s", "length_s"),
     [(0.6, 1.0, 0.6), (1.05, 1.05, 0.02), (0.01, 0.0, 0.01), (0.3, -1.0, 0.02)],
 )
@@ -114,7 +115,7 @@ def test_brakes_that_are_not_1_mps2_take_their_time_of_a_tick() -> None:
     assert after.sent.v_mps == pytest.approx(-0.0025)
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
+@table("sign", [1.0, -1.0])
 def test_either_way_slowing_is_quick_and_speeding_up_gentle(sign: float) -> None:
     memory = LimiterState(Twist2(0.3 * sign, 0.0))
     slowed = shaped(Twist2(0.1 * sign, 0.0), memory)

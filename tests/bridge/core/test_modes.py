@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import pytest
-
 from bridge.core.modes import LATCHED, MOVING, POWERED, TRANSITIONS, Cause, Fact, Request, after
+from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 
 CAUSES: tuple[Cause, ...] = (*Action, *Request, *Fact)
 
 
-@pytest.mark.parametrize("cause", CAUSES, ids=str)
-@pytest.mark.parametrize("mode", Mode, ids=str)
+@table("cause", CAUSES)
+@table("mode", Mode)
 def test_what_is_absent_changes_nothing(mode: Mode, cause: Cause) -> None:
     assert after(mode, cause) == TRANSITIONS.get((mode, cause))
 
 
-@pytest.mark.parametrize(("key", "to"), TRANSITIONS.items(), ids=str)
+@table(("key", "to"), TRANSITIONS.items())
 def test_every_transition_obeys_the_laws(key: tuple[Mode, Cause], to: Mode) -> None:
     mode, cause = key
     if to in POWERED and mode not in POWERED:
@@ -31,15 +30,15 @@ def test_every_transition_obeys_the_laws(key: tuple[Mode, Cause], to: Mode) -> N
         assert cause in {Fact.CALLED, Fact.CLEARED, Request.TELEOP}
 
 
-@pytest.mark.parametrize("mode", sorted(POWERED), ids=str)
-@pytest.mark.parametrize("action", [Action.STOP1, Action.FAST1, Action.CUT0], ids=str)
+@table("mode", sorted(POWERED))
+@table("action", [Action.STOP1, Action.FAST1, Action.CUT0])
 def test_a_row_that_takes_torque_ends_every_powered_mode(mode: Mode, action: Action) -> None:
     if mode is Mode.STOPPING and action is not Action.CUT0:
         return  # the stop in progress is made harder, the mode stays
     assert after(mode, action) in {Mode.STOPPING, Mode.FAULT}
 
 
-@pytest.mark.parametrize("mode", [mode for mode in Mode if mode is not Mode.ESTOPPED], ids=str)
+@table("mode", [mode for mode in Mode if mode is not Mode.ESTOPPED])
 def test_a_protective_stop_is_obeyed_everywhere(mode: Mode) -> None:
     assert after(mode, Request.ESTOP) is Mode.ESTOPPED
 

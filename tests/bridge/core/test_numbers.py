@@ -14,6 +14,7 @@ import pytest
 from bridge.core.modes import LATCHED, MOVING, POWERED, TRANSITIONS
 from bridge.core.rows import STAGES
 from tests.bridge.core import oracle
+from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 
 NUMBERS: dict[str, dict[str, float]] = {
@@ -107,7 +108,7 @@ FAULT reset_before_the_self_test_has_passed SELFTEST
 """
 
 
-@pytest.mark.parametrize("module", NUMBERS)
+@table("module", NUMBERS)
 def test_numbers_are_the_ones_decided(module: str) -> None:
     found = import_module(f"bridge.core.{module}")
     assert {name: getattr(found, name) for name in NUMBERS[module]} == NUMBERS[module]
@@ -121,7 +122,7 @@ def test_rates_are_the_wires() -> None:
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", oracle.TABLE)
+@table("name", oracle.TABLE)
 def test_a_stage_does_binds_and_clears_as_decided(name: str) -> None:
     stage, (action, binds, share) = STAGES[name], oracle.TABLE[name]
     assert (stage.action.value, stage.binds) == (action, binds)

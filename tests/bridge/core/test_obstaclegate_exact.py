@@ -12,6 +12,7 @@ from bridge.core.braking import Braking, speed_scale, speed_within, stop_length_
 from bridge.core.freespace import FreeLength
 from bridge.core.obstaclegate import look_m, obstacle_gate, sight_m, weak_m
 from bridge.core.scanpicture import ScanPicture
+from tests.bridge.core.table import table
 from wire import IDENTITY, STILL, RobotDescription, Scan, Twist2
 
 EPS = 1e-9
@@ -61,7 +62,7 @@ def test_reaction_and_deceleration_along_a_path() -> None:
         assert braking.path_decel_mps2(twist, BASE, LIMITS, share) == pytest.approx(decel)
 
 
-@pytest.mark.parametrize(
+@table(
     ("s_m", "decel", "late_s", "speed"),
     [
         (0.5, 0.8, 0.3, within(0.5, 0.8, 0.3)),
@@ -83,7 +84,7 @@ def test_the_speed_that_stops_within_a_length(
     assert speed_within(s_m, decel, late_s) == pytest.approx(speed)
 
 
-@pytest.mark.parametrize(
+@table(
     ("twist", "share", "length_m"),
     [
         (Twist2(0.4, 0.0), 1.0, 0.4 * 0.3 + 0.16 / 1.6),
@@ -97,7 +98,7 @@ def test_the_path_until_standstill(twist: Twist2, share: float, length_m: float)
     assert stop_length_m(twist, BASE, LIMITS, 0.3, share) == pytest.approx(length_m)
 
 
-@pytest.mark.parametrize(
+@table(
     ("way", "twist", "scale"),
     [
         (free(9.0), Twist2(0.5, 0.2), 1.0),
@@ -131,7 +132,7 @@ def test_what_a_free_length_lets_pass(way: FreeLength, twist: Twist2, scale: flo
         )
 
 
-@pytest.mark.parametrize(
+@table(
     ("robot", "known_as", "look"),
     [
         # v d / 2 j + v rim / 2 d + v (0.15 + scan + lag), and a millimetre
@@ -164,7 +165,7 @@ def test_weak_brakes_need_more_path() -> None:
     assert weak_m(Twist2(0.0, 0.8), ROBOT, 0.5) == 0.0
 
 
-@pytest.mark.parametrize(
+@table(
     ("usual", "speed", "along", "share", "reach"),
     [
         (1.0, 0.5, Twist2(0.5, 0.0), 1.0, 1.0),
@@ -187,7 +188,7 @@ def test_one_looks_as_far_as_it_takes(
     assert obstaclegate._reach_m(usual, speed, along, ROBOT, LATE_S, share) == reach
 
 
-@pytest.mark.parametrize(
+@table(
     ("a", "b", "same"),
     [
         (Twist2(0.4, 0.2), Twist2(0.2, 0.1), True),

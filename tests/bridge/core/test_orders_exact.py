@@ -11,6 +11,7 @@ from bridge.core.detect_brain import brain, commands
 from bridge.core.state_orders import External, Grants, MissionLeft
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import Held, HeldReason
 
@@ -22,7 +23,7 @@ def at(start: str) -> Tick:
     return tick_of(reached(start))
 
 
-@pytest.mark.parametrize(("age_s", "lives"), [(0.0, True), (0.3 - EPS, True), (0.3 + EPS, False)])
+@table(("age_s", "lives"), [(0.0, True), (0.3 - EPS, True), (0.3 + EPS, False)])
 def test_an_owner_lives_for_300_ms(age_s: float, lives: bool) -> None:
     tick = at("active")
     tick.s.ownership = replace(tick.s.ownership, echo_s=tick.now_s - age_s)
@@ -61,7 +62,7 @@ def test_no_message_makes_an_owner_older_or_its_use_younger_than_it_is() -> None
         assert tick.s.ownership.echo_s == ring[-1]
 
 
-@pytest.mark.parametrize(
+@table(
     ("sender", "epoch", "ahead", "code"),
     [("p2", "", 0, "not_owner"), ("p1", "old", 0, "old_epoch"), ("p1", "", 1, "seen_unknown")],
 )
@@ -79,7 +80,7 @@ def test_what_is_not_the_owners_is_dropped_and_never_scored(
 BOOK = (MissionLeft("old", 1.0, 2.0),)
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "source", "mission", "metres", "seconds", "operator_seconds"),
     [
         ("active", "W", "m1", 4.5, 9.9, 99.9),
@@ -130,7 +131,7 @@ def test_way_and_time_are_metered_where_a_brain_causes_them(
         assert tick.s.grants is had, "nobody's stop is nobody's way"
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "held", "left", "operator_left", "code"),
     [
         ("hold", None, (1.0, 1.0), (1.0, 1.0), None),
@@ -158,7 +159,7 @@ def test_a_grant_is_refused_for_one_reason_each(
     assert (None if refusal is None else refusal[0]) == code
 
 
-@pytest.mark.parametrize(
+@table(
     ("echo_age_s", "since_arm", "start", "source", "rows"),
     [
         (0.15 - EPS, True, "active", "W", []),
@@ -186,7 +187,7 @@ def test_a_brain_is_late_lost_or_gone(
     assert [name for name, _ in dirty] == rows
 
 
-@pytest.mark.parametrize(
+@table(
     ("used_age_s", "owned", "stale"),
     [(1.0 - EPS, True, False), (1.0 + EPS, True, True), (9.0, False, False), (None, True, False)],
 )
@@ -202,7 +203,7 @@ def test_a_brain_that_thinks_on_old_facts_is_stale(
     assert [name for name, _ in dirty] == ["BRAIN_STALE.0"] * stale
 
 
-@pytest.mark.parametrize(
+@table(
     ("changes", "rows"),
     [
         ({}, []),

@@ -20,6 +20,7 @@ from bridge.core.outline import (
     nearest_m,
     permits,
 )
+from tests.bridge.core.table import table
 
 
 def box(x0: float, y0: float, x1: float, y1: float) -> Polygon:
@@ -40,7 +41,7 @@ ROOF: Polygon = ((0, 0), (4, 0), (4, 2), (1, 3), (0, 1))
 """Slopes on its left and at its top."""
 
 
-@pytest.mark.parametrize(
+@table(
     ("x", "y", "inside"),
     [
         (2.0, 1.0, True), (0.1, 0.5, True), (-0.1, 0.5, False), (3.9, 1.9, True),
@@ -73,7 +74,7 @@ def test_edges_close_the_outline_and_leave_out_what_has_no_length() -> None:
     assert [edge[4] for edge in edges_of(tiny)] == [1e-300] * 3
 
 
-@pytest.mark.parametrize(
+@table(
     ("others", "at"),
     [
         ([], []),
@@ -100,7 +101,7 @@ def test_edges_close_the_outline_and_leave_out_what_has_no_length() -> None:
         ([line(-0.25, -1, -0.25, 1)], []),
     ],
 )
-@pytest.mark.parametrize("turned", [False, True])
+@table("turned", [False, True])
 def test_an_edge_is_cut_where_others_meet_it(
     others: list[Edge], at: list[float], turned: bool
 ) -> None:
@@ -131,7 +132,7 @@ def test_a_line_bounds_where_one_side_alone_is_permitted() -> None:
         assert bounds(part, allowed, holes) is is_one, part
 
 
-@pytest.mark.parametrize(
+@table(
     ("segment", "edge", "touches"),
     [
         ((0, 0, 2, 2), line(0, 2, 2, 0), True),
@@ -180,7 +181,7 @@ def test_a_segment_touches_an_edge(
     assert meet(x0, y0, x1 - x0, y1 - y0, (ex + dx, ey + dy, -dx, -dy, square)) is touches
 
 
-@pytest.mark.parametrize(
+@table(
     ("x", "y", "away"),
     [
         (1, 1, 1.0), (-1, -1, sqrt(2)), (5, 0, 1.0), (4, 1, 1.0), (2, -3, 3.0), (5, 3.5, 1.0),
@@ -224,7 +225,7 @@ def test_cells_hold_all_that_may_be_seen_from_them() -> None:
             assert cell.inside is permits(ROOM.allowed, ROOM.keep_outs, x, y)
 
 
-@pytest.mark.parametrize(
+@table(
     ("x", "y", "allowed", "margin"),
     [
         (0.0, 0.0, True, 1.0), (-2.75, 1.0, True, 0.25), (-3.25, 1.0, False, -0.25),

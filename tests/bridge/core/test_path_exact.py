@@ -9,6 +9,7 @@ from random import Random
 import pytest
 
 from bridge.core.path import prepare, regulated
+from tests.bridge.core.table import table
 from wire import Waypoint
 from wire.robot import Limits
 
@@ -77,7 +78,7 @@ def exits_of(places: list[Place]) -> list[float]:
     return exits
 
 
-@pytest.mark.parametrize("name", ROUTES)
+@table("name", ROUTES)
 def test_speeds_are_those_of_the_plain_way(name: str) -> None:
     places = ROUTES[name]
     path = prepare([Waypoint(x_m=x, y_m=y, speed_mps=v) for x, y, v in places], LIMITS)
@@ -89,7 +90,7 @@ def test_speeds_are_those_of_the_plain_way(name: str) -> None:
     assert path.length_m == pytest.approx(sum(gone))
 
 
-@pytest.mark.parametrize(("sign", "backwards"), [(1, False), (-1, True)])
+@table(("sign", "backwards"), [(1, False), (-1, True)])
 def test_the_sign_of_speed_is_the_direction(sign: int, backwards: bool) -> None:
     points = [Waypoint(x_m=i / 10, y_m=0.0, speed_mps=sign * 0.3) for i in range(3)]
     turned = Waypoint(x_m=0.3, y_m=0.0, speed_mps=sign * 0.3, heading_rad=1.0)
@@ -99,7 +100,7 @@ def test_the_sign_of_speed_is_the_direction(sign: int, backwards: bool) -> None:
     assert prepare((), LIMITS).backwards is False
 
 
-@pytest.mark.parametrize(
+@table(
     ("curve", "speed"),
     [(0.0, 0.5), (1.6, 0.5), (-1.6, 0.5), (1.75, 0.5 / 1.05), (-3.2, 0.5 / 1.92), (9.0, 0.125)],
 )

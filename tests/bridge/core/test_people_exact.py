@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
-
 from bridge.core import operator, stick
 from bridge.core.arming import ready_lacks, reset_lacks
 from bridge.core.rows import STAGES
 from bridge.core.state import RowUp
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import Held, HeldReason, Mode, OpKind, Stop, Velocity
 
@@ -23,7 +22,7 @@ def at(start: str) -> Tick:
     return tick_of(reached(start))
 
 
-@pytest.mark.parametrize(("age_s", "renewed"), [(60.0 - EPS, False), (60.0 + EPS, True)])
+@table(("age_s", "renewed"), [(60.0 - EPS, False), (60.0 + EPS, True)])
 def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
     age_s: float, renewed: bool
 ) -> None:
@@ -106,7 +105,7 @@ def test_each_act_of_a_person_ends_what_it_should() -> None:
     assert tick.s.epoch_no == epoch + 1
 
 
-@pytest.mark.parametrize(
+@table(
     ("name", "age_s", "speaks"),
     [
         ("RUNAWAY.0", 2.0, True),
@@ -128,7 +127,7 @@ def test_a_row_speaks_against_arming_while_it_is_dirty(
     assert list(ready_lacks(tick)) == lacks
 
 
-@pytest.mark.parametrize(
+@table(
     ("change", "code"),
     [
         ("nothing", None),
@@ -161,7 +160,7 @@ def velocity(tick: Tick, v_mps: float = 0.0, w_radps: float = 0.0, **more: objec
     return Velocity.model_validate(said | {"v_mps": v_mps, "w_radps": w_radps})
 
 
-@pytest.mark.parametrize(
+@table(
     ("v_mps", "w_radps", "ready"),
     [(0.02, 0.05, True), (-0.02, -0.05, True), (0.021, 0.0, False), (0.0, -0.051, False)],
 )
@@ -182,7 +181,7 @@ def test_a_stick_is_ready_once_seen_released_and_neutral(
         assert tick.reasons == ["stick_not_ready"]
 
 
-@pytest.mark.parametrize(
+@table(
     ("received_age_s", "sent_age_s", "fresh"),
     [(0.25, 0.4, True), (0.25 + EPS, 0.0, False), (0.0, 0.4 + EPS, False)],
 )
@@ -223,7 +222,7 @@ def test_many_stops_at_once_are_one_change_of_epoch_and_a_verdict_each() -> None
     assert tick.s.operator == before
 
 
-@pytest.mark.parametrize(("start", "kind"), [("disarmed", "arm"), ("estopped", "reset")])
+@table(("start", "kind"), [("disarmed", "arm"), ("estopped", "reset")])
 def test_an_act_needs_a_proof_and_spends_it(start: str, kind: OpKind) -> None:
     for authentic, code in ((False, "bad_proof"), (True, "ok")):
         world = reached(start)
@@ -238,7 +237,7 @@ def test_an_act_needs_a_proof_and_spends_it(start: str, kind: OpKind) -> None:
         assert tick.s.operator.nonce_no == nonce + authentic
 
 
-@pytest.mark.parametrize(
+@table(
     ("changes", "reason"),
     [
         ({"epoch": "b0-99"}, "old_epoch"),

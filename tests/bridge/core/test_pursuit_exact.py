@@ -10,6 +10,7 @@ import pytest
 from bridge.core import pursuit
 from bridge.core.path import Path, prepare
 from bridge.core.pursuit import FollowState, follow, look_ahead_m
+from tests.bridge.core.table import table
 from wire import STILL, Pose2, Twist2, Waypoint
 from wire.geometry import MAX_COORDINATE_M
 from wire.robot import Base, Limits
@@ -34,7 +35,7 @@ BENT = route((0, 0), (0.2, 0), (0.3, 0), (0.3, 0.25), (0.3, 0.3), (0.1, 0.3))
 L_SHAPED = route((0, 0), (0.2, 0), (0.2, 0.2))
 
 
-@pytest.mark.parametrize(
+@table(
     ("speed", "ahead"),
     [(0.0, 0.25), (0.3, 0.25), (0.32, 0.256), (-0.5, 0.4), (0.7, 0.56), (0.76, 0.6), (9.0, 0.6)],
 )
@@ -50,7 +51,7 @@ def going(tries: int = 0, *, turning: bool = False) -> FollowState:
     return FollowState(0.0, turning, False, False, tries)
 
 
-@pytest.mark.parametrize(
+@table(
     ("state", "aside", "ending", "away", "off_rad", "after"),
     [
         (settled(1), 0.0, True, 0.10, 0.5, settled(1)),
@@ -94,7 +95,7 @@ def test_it_turns_drives_or_has_settled(
     assert pursuit._judge(state, view, 1.5, off_rad) == replace(after, along_m=1.5)
 
 
-@pytest.mark.parametrize(
+@table(
     ("robot", "along", "aim_m", "aside", "ending", "rest"),
     [
         (Pose2(0, 0, 0), 0.0, 0.25, 0.0, False, 2.0),
@@ -126,7 +127,7 @@ def test_backwards_it_looks_behind_itself_and_further_when_faster() -> None:
     assert aside.target.v_mps < 0.0 < aside.target.w_radps
 
 
-@pytest.mark.parametrize(
+@table(
     ("aim_m", "aside", "rest", "speed", "curve"),
     [
         (0.4, 0.0, 2.0, 0.5, 0.0),
@@ -155,7 +156,7 @@ def test_a_tight_curve_is_not_slower_than_the_slowest_or_the_path() -> None:
         assert twist.v_mps == pytest.approx(slowed * cos(1.0))
 
 
-@pytest.mark.parametrize(
+@table(
     ("along", "speed"),
     [
         (0.0, 0.3),
@@ -185,7 +186,7 @@ SPIN = 2.24  # rad/s2: 0.56 m/s2 at wheels 0.25 m from the middle
 SMALL = SPIN * (sqrt(LATE_S**2 + 2 * 0.1 / SPIN) - LATE_S)
 
 
-@pytest.mark.parametrize(
+@table(
     ("error", "sent", "w"),
     [
         (0.1, STILL, SMALL),
@@ -214,7 +215,7 @@ def test_it_turns_in_place_and_brakes_in_time(error: float, sent: Twist2, w: flo
     assert twist.w_radps == pytest.approx(w)
 
 
-@pytest.mark.parametrize(
+@table(
     ("along", "place"),
     [
         (0.0, (0.0, 0.0)),
@@ -235,7 +236,7 @@ def test_points_along_the_path(along: float, place: tuple[float, float]) -> None
     assert pursuit._point(L_SHAPED, 0.3) == pytest.approx((0.2, 0.1))
 
 
-@pytest.mark.parametrize(
+@table(
     ("along", "robot", "found"),
     [
         (0.0, (-0.1, 0.02), 0.0),
@@ -269,7 +270,7 @@ def test_of_two_places_as_near_the_first_counts_and_no_length_is_no_piece() -> N
     assert pursuit._progress(there_and_back, 0.15, Pose2(0.3, 0.0, 0.0)) == pytest.approx(0.2)
 
 
-@pytest.mark.parametrize("x", [3.1, -3.1])
+@table("x", [3.1, -3.1])
 def test_a_robot_outside_the_world_is_not_followed(x: float) -> None:
     within = Pose2(-3 * MAX_COORDINATE_M, 0.0, 0.0)
     assert follow(FollowState(0.5), STRAIGHT, within, STILL, BASE, LIMITS, LAG_S).residual_m > 9.0
@@ -308,7 +309,7 @@ def test_a_new_horizon_of_a_leg_begins_anew_and_goes_on_as_it_was() -> None:
     assert pursuit.carried(was) == FollowState(0.0, True, True, True, 2)
 
 
-@pytest.mark.parametrize(
+@table(
     ("heading", "yaw", "done", "w"),
     [
         (None, 0.3, False, 0.0),

@@ -9,6 +9,7 @@ import pytest
 from bridge.core import stopcurve
 from bridge.core.limiter import LimiterState, Profile, stopping_m
 from bridge.core.stopcurve import NO_STOP, StopPlan, plan_stop, planned, planned_rim_mps, too_slow
+from tests.bridge.core.table import table
 from wire import STILL, RobotDescription, Twist2
 
 ROBOT = RobotDescription.model_validate(
@@ -24,7 +25,7 @@ def plan(sent: Twist2, left: float = 0.0, right: float = 0.0) -> StopPlan:
     return plan_stop(LimiterState(sent, left, right), BASE, LIMITS, Profile.STOP)
 
 
-@pytest.mark.parametrize(
+@table(
     ("sent", "left", "right", "under_way"),
     [
         # rims at 0.1 and 0.5 m/s
@@ -111,7 +112,7 @@ def test_what_stands_or_is_no_speed_has_no_stop() -> None:
     assert planned(NO_STOP, 0.5) == STILL
 
 
-@pytest.mark.parametrize(
+@table(
     ("measured", "elapsed_s", "slow"),
     [
         (0.6, 0.26, False),  # lag and grace are not over

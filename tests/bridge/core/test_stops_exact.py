@@ -23,6 +23,7 @@ from bridge.core.stopcurve import (
 )
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import STILL, Action, Mode, Twist2
 from wire.robot import Limits
@@ -47,7 +48,7 @@ def standing(start: str = "stopping_by_row", /, **more: object) -> Tick:
     return tick
 
 
-@pytest.mark.parametrize(
+@table(
     ("more", "mode"),
     [
         ({}, Mode.HOLD),
@@ -64,7 +65,7 @@ def test_a_stop_ends_as_its_action_says(more: dict[str, object], mode: Mode) -> 
     assert tick.events[-1] == ("mode", f"STOPPING {mode.value} row")
 
 
-@pytest.mark.parametrize("start", ["estopped", "hold"])
+@table("start", ["estopped", "hold"])
 def test_where_the_mode_stays_only_the_ramp_is_over(start: str) -> None:
     tick = standing(start, reset_needed=True)
     before = tick.s.mode
@@ -85,7 +86,7 @@ def test_it_is_over_after_200_ms_at_rest_and_when_told_to_rest() -> None:
         assert (tick.s.stopping is None) is over
 
 
-@pytest.mark.parametrize(("silent_s", "ends"), [(0.25 - EPS, False), (0.25 + EPS, True)])
+@table(("silent_s", "ends"), [(0.25 - EPS, False), (0.25 + EPS, True)])
 def test_a_stop_that_nobody_measures_ends_when_its_time_is_over(
     silent_s: float, ends: bool
 ) -> None:
@@ -127,7 +128,7 @@ def test_too_slow_counts_after_150_ms_and_is_forgotten_at_once() -> None:
     assert tick.s.stopping.slow_since_s is None
 
 
-@pytest.mark.parametrize(("start", "mode"), [("stopping_by_row", Mode.FAULT), ("estopped", None)])
+@table(("start", "mode"), [("stopping_by_row", Mode.FAULT), ("estopped", None)])
 def test_a_failure_cuts_the_torque(start: str, mode: Mode | None) -> None:
     tick = tick_of(reached(start))
     before = tick.s.mode
@@ -149,7 +150,7 @@ def test_what_stands_is_never_too_long() -> None:
     assert stops._failure(tick) is None
 
 
-@pytest.mark.parametrize(
+@table(
     ("at_s", "rim_mps"),
     [
         (-1.0, 0.5),
@@ -176,7 +177,7 @@ def test_a_curve_stays_on_its_arc_and_none_stands() -> None:
     assert planned(NO_STOP, -1.0) == STILL
 
 
-@pytest.mark.parametrize(
+@table(
     ("sent", "accel", "profile", "shape"),
     [
         (Twist2(0.5, 0.0), (0.0, 0.0), Profile.STOP, (0.0, 1.0, 0.1, 0.4, 0.1)),
@@ -205,7 +206,7 @@ def test_a_plan_is_drawn_by_speed_and_by_what_is_under_way(
     assert plan.start == sent
 
 
-@pytest.mark.parametrize(
+@table(
     ("elapsed_s", "speed_mps", "slow"),
     [
         (LAG_S + 0.2, 9.0, False),
@@ -233,8 +234,8 @@ def test_too_long_is_half_as_long_again_and_a_little() -> None:
 SLOW = Limits(max_decel_mps2=0.8, stop_jerk_mps3=4.0)
 
 
-@pytest.mark.parametrize("accel", [(0.0, 0.0), (-0.3, -0.5), (0.4, -0.2), (-9.0, -9.0)])
-@pytest.mark.parametrize("sent", [Twist2(0.5, 0.0), Twist2(0.02, 0.0), Twist2(0.2, 0.6)])
+@table("accel", [(0.0, 0.0), (-0.3, -0.5), (0.4, -0.2), (-9.0, -9.0)])
+@table("sent", [Twist2(0.5, 0.0), Twist2(0.02, 0.0), Twist2(0.2, 0.6)])
 def test_a_plan_takes_off_the_whole_speed_and_keeps_its_bounds(
     sent: Twist2, accel: tuple[float, float]
 ) -> None:
@@ -264,7 +265,7 @@ def test_the_hardest_plan_is_one_flat_ramp_and_wild_speeds_have_none() -> None:
         assert (made == NO_STOP) is planless
 
 
-@pytest.mark.parametrize(
+@table(
     ("speed", "accel", "braking"),
     [(0.5, -1.0, 1.0), (0.5, 1.0, -1.0), (-0.5, 1.0, 1.0), (-0.5, -1.0, -1.0), (0.0, 1.0, 0.0),
      (0.0, -1.0, 0.0)],
@@ -273,7 +274,7 @@ def test_braking_is_what_goes_against_the_speed(speed: float, accel: float, brak
     assert _against(speed, accel) == braking
 
 
-@pytest.mark.parametrize("accel", [(0.3, 0.0), (0.0, -0.3), (0.3, -0.1)])
+@table("accel", [(0.3, 0.0), (0.0, -0.3), (0.3, -0.1)])
 def test_each_wheel_brakes_its_own_way(accel: tuple[float, float]) -> None:
     # the left wheel at -0.025 m/s, the right one at 0.225 m/s
     assert _braking(LimiterState(Twist2(0.1, 0.5), *accel), ROBOT.base) == pytest.approx(0.3)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
-
 from bridge.core.limiter import LimiterState, Profile, seeded
 from bridge.core.modes import Cause, Fact, Request
 from bridge.core.state import Stopping
@@ -13,6 +11,7 @@ from bridge.core.stopcurve import NO_STOP, plan_stop
 from bridge.core.tick import Tick
 from bridge.core.transition import escalate, go, profile_of
 from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import STILL, Action, Held, HeldReason, Mode, Twist2
 
@@ -26,7 +25,7 @@ def later(start: str) -> Tick:
     return tick
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "cause", "action", "resumes"),
     [
         ("active", Action.HOLD2, Action.HOLD2, True),
@@ -39,7 +38,7 @@ def later(start: str) -> Tick:
         ("hold", Action.STOP1, Action.STOP1, False),
     ],
 )
-@pytest.mark.parametrize("reset_needed", [False, True])
+@table("reset_needed", [False, True])
 def test_a_stop_begins_as_its_cause_says(
     start: str, cause: Cause, action: Action, resumes: bool, reset_needed: bool
 ) -> None:
@@ -54,7 +53,7 @@ def test_a_stop_begins_as_its_cause_says(
     assert tick.events == [("mode", f"{before.value} STOPPING why")]
 
 
-@pytest.mark.parametrize(
+@table(
     ("start", "cause"),
     [("disarmed", Action.HOLD2), ("hold", Action.HOLD2), ("fault", Request.ARM)],
 )
@@ -81,7 +80,7 @@ def stopping(action: Action, *, reset_needed: bool = False) -> Tick:
     return tick
 
 
-@pytest.mark.parametrize(
+@table(
     ("had", "came", "faster"),
     [
         (Action.HOLD2, Action.STOP1, False),
@@ -89,7 +88,7 @@ def stopping(action: Action, *, reset_needed: bool = False) -> Tick:
         (Action.STOP1, Action.FAST1, True),
     ],
 )
-@pytest.mark.parametrize("needed", [(False, False), (False, True), (True, False)])
+@table("needed", [(False, False), (False, True), (True, False)])
 def test_a_stop_grows_harder_and_only_a_harder_ramp_is_planned_anew(
     had: Action, came: Action, faster: bool, needed: tuple[bool, bool]
 ) -> None:
@@ -111,8 +110,8 @@ def test_a_stop_grows_harder_and_only_a_harder_ramp_is_planned_anew(
     assert tick.events == [("stop_escalated", f"{came.value} worse")]
 
 
-@pytest.mark.parametrize("came", [Action.HOLD2, Action.STOP1])
-@pytest.mark.parametrize("needed", [(False, False), (False, True), (True, True), (True, False)])
+@table("came", [Action.HOLD2, Action.STOP1])
+@table("needed", [(False, False), (False, True), (True, True), (True, False)])
 def test_a_stop_never_grows_milder_but_learns_that_a_reset_is_needed(
     came: Action, needed: tuple[bool, bool]
 ) -> None:
@@ -141,8 +140,8 @@ def test_a_person_who_stops_a_stop_ends_its_going_on() -> None:
 HELD = Held(reason=HeldReason.STOP, id="s1")
 
 
-@pytest.mark.parametrize("held", [None, HELD])
-@pytest.mark.parametrize("start", ["active", "disarmed", "stopping_by_row", "selftest"])
+@table("held", [None, HELD])
+@table("start", ["active", "disarmed", "stopping_by_row", "selftest"])
 def test_a_protective_stop_ramps_where_there_is_torque(start: str, held: Held | None) -> None:
     tick = later(start)
     tick.s.held = held
@@ -193,8 +192,8 @@ def test_motion_begins_from_what_the_robot_really_does() -> None:
     assert tick.s.source == "W", "whoever calls sets it"
 
 
-@pytest.mark.parametrize("held", [None, HELD])
-@pytest.mark.parametrize(
+@table("held", [None, HELD])
+@table(
     ("start", "cause", "stop_cause", "mode", "fault", "holds"),
     [
         ("stopping_by_row", Fact.TOO_SLOW, "x", Mode.FAULT, "why", "why"),
