@@ -56,6 +56,10 @@ SAYINGS = {
         en="The camera sends one and the same picture again and again.",
         zh="摄像头一直发送同一张画面。",
     ),
+    "camera_unusable": Bilingual(
+        en="The camera's pictures can't be used: is its lens covered?",
+        zh="摄像头的画面无法使用，镜头可能被遮住。",
+    ),
     "unknown_object": Bilingual(
         en="No such thing is remembered.", zh="没有记住这个物体。"
     ),

@@ -44,6 +44,8 @@ EARLY_S = 0.02
 """A picture that comes so much before its time is taken: cameras and clocks jitter."""
 SHOWN_S = 3.0
 """A page that asked for the picture is taken to look on for so long."""
+UNUSABLE_AFTER = 5
+"""Looks in a row that were skipped: a lens that is covered, a camera or a model that is broken."""
 REST_S = 1.0
 """After a failure of the detector."""
 AGING_S = 0.5
@@ -72,6 +74,7 @@ class Sightseer:
         self._pictures = Pictures(means.camera, camera.rate_hz)
         self._memory = Remembered()
         self._look: Look | None = None
+        self._unusable = 0
         self._down: str | None = None if means.detector is not None else "no_detector"
         self._sight = Sight(blind=self._down if self._there else "no_camera")
         self._listeners: list[Callable[[Sight], None]] = []
@@ -230,11 +233,19 @@ class Sightseer:
         except VisionFailure as failure:
             self._failed(failure)
             return
-        self._down = None
         if result.skipped is not None:
-            self._pictures.skipped[result.skipped] += 1
+            self._skip(result.skipped)
             return
+        self._down, self._unusable = None, 0
         self._saw(picture, result)
+
+    def _skip(self, code: str) -> None:
+        """Count a picture that could not be thought upon; several in a row are said."""
+        self._pictures.skipped[code] += 1
+        self._unusable += 1
+        enough = self._unusable >= UNUSABLE_AFTER
+        why = "detector_down" if code == "detector_failed" else "camera_unusable"
+        self._down = why if enough else None
 
     def _failed(self, failure: VisionFailure) -> None:
         """Say why there are no looks, once, and try again later."""

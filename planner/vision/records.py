@@ -82,4 +82,5 @@ class Sight:
     things: tuple[Thing, ...] = ()
     blind: str | None = None
     """Why nothing is seen now (a stable code: ``no_camera``, ``no_detector``, ``camera_silent``,
-    ``camera_frozen``, ``detector_down``); None while pictures are thought upon."""
+    ``camera_frozen``, ``camera_unusable``, ``detector_down``); None while pictures are thought
+    upon."""

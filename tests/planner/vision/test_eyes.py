@@ -153,9 +153,12 @@ def test_skipped_pictures_and_lost_poses_teach_nothing() -> None:
     async def story() -> None:
         world = World()
         world.eyes.attend("test", True)
+        world.detector.skipped = "detector_failed"
+        await world.film(1.0)
+        assert world.eyes.sight.blind == "detector_down"
         world.detector.skipped = "picture_truncated"
         await world.film(1.0)
-        assert world.eyes.sight.look is None
+        assert (world.eyes.sight.look, world.eyes.sight.blind) == (None, "camera_unusable")
         assert world.eyes.skipped["picture_truncated"] > 0
         world.detector.skipped = None
         world.poses.localization(
@@ -168,6 +171,7 @@ def test_skipped_pictures_and_lost_poses_teach_nothing() -> None:
         await world.turn(0.04)
         look = world.eyes.sight.look
         assert look is not None
+        assert world.eyes.sight.blind is None
         assert (look.base_in_map, look.here, world.eyes.sight.things) == (None, ("",), ())
         assert world.eyes.counts["without_pose"] == 1
 

@@ -182,6 +182,7 @@ export const en = {
   "blind.no_detector": "No detector is set, so things in the picture are not told apart.",
   "blind.camera_silent": "No picture comes from the camera.",
   "blind.camera_frozen": "The camera sends one and the same picture again and again.",
+  "blind.camera_unusable": "The camera's pictures can't be used: is its lens covered?",
   "blind.detector_down": "The detector does not answer; it is being started anew.",
 
   "objects.title": "Things it has seen",
@@ -258,6 +259,7 @@ export const en = {
   "reason.no_detector": "no detector",
   "reason.camera_silent": "no picture came",
   "reason.camera_frozen": "the picture stands still",
+  "reason.camera_unusable": "the pictures can't be used",
   "reason.detector_down": "the detector is silent",
   "reason.point_on_wall": "a wall or furniture",
   "reason.point_off_map": "outside the floor",

@@ -181,6 +181,7 @@ export const zh: Record<Key, string> = {
   "blind.no_detector": "没有设置检测模型，无法识别画面中的物体。",
   "blind.camera_silent": "摄像头没有传来画面。",
   "blind.camera_frozen": "摄像头一直发送同一张画面。",
+  "blind.camera_unusable": "摄像头的画面无法使用，镜头可能被遮住。",
   "blind.detector_down": "检测进程没有响应，正在重新启动。",
 
   "objects.title": "见过的物体",
@@ -257,6 +258,7 @@ export const zh: Record<Key, string> = {
   "reason.no_detector": "没有检测模型",
   "reason.camera_silent": "没有收到画面",
   "reason.camera_frozen": "画面静止不变",
+  "reason.camera_unusable": "画面无法使用",
   "reason.detector_down": "检测进程没有响应",
   "reason.point_on_wall": "那里是墙或家具",
   "reason.point_off_map": "不在地面范围内",
