@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import time
 from typing import TYPE_CHECKING
 
 from planner.brain import FallbackBrain
@@ -19,7 +20,7 @@ from planner.vision.seeing import Scenery
 from planner.vision.store import ThingStore
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
     from planner.brain import Brain
@@ -32,27 +33,39 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
+REFUSED_WITHIN_S = 20.0
+"""Later the robot may be at work: it then goes on without eyes, and says why."""
+
 
 class Opening:
     """Own the detector's process: open it beside everything else, and say if it is refused."""
 
-    def __init__(self, settings: VisionSettings, robot: RobotDescription) -> None:
-        self.worker = VisionWorker(settings)
+    def __init__(
+        self,
+        settings: VisionSettings,
+        robot: RobotDescription,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.worker, self._clock = VisionWorker(settings), clock
         self.refused: VisionFailure | None = None
-        """Why the owner's detector can't be used: a person must act."""
+        """Why the owner's detector can't be used, found at the start: a person must act."""
+        self._owners = settings.model is not None
         self._wanted = robot.camera.kind != "none"
 
     async def open(self) -> None:
         """Start the process, if there is a camera; a process that dies later is started anew."""
         if not self._wanted:
             return
+        began_s = self._clock()
         try:
             await self.worker.start()
         except VisionFailure as failure:
-            if failure.code in REFUSALS:
+            early = self._clock() - began_s <= REFUSED_WITHIN_S
+            if self._owners and early and failure.code in REFUSALS:
                 self.refused = failure
             else:
-                log.error("the eyes stay shut: %s", failure)
+                log.error("the robot goes on without eyes: %s", failure)
 
 
 def eyes_of(

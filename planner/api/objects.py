@@ -9,6 +9,7 @@ from fastapi import APIRouter, Path
 from planner.api.ports import Services
 from planner.api.problems import Problem
 from planner.api.sayings import saying_of
+from planner.vision.failure import REFUSALS
 from planner.vision.labels import named
 
 if TYPE_CHECKING:
@@ -116,5 +117,9 @@ def _named(label: str, color: str | None = None) -> dict[str, str]:
 
 
 def _blind(code: str | None) -> dict[str, Any]:
-    message = saying_of(code).get("message") if code is not None else None
+    message = None if code is None else saying_of(code).get("message")
+    if (
+        code is not None and code in REFUSALS
+    ):  # the owner's detector, refused while the planner runs
+        message = dict(zip(("en", "zh"), REFUSALS[code], strict=True))
     return {"blind": code, "message": message}

@@ -14,7 +14,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from planner.vision.failure import VisionFailure
+from planner.vision.failure import REFUSALS, VisionFailure
 from planner.vision.handed import Handed
 from planner.vision.keeping import Keeper
 from planner.vision.labels import canonical
@@ -249,7 +249,8 @@ class Sightseer:
 
     def _failed(self, failure: VisionFailure) -> None:
         """Say why there are no looks, once, and try again later."""
-        code = failure.code if failure.code == "no_detector" else "detector_down"
+        told = failure.code == "no_detector" or failure.code in REFUSALS
+        code = failure.code if told else "detector_down"
         if self._down != code:
             log.warning("eyes: %s", failure)
         self.counts[failure.code] += 1

@@ -1,7 +1,8 @@
 """Keep one process running and hand it one request at a time. Knows pipes; not what is asked.
 
 Whatever becomes of the process, who asks gets an answer or a typed failure in bounded time. One
-request is in flight: who comes next waits, and his time runs meanwhile.
+request is in flight: who comes next waits, and his time runs meanwhile. Only the process's own
+word is a refusal: one that dies, however often and early, is started again.
 """
 
 from __future__ import annotations
@@ -23,8 +24,6 @@ log = logging.getLogger(__name__)
 
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 10.0
 """Before a process that died is started again; doubled each time until one answers."""
-UNBORN = 3
-"""Deaths before the very first word after which what it was given is held guilty."""
 STREAM_ERRORS = (OSError, EOFError, ValueError, KeyError, TypeError)
 DOWN = "detector_down"
 
@@ -53,8 +52,6 @@ class KeptProcess:
         self._waiting: dict[int, asyncio.Future[Answer]] = {}
         self._turn = asyncio.Lock()
         self._number = 0
-        self._unborn = 0
-        self._born = False
         self._pause_s = FIRST_PAUSE_S
 
     @property
@@ -68,10 +65,11 @@ class KeptProcess:
         return self._ready.is_set() and self._refused is None
 
     async def start(self, timeout_s: float) -> None:
-        """Start it and wait until it can answer.
+        """Start it and wait until it can answer. Ends by itself, with :meth:`close`.
 
         Raises:
-            VisionFailure: it was refused, or it did not come up; nothing is left running.
+            VisionFailure: it was refused, and nothing is left running; or it is not up yet
+                (``detector_down``), and goes on being started.
         """
         if self._keeper is None:
             self._keeper = asyncio.create_task(self._keep(), name="vision worker")
@@ -79,7 +77,6 @@ class KeptProcess:
             async with asyncio.timeout(timeout_s):
                 await self._wait_ready()
         except TimeoutError:
-            await self.close()
             raise VisionFailure(DOWN, f"not ready after {timeout_s:g} s") from None
         except BaseException:
             await self.close()
@@ -89,8 +86,11 @@ class KeptProcess:
         """Return the answer to one request.
 
         Raises:
-            VisionFailure: what it failed with, ``detector_down`` or ``detector_timed_out``.
+            VisionFailure: what it failed with, what it was refused for, ``detector_down`` or
+                ``detector_timed_out``.
         """
+        if self._refused is not None:
+            raise self._refused
         if self._keeper is None:
             raise VisionFailure(DOWN, "it was not started")
         self._number += 1
@@ -152,8 +152,10 @@ class KeptProcess:
             except VisionFailure as failure:
                 self._refuse(failure)
             except STREAM_ERRORS as error:
-                log.warning("the vision process is started again; its stream ended: %s", error)
-                self._give_up()
+                log.warning(
+                    "the vision process is started again in %g s; its stream ended: %s",
+                    *(self._pause_s, error),
+                )
             finally:
                 await self._bury()
             if self._refused is None:
@@ -175,7 +177,6 @@ class KeptProcess:
         if process.stdout is None:
             raise ValueError("the process has no standard output")
         self._greet((await _read(process.stdout))[0])
-        self._born = True
         self._ready.set()
         while True:
             head, data = await _read(process.stdout)
@@ -184,14 +185,8 @@ class KeptProcess:
             if waiting is not None and not waiting.done():  # else who asked has gone away
                 waiting.set_result((head, data))
 
-    def _give_up(self) -> None:
-        """Refuse what it was given if the process has died too often without ever a word."""
-        self._unborn += 0 if self._born else 1
-        if self._unborn == UNBORN:
-            text = f"its process died {UNBORN} times while it started; its log says more"
-            self._refuse(VisionFailure("model_broken", text))
-
     def _refuse(self, failure: VisionFailure) -> None:
+        log.error("the vision process refused what it was given: %s", failure)
         self._refused = failure
         self._ready.set()
 

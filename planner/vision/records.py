@@ -82,5 +82,5 @@ class Sight:
     things: tuple[Thing, ...] = ()
     blind: str | None = None
     """Why nothing is seen now (a stable code: ``no_camera``, ``no_detector``, ``camera_silent``,
-    ``camera_frozen``, ``camera_unusable``, ``detector_down``); None while pictures are thought
-    upon."""
+    ``camera_frozen``, ``camera_unusable``, ``detector_down``, or what the detector was refused
+    for); None while pictures are thought upon."""

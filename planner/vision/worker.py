@@ -63,8 +63,9 @@ class VisionWorker:
         same: :meth:`look` then fails with ``no_detector``, and :meth:`crop` works.
 
         Raises:
-            VisionFailure: the model is refused (``model_*``, ``provider_unavailable``) or the
-                process did not come up (``detector_down``); nothing is left running.
+            VisionFailure: the model is refused (``model_*``, ``provider_unavailable``), and
+                nothing is left running; or the process is not up yet (``detector_down``), and
+                goes on being started.
         """
         await self._kept.start(timeout_s)
 
@@ -74,7 +75,8 @@ class VisionWorker:
         """Think upon one picture. What it holds is never an exception: it may be ``skipped``.
 
         Raises:
-            VisionFailure: ``no_detector``, ``detector_down`` or ``detector_timed_out``.
+            VisionFailure: ``no_detector``, ``detector_down``, ``detector_timed_out``, or what the
+                model was refused for.
         """
         header = color.header
         if depth is not None and not _same_instant(color, depth):

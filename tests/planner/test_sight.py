@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import asyncio
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
+
+import pytest
 
 from planner.app import _brain, _model
 from planner.budget import purse_of
 from planner.settings import VisionSettings, load_settings
-from planner.sight import Opening, _by_detector, looker_of
-from planner.vision import Detection, VisionWorker
+from planner.sight import REFUSED_WITHIN_S, Opening, _by_detector, looker_of
+from planner.vision import Detection, VisionFailure, VisionWorker
 from wire import RobotDescription
 
 ROBOT = RobotDescription()
@@ -22,6 +26,33 @@ def test_without_a_camera_no_process_is_started() -> None:
         await opening.open()
         assert opening.worker.pid is None
         assert opening.refused is None
+
+    asyncio.run(story())
+
+
+@pytest.mark.parametrize(
+    ("model", "code", "after_s", "ends"),
+    [
+        (Path("own.onnx"), "model_broken", 1.0, True),
+        (Path("own.onnx"), "model_broken", REFUSED_WITHIN_S + 1.0, False),  # the robot may drive
+        (Path("own.onnx"), "detector_down", 1.0, False),  # nobody's word about the model
+        (None, "model_broken", 1.0, False),  # nobody set it: nobody can set it right
+    ],
+)
+def test_only_a_word_about_the_owners_model_at_the_start_ends_the_planner(
+    model: Path | None, code: str, after_s: float, ends: bool
+) -> None:
+    async def story() -> None:
+        now_s = [5.0]
+
+        async def start() -> None:
+            now_s[0] += after_s
+            raise VisionFailure(code)
+
+        opening = Opening(VisionSettings(model=model), ROBOT, clock=lambda: now_s[0])
+        opening.worker = cast("VisionWorker", SimpleNamespace(start=start))
+        await opening.open()
+        assert (opening.refused is not None) == ends
 
     asyncio.run(story())
 

@@ -37,6 +37,14 @@ def seeing(blind: str | None = None) -> FakeServices:
     return services
 
 
+def test_a_detector_refused_late_is_told_in_words() -> None:
+    shown = client_of(seeing("model_broken")).get("/v1/objects").json()
+    assert (shown["blind"], shown["message"]["zh"]) == (
+        "model_broken",
+        "onnxruntime 无法加载该模型",
+    )
+
+
 def test_things_are_listed_with_their_ages_and_names() -> None:
     shown = client_of(seeing("camera_frozen")).get("/v1/objects").json()
     assert shown["version"] == 4

@@ -131,7 +131,11 @@ def test_a_camera_that_vanishes_or_was_never_there_is_said() -> None:
 
 @pytest.mark.parametrize(
     ("code", "blind"),
-    [("no_detector", "no_detector"), ("detector_timed_out", "detector_down")],
+    [
+        ("no_detector", "no_detector"),
+        ("detector_timed_out", "detector_down"),
+        ("model_broken", "model_broken"),  # refused while the planner runs
+    ],
 )
 def test_a_detector_that_is_down_is_asked_again_later(code: str, blind: str) -> None:
     async def story() -> None:

@@ -194,7 +194,7 @@ def test_a_refused_model_is_refused_at_start_with_its_code(tmp_path: Path) -> No
         worker = VisionWorker(VisionSettings(model=tmp_path / "m.onnx"))
         assert await code_of(worker.start(LIMIT_S)) == "model_not_onnx"
         assert worker.pid is None
-        assert await code_of(worker.look(image(JPEG), None)) == "detector_down"
+        assert await code_of(worker.look(image(JPEG), None)) == "model_not_onnx"
 
     run(story)
 
@@ -217,12 +217,35 @@ def test_without_a_model_pictures_are_still_made_small() -> None:
     run(story)
 
 
-def test_a_process_that_never_comes_up_is_given_up(tmp_path: Path) -> None:
+def test_deaths_before_the_first_word_are_no_refusal_and_it_is_tried_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Out of memory says nothing of the model."""
+    monkeypatch.setattr("planner.vision.keeper.FIRST_PAUSE_S", 0.01)
+
     async def story() -> None:
-        worker = VisionWorker(VisionSettings(model=tmp_path / "dies.onnx"), STUB)
-        with pytest.raises(VisionFailure, match="died 3 times") as caught:
-            await worker.start(LIMIT_S)
-        assert caught.value.code == "model_broken"
+        worker = VisionWorker(VisionSettings(model=tmp_path / "dies4.onnx"), STUB)
+        try:
+            with pytest.raises(VisionFailure, match="not ready") as caught:
+                await worker.start(0.01)
+            assert caught.value.code == "detector_down"
+            assert (await worker.look(image(JPEG), None, LIMIT_S)).skipped is None
+        finally:
+            await worker.close()
+        assert worker.pid is None
+        assert sum("started again" in record.message for record in caplog.records) == 4
+
+    run(story)
+
+
+def test_a_refusal_that_comes_late_is_told_to_whoever_asks(tmp_path: Path) -> None:
+    async def story() -> None:
+        (tmp_path / "m.onnx").write_text("weights")
+        worker = VisionWorker(VisionSettings(model=tmp_path / "m.onnx"))
+        assert await code_of(worker.start(0.01)) == "detector_down"
+        assert await code_of(worker.look(image(JPEG), None, LIMIT_S)) == "model_not_onnx"
+        await worker.close()
+        assert worker.pid is None
 
     run(story)
 
