@@ -36,6 +36,9 @@ PEOPLE: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
 TO_THE_DOOR, BY_THE_COUNTER = Pose2(1.5, 4.0, -pi / 2), Pose2(1.5, 1.9, -0.9)
 World = Callable[..., Together]
 
+pytestmark = pytest.mark.timeout(180)
+"""A search is a minute of simulated time: 6 s of a free core, ten times that on a busy one."""
+
 
 @pytest.fixture(scope="session")
 def home(tmp_path_factory: pytest.TempPathFactory, repository: Path) -> Path:
@@ -116,14 +119,14 @@ def test_what_was_just_seen_is_told_without_a_search_and_gone_things_are_not(
 
 def test_what_is_not_there_is_told_with_where_was_looked(world_with: World) -> None:
     world = world_with(Find(object="green cup", place="kitchen"))
-    began, goal = world.truth, world.say("find the green cup in the kitchen")
+    goal = world.say("find the green cup in the kitchen")
     step = done(world, goal)
     assert (goal.state, step.reason, step.rooms) == (GoalState.FAILED, "not_found", ("kitchen",))
     assert told(goal)[1:] == (
         "I saw no green cup. I looked in the kitchen.",
         "没有看到绿色的杯子。看过的地方：厨房。",
     )
-    assert moved_m(world, began) < 0.5, "the order named one room"
+    assert world.room == "kitchen", "the order named one room"
 
 
 @pytest.mark.parametrize(
@@ -233,10 +236,10 @@ def test_an_interrupted_search_goes_on_where_it_was_and_never_by_itself(
     assert abs(wrap(world.truth.yaw_rad - still.yaw_rad)) < 0.01
     assert len(looked()) == 3, "what was looked at stays looked at"
     world.resume(goal)
-    resumed_s = world.now_s
+    took_s = world.run_until(lambda w: w.planner.engine.book.missions[goal.id].notes.spots, 30.0)
+    assert took_s < 14.0, "three directions were left, not six"
     step = done(world, goal)
     assert (goal.state, step.reason) == (GoalState.FAILED, "not_found")
-    assert world.now_s - resumed_s < 14.0, "three directions were left, not six"
 
 
 def test_a_person_is_followed_at_a_distance_and_lost_cleanly(world_with: World) -> None:

@@ -105,6 +105,8 @@ def _without_way(scene: Scene, pose: Pose2, spots: tuple[Spot, ...]) -> Notes:
     spot = next((s for s in spots if s.key == notes.missed), None)
     if spot is None:
         return notes
+    if spot.room in notes.rooms:  # it was looked round in, but for what this spot shows better
+        return notes.but(missed=None, spots=(*notes.spots, spot.key))
     if spot.room is not None and room_at(scene.facts, (pose.x_m, pose.y_m)) == spot.room:
         return notes.but(missed=None, spot=spot.key, views=(), turned=None)
     shut = (*notes.shut, spot.room) if spot.room and spot.room not in notes.shut else notes.shut

@@ -24,6 +24,10 @@ Point = tuple[float, float]
 
 REACH_M = 2.8
 """A cup is eight pixels high there, of 240."""
+NEAR_M = 1.1
+"""What lies on the floor nearer than this is below the picture."""
+ASIDE_M = 0.8
+"""A step aside shows it."""
 STEP_M, MOST_POINTS = 0.4, 100
 """Points at which a room is judged; a hall has no more of them than a room."""
 INSET_M = 0.5
@@ -91,6 +95,31 @@ def spots_in(target: Target, first: Point | None = None) -> tuple[Spot, ...]:
     return tuple(Spot(f"{target.id}/{n}", target.id, at) for n, at in enumerate(points))
 
 
+def near_spot(target: Target, first: Point | None = None) -> tuple[Spot, ...]:
+    """Return the spot that shows the floor before the feet of who stood at the others, or none."""
+    pose = (target.pose.x_m, target.pose.y_m)
+    began = first or pose
+    at = _before_the_feet(target.polygon, _cover(target.polygon, began, pose), pose)
+    return () if at is None else (Spot(f"{target.id}/near", target.id, at),)
+
+
+@lru_cache(maxsize=256)
+def _before_the_feet(
+    outline: tuple[Point, ...] | None, stood: tuple[Point, ...], pose: Point
+) -> Point | None:
+    """Choose the point from which most of the floor is seen that no other spot shows."""
+    left = [p for p in _grid(outline or (), 0.2) if not any(_shown(p, s) for s in stood)]
+    stands = [
+        s for s in (pose, *_grid(outline or (), INSET_M))
+        if all(hypot(s[0] - o[0], s[1] - o[1]) >= ASIDE_M for o in stood)
+    ]  # fmt: skip
+    return max(stands, key=lambda s: sum(_shown(p, s) for p in left), default=None)
+
+
+def _shown(p: Point, stand: Point) -> bool:
+    return NEAR_M <= hypot(p[0] - stand[0], p[1] - stand[1]) <= REACH_M
+
+
 @lru_cache(maxsize=256)
 def _cover(outline: tuple[Point, ...] | None, began: Point, pose: Point) -> tuple[Point, ...]:
     """Choose points greedily until little of the outline is out of reach."""
@@ -115,6 +144,8 @@ def _far(a: Point, b: Point) -> bool:
 
 
 def _grid(outline: tuple[Point, ...], inset_m: float) -> list[Point]:
+    if not outline:
+        return []
     xs, ys = [x for x, _ in outline], [y for _, y in outline]
     step_m = max(STEP_M, sqrt((max(xs) - min(xs)) * (max(ys) - min(ys)) / MOST_POINTS))
     columns, rows = int((max(xs) - min(xs)) / step_m) + 1, int((max(ys) - min(ys)) / step_m) + 1

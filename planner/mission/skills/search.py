@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Drive, Gaze, Scene
 from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, look_round, spin
-from planner.mission.skills.rooms import HERE, Spot, in_order, room_at, room_of, spots_in
+from planner.mission.skills.rooms import HERE, Spot, in_order, near_spot, room_at, room_of, spots_in
 from planner.mission.skills.seen import (
     WORTH,
     away_m,
@@ -100,7 +100,10 @@ def spots(scene: Scene, pose: Pose2) -> tuple[Spot, ...]:
         found += [Spot(HERE, room, first), *spots_in(facts.targets[room], first)[1:]]
     elif room is None and target is None:
         found.append(Spot(HERE, None, first))
-    return (*found, *(spot for target in rooms for spot in spots_in(target)))
+    found += [spot for target in rooms for spot in spots_in(target)]
+    if room in order:  # what lay before the feet comes last: it is seldom there
+        found += near_spot(facts.targets[room], first)
+    return (*found, *(spot for target in rooms for spot in near_spot(target)))
 
 
 def begin(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Scene:

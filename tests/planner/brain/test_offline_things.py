@@ -1,0 +1,35 @@
+"""The offline brain drives up to what eyes know, where it is no place of the site."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.brain.offline.reader import Context, plan
+from planner.plan import EVERY_KIND, Clarify, Code, GoToObject, StepPlan, Vocabulary
+
+WHOLE = Context(runnable=EVERY_KIND)
+THINGS = {
+    "go to the red chair": ("red chair", None),
+    "drive up to the box in the study": ("box", "study"),
+    "去红色的椅子那里": ("红色的椅子", None),
+    "开到客厅里的箱子旁边": ("箱子", "living_room"),
+}
+
+
+@pytest.mark.parametrize(("text", "thing"), THINGS.items(), ids=ascii)
+def test_what_eyes_know_is_driven_up_to_though_it_is_no_place(
+    text: str, thing: tuple[str, str | None], home: Vocabulary
+) -> None:
+    sees = Context(runnable=EVERY_KIND, things=frozenset({"chair", "box", "椅子", "箱子"}))
+    label, place = thing
+    assert plan(text, home, sees) == StepPlan(steps=(GoToObject(object=label, place=place),))
+    for blind in (Context(runnable=EVERY_KIND), Context(things=sees.things)):
+        made = plan(text, home, blind)
+        assert isinstance(made, Clarify)
+        assert made.code in (Code.UNKNOWN_PLACE, Code.NOT_UNDERSTOOD)
+
+
+@pytest.mark.parametrize("text", ["go to the garage", "find a cup near the chair", "去猫窝"])
+def test_no_other_unknown_place_becomes_a_thing(text: str, home: Vocabulary) -> None:
+    sees = Context(runnable=EVERY_KIND, things=frozenset({"chair", "cup"}))
+    assert plan(text, home, sees) == plan(text, home, WHOLE)
