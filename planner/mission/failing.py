@@ -21,6 +21,8 @@ MENDABLE = frozenset(
 )
 """Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
 SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED})
+AGAIN_S = 1.0
+"""A way that is shut stays so for a while: a step that goes on without it is asked no sooner."""
 
 
 def fail_step(turn: Turn, cannot: Cannot) -> None:
@@ -48,12 +50,13 @@ def fail_step(turn: Turn, cannot: Cannot) -> None:
 
 
 def _without(turn: Turn, notes: Notes) -> None:
-    """Go on in the step without this leg: its skill is asked at the next status, standing."""
+    """Go on in the step without this leg: its skill is asked soon, standing."""
     mission = settle_walk(turn)
     if mission is None:
         return
     turn.put(mission, notes=notes)
-    turn.set(walk=Walk("drive", turn.next_entry, retry_s=turn.now_s, since_s=turn.now_s))
+    retry_s = turn.now_s + AGAIN_S
+    turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s, since_s=turn.now_s))
 
 
 def give_up(turn: Turn, mission: Mission) -> None:

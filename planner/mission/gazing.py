@@ -2,7 +2,8 @@
 
 Levels, not events: only the newest sight counts, and a lost one loses nothing. A picture counts for
 a gaze when it was taken after the robot stood. Nothing moves by a sight alone: what follows from it
-is the skill's next act, carried out like any other.
+is the skill's next act, carried out like any other. A leg that is driven to see ends, standing,
+while nothing is seen: it would lead blindly.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ ASK_S = 0.5
 SAME_M, SAME_RAD = 0.25, 0.15
 """A goal that moved by less is the same."""
 SEEN_S = 1.0
+LOOKING = frozenset({"find", "count", "look", "follow"})
+"""Steps in which nothing is driven but to see."""
 MORE = 2
 """Where something was seen and is not sure, a gaze takes so many times its looks."""
 
@@ -41,7 +44,7 @@ def on_sight(turn: Turn, sight: Sight, classes: tuple[str, ...]) -> None:
         turn.set(eyes=replace(eyes, classes=classes))
     turn.set(sight=sight)
     walk = turn.book.walk
-    if walk is None or turn.running is None:
+    if walk is None or turn.running is None or stand_while_blind(turn):
         return
     if walk.kind == "gaze" and _counts(walk, sight):
         look = sight.look
@@ -52,6 +55,20 @@ def on_sight(turn: Turn, sight: Sight, classes: tuple[str, ...]) -> None:
             return
     if _ask_again(turn, walk, sight):
         _asked_again(turn, walk)
+
+
+def stand_while_blind(turn: Turn) -> bool:
+    """Give up a leg for the eyes' sake while they see nothing, and wait for them; say if so."""
+    mission, walk = turn.running, turn.book.walk
+    if turn.book.sight.blind is None or mission is None or mission.now is None or walk is None:
+        return False
+    to_see = walk.watch or walk.wanted is not None or mission.now.kind in LOOKING
+    if walk.kind != "drive" or walk.goal is None or not to_see:
+        return False
+    settled = settle_walk(turn)
+    if settled is not None:
+        carry_out(turn, settled, Gaze(1, notes=walk.notes, then=walk.notes, watch=walk.watch))
+    return True
 
 
 def on_told(turn: Turn, mission_id: str, ticket: int, answer: Answer) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from planner.mission.amounts import forget_beginnings, hand_steers, settle_amounts
 from planner.mission.asking import end_unanswered
 from planner.mission.failing import fail_step
-from planner.mission.gazing import end_gaze_if_due, on_standing
+from planner.mission.gazing import end_gaze_if_due, on_standing, stand_while_blind
 from planner.mission.legs import ask_route, detour_if_due, lost_route
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
 from planner.mission.records import Walk
@@ -175,6 +175,8 @@ def _progress(turn: Turn, status: Status, off_path: bool) -> None:
     walk = turn.book.walk
     if walk is not None and walk.kind in ("gaze", "inquire"):
         on_standing(turn, walk)
+        return
+    if stand_while_blind(turn):
         return
     if walk is None or walk.kind != "drive" or on_arrival(turn) or _off_limits(turn, walk):
         return

@@ -2,9 +2,10 @@
 
 Precondition: somebody is in sight, or was found by the step before. Law: the way is laid anew as
 the person walks, twice a second at most, each time to a point short of them; the bridge's limits
-and gates hold as on any leg. Out of sight, the robot goes to where it saw them last and looks
-round. Verdict: lost when nobody was seen for ``LOST_S``, told and standing; done when the time is
-over. Budget: 300 s, and the bridge's grant.
+and gates hold as on any leg. Out of sight, the robot goes to as far short of where it saw them last
+and looks round; while its eyes see nothing at all it stands. Verdict: lost when nobody was seen for
+``LOST_S``, told and standing; failed when no way leads to them, try after try; done when the time
+is over. Budget: 300 s, and the bridge's grant.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import short_of
 from planner.mission.skills.seen import away_m, bearing, turn_to, wanted_of
+from planner.mission.skills.tell import called
 from planner.plan import Code, message
 
 if TYPE_CHECKING:
@@ -38,7 +40,13 @@ FACE_RAD = 0.35
 LOST_S, FOLLOW_S = 25.0, 300.0
 GAZE_LOOKS, GAZE_S = 10, 8.0
 FIRST_LOOKS = 3
-ROUND = 1
+SHUT, ROUND = -1, 1
+SHUT_LOOKS = 15
+"""Pictures to watch, standing, where the way is shut, before the next try: 3 s of them."""
+MOST_SHUT = 5
+"""Ways to somebody in sight that may be shut, one after the other, on one spot."""
+MOVED_M = 0.5
+"""Beyond, the robot stands elsewhere, and ways are counted anew."""
 
 
 def follow(scene: Scene) -> Act:
@@ -50,12 +58,17 @@ def follow(scene: Scene) -> Act:
         return Later()
     if scene.spent_s > FOLLOW_S:
         return _over(scene)
+    if scene.sight.blind is not None:  # where the person is now nobody knows: nothing moves
+        return Gaze(1, notes=scene.notes, then=scene.notes, watch=True)
     person = _in_sight(scene, wanted)
     if person is None:
         return _lost(scene, scene.pose)
     at = (round(person.x_m, 2), round(person.y_m, 2), 0.9)
-    notes = scene.notes.but(at=at, seen_s=round(scene.spent_s, 1), stage=0, views=(), spot=None,
-                            spots=(), turned=None, here=None)  # fmt: skip
+    stage = SHUT if scene.notes.stage == SHUT else 0
+    notes = scene.notes.but(at=at, seen_s=round(scene.spent_s, 1), stage=stage, views=(), spot=None,
+                            spots=(), turned=None, label=person.label)  # fmt: skip
+    if notes.here is not None and away_m(scene.pose, notes.here) > MOVED_M:
+        notes = notes.but(here=None, stand=0)
     return _keep_up(scene.pose, at, notes)
 
 
@@ -82,14 +95,26 @@ def _apart(thing: Thing, at: tuple[float, float, float]) -> float:
     return hypot(thing.x_m - at[0], thing.y_m - at[1])
 
 
-def _keep_up(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Gaze:
+def _keep_up(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Gaze | Cannot:
     """Go after who is in sight, face them, or stand and watch."""
     if away_m(pose, at[:2]) > KEEP_M + SLACK_M:
-        goal, heading = short_of(pose, at[:2], KEEP_M)
-        return _watched(leg_to(pose, goal, heading, notes, notes), notes)
+        return _go_after(pose, at, notes)
+    notes = notes.but(stage=0, here=None, stand=0)
     if abs(turn_to(pose, at[:2])) > FACE_RAD:
         return _watched(spin(pose, bearing(pose, at[:2]), notes), notes)
     return Gaze(GAZE_LOOKS, GAZE_S, notes=notes, then=notes, watch=True)
+
+
+def _go_after(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Gaze | Cannot:
+    """Go to a point short of them; where the way was shut watch a while first, not for ever."""
+    if notes.stand >= MOST_SHUT:
+        said = message(Code.NO_ROUTE, place=called(notes.label or "person", None))
+        return Cannot(Code.NO_ROUTE, "no_route", said)
+    if notes.stage == SHUT:
+        return Gaze(SHUT_LOOKS, GAZE_S, notes=notes, then=notes.but(stage=0), watch=True)
+    goal, heading = short_of(pose, at[:2], KEEP_M)
+    shut = notes.but(stage=SHUT, here=(pose.x_m, pose.y_m), stand=notes.stand + 1)
+    return _watched(leg_to(pose, goal, heading, notes, shut), notes)
 
 
 def _watched(leg: Drive, notes: Notes) -> Drive:
@@ -98,7 +123,7 @@ def _watched(leg: Drive, notes: Notes) -> Drive:
 
 
 def _lost(scene: Scene, pose: Pose2) -> Act:
-    """Go to where the person was seen last, look round there, then give up."""
+    """Go to as far short of where the person was seen last, look round there, then give up."""
     notes, at = scene.notes, scene.notes.at
     gone_s = scene.spent_s - notes.seen_s
     if gone_s > LOST_S:
@@ -107,17 +132,19 @@ def _lost(scene: Scene, pose: Pose2) -> Act:
         return Gaze(FIRST_LOOKS, notes=notes, then=notes.but(stage=ROUND), watch=True)
     if at is not None and notes.stage < ROUND:
         then = notes.but(stage=ROUND)
-        if away_m(pose, at[:2]) <= KEEP_M / 2:
+        if away_m(pose, at[:2]) <= KEEP_M + SLACK_M:  # they may stand there yet, unseen
             return _look_about(scene.but(then), pose, gone_s)
-        goal, heading = short_of(pose, at[:2], 0.3)
-        return replace(leg_to(pose, goal, heading, then, then), watch=True)
+        goal, heading = short_of(pose, at[:2], KEEP_M)
+        return replace(leg_to(pose, goal, heading, then, then), notes=notes, watch=True)
     return _look_about(scene, pose, gone_s)
 
 
 def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> Act:
     at = (pose.x_m, pose.y_m)
     act = look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
-    return _give_up(gone_s) if isinstance(act, Notes) else replace(act, watch=True)
+    if isinstance(act, Notes):
+        return _give_up(gone_s)
+    return replace(act, notes=scene.notes, watch=True)
 
 
 def _give_up(gone_s: float) -> Cannot:

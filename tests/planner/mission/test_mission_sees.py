@@ -8,7 +8,7 @@ import pytest
 
 from planner.mission.events import Sighted
 from planner.mission.skills import Eyesight
-from planner.plan import Code, Find, Follow, Frozen, GoalState, StepPlan, StepState
+from planner.plan import Code, Count, Find, Follow, Frozen, GoalState, StepPlan, StepState
 from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.driving import FAILED, RUNNING, SUCCEEDED
 from tests.planner.mission.lockstep import Together
@@ -114,3 +114,65 @@ def test_who_walks_is_gone_after_by_legs_laid_anew_and_no_more_than_twice_a_seco
     seeing.things = ()
     seeing.see_until(goal, FAILED, limit_s=60.0)
     assert seeing.goal(goal).reason == "lost_person"
+
+
+FOLLOWING = StepPlan(steps=(Follow(object="me"),))
+
+
+@pytest.mark.parametrize("near", [True, False], ids=["standing", "driving"])
+def test_a_follower_that_sees_nothing_stands_and_comes_no_nearer(
+    seeing: Seeing, near: bool
+) -> None:
+    seeing.things = (ANNA,)
+    goal = seeing.give(FOLLOWING)
+    seeing.see(9.0 if near else 1.6)
+    here = seeing.bridge.pose.x_m
+    assert (here > 1.5) is near
+    seeing.things, seeing.blind = (), "camera_silent"
+    seeing.see_until(goal, FAILED, limit_s=15.0)
+    assert seeing.bridge.pose.x_m - here < 0.15
+    assert (seeing.goal(goal).reason, seeing.book.walk) == ("camera_silent", None)
+
+
+def test_where_a_person_was_seen_last_is_not_driven_onto(seeing: Seeing) -> None:
+    seeing.things = (ANNA,)
+    goal = seeing.give(FOLLOWING)
+    seeing.see(2.0)
+    seeing.things = ()
+    seeing.see_until(goal, FAILED)
+    assert seeing.goal(goal).reason == "lost_person"
+    assert 1.15 <= ANNA.x_m - seeing.bridge.pose.x_m <= 1.6
+
+
+@pytest.mark.parametrize("what", ["cup", "cups"])
+def test_a_search_goes_nowhere_while_its_eyes_see_nothing(seeing: Seeing, what: str) -> None:
+    step = Find(object=what) if what == "cup" else Count(object=what)
+    goal = seeing.give(StepPlan(steps=(step,)))
+    while seeing.bridge.pose.x_m < 0.6:
+        seeing.see(0.2)
+    here = seeing.bridge.pose.x_m
+    seeing.blind = "camera_silent"
+    seeing.see(1.0)
+    assert seeing.book.walk is not None
+    assert seeing.book.walk.kind == "gaze"
+    seeing.blind = None
+    seeing.see(1.0)
+    assert seeing.bridge.pose.x_m > here, "eyes that come back go on"
+    here, seeing.blind = seeing.bridge.pose.x_m, "camera_silent"
+    seeing.see_until(goal, FAILED, limit_s=15.0)
+    assert seeing.bridge.pose.x_m - here < 0.3
+    assert seeing.goal(goal).reason == "camera_silent"
+
+
+def test_a_person_without_a_way_to_them_is_watched_and_given_up_in_time(seeing: Seeing) -> None:
+    seeing.things, seeing.way = (ANNA,), lambda _: "no_route"
+    goal = seeing.give(FOLLOWING)
+    began_s = seeing.now_s
+    seeing.see_until(goal, FAILED, limit_s=60.0)
+    mission, took_s = seeing.goal(goal), seeing.now_s - began_s
+    assert mission.reason == "no_route"
+    assert mission.outcome is not None
+    assert "person" in mission.outcome.message.en
+    assert 10.0 < took_s < 60.0
+    assert 3 <= len(seeing.routes) <= took_s
+    assert len(seeing.disk_entries) <= 2 * took_s
