@@ -131,9 +131,11 @@ def test_points_out_of_sight_are_found_where_they_matter(twist: Twist2, beside: 
 
 def test_a_nearer_point_that_is_seen_later_counts() -> None:
     for twist in (Twist2(0.5, 0.02), Twist2(0.5, -0.02)):
-        points = [(r * cos(radians(d)), r * sin(radians(d))) for d, r in ((5, 1.9), (355, 1.3))]
-        free = free_length(picture({5: 1.9, 355: 1.3}), IDENTITY, twist, RADIUS_M)
-        assert free.s_m == pytest.approx(walked_m(points, IDENTITY, twist), abs=1e-5)
+        for later_m in (1.3, 1.75):
+            seen = ((5, 1.9), (355, later_m))
+            points = [(r * cos(radians(d)), r * sin(radians(d))) for d, r in seen]
+            free = free_length(picture({5: 1.9, 355: later_m}), IDENTITY, twist, RADIUS_M)
+            assert free.s_m == pytest.approx(walked_m(points, IDENTITY, twist), abs=1e-5)
 
 
 def test_what_is_at_contact_already_is_not_free_for_a_whole_circle() -> None:
