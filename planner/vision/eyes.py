@@ -49,6 +49,8 @@ UNUSABLE_AFTER = 5
 REST_S = 1.0
 """After a failure of the detector."""
 AGING_S = 0.5
+FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 10.0
+"""Before eyes that ended by an error of ours are opened again; doubled until one sees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +86,8 @@ class Sightseer:
         self._shown_s = self._began_s = self._aged_s = self._rest_until_s = float("-inf")
         self._thinking: asyncio.Task[None] | None = None
         self._task: asyncio.Task[None] | None = None
+        self._pause_s = FIRST_PAUSE_S
+        self._idle_poll_s = min(IDLE_POLL_S, max(POLL_S, 0.5 / camera.rate_hz))
         self.version = 0
         """Rises when a thing comes, goes, or gets another colour or room."""
         self.changed_s: dict[str, float] = {}
@@ -174,22 +178,27 @@ class Sightseer:
         self._tell(None)
         self._keeper.took(self._sight.things, self.version)
         if self._there:
-            self._task = asyncio.get_running_loop().create_task(self._run(), name="eyes")
-            self._task.add_done_callback(self._ended)
+            self._open(0.0)
 
     async def close(self) -> None:
         """End all looking, and keep what is remembered."""
-        tasks = [t for t in (self._task, self._thinking) if t is not None]
+        running, self._task = self._task, None
+        tasks = [t for t in (running, self._thinking) if t is not None]
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-        if self._task is not None:
+        if running is not None:
             await self._keeper.close(self._sight.things, self._clock())
 
-    async def _run(self) -> None:
+    def _open(self, after_s: float) -> None:
+        self._task = asyncio.get_running_loop().create_task(self._run(after_s), name="eyes")
+        self._task.add_done_callback(self._ended)
+
+    async def _run(self, after_s: float) -> None:
+        await asyncio.sleep(after_s)
         while True:
             self.turn()
-            await asyncio.sleep(POLL_S if self._attended(self._clock()) else IDLE_POLL_S)
+            await asyncio.sleep(POLL_S if self._attended(self._clock()) else self._idle_poll_s)
 
     def turn(self) -> None:
         """Do one round: take pictures in, judge them, begin a look where one is due."""
@@ -236,7 +245,7 @@ class Sightseer:
         if result.skipped is not None:
             self._skip(result.skipped)
             return
-        self._down, self._unusable = None, 0
+        self._down, self._unusable, self._pause_s = None, 0, FIRST_PAUSE_S
         self._saw(picture, result)
 
     def _skip(self, code: str) -> None:
@@ -276,9 +285,13 @@ class Sightseer:
             log.error("a look failed", exc_info=error)
 
     def _ended(self, task: asyncio.Task[None]) -> None:
-        if not task.cancelled() and (error := task.exception()) is not None:
-            log.critical("the eyes ended", exc_info=error)
-            self._sight = Sight(self._look, self._memory.things, "detector_down")
+        if task is self._task and not task.cancelled() and (error := task.exception()) is not None:
+            log.critical("the eyes ended; again in %g s", self._pause_s, exc_info=error)
+            self.counts["eyes_ended"] += 1
+            self._open(self._pause_s)
+            self._pause_s = min(2 * self._pause_s, LONGEST_PAUSE_S)
+            self._down = self._down or "detector_down"  # until the next look
+            self._tell(self._look)
 
     def _tell(self, look: Look | None) -> None:
         """Make the new sight, and tell it."""

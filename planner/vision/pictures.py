@@ -24,7 +24,10 @@ FROZEN_AFTER = 5
 """Pictures with new stamps, each the bytes of the one before: no sensor is so free of noise."""
 SAME_CLOCK_S = 60.0
 """A stamp farther from our clock is of another host's: it tells nothing here."""
-DEPTH_WAIT_S = 0.03
+DEPTH_WAIT_S = 0.05
+"""Longest time that depth may lag behind its picture."""
+LIES_S = 0.035
+"""However fast the camera, a picture may lie so long: nobody asks more often when at rest."""
 AS_GOOD_S = 0.25
 """A picture with depth is handed out rather than one newer by so little without."""
 DEPTH_GONE_S = 2.0
@@ -55,23 +58,25 @@ class WireCamera:
 
 @dataclass(frozen=True, slots=True)
 class _Heard:
-    """Hold the newest picture with when it came."""
+    """Hold a picture that was neither handed out nor passed over."""
 
     picture: Picture
     heard_s: float
-    offered: bool = False
-    """It was handed out, or counted as skipped."""
+    whole_s: float | None = None
+    """When its depth was there too."""
 
 
 class Pictures:
-    """Keep the newest picture and what is to be said of its kind."""
+    """Keep the newest pictures and what is to be said of their kind."""
 
     def __init__(self, camera: Camera, rate_hz: float = 10.0) -> None:
         """Take pictures of a camera that is to send so many a second."""
         self._camera = camera
-        self._silent_s, self._lies_s = max(SILENT_S, 2.5 / rate_hz), 0.5 / rate_hz
-        self._heard: _Heard | None = None
+        self._silent_s, self._lies_s = max(SILENT_S, 2.5 / rate_hz), max(LIES_S, 0.5 / rate_hz)
+        self._heard: list[_Heard] = []
+        """The newest last: those before it wait for their depth, which lags behind."""
         self._depth: tuple[Image, float] | None = None
+        self._last: Picture | None = None
         self._whole: Picture | None = None
         self._repeats = 0
         self._fresh_s = float("-inf")
@@ -82,10 +87,10 @@ class Pictures:
     @property
     def newest(self) -> Picture | None:
         """Return the newest picture, however old; one with its depth where that is as good."""
-        heard, whole = self._heard, self._whole
-        if heard is None or whole is None:
-            return None if heard is None else heard.picture
-        return whole if heard.picture.taken_s - whole.taken_s <= AS_GOOD_S else heard.picture
+        last, whole = self._last, self._whole
+        if last is None or whole is None:
+            return last
+        return whole if last.taken_s - whole.taken_s <= AS_GOOD_S else last
 
     def blind(self, now_s: float) -> str | None:
         """Say why there is nothing to look at, or None."""
@@ -105,64 +110,62 @@ class Pictures:
             self._take(color, now_s, busy=busy)
         elif color is not None:
             self.skipped["malformed"] += 1
-        self._join()
+        self._join(now_s)
 
     def ready(self, now_s: float) -> Picture | None:
-        """Hand out the newest picture, once, if it is worth thinking upon.
+        """Hand out, once, the newest picture that is whole, if it is worth thinking upon.
 
         One that lies here for half a period already is left: the next comes sooner than that one
         is as old again.
         """
-        heard = self._heard
-        if heard is None or heard.offered or self._repeats >= FROZEN_AFTER:
+        ripe = [number for number, one in enumerate(self._heard) if self._ripe(one, now_s)]
+        if not ripe:
             return None
-        if not now_s - heard.heard_s <= self._lies_s:
+        newest = self._heard[ripe[-1]]
+        if not now_s - self._ripe_s(newest, now_s) <= self._lies_s:
             return None
-        if not now_s - heard.picture.taken_s <= OLDEST_S:
-            self._pass("stale")
+        self.skipped["rate"] += ripe[-1]
+        self._heard = self._heard[ripe[-1] + 1 :]
+        if not now_s - newest.picture.taken_s <= OLDEST_S:
+            self.skipped["stale"] += 1
             return None
-        depth = self._depth_of(heard.picture.color)
-        if depth is None and self._awaits_depth(now_s, heard):
-            return None
-        picture = replace(heard.picture, depth=depth)
-        self._heard = replace(heard, picture=picture, offered=True)
-        return picture
+        return newest.picture
 
-    def _join(self) -> None:
-        """Put the newest picture and its depth together, once both are there."""
-        heard, whole = self._heard, self._whole
-        if heard is None or (whole is not None and whole.color is heard.picture.color):
-            return
-        depth = self._depth_of(heard.picture.color)
-        if depth is not None:
-            self._whole = replace(heard.picture, depth=depth)
+    def _join(self, now_s: float) -> None:
+        """Put the newest depth and its picture together, once both are there."""
+        for number, heard in enumerate(self._heard):
+            depth = self._depth_of(heard.picture.color)
+            if depth is not None and heard.whole_s is None:
+                self._whole = replace(heard.picture, depth=depth)
+                self._heard[number] = replace(heard, picture=self._whole, whole_s=now_s)
 
     def _take(self, color: Image, now_s: float, *, busy: bool) -> None:
-        before = self._heard
-        if before is not None and not before.offered:
-            self._pass("busy" if busy else "rate")
         header = color.header
-        old = None if before is None else before.picture.color
+        old = None if self._last is None else self._last.color
         if old is not None and (old.header.boot_id, old.header.seq) == (header.boot_id, header.seq):
             self.skipped["repeated"] += 1
             return
+        self._pass("busy" if busy else "rate", now_s)
         self.came += 1
         again = old is not None and old.data == color.data
         self._repeats = self._repeats + 1 if again else 0
         stamp_age_s = now_s - header.stamp_s
         on_our_clock = 0.0 <= stamp_age_s <= SAME_CLOCK_S
         taken_s = header.stamp_s if on_our_clock else now_s
-        self._heard = _Heard(Picture(color, None, taken_s), now_s)
+        self._last = Picture(color, None, taken_s)
         if now_s - taken_s <= OLDEST_S:
             self._fresh_s = now_s
         if self._repeats >= FROZEN_AFTER:
-            self._pass("frozen")
+            self.skipped["frozen"] += 1 + len(self._heard)
+            self._heard = []
+        else:
+            self._heard.append(_Heard(self._last, now_s))
 
-    def _pass(self, reason: str) -> None:
-        """Count the newest picture as passed over."""
-        if self._heard is not None and not self._heard.offered:
-            self.skipped[reason] += 1
-            self._heard = replace(self._heard, offered=True)
+    def _pass(self, reason: str, now_s: float) -> None:
+        """Pass over what could have been handed out; what waits for its depth may still be."""
+        waiting = [heard for heard in self._heard if not self._ripe(heard, now_s)]
+        self.skipped[reason] += len(self._heard) - len(waiting)
+        self._heard = waiting
 
     def _depth_of(self, color: Image) -> Image | None:
         if self._depth is None:
@@ -171,7 +174,12 @@ class Pictures:
         same = (depth.header.boot_id, depth.header.seq) == (color.header.boot_id, color.header.seq)
         return depth if same else None
 
-    def _awaits_depth(self, now_s: float, heard: _Heard) -> bool:
-        """Tell whether the picture's depth may still come."""
+    def _ripe(self, heard: _Heard, now_s: float) -> bool:
+        """Tell whether a picture can be handed out: its depth is there, or comes no more."""
+        return now_s >= self._ripe_s(heard, now_s)
+
+    def _ripe_s(self, heard: _Heard, now_s: float) -> float:
+        if heard.whole_s is not None:
+            return heard.whole_s
         speaks = self._depth is not None and now_s - self._depth[1] <= DEPTH_GONE_S
-        return speaks and now_s - heard.heard_s <= DEPTH_WAIT_S
+        return heard.heard_s + (DEPTH_WAIT_S if speaks else 0.0)

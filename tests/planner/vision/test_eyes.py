@@ -171,8 +171,8 @@ def test_skipped_pictures_and_lost_poses_teach_nothing() -> None:
         )  # fmt: skip
         world.poses._odom_id = "lost"
         world.camera.colors.append(image(99, world.now_s))
-        await world.turn(0.04)
-        await world.turn(0.04)
+        await world.turn(0.06)
+        await world.turn(0.06)
         look = world.eyes.sight.look
         assert look is not None
         assert world.eyes.sight.blind is None
@@ -246,6 +246,60 @@ def test_what_was_seen_outlives_the_process(tmp_path: Path) -> None:
     play(story())
 
 
+def test_eyes_that_end_are_opened_again_and_it_is_told(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("planner.vision.eyes.FIRST_PAUSE_S", 0.001)
+
+    async def story() -> None:
+        world = World()
+        color = world.camera.color
+        world.camera.color = lambda: 1 / 0  # type: ignore[method-assign, assignment, return-value]
+        ended = asyncio.Event()
+        world.eyes.listen(lambda _: ended.set() if world.eyes.counts["eyes_ended"] == 3 else None)
+        await world.eyes.start()
+        await ended.wait()
+        assert world.told[-1].blind == "camera_silent"
+        world.camera.color = color  # type: ignore[method-assign]
+        world.eyes.attend("test", True)
+        while world.eyes.sight.look is None:
+            world.shoot()
+            await asyncio.sleep(0.02)
+        assert world.told[-1].blind is None
+        await world.eyes.close()
+
+    with caplog.at_level(logging.CRITICAL + 1):
+        play(asyncio.wait_for(story(), 10.0))
+
+
+@pytest.mark.parametrize("lag_s", [0.0, 0.02, 0.04, None])
+@pytest.mark.parametrize("hz", [10.0, 30.0, 60.0])
+def test_each_picture_is_handed_out_once_and_whole_at_any_rate(
+    hz: float, lag_s: float | None
+) -> None:
+    """Depth comes a moment after its colour, or never; eyes look every 10 ms."""
+    camera = FakeCamera()
+    pictures = Pictures(camera, hz)
+    taken = [(100.0 + index / hz, index) for index in range(round(4 * hz))]
+    soon = [] if lag_s is None else [(came_s + lag_s, index) for came_s, index in taken]
+    given: list[tuple[int, bool]] = []
+    for tick in range(400):
+        now_s = 100.0 + 0.01 * tick
+        while taken and taken[0][0] <= now_s:
+            came_s, index = taken.pop(0)
+            camera.colors.append(image(index, came_s))
+        while soon and soon[0][0] <= now_s:
+            came_s, index = soon.pop(0)
+            camera.depths.append(image(index, came_s, b"d"))
+        pictures.poll(now_s, busy=False)
+        if (ready := pictures.ready(now_s)) is not None:
+            given.append((ready.color.header.seq, ready.depth is not None))
+    assert [seq for seq, _ in given] == sorted({seq for seq, _ in given})
+    assert len(given) >= min(hz, 15.0) * 4 - 4
+    whole = sum(deep for _, deep in given)
+    assert whole == (0 if lag_s is None else pytest.approx(len(given), abs=2))
+
+
 def test_colour_waits_a_moment_for_its_depth() -> None:
     camera = FakeCamera()
     pictures = Pictures(camera)
@@ -262,6 +316,7 @@ def test_colour_waits_a_moment_for_its_depth() -> None:
     pictures.poll(1.1, busy=False)
     assert pictures.newest is not None
     assert pictures.newest.color.header.seq == 1  # the newest that is whole
-    late = pictures.ready(1.14)
+    assert pictures.ready(1.14) is None
+    late = pictures.ready(1.16)
     assert late is not None
     assert late.depth is None
