@@ -16,7 +16,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants laws enumerate check fmt docs bench bench-long lock clean
+.PHONY: help setup dev core page run test e2e coverage mutants laws enumerate check fmt docs bench bench-long train lock clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -88,6 +88,9 @@ bench: $(RUNTIME) ## measure and print a table (at most 10 min)
 
 bench-long: $(RUNTIME) ## measure what takes longer; resumable, appends to one file
 	@exec $(BIN)/python -m bench --long $(ARGS)
+
+train: $(RUNTIME) ## draw homes, fit the default detector anew and score it (two hours; train/README.md)
+	@exec nice -n 10 $(BIN)/python -m train $(ARGS)
 
 lock: $(DEV) ## resolve the dependencies anew into requirements.lock and requirements-dev.lock
 	@scripts/lock.sh
