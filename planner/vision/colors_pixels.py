@@ -31,6 +31,8 @@ BRIGHT_SHARE, BRIGHT, MOST_GAIN = 90, 235.0, 4.0
 """So many percent of a picture's pixels are to be darker than this; no more is added than that."""
 STEP_PX = 8
 """Between the pixels that are asked how bright a picture is."""
+DARK = 12
+"""Nearly all of a picture is darker where the lens is covered, or there is no light."""
 
 # Hue as OpenCV counts it: half degrees, 0 to 179. Upper ends, in order.
 HUES = ((7, RED), (19, ORANGE), (34, YELLOW), (85, GREEN), (129, BLUE), (149, PURPLE), (167, PINK))
@@ -53,6 +55,11 @@ def exposure(picture: Pixels) -> float:
     sample = picture[::STEP_PX, ::STEP_PX].max(axis=2)
     bright = float(np.percentile(sample, BRIGHT_SHARE))
     return min(MOST_GAIN, max(1.0, BRIGHT / max(1.0, bright)))
+
+
+def dark(picture: Pixels) -> bool:
+    """Tell whether nothing can be told from a picture (height x width x 3): a covered lens."""
+    return bool(np.percentile(picture[::STEP_PX, ::STEP_PX].max(axis=2), 99) < DARK)
 
 
 def prevailing(pixels: Pixels, gain: float = 1.0) -> str | None:

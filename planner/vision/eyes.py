@@ -272,6 +272,8 @@ class Sightseer:
             self._means.scenery, self._memory, picture, result.detections, stance
         )
         self.counts["looks"] += 1
+        if result.depth_lost is not None:
+            self._pictures.skipped[result.depth_lost] += 1
         self.counts["without_pose"] += stance is None
         self.took_s, self.lag_s = result.took_s, self._clock() - picture.taken_s
         self._tell(look)

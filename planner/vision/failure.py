@@ -47,17 +47,22 @@ SKIPS = MappingProxyType(
         "picture_deep": ("it has more than 8 bits per channel", "每通道超过 8 位"),
         "picture_truncated": ("it is cut off", "图像不完整"),
         "picture_undecodable": ("it can't be decoded", "图像无法解码"),
+        "picture_dark": (
+            "it is black: a covered lens, or no light",
+            "图像全黑：镜头被遮住或没有光线",
+        ),
         "picture_size_wrong": ("it is not as large as its header says", "图像尺寸与说明不符"),
         "depth_not_known": ("its depth is no 16-bit PNG", "深度图不是 16 位 PNG"),
         "depth_truncated": ("its depth is cut off", "深度图不完整"),
         "depth_undecodable": ("its depth can't be decoded", "深度图无法解码"),
         "depth_size_wrong": ("its depth is of another size", "深度图尺寸不符"),
-        "depth_empty": ("its depth is zero everywhere", "深度图全为零"),
+        "depth_empty": ("its depth is zero everywhere and was left aside", "深度图全为零，未使用"),
         "depth_of_another": ("its depth is of another instant", "深度图不属于同一时刻"),
         "detector_failed": ("the model failed on it", "模型处理该图像时出错"),
     }
 )
-"""Why a picture was not thought upon: it is counted, and the next one is looked at."""
+"""Why a picture was not thought upon: it is counted, and the next one is looked at. For
+``depth_empty`` it was, without its depth."""
 
 FAILURES = MappingProxyType(
     {

@@ -52,13 +52,14 @@ def look_head(result: LookResult) -> dict[str, Any]:
 
 def read_look(head: dict[str, Any]) -> LookResult:
     """Return the result that :func:`look_head` wrote. Raises KeyError, TypeError or ValueError."""
-    skipped = head["skipped"]
+    skipped, depth_lost = head["skipped"], head["depth_lost"]
     return LookResult(
         detections=tuple(map(_detection, head["detections"])),
         width=int(head["width"]),
         height=int(head["height"]),
         took_s=float(head["took_s"]),
         skipped=None if skipped is None else str(skipped),
+        depth_lost=None if depth_lost is None else str(depth_lost),
     )
 
 

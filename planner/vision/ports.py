@@ -96,6 +96,10 @@ class Looked(Protocol):
     def skipped(self) -> str | None:
         """Return why it was not thought upon (a stable code); then nothing else counts."""
 
+    @property
+    def depth_lost(self) -> str | None:
+        """Return why it was thought upon without its depth (a stable code)."""
+
 
 class Detector(Protocol):
     """Find things in pictures, in a process of its own."""

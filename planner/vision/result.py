@@ -19,6 +19,8 @@ class LookResult:
     """In the vision process, decoding included."""
     skipped: str | None = None
     """A code of :data:`planner.vision.failure.SKIPS`; then there are no detections."""
+    depth_lost: str | None = None
+    """A code of the same, where it was looked at without its depth for that."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -128,8 +128,9 @@ class VisionWorker:
         log.info("%s", "no detector is installed" if self.about is None else self.about.line)
 
     def _counted(self, result: LookResult) -> LookResult:
-        if result.skipped is not None:
-            self.skipped[result.skipped] += 1
+        for code in (result.skipped, result.depth_lost):
+            if code is not None:
+                self.skipped[code] += 1
         return result
 
 

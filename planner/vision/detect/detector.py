@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 
-from planner.vision.colors_pixels import exposure
+from planner.vision.colors_pixels import dark, exposure
 from planner.vision.detect.found import Found, believed, in_picture
 from planner.vision.detect.hints import hints
 from planner.vision.detect.inner import ANY, look_inside
@@ -22,6 +22,9 @@ from planner.vision.kinds import kind_of
 from planner.vision.labels import canonical
 from planner.vision.records import Detection
 from planner.vision.result import About, LookResult
+
+EMPTY = "depth_empty"
+"""The camera measures nothing here, or no longer: what it sees is placed without."""
 
 
 class Detector:
@@ -72,15 +75,19 @@ class Detector:
         picture = unpack_color(color, said)
         if isinstance(picture, str):
             return _skipped(picture, began_s)
+        if dark(picture):
+            return _skipped("picture_dark", began_s)
         height, width = picture.shape[:2]
         far = unpack_depth(depth, (width, height)) if depth is not None else None
-        if isinstance(far, str):
-            return _skipped(far, began_s)
+        lost = far if isinstance(far, str) else None
+        if lost is not None and lost != EMPTY:
+            return _skipped(lost, began_s)
         try:
-            detections = self.find(picture, far, focal_px)
+            detections = self.find(picture, None if isinstance(far, str) else far, focal_px)
         except RUN_ERRORS:
             return _skipped("detector_failed", began_s)
-        return LookResult(detections, width, height, time.monotonic() - began_s)
+        took_s = time.monotonic() - began_s
+        return LookResult(detections, width, height, took_s, depth_lost=lost)
 
     def find(
         self, picture: Picture, depth: Depth | None = None, focal_px: float | None = None

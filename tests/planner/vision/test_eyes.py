@@ -11,10 +11,10 @@ from typing import Any
 
 import pytest
 
-from planner.vision import PointRefused, Sight, VisionFailure
+from planner.vision import Detection, PointRefused, Sight, VisionFailure
 from planner.vision.eyes import IDLE_HZ, REST_S, SHOWN_S, Sightseer
 from planner.vision.pictures import FROZEN_AFTER, OLDEST_S, Pictures
-from tests.planner.vision.scenes import image
+from tests.planner.vision.scenes import box_of, image, view
 from tests.planner.vision.watching import MAP_ID, FakeCamera, World
 from wire import Localization, Pose2, Rejected
 
@@ -178,6 +178,23 @@ def test_skipped_pictures_and_lost_poses_teach_nothing() -> None:
         assert world.eyes.sight.blind is None
         assert (look.base_in_map, look.here, world.eyes.sight.things) == (None, ("",), ())
         assert world.eyes.counts["without_pose"] == 1
+
+    play(story())
+
+
+def test_a_thing_is_placed_on_the_floor_where_depth_measures_nothing() -> None:
+    async def story() -> None:
+        world = World()
+        world.eyes.attend("test", True)
+        world.detector.depth_lost = "depth_empty"
+        box, _ = box_of(view(1.0, 1.5), 2.5, 1.5, 0.1, 0.2)
+        world.detector.found = (Detection("chair", 0.9, box),)
+        await world.film(1.0)
+        assert world.eyes.sight.blind is None
+        assert world.eyes.skipped["depth_empty"] > 3
+        (chair,) = world.eyes.sight.things
+        assert chair.x_m == pytest.approx(2.5, abs=0.6)
+        assert chair.y_m == pytest.approx(1.5, abs=0.05)
 
     play(story())
 

@@ -44,6 +44,7 @@ class FakeDetector:
     found: tuple[Detection, ...] = (CUP,)
     failure: VisionFailure | None = None
     skipped: str | None = None
+    depth_lost: str | None = None
     slow: asyncio.Event | None = None
     looks: list[tuple[int, bool]] = field(default_factory=list)
     depth_m: float | None = 1.0
@@ -54,7 +55,7 @@ class FakeDetector:
             await self.slow.wait()
         if self.failure is not None:
             raise self.failure
-        return LookResult(self.found, 320, 240, 0.03, self.skipped)
+        return LookResult(self.found, 320, 240, 0.03, self.skipped, self.depth_lost)
 
     async def depth_at(self, depth: Image, u_px: float, v_px: float) -> float | None:
         if self.failure is not None:

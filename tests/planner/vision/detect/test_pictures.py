@@ -61,6 +61,7 @@ BAD_COLOR = [
     (PNG[:-12], "picture_truncated"),
     (png(64, 48), "picture_undecodable"),
     (encoded(".jpg", COLOR[:40]), "picture_size_wrong"),
+    (encoded(".jpg", COLOR // 32), "picture_dark"),
 ]
 BAD_DEPTH = [
     (b"", "depth_not_known"),
@@ -70,7 +71,6 @@ BAD_DEPTH = [
     (DEEP[:-12], "depth_truncated"),
     (encoded(".png", DEPTH[:40]), "depth_size_wrong"),
     (png(64, 48, 16, 0), "depth_undecodable"),
-    (encoded(".png", np.zeros_like(DEPTH)), "depth_empty"),
 ]
 
 
@@ -88,6 +88,13 @@ def test_bad_depth_is_skipped_with_its_reason(data: bytes, code: str, detector: 
     result = detector.look(JPEG, data, (64, 48))
     assert (result.skipped, result.detections) == (code, ())
     assert code in SKIPS
+
+
+def test_without_anything_measured_things_are_found_without_depth(detector: Detector) -> None:
+    result = detector.look(JPEG, encoded(".png", np.zeros_like(DEPTH)), (64, 48))
+    assert (result.skipped, result.depth_lost) == (None, "depth_empty")
+    assert [(it.label, it.depth_m) for it in result.detections] == [("cup", None)]
+    assert result.depth_lost in SKIPS
 
 
 def test_after_every_bad_picture_a_good_one_is_seen(detector: Detector) -> None:
