@@ -34,8 +34,9 @@ class VisionSettings(BaseModel):
     """Where it runs; None: the fastest that the installed onnxruntime offers."""
     threads: Annotated[int, Field(ge=1, le=16)] = 1
     """Of the processor, while it thinks. The bridge needs a core of its own."""
-    rate_hz: Annotated[float, Field(ge=0.1, le=30.0)] = 5.0
-    """Pictures thought upon in a second, at most."""
+    rate_hz: Annotated[float, Field(ge=1.0, le=30.0)] = 5.0
+    """Pictures thought upon in a second, at most. A step that stands and looks waits 6 s for a few
+    of them: slower eyes would fail it, and let a thing that is followed walk off."""
     min_score: Annotated[float, Field(ge=0.05, le=0.95)] = 0.4
     """What scores less is not reported."""
     input_px: Annotated[int, Field(ge=32, le=2048, multiple_of=32)] | None = None

@@ -47,6 +47,7 @@ def test_the_environment_wins_and_its_files_are_where_the_command_was_given(tmp_
         ("[vision]\nprovider = 'gpu'\n", {}, "'cuda'"),
         ("[vision]\nthreads = 0\n", {}, "vision.threads"),
         ("[vision]\nrate_hz = nan\n", {}, "vision.rate_hz"),
+        ("[vision]\nrate_hz = 0.9\n", {}, "vision.rate_hz"),  # a gaze lasts 6 s
         ("[vision]\nmin_score = 0\n", {}, "vision.min_score"),
         ("[vision]\ninput_px = 100\n", {}, "multiple of 32"),
         ("", {"PONS_VISION_THREADS": "many"}, "vision.threads"),
