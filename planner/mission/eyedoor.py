@@ -1,8 +1,8 @@
 """Ask about the picture: a vision model in words, or the eyes what a pixel shows. One task each.
 
 Law: a goal's pixel counts in the picture that was the newest when its plan was asked for, or when
-the model was asked; what a model says is words for people and never a step. Whatever fails comes
-back as a code inside the answer.
+the model was asked, and in no other: once that is gone, the point is. What a model says is words
+for people and never a step. Whatever fails comes back as a code inside the answer.
 """
 
 from __future__ import annotations
@@ -57,7 +57,9 @@ class EyeDoor:
         if eyes is None or picture is None:
             return Answer(failure="camera_silent")
         if ask.x is not None and ask.y is not None:
-            meant = self._pictures.get(ask.id, picture)
+            meant = self._pictures.get(ask.id)
+            if meant is None:  # planned by a planner that is gone, or before any picture came
+                return Answer(failure="point_no_pose")
             return await _point(eyes, meant, ask.x, ask.y)
         if self._looker is None:
             return Answer(failure="no_vision_model")

@@ -11,6 +11,9 @@ import pytest
 from planner.brain.errors import BrainDown
 from planner.brain.looking import Described, Detected, NotThere, Pointed
 from planner.brain.looking import Picture as Shown
+from planner.mission.effects import AskEyes
+from planner.mission.eyedoor import EyeDoor
+from planner.mission.skills import Answer
 from planner.plan import (
     Bilingual,
     BrainTag,
@@ -194,5 +197,19 @@ def test_what_only_a_model_knows_is_pointed_at_and_driven_up_to(tmp_path: Path, 
         assert looker.asked == [("guitar", goal_id)]
         assert len(eyes.pointed) == 1
         assert abs(world.bridge.pose.x_m - 1.2) < 0.1, "half a metre before the robot's edge"
+
+    run(story())
+
+
+def test_a_pixel_whose_picture_is_gone_leads_nowhere() -> None:
+    async def story() -> None:
+        eyes = FakeEyes(LiveBridge(pose=START))
+        ask = AskEyes("g1", 1, Language.EN, x=500, y=700)
+        door = EyeDoor(eyes)
+        assert (await door.ask(ask)).answer == Answer(failure="point_no_pose")
+        door.note("g1")
+        assert (await door.ask(ask)).answer.at is not None
+        assert (await EyeDoor(eyes).ask(ask)).answer.failure == "point_no_pose", "restarted"
+        assert eyes.pointed == [1]
 
     run(story())
