@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 UNSEEN = Sight()
 """Nothing was ever seen."""
+ANSWER_S = 125.0
+"""Longest wait for an answer about a picture. A model has its own time, set to 120 s at most, and
+says so when that is over: this is for an answer that gets lost."""
 
 
 class Way(StrEnum):
@@ -124,7 +127,7 @@ class Inquire:
     point: bool = False
     x: int | None = None
     y: int | None = None
-    seconds: float = 30.0
+    seconds: float = ANSWER_S
     notes: Notes | None = None
     then: Notes | None = None
 

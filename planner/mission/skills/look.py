@@ -26,7 +26,12 @@ from planner.vision.labels import named
 if TYPE_CHECKING:
     from wire import Pose2
 
-_ROUND = re.compile(r"\b(?:around|round|everywhere|surroundings)\b|四周|周围|到处|四处|环顾|环境")
+_ROUND = re.compile(
+    r"\b(?:look|turn)(?:s|ing)? (?:all )?a?round\b|\b(?:all around|everywhere|surroundings)\b"
+    r"|\baround(?: (?:you|me|us|here|there|the (?:room|house|home|place|flat)))?[ ?.!]*$"
+    r"|环顾|环境|四处|到处|(?:^|[你您我看察在有 ，])的?(?:四周|周围)"
+)
+"""To look about; "a round table" and "around the table" are things to look at."""
 GAZED, ASKED = 1, 2
 
 

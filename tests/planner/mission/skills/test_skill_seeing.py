@@ -21,11 +21,13 @@ from planner.mission.skills import (
     act_of,
 )
 from planner.mission.skills.eyesight import Answer
+from planner.mission.skills.look import looks_round
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import REACH_M, in_order, room_of, spots_in
 from planner.mission.skills.seen import apart, confirmed, fits, mentioned
 from planner.mission.skills.tell import counted, found_at, listed, looked_in
 from planner.plan import Bilingual, Code
+from planner.settings.model import ModelSettings
 from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
@@ -203,3 +205,22 @@ def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() 
     assert isinstance(done, Done)
     assert done.read == words
     assert done.said == Bilingual(en="I see 1 red cup.", zh="看到 1 个红色的杯子。")
+
+
+@pytest.mark.parametrize(
+    ("question", "about"),
+    [
+        ("look around", True), ("Look round, please", True), ("what is around you?", True),
+        ("who is around?", True), ("describe your surroundings", True), ("看看四周", True),
+        ("周围有什么？", True), ("环顾一下", True), ("你的周围有人吗", True),
+        ("is there a round table?", False), ("what stands around the table?", False),
+        ("桌子周围有什么", False), ("what do you see?", False), ("有没有圆桌", False),
+    ],
+)  # fmt: skip
+def test_only_who_asks_for_it_has_the_robot_turn_about(question: str, about: bool) -> None:
+    assert looks_round(question) is about
+
+
+def test_an_answer_is_waited_for_as_long_as_a_model_may_be_given() -> None:
+    longest_s = ModelSettings.model_json_schema()["properties"]["timeout_s"]["maximum"]
+    assert longest_s < Inquire().seconds
