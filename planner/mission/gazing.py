@@ -125,6 +125,8 @@ def _ask_again(turn: Turn, walk: Walk, sight: Sight) -> bool:
     """Tell whether the skill is to be asked because of what is seen now."""
     if walk.asked_s is None or turn.now_s - walk.asked_s < ASK_S or walk.ticket is not None:
         return False
+    if walk.route_when_standing:  # its way was lost: no new one before it stands
+        return False
     if walk.watch:
         return True
     if walk.kind != "drive" or walk.wanted is None:
@@ -175,7 +177,21 @@ def _one_way(walk: Walk, act: Drive) -> bool:
 
 def _lay_anew(turn: Turn, act: Drive) -> None:
     """Aim the leg at a goal that has moved; the old horizon streams until the new way is there."""
+    walk = turn.book.walk
+    if walk is None:
+        return
     turn.walk(
-        goal=act.goal, heading=act.heading, notes=act.notes, then=act.then, otherwise=act.otherwise
+        goal=act.goal,
+        heading=act.heading,
+        notes=act.notes,
+        then=act.then,
+        otherwise=act.otherwise,
+        limit_s=_more(walk.moving_s, act.limit_s),
+        limit_m=_more(walk.metres, act.limit_m),
     )
     ask_route(turn, detour=False)
+
+
+def _more(spent: float, limit: float | None) -> float | None:
+    """Return the bound of a leg that goes on, of which so much was spent before it was laid."""
+    return spent + limit if limit is not None else None

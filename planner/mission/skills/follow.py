@@ -124,7 +124,7 @@ def _watched(leg: Drive, notes: Notes) -> Drive:
 
 def _lost(scene: Scene, pose: Pose2) -> Act:
     """Go to as far short of where the person was seen last, look round there, then give up."""
-    notes, at = scene.notes, scene.notes.at
+    notes, at = scene.notes.but(stage=max(0, scene.notes.stage)), scene.notes.at
     gone_s = scene.spent_s - notes.seen_s
     if gone_s > LOST_S:
         return _give_up(gone_s)

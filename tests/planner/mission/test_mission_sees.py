@@ -11,6 +11,7 @@ from planner.mission.skills import Eyesight
 from planner.plan import Code, Count, Find, Follow, Frozen, GoalState, StepPlan, StepState
 from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.driving import FAILED, RUNNING, SUCCEEDED
+from tests.planner.mission.fakes import row
 from tests.planner.mission.lockstep import Together
 from wire import CameraConfig
 
@@ -176,3 +177,35 @@ def test_a_person_without_a_way_to_them_is_watched_and_given_up_in_time(seeing: 
     assert 10.0 < took_s < 60.0
     assert 3 <= len(seeing.routes) <= took_s
     assert len(seeing.disk_entries) <= 2 * took_s
+
+
+def test_after_a_jump_of_the_pose_no_way_is_laid_before_the_robot_stands(seeing: Seeing) -> None:
+    seeing.things = (ANNA,)
+    seeing.give(FOLLOWING)
+    seeing.see(1.0)
+    seeing.bridge.rows = (row("POSE_JUMP"),)
+    seeing.see(0.2)
+    routes = len(seeing.routes)
+    for step in range(10):
+        seeing.things = (replace(ANNA, x_m=3.0 + 0.3 * step),)
+        seeing.see(0.2)
+    assert len(seeing.routes) == routes
+    seeing.bridge.rows = ()
+    seeing.see(0.4)
+    assert len(seeing.routes) > routes
+
+
+def test_a_leg_that_is_laid_anew_is_bounded_as_its_skill_says(seeing: Seeing) -> None:
+    seeing.things, seeing.way = (ANNA,), lambda _: "no_route"
+    seeing.give(FOLLOWING)
+    seeing.see(1.0)
+    seeing.things, seeing.way = (), lambda _: None
+    while (walk := seeing.book.walk) is None or walk.goal is None:
+        seeing.see(0.2)
+    assert walk.limit_m is not None
+    assert walk.limit_s is not None
+    seeing.things = (replace(ANNA, x_m=4.5),)
+    seeing.see(0.8)
+    walk = seeing.book.walk
+    assert walk is not None
+    assert (walk.kind, walk.limit_m, walk.limit_s) == ("drive", None, None)
