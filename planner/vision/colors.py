@@ -4,18 +4,18 @@ from __future__ import annotations
 
 WORDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "red": (("red", "scarlet", "crimson"), ("大红", "鲜红", "红")),
-    "orange": (("orange",), ("橘黄", "橘红", "橙", "橘")),
-    "yellow": (("yellow", "golden"), ("金黄", "黄", "金")),
+    "orange": (("orange",), ("橘黄", "橘红", "橘", "橙")),
+    "yellow": (("yellow", "golden"), ("金黄", "金", "黄")),
     "green": (("green",), ("翠绿", "墨绿", "绿")),
     "blue": (("blue", "navy", "azure"), ("天蓝", "蔚蓝", "蓝")),
     "purple": (("purple", "violet"), ("紫",)),
     "pink": (("pink",), ("粉红", "粉")),
-    "brown": (("brown",), ("咖啡", "棕", "褐")),
+    "brown": (("brown",), ("咖啡", "褐", "棕")),
     "black": (("black",), ("黑",)),
     "gray": (("gray", "grey", "silver"), ("银灰", "银", "灰")),
     "white": (("white",), ("乳白", "雪白", "白")),
 }
-"""English words, and Chinese ones without 色; the longer first where one holds another."""
+"""English words, and Chinese ones without 色; the first and the last are what is told."""
 COLORS: tuple[str, ...] = tuple(WORDS)
 
 _SHADES_EN = ("light", "dark", "bright", "deep", "pale")

@@ -67,6 +67,11 @@ def test_a_thing_is_named_in_both_languages() -> None:
         assert resolve(kind.zh) == (kind.id, None), kind.id
 
 
+def test_colours_are_told_by_their_plain_words() -> None:
+    told = "".join(colors.names_of(color)[1] for color in colors.COLORS)
+    assert told == "红色橙色黄色绿色蓝色紫色粉色棕色黑色灰色白色"
+
+
 @pytest.mark.parametrize("color", colors.COLORS)
 def test_every_colour_has_its_words(color: str) -> None:
     en, zh = colors.names_of(color)
