@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from hypothesis import given
@@ -155,6 +156,7 @@ events = st.one_of(
     st.tuples(st.just("crash")),
     st.tuples(st.just("drive"), ids, plans),
     st.tuples(st.just("drive"), ids, plans),
+    st.tuples(st.just("follow"), ids, st.sampled_from([2.0, 4.0])),
     st.tuples(st.just("arrive")),
 )
 histories = st.lists(st.tuples(events, st.sampled_from([0.0, 0.05, 0.05, 1.0, 7.0])), max_size=60)
@@ -268,8 +270,20 @@ class World:
                 self.play(("submit", goal, False, False))
                 for step in (("planned", goal, plan), ("safe", 0), ("routed", 0, None)):
                     self.play(step)
+            case ("follow", goal, x_m):
+                self.follow(goal, x_m)
             case ("arrive",):
                 self.arrive()
+
+    def follow(self, goal: str, x_m: float) -> None:
+        """Go after somebody who is in sight, by a leg that is laid anew as they walk."""
+        anna = Thing("person_1", "person", None, x_m, 0.0, 0.9, 0.1, 0.9, 1e6, 0.0, 5)
+        self.play(("sight", (anna,), None))
+        self.play(("drive", goal, StepPlan(steps=(Follow(object="me"),))))
+        self.now_s += 1.0
+        self.play(("sight", (replace(anna, x_m=x_m + 1.0),), None))
+        self.play(("safe", 0))
+        self.play(("routed", 0, None))
 
     def arrive(self) -> None:
         """Let the bridge say that the leg in hand is reached."""
@@ -313,6 +327,23 @@ def test_no_history_breaks_a_law(history: list[tuple[tuple[Any, ...], float]]) -
     for what, pause_s in history:
         world.now_s += pause_s
         world.play(what)
+
+
+def test_histories_hold_legs_after_somebody_who_walks() -> None:
+    """Without this the laws above would hold of legs that are never laid."""
+    world = World()
+    world.play(("follow", "g1", 4.0))
+    walk = world.book.walk
+    assert walk is not None
+    assert (walk.kind, walk.watch, walk.leg) == ("drive", True, 2)
+    assert walk.goal is not None
+    assert abs(walk.goal.x_m - 3.8) < 0.01, "it was laid anew"
+    assert wish(world.book).leg == 2
+    for order in (("command", Pause, "g1"), ("command", Resume, "g1"), ("stop",)):
+        world.play(order)
+        world.play(("sight", (), None))
+    world.play(("status", {}, False))
+    assert wish(world.book) == STAND
 
 
 def test_every_command_in_every_state_is_allowed_or_refused_with_what_exists() -> None:
