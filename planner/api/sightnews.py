@@ -9,8 +9,9 @@ if TYPE_CHECKING:
     from planner.vision import Look, Sight
 
 SIGHT_S = 0.2
-SAME_S = 2.0
-"""So long a look that shows the same again is not told: boxes tremble, nothing has changed."""
+SAME_S = 0.5
+"""So long a look that shows the same again is not told: boxes tremble, nothing has changed. A page
+shows no boxes older than 1 s, so it must hear of them sooner."""
 TREMBLE_PX = 4.0
 
 

@@ -88,6 +88,7 @@ export const sight: Sight = {
   message: null,
   look: {
     seq: 12,
+    age_s: 0.1,
     width: 320,
     height: 240,
     boxes: [{ label: "cup", name: cup.name, score: 0.81, box: [10, 20, 40, 60], id: "cup_1" }],

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { PERIOD_MS, Puller } from "../src/eyes/pull";
-import { rows, things } from "../src/eyes/sight";
+import { boxed, rows, things } from "../src/eyes/sight";
 import { knownWords, lookWords, orderTo } from "../src/eyes/words";
 import { language } from "../src/i18n";
 import { moment } from "../src/state/moment";
@@ -93,6 +93,18 @@ describe("things", () => {
     expect(things.value).not.toBe(drawn);
     learnThings({ version: 4, objects: [cup] });
     expect(things.value.map(({ id }) => id)).toEqual(["cup_1"]);
+  });
+
+  it("have no boxes once the look is older than a second, or what it sees is unsure", () => {
+    receive(JSON.stringify(snapshot(1)));
+    const at = moment();
+    const later = (ms: number) => ({ monotonicMs: at.monotonicMs + ms, wallMs: at.wallMs });
+    const drawn = { look: sight.look as Look, at };
+    expect(boxed(drawn, null, later(800))).toBe(sight.look);
+    expect(boxed(drawn, null, later(1000))).toBeNull(); // it was 0.1 s old when it came
+    expect(boxed(drawn, "camera_unusable", later(0))).toBeNull();
+    expect(boxed({ look: { ...drawn.look, age_s: NaN }, at }, null, later(0))).toBeNull();
+    expect(boxed(null, null, at)).toBeNull();
   });
 
   it("are told of in both languages", () => {

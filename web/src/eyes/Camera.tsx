@@ -6,12 +6,11 @@ import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { t } from "../i18n";
 import { fetchPicture } from "../net/api";
-import { now, shownStatus, sight } from "../state/store";
+import { now, shownStatus, sight, sightAt } from "../state/store";
 import { visible } from "../state/visible";
-import type { Look } from "../wire/types";
 import { Boxes } from "./Boxes";
 import { PERIOD_MS, Puller } from "./pull";
-import { blind, blindWords, hasCamera } from "./sight";
+import { blind, blindWords, boxed, hasCamera, type Drawn } from "./sight";
 import { lookWords } from "./words";
 
 const SLOT = "pons.camera";
@@ -22,8 +21,10 @@ const UNNUMBERED_MS = 1000;
 
 const opened = signal(false);
 /** What was found in the picture that is on the screen, and whether one is there at all. */
-const drawn = signal<Look | null>(null);
+const drawn = signal<Drawn | null>(null);
 const pictured = signal(false);
+/** The look whose boxes lie over the picture now. */
+const shown = computed(() => boxed(drawn.value, blind.value, now.value));
 
 /** Take up whether the person had the picture open. */
 export function startCamera(): void {
@@ -75,7 +76,7 @@ function Picture() {
       pictured.value = false;
     };
   }, []);
-  const look = drawn.value;
+  const look = shown.value;
   return (
     <figure class={`picture ${blind.value === null ? "" : "stale"}`}>
       <div class="screen" hidden={!pictured.value}>
@@ -97,7 +98,8 @@ async function show(canvas: HTMLCanvasElement | null): Promise<void> {
     canvas.getContext("2d")?.drawImage(bitmap, 0, 0);
     bitmap.close();
     pictured.value = true;
-    drawn.value = blind.peek() === null ? (sight.peek()?.look ?? null) : null;
+    const [look, at] = [sight.peek()?.look, sightAt.peek()];
+    drawn.value = look && at ? { look, at } : null;
   } catch {
     // Why it is blind comes over the socket; the next picture is asked for all the same.
   }

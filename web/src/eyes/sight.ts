@@ -1,10 +1,10 @@
 /** Hold what the robot sees as people read it: the things it knows, and why it is blind. */
 import { computed } from "@preact/signals";
 import { say, word } from "../i18n";
-import { since } from "../state/moment";
+import { since, type Moment } from "../state/moment";
 import { steady } from "../state/steady";
 import { known, now, sight } from "../state/store";
-import type { Thing } from "../wire/types";
+import type { Look, Thing } from "../wire/types";
 import { knownWords, orderTo } from "./words";
 
 /** Old or doubtful things are told from those that are surely there. */
@@ -33,6 +33,19 @@ export const blindWords = computed(() => {
   const message = sight.value?.message;
   return message ? say(message) : word("blind", blind.value);
 });
+
+/** Boxes of an older look would lie beside what has moved on. */
+const OLDEST_LOOK_S = 1;
+
+/** A look that is shown, and when it came. */
+export type Drawn = { readonly look: Look; readonly at: Moment };
+
+/** Return the look whose boxes may be shown now, if one is young enough. */
+export function boxed(drawn: Drawn | null, why: string | null, at: Moment): Look | null {
+  if (drawn === null || why !== null) return null;
+  return drawn.look.age_s + since(drawn.at, at) <= OLDEST_LOOK_S ? drawn.look : null;
+}
+
 /** Say whether there is a camera at all. */
 export const hasCamera = computed(() => sight.value !== null && blind.value !== "no_camera");
 

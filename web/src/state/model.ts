@@ -29,6 +29,7 @@ export type Model = {
   readonly usage: Usage | null;
   readonly placesVersion: number; // changes when a place is taught or forgotten
   readonly sight: Sight | null;
+  readonly sightAt: Moment | null;
   readonly things: readonly KnownThing[];
   readonly about: About | null;
   readonly path: Path | null;
@@ -50,6 +51,7 @@ export const EMPTY: Model = {
   usage: null,
   placesVersion: 0,
   sight: null,
+  sightAt: null,
   things: [],
   about: null,
   path: null,
@@ -93,6 +95,7 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         usage: frame.usage,
         placesVersion: frame.places_version,
         sight: frame.sight,
+        sightAt: now,
         things: retold(model.things, frame.sight.things, now),
         about: frame.about,
         path: frame.path,
@@ -120,7 +123,7 @@ function take(model: Model, frame: Frame, now: Moment): Model {
       return { ...model, usage: frame.usage };
     case "sight": {
       const things = retold(model.things, frame.sight.things, now);
-      return { ...model, sight: frame.sight, things };
+      return { ...model, sight: frame.sight, sightAt: now, things };
     }
     case "places":
       return { ...model, placesVersion: frame.version };

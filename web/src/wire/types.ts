@@ -219,6 +219,7 @@ export type Box = {
 /** One picture that was thought upon. */
 export type Look = {
   readonly seq: number;
+  readonly age_s: number; // when it was told
   readonly width: number;
   readonly height: number;
   readonly boxes: readonly Box[];
