@@ -5,8 +5,12 @@ from __future__ import annotations
 from planner.mission.records import Book, Facts, Mission
 from planner.mission.skills import SKILLS, Eyesight
 from planner.mission.skills.seen import meant
-from planner.mission.skills.tell import known_things
+from planner.mission.skills.tell import unknown_words
 from planner.plan import NEEDS_DETECTOR, Code, Language, Outcome, StepRecord, message, same
+from planner.vision.labels import singles_out
+
+UP_TO = frozenset({"go_to_object", "follow"})
+"""The robot goes up to what these name: any other of its kind is the wrong one."""
 
 
 def unwalkable(book: Book, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
@@ -42,7 +46,8 @@ def _unknown_thing(
         if step.kind not in NEEDS_DETECTOR or pointed:
             continue
         name = step.object or ""
-        if meant(name, language, eyes.classes) is None:
-            said = message(Code.OBJECT_UNKNOWN, name=same(name), known=known_things(eyes.classes))
+        which = step.kind in UP_TO and singles_out(name, eyes.classes)
+        if which or meant(name, language, eyes.classes) is None:
+            said = unknown_words(name, eyes.classes)
             return Outcome(code=Code.OBJECT_UNKNOWN, message=said)
     return None

@@ -39,6 +39,14 @@ _COUNT_ZH = (
     r"个|只|张|把|台|瓶|杯|本|盆|棵|株|扇|位|名|条|件|罐|支|双|辆|架|块|面|口|盏|头|匹|颗|副|部|间|些|款)"
 )
 _PLACED_ZH = r"(?:.{1,12}(?:上面?|里面?|里|旁边|边上|下面?|底下|附近|前面|后面|中间|那边|这边)的)?"
+_WHICH_EN = re.compile(
+    r"\b(?:another|other|next|big|small|little|large|tall|old|new|empty)\b"
+    r"|\b(?:on|near|beside|by|under|behind|in front of|at|inside|in) "
+)
+_WHICH_ZH = re.compile(
+    r"另|其他|其它|别的|大|小|(?:上面?|里面?|旁边|边上|下面?|底下|前面|后面|中间|那边|这边)的"
+)
+_ANY_ZH = re.compile(r"家里的|附近的|最近的")
 _TRADITIONAL = str.maketrans(
     "紅黃綠藍紫銀電視門書盤盆機個張臺這幾兩歲裡邊後們員類風頭貓馬鳥車飛訪嬰兒寶鐘錶雙顆號顏",
     "红黄绿蓝紫银电视门书盘盆机个张台这几两岁里边后们员类风头猫马鸟车飞访婴儿宝钟表双颗号颜",
@@ -63,13 +71,26 @@ def resolve(
         classes: what the detector can find. Where given, anything else means nothing; a name of its
             own that is in no table is understood as it is written.
     """
-    text = " ".join(unicodedata.normalize("NFKC", words).casefold().split()).strip(" .,!?，。！？")
     readers = (_in_chinese, _in_english)
     for read in readers if language is Language.ZH else reversed(readers):
-        found = read(text.translate(_TRADITIONAL), _own_names(classes))
+        found = read(_plain(words), _own_names(classes))
         if found is not None and (not classes or found[0] in classes):
             return found
     return None
+
+
+def singles_out(words: str, classes: Collection[str] = ()) -> bool:
+    """Tell whether words say which one is meant by more than its kind and colour.
+
+    Size, age and where it stands beside other things are not seen here: "the small cup", "the other
+    person", "窗边的椅子" mean one among several, and what resolves is any of them.
+    """
+    text, own = _plain(words), _own_names(classes)
+    found = _english_match(text, own)
+    if found is not None:
+        return _WHICH_EN.search(_besides(found)) is not None
+    found = _chinese_match(text, own)
+    return found is not None and _WHICH_ZH.search(_ANY_ZH.sub("", _besides(found))) is not None
 
 
 def named(label: str, color: str | None = None) -> Bilingual:
@@ -91,18 +112,37 @@ def listed(labels: Iterable[str], limit: int = 20) -> Bilingual:
                      zh=("、".join(zh) or "无") + tail_zh)  # fmt: skip
 
 
+def _plain(words: str) -> str:
+    text = " ".join(unicodedata.normalize("NFKC", words).casefold().split())
+    return text.strip(" .,!?，。！？").translate(_TRADITIONAL)
+
+
 def _in_english(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
-    plain = re.sub(r"[-_]", " ", text)
-    for pattern in _english_patterns(own):
-        found = pattern.fullmatch(plain)
-        if found is not None:
-            return _meant(found, _english_names())
-    return None
+    found = _english_match(text, own)
+    return None if found is None else _meant(found, _english_names())
 
 
 def _in_chinese(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
-    found = _chinese_pattern(own).fullmatch(text.replace(" ", ""))
+    found = _chinese_match(text, own)
     return None if found is None else _meant(found, _chinese_names())
+
+
+def _english_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
+    plain = re.sub(r"[-_]", " ", text)
+    matches = (pattern.fullmatch(plain) for pattern in _english_patterns(own))
+    return next((found for found in matches if found is not None), None)
+
+
+def _chinese_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
+    return _chinese_pattern(own).fullmatch(text.replace(" ", ""))
+
+
+def _besides(found: re.Match[str]) -> str:
+    """Return what a phrase says besides the thing's name and colour."""
+    rest = found.string
+    for start, end in sorted((found.span(g) for g in "cdn"), reverse=True):
+        rest = rest[:start] + " " + rest[end:] if start >= 0 else rest
+    return rest
 
 
 def _meant(found: re.Match[str], names: dict[str, str]) -> tuple[str, str | None]:

@@ -12,8 +12,8 @@ from planner.mission.skills.eyesight import Wanted
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.search import search, spent
 from planner.mission.skills.seen import found, wanted_of
-from planner.mission.skills.tell import found_at, known_things, looked_in
-from planner.plan import Code, message, same
+from planner.mission.skills.tell import found_at, looked_in, unknown_words
+from planner.plan import Code, message
 from planner.vision.labels import named
 from planner.vision.records import Thing
 
@@ -49,6 +49,5 @@ def not_found(scene: Scene, wanted: Wanted) -> Cannot:
 
 def unknown(scene: Scene) -> Cannot:
     """Say that these eyes don't know the thing, and what they know."""
-    known = known_things(scene.eyes.classes)
-    said = message(Code.OBJECT_UNKNOWN, name=same(scene.step.object or ""), known=known)
+    said = unknown_words(scene.step.object or "", scene.eyes.classes)
     return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", said)

@@ -20,7 +20,7 @@ from planner.mission.skills.find import unknown
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import short_of
-from planner.mission.skills.seen import away_m, bearing, turn_to, wanted_of
+from planner.mission.skills.seen import away_m, bearing, one_of, turn_to
 from planner.mission.skills.tell import called
 from planner.plan import Code, message
 
@@ -51,7 +51,7 @@ MOVED_M = 0.5
 
 def follow(scene: Scene) -> Act:
     """Return the next leg after the person, or a gaze, or how it ended."""
-    wanted = wanted_of(scene)
+    wanted = one_of(scene)
     if wanted is None:
         return unknown(scene)
     if scene.pose is None:

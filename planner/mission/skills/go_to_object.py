@@ -1,6 +1,7 @@
 """Drive up to a thing: half a metre is left between it and the robot's edge, which faces it.
 
-Precondition: the detector knows what is meant, or a vision model can point at it. The thing is
+Precondition: the detector knows what is meant, or a vision model can point at it; words that pick
+one out by more than kind and colour ("the small cup") only a model understands. The thing is
 found as ``find`` does; the standing point is tried from this side first, then about the thing, and
 the route search moves one that lies in furniture. Verdict: the bridge reached the leg, and where
 the thing must be in view a look confirms it; when it is gone it is looked for once more, then that
@@ -22,10 +23,10 @@ from planner.mission.skills.seen import (
     bearing,
     confirmed,
     found,
+    one_of,
     seen_now,
     spot_of,
     turn_to,
-    wanted_of,
 )
 from planner.mission.skills.tell import called
 from planner.mission.skills.unanswered import not_pointed
@@ -49,7 +50,7 @@ DRIVE, FACE, CHECK, JUDGE = 10, 11, 12, 13
 
 def go_to_object(scene: Scene) -> Act:
     """Return the next act on the way to the thing, or that it was reached."""
-    wanted = wanted_of(scene)
+    wanted = one_of(scene)
     if wanted is None and not scene.eyes.model:
         return unknown(scene)
     if scene.pose is None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from planner.mission.skills.eyesight import Wanted
 from planner.plan import Found, Language
 from planner.vision.kinds import kind_of
-from planner.vision.labels import resolve
+from planner.vision.labels import resolve, singles_out
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -47,6 +47,12 @@ def meant(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | 
     somebody = words.strip().casefold() in SOMEBODY
     found = resolve("person" if somebody else words, language, classes)
     return Wanted(*found) if found is not None else None
+
+
+def one_of(scene: Scene) -> Wanted | None:
+    """Return what the words mean where the robot goes up to it, or None: any of a kind won't do."""
+    words = scene.step.object or ""
+    return None if singles_out(words, scene.eyes.classes) else wanted_of(scene)
 
 
 def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:

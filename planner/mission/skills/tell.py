@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from planner.plan import Bilingual, same
+from planner.plan import Bilingual, Code, message, same
 from planner.vision.kinds import HOME
 from planner.vision.labels import listed as labels_listed
-from planner.vision.labels import named
+from planner.vision.labels import named, singles_out
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -46,6 +46,16 @@ def _plural(word: str) -> str:
 def known_things(classes: tuple[str, ...]) -> Bilingual:
     """List what can be recognised; what most detectors of a home know, where it is not known."""
     return labels_listed(classes or [kind.id for kind in HOME])
+
+
+def unknown_words(words: str, classes: tuple[str, ...]) -> Bilingual:
+    """Say that these eyes don't know a thing and what they know, or not which one is meant."""
+    if not singles_out(words, classes):
+        return message(Code.OBJECT_UNKNOWN, name=same(words), known=known_things(classes))
+    return Bilingual(
+        en=f"I can't tell by sight which one “{words}” is: I know kind and colour alone.",
+        zh=f"我看不出“{words}”指的是哪一个：我只能分辨种类和颜色。",
+    )
 
 
 def room_name(facts: Facts, room: str | None) -> Bilingual | None:

@@ -8,7 +8,18 @@ import pytest
 
 from planner.mission.events import Sighted
 from planner.mission.skills import Eyesight
-from planner.plan import Code, Count, Find, Follow, Frozen, GoalState, StepPlan, StepState
+from planner.plan import (
+    Code,
+    Count,
+    Find,
+    Follow,
+    Frozen,
+    GoalState,
+    GoToObject,
+    Step,
+    StepPlan,
+    StepState,
+)
 from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.driving import FAILED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import row
@@ -209,3 +220,29 @@ def test_a_leg_that_is_laid_anew_is_bounded_as_its_skill_says(seeing: Seeing) ->
     walk = seeing.book.walk
     assert walk is not None
     assert (walk.kind, walk.limit_m, walk.limit_s) == ("drive", None, None)
+
+
+@pytest.mark.parametrize(
+    ("step", "refused"),
+    [
+        (GoToObject(object="the small cup"), True),
+        (GoToObject(object="桌子上的杯子"), True),
+        (Follow(object="the other person"), True),
+        (Follow(object="另一个人"), True),
+        (GoToObject(object="the nearest cup"), False),
+        (Find(object="the small cup"), False),
+    ],
+)
+def test_what_only_one_of_a_kind_can_be_is_not_taken_for_any_of_it(
+    seeing: Seeing, step: Step, refused: bool
+) -> None:
+    seeing.things = (ANNA, CUP)
+    goal = seeing.give(StepPlan(steps=(step,)))
+    seeing.see(1.0)
+    mission = seeing.goal(goal)
+    assert (mission.state is GoalState.REFUSED) is refused
+    if refused:
+        assert mission.outcome is not None
+        assert mission.outcome.code is Code.OBJECT_UNKNOWN
+        assert "which one" in mission.outcome.message.en
+        assert seeing.routes == []

@@ -7,7 +7,7 @@ import pytest
 from planner.plan import Language
 from planner.vision import colors
 from planner.vision.kinds import KINDS
-from planner.vision.labels import canonical, listed, named, resolve
+from planner.vision.labels import canonical, listed, named, resolve, singles_out
 from tests.conftest import ROOT
 
 MEANT = {
@@ -35,6 +35,21 @@ NOTHING = ("", "red", "红色", "John", "my sister's bottle", "person in a red s
 def test_words_mean_a_class_and_a_colour(language: Language | None) -> None:
     assert {words: resolve(words, language) for words in MEANT} == MEANT
     assert [words for words in NOTHING if resolve(words, language) is not None] == []
+
+
+def test_what_says_which_one_by_more_than_kind_and_colour_is_known() -> None:
+    which = (
+        "the small cup", "chair beside the window", "the other person", "bottle on the table",
+        "another red cup", "big grey sofa", "the man near the door", "小杯子", "另一个人",
+        "桌子上的杯子", "窗户旁边的椅子", "桌子旁边的红色的椅子",
+    )  # fmt: skip
+    any_one = (
+        "red cup", "the nearest chair", "my cup", "that chair", "two red cups", "light blue book",
+        "cup that is red", "a man", "红色的杯子", "最近的椅子", "家里的杯子", "那把椅子",
+        "我的杯子", "dining table", "forklift", "",
+    )  # fmt: skip
+    assert [words for words in which if not singles_out(words)] == []
+    assert [words for words in any_one if singles_out(words)] == []
 
 
 def test_only_what_the_detector_knows_is_meant() -> None:

@@ -183,6 +183,9 @@ def test_without_means_a_step_is_refused_and_a_model_may_point() -> None:
     model = replace(EYES, model=True)
     asks = looking("go_to_object", step={"object": "guitar"}, eyes=model, notes=Notes(stage=2))
     assert asks == Inquire("guitar", point=True, then=Notes(stage=3))
+    which: dict[str, Any] = {"step": {"object": "the small cup"}, "notes": Notes(stage=2)}
+    assert isinstance(looking("go_to_object", thing(), eyes=model, **which), Inquire)
+    assert isinstance(looking("go_to_object", thing(), **which), Cannot)
     there = Answer(at=(2.0, 0.0, 0.4))
     goes = looking(
         "go_to_object", step={"object": "guitar"}, eyes=model, notes=Notes(stage=3), answer=there
