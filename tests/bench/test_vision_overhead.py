@@ -1,0 +1,38 @@
+"""Looks are timed on pictures that hold things, and count only where some of them are found."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from bench.measure.vision_overhead import FRAMES, SIZE, Subject, _time_rows, drawn_frames
+from planner.vision.detect.header import read_header
+from planner.vision.worker import DEFAULT_MODEL
+
+SUBJECT = Subject("default", DEFAULT_MODEL)
+
+
+@pytest.mark.parametrize(("found", "valid"), [(2.5, True), (0.0, False)])
+def test_looks_that_find_nothing_stop_early_and_count_for_nothing(
+    found: float, valid: bool
+) -> None:
+    data: dict[str, Any] = {"raw": [10.0], "look": [10.2], "jpeg": [10.4], "opencv": [],
+                            "refused": "", "detections": found}  # fmt: skip
+    rows = {row.what: row for row in _time_rows(SUBJECT, data)}
+    look = rows["default: look over raw"]
+    assert look.figures is not None
+    assert look.figures.p50 == pytest.approx(2.0)
+    assert look.valid == valid
+    assert f"{found:.1f} detections a frame" in look.note
+    assert rows["default: jpeg over raw"].valid == valid
+    assert rows["default: raw session.run"].valid
+
+
+def test_frames_are_drawn_as_the_camera_sends_them() -> None:
+    made = drawn_frames()
+    assert len(made) == len(set(made)) == FRAMES
+    for jpeg in made:
+        header = read_header(jpeg)
+        assert header is not None
+        assert (header.kind, header.width, header.height) == ("jpeg", *SIZE)
