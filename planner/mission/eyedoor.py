@@ -27,6 +27,8 @@ log = logging.getLogger(__name__)
 
 KEPT = 64
 """Pictures kept for goals: more than can be open."""
+AS_NEW_S = 1.0
+"""A picture with what was found in it is shown rather than one newer by so little without."""
 
 
 class EyeDoor:
@@ -53,7 +55,7 @@ class EyeDoor:
 
     async def _answer(self, ask: AskEyes) -> Answer:
         eyes = self._eyes
-        picture = eyes.picture if eyes is not None else None
+        picture = _newest(eyes) if eyes is not None else None
         if eyes is None or picture is None:
             return Answer(failure="camera_silent")
         if ask.x is not None and ask.y is not None:
@@ -81,6 +83,17 @@ class EyeDoor:
         if said.brain.fallback_from is not None:  # the detector spoke: the skill does that itself
             return Answer(failure=said.brain.fallback_reason)
         return Answer(text=said.text)
+
+
+def _newest(eyes: Eyes) -> Picture | None:
+    """Return the newest picture; one that was thought upon where that is about as new.
+
+    What was found in it, and from where it was taken, then belong to what is shown.
+    """
+    picture, looked = eyes.picture, eyes.looked
+    if picture is None or looked is None or picture.taken_s - looked.taken_s > AS_NEW_S:
+        return picture
+    return looked
 
 
 async def _point(eyes: Eyes, picture: Picture, x: float, y: float) -> Answer:

@@ -76,6 +76,7 @@ class Sightseer:
         self._pictures = Pictures(means.camera, camera.rate_hz)
         self._memory = Remembered()
         self._look: Look | None = None
+        self._looked: Picture | None = None
         self._unusable = 0
         self._down: str | None = None if means.detector is not None else "no_detector"
         self._sight = Sight(blind=self._down if self._there else "no_camera")
@@ -119,6 +120,13 @@ class Sightseer:
         if newest is not None:
             self._handed.note(newest)
         return newest
+
+    @property
+    def looked(self) -> Picture | None:
+        """Return the picture that the newest look was made of, as ``picture`` does."""
+        if self._looked is not None:
+            self._handed.note(self._looked)
+        return self._looked
 
     @property
     def now_s(self) -> float:
@@ -271,6 +279,7 @@ class Sightseer:
         self._memory, look = saw(
             self._means.scenery, self._memory, picture, result.detections, stance
         )
+        self._looked = picture
         self.counts["looks"] += 1
         if result.depth_lost is not None:
             self._pictures.skipped[result.depth_lost] += 1

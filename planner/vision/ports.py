@@ -63,6 +63,10 @@ class Eyes(Protocol):
     def picture(self) -> Picture | None:
         """Return the newest picture, however old; None where none ever came."""
 
+    @property
+    def looked(self) -> Picture | None:
+        """Return the picture of the newest look; None before there was one."""
+
     def listen(self, told: Callable[[Sight], None]) -> None:
         """Have something called after each look and when ``blind`` changes. It must be quick."""
 

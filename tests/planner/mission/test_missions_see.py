@@ -26,14 +26,15 @@ from planner.plan import (
     StepPlan,
 )
 from planner.vision.ports import Picture, PointRefused, Spot
+from planner.vision.records import Detection, Sight
 from planner.vision.records import Look as Looked
-from planner.vision.records import Sight
 from planner.world import Site
 from tests.planner.mission.live import LiveBridge, Together, planner, run
 from wire import Image, ImageHeader, Pose2
 
 SIGN = Bilingual(en="A sign says: go to the kitchen.", zh="牌子上写着：去厨房。")
 TAG = BrainTag(name="looker", version="1")
+CUP = Detection("cup", 0.9, (10.0, 10.0, 20.0, 20.0))
 START = Pose2(1.0, 4.2, 0.0)
 
 
@@ -42,6 +43,7 @@ class FakeEyes:
 
     def __init__(self, bridge: LiveBridge) -> None:
         self._bridge, self.seq = bridge, 1
+        self.behind = 0
         self.attended: list[tuple[str, bool]] = []
         self.pointed: list[int] = []
         self.refuses: str | None = None
@@ -49,7 +51,8 @@ class FakeEyes:
 
     @property
     def sight(self) -> Sight:
-        return Sight(Looked(self.seq, self._bridge.now_s(), START, 320, 240, ()))
+        seq = self.seq - self.behind
+        return Sight(Looked(seq, self._bridge.now_s(), START, 320, 240, (CUP,)))
 
     @property
     def classes(self) -> tuple[str, ...]:
@@ -57,11 +60,18 @@ class FakeEyes:
 
     @property
     def picture(self) -> Picture | None:
+        return self.taken(self.seq)
+
+    @property
+    def looked(self) -> Picture | None:
+        return self.taken(self.seq - self.behind)
+
+    def taken(self, seq: int) -> Picture:
         header = ImageHeader(
-            boot_id="b", seq=self.seq, stamp_s=0.0, width=320, height=240, focal_px=200.0,
+            boot_id="b", seq=seq, stamp_s=0.0, width=320, height=240, focal_px=200.0,
             center_x_px=160.0, center_y_px=120.0,
         )  # fmt: skip
-        return Picture(Image(header, b"jpeg"), None, self._bridge.now_s())
+        return Picture(Image(header, b"jpeg"), None, self._bridge.now_s() - 0.1 * (self.seq - seq))
 
     def listen(self, told: Callable[[Sight], None]) -> None:
         self._told.append(told)
@@ -89,6 +99,7 @@ class FakeLooker:
 
     def __init__(self, *, fails: bool = False) -> None:
         self._fails, self.asked = fails, list[tuple[str, str]]()
+        self.shown: list[tuple[int, Pose2 | None, int]] = []
 
     @property
     def tag(self) -> BrainTag:
@@ -103,6 +114,7 @@ class FakeLooker:
         goal: str = "",
     ) -> Described:
         self.asked.append((question, goal))
+        self.shown.append((picture.seq, picture.base_in_map, len(detections)))
         if self._fails:
             raise BrainDown("503")
         return Described(SIGN, None, TAG)
@@ -211,5 +223,16 @@ def test_a_pixel_whose_picture_is_gone_leads_nowhere() -> None:
         assert (await door.ask(ask)).answer.at is not None
         assert (await EyeDoor(eyes).ask(ask)).answer.failure == "point_no_pose", "restarted"
         assert eyes.pointed == [1]
+
+    run(story())
+
+
+def test_a_model_is_shown_the_picture_that_was_thought_upon_and_what_was_found_in_it() -> None:
+    async def story() -> None:
+        eyes, looker = FakeEyes(LiveBridge(pose=START)), FakeLooker()
+        door, eyes.seq = EyeDoor(eyes, looker), 40
+        for eyes.behind in (3, 30):  # then that look is too old
+            await door.ask(AskEyes("g1", 1, Language.EN, words="what is there?"))
+        assert looker.shown == [(37, START, 1), (40, None, 0)]
 
     run(story())

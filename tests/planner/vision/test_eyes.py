@@ -36,6 +36,8 @@ def test_what_is_in_the_picture_comes_onto_the_map() -> None:
         assert look is not None
         assert look.here == ("cup_1",)
         assert look.base_in_map == Pose2(1.0, 1.5, 0.0)
+        assert world.eyes.looked is not None
+        assert world.eyes.looked.color.header.seq == look.seq
         assert world.told[-1] is world.eyes.sight
         assert world.eyes.version == 1
         assert world.eyes.classes == ("cup", "tv")
