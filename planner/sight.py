@@ -85,6 +85,7 @@ def eyes_of(
             scenery=Scenery(site, robot.camera),
             camera=WireCamera(session),
             detector=worker,
+            has_model=worker.has_model,
             poses=poses,
             store=ThingStore.in_home(home, site.map_id),
             rate_hz=settings.rate_hz,

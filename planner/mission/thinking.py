@@ -13,7 +13,7 @@ from planner.mission.events import Planned
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Think
 from planner.plan import BARE, Code, Means, Outcome, Rejection, Vocabulary, message, validate_plan
-from planner.vision.kinds import HOME, kind_of
+from planner.vision.kinds import kind_of
 
 log = logging.getLogger(__name__)
 
@@ -65,8 +65,11 @@ def thinker(
 
 @lru_cache(maxsize=8)
 def things_of(classes: tuple[str, ...]) -> frozenset[str]:
-    """Return what people call the things that a detector knows, in both languages."""
-    kinds = [kind_of(label) for label in classes] if classes else HOME
+    """Return what people call the things that a detector knows, in both languages.
+
+    None while it has not said what it knows: an unknown place is then told as one.
+    """
+    kinds = [kind_of(label) for label in classes]
     return frozenset(
         name for kind in kinds for name in (kind.en, kind.zh, *kind.also_en, *kind.also_zh)
     )

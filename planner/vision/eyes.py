@@ -62,6 +62,8 @@ class Means:
     detector: Detector | None
     poses: Poses
     store: ThingStore | None = None
+    has_model: bool = True
+    """The detector has something to detect with, as far as is known before it starts."""
     rate_hz: float = 10.0
     """Of looks, while somebody needs eyes."""
 
@@ -78,7 +80,8 @@ class Sightseer:
         self._look: Look | None = None
         self._looked: Picture | None = None
         self._unusable = 0
-        self._down: str | None = None if means.detector is not None else "no_detector"
+        there = means.detector is not None and means.has_model
+        self._down: str | None = None if there else "no_detector"
         self._sight = Sight(blind=self._down if self._there else "no_camera")
         self._listeners: list[Callable[[Sight], None]] = []
         self._wanted: set[str] = set()

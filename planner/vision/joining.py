@@ -176,4 +176,5 @@ def _area(box: Box) -> float:
 
 
 def _rank(p: Placed) -> tuple[object, ...]:
-    return (-p.score, p.label, p.box, p.spot.x_m, p.spot.y_m, p.color or "")
+    spot = p.spot
+    return (-p.score, p.label, p.box, spot.sigma_m, spot.x_m, spot.y_m, spot.z_m, p.color or "")

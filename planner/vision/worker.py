@@ -36,6 +36,8 @@ class VisionWorker:
     def __init__(self, settings: VisionSettings, child: str = CHILD) -> None:
         """Take the owner's settings; nothing is started."""
         self._kept = KeptProcess(child, (settings_text(settings),), self._greet)
+        self.has_model = settings.model is not None or DEFAULT_MODEL.is_file()
+        """The owner names one, or one comes with Pons; if it can be used is found out later."""
         self.about: About | None = None
         """What runs, once the process is ready; None without a model."""
         self.skipped: Counter[str] = Counter()

@@ -2,7 +2,8 @@
 
 "the red chair", "next to the box in the study", "客厅里红色的箱子旁边". Only the last word is
 looked at here: what the words beside it mean, and whether they mean anything, the eyes' own names
-decide before anything moves.
+decide before anything moves. Chinese parts no words, so there what comes before the name must be a
+word of its own: 红色的球 and 那个球 name a ball, 月球 and 台球 do not.
 """
 
 from __future__ import annotations
@@ -24,6 +25,11 @@ _ZH = re.compile(
 )
 
 
+_BEFORE_ZH = re.compile(
+    r"(?:.*的|[这那一两几][个把只张台件本瓶杯盆棵扇]?|.*[红橙黄绿蓝紫粉棕黑灰白]色?|[大小新旧高矮圆方])?"
+)
+
+
 def up_to(phrase: str, reading: Reading) -> Steps | None:
     """Return the step that drives up to a thing, or None where the phrase names none."""
     phrase = phrase.strip(" \"'")
@@ -41,6 +47,7 @@ def up_to(phrase: str, reading: Reading) -> Steps | None:
 def _known(what: str, things: frozenset[str]) -> bool:
     """Tell whether a phrase ends in the name of something that eyes know."""
     if not what.isascii():
-        return any(what.endswith(name) for name in things if not name.isascii())
+        names = [name for name in things if not name.isascii() and what.endswith(name)]
+        return any(_BEFORE_ZH.fullmatch(what.removesuffix(name)) for name in names)
     words = what.split()
     return any(" ".join(words[-count:]) in things for count in (1, 2, 3) if count <= len(words))

@@ -29,7 +29,9 @@ def test_what_eyes_know_is_driven_up_to_though_it_is_no_place(
         assert made.code in (Code.UNKNOWN_PLACE, Code.NOT_UNDERSTOOD)
 
 
-@pytest.mark.parametrize("text", ["go to the garage", "find a cup near the chair", "去猫窝"])
+@pytest.mark.parametrize(
+    "text", ["go to the garage", "find a cup near the chair", "去猫窝", "去月球", "去台球那里"]
+)
 def test_no_other_unknown_place_becomes_a_thing(text: str, home: Vocabulary) -> None:
-    sees = Context(runnable=EVERY_KIND, things=frozenset({"chair", "cup"}))
+    sees = Context(runnable=EVERY_KIND, things=frozenset({"chair", "cup", "球"}))
     assert plan(text, home, sees) == plan(text, home, WHOLE)

@@ -127,6 +127,8 @@ def test_a_camera_that_vanishes_or_was_never_there_is_said() -> None:
         await none.eyes.close()
         undetected = replace(world.means, detector=None)
         assert Sightseer(undetected).sight.blind == "no_detector"
+        nothing_there = replace(world.means, has_model=False)
+        assert Sightseer(nothing_there).sight.blind == "no_detector"
 
     play(story())
 

@@ -192,6 +192,13 @@ def test_laws_of_memory(looks: list[list[Placed]], look_at: bool, random: object
         assert hypot(thing.x_m, thing.y_m) < 5.0
 
 
+def test_of_two_boxes_alike_the_surer_place_counts_in_any_order() -> None:
+    sure, unsure = (
+        replace(CUP, index=n, spot=Spot(0.0, 0.0, 0.5, s)) for n, s in ((0, 0.5), (1, 1.0))
+    )
+    assert looked([sure, unsure]).things == looked([unsure, sure]).things
+
+
 def test_a_thing_is_missed_only_where_it_would_show() -> None:
     at, site = view(1.0, 1.5), two_room()
     box, depth_m = box_of(at, 2.2, 1.5, 0.3, 0.2)
