@@ -46,7 +46,7 @@ class Standing:
 
     def __init__(self, taken: Pose2) -> None:
         header = header_of(CAMERA, 7, 0.0)
-        self.picture = Picture(
+        self.picture = self.looked = Picture(
             Image(header=header, data=jpeg(header.width, header.height)), None, 0
         )
         look = Look(7, 0.0, taken, header.width, header.height, (CUP,))
