@@ -171,7 +171,9 @@ const isBox = (value: unknown): boolean =>
   textOrNull(value.id);
 
 const isLook = (value: unknown): boolean =>
-  bag(value) && [value.seq, value.age_s, value.width, value.height].every(finite) && all(value.boxes, isBox);
+  bag(value) &&
+  [value.seq, value.age_s, value.width, value.height].every(finite) &&
+  all(value.boxes, isBox);
 
 const isThing = (value: unknown): boolean =>
   bag(value) &&
