@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from planner.kept.failure import Failure
 from wire.geometry import Pose2
 from wire.robot import RobotDescription
 
@@ -24,19 +25,10 @@ REASONS = MappingProxyType(
 """Every code with its sentence in English and Chinese."""
 
 
-class RouteFailure(Exception):
+class RouteFailure(Failure):
     """Say why there is no route. Nothing was moved and nothing is lost: ask again later."""
 
-    def __init__(self, code: str, detail: str = "") -> None:
-        """Keep the code, and a sentence in both languages with the particulars."""
-        en, zh = REASONS[code]
-        super().__init__(f"{code}: {en}" + (f" ({detail})" if detail else ""))
-        self.code = code
-        self.detail = detail
-        self.message = {
-            "en": f"{en} ({detail})" if detail else en,
-            "zh": f"{zh}（{detail}）" if detail else zh,
-        }
+    reasons = REASONS
 
 
 @dataclass(frozen=True, slots=True)

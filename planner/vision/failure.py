@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
+from planner.kept.failure import Failure
+
 REFUSALS = MappingProxyType(
     {
         "model_missing": ("there is no such model file", "没有这个模型文件"),
@@ -77,16 +79,7 @@ REASONS = MappingProxyType({**REFUSALS, **SKIPS, **FAILURES})
 """Every code with its sentence in English and Chinese."""
 
 
-class VisionFailure(Exception):
+class VisionFailure(Failure):
     """Say why there is no look: a model that is refused, a process that is down."""
 
-    def __init__(self, code: str, detail: str = "") -> None:
-        """Keep the code, and a sentence in both languages with the particulars."""
-        en, zh = REASONS[code]
-        super().__init__(f"{code}: {en}" + (f" ({detail})" if detail else ""))
-        self.code = code
-        self.detail = detail
-        self.message = {
-            "en": f"{en} ({detail})" if detail else en,
-            "zh": f"{zh}（{detail}）" if detail else zh,
-        }
+    reasons = REASONS

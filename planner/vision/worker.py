@@ -12,9 +12,9 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planner.kept import Codes, Frame, KeptProcess
 from planner.vision.failure import VisionFailure
 from planner.vision.frames import read_about, read_look
-from planner.vision.keeper import KeptProcess, known
 from planner.vision.result import About, LookResult
 
 if TYPE_CHECKING:
@@ -26,16 +26,27 @@ log = logging.getLogger(__name__)
 DEFAULT_MODEL = Path(__file__).with_name("models") / "pons_home.onnx"
 CHILD = "planner.vision.child"
 READY_S = 120.0
-"""To start Python and onnxruntime on a busy board; TensorRT builds its engine meanwhile."""
+"""To start Python and onnxruntime on a busy board."""
+FIRST_WORD_S = 3600.0
+"""TensorRT builds its engine at the first start, for minutes; what takes an hour hangs."""
 LOOK_S = 5.0
+LONGEST_PAUSE_S = 10.0
+CODES = Codes(
+    VisionFailure, down="detector_down", died="detector_down", timed_out="detector_timed_out"
+)
 
 
-class VisionWorker:
+class VisionWorker(KeptProcess):
     """Look at pictures with the owner's detector, or with the one that comes with Pons."""
 
     def __init__(self, settings: VisionSettings, child: str = CHILD) -> None:
         """Take the owner's settings; nothing is started."""
-        self._kept = KeptProcess(child, (settings_text(settings),), self._greet)
+        super().__init__(
+            *(child, (settings_text(settings),), CODES),
+            one_at_a_time=True,
+            first_word_s=FIRST_WORD_S,
+            longest_pause_s=LONGEST_PAUSE_S,
+        )
         self.has_model = settings.model is not None or DEFAULT_MODEL.is_file()
         """The owner names one, or one comes with Pons; if it can be used is found out later."""
         self.about: About | None = None
@@ -48,16 +59,6 @@ class VisionWorker:
         """Return the ids of what it can find; none until it is ready, and none without a model."""
         return () if self.about is None else tuple(filter(None, self.about.classes))
 
-    @property
-    def pid(self) -> int | None:
-        """Return the process's id while one runs."""
-        return self._kept.pid
-
-    @property
-    def ready(self) -> bool:
-        """Tell whether a process waits for pictures."""
-        return self._kept.ready
-
     async def start(self, timeout_s: float = READY_S) -> None:
         """Start the process and wait until it can answer. Ends by itself, with :meth:`close`.
 
@@ -69,7 +70,7 @@ class VisionWorker:
                 nothing is left running; or the process is not up yet (``detector_down``), and
                 goes on being started.
         """
-        await self._kept.start(timeout_s)
+        await super().start(timeout_s)
 
     async def look(
         self, color: Image, depth: Image | None, timeout_s: float = LOOK_S
@@ -91,8 +92,7 @@ class VisionWorker:
             "focal": header.focal_px,
         }
         bodies = (color.data,) if depth is None else (color.data, depth.data)
-        answer, _ = await self._kept.ask(head, bodies, timeout_s)
-        return self._counted(read_look(answer))
+        return self._counted(await self.ask(head, bodies, timeout_s, read_look))
 
     async def crop(self, picture: bytes, long_side: int, timeout_s: float = LOOK_S) -> bytes:
         """Return a picture as JPEG whose longer side is at most so long [px], without metadata.
@@ -101,8 +101,7 @@ class VisionWorker:
             VisionFailure: ``picture_*``, ``detector_down`` or ``detector_timed_out``.
         """
         head = {"long_side": max(1, long_side)}
-        _, data = await self._kept.ask(head, (picture,), timeout_s)
-        return data
+        return await self.ask(head, (picture,), timeout_s, _picture)
 
     async def depth_at(
         self, depth: Image, u_px: float, v_px: float, timeout_s: float = LOOK_S
@@ -112,21 +111,11 @@ class VisionWorker:
         Raises:
             VisionFailure: ``detector_down`` or ``detector_timed_out``.
         """
-        size = [depth.header.width, depth.header.height]
-        answer, _ = await self._kept.ask(
-            {"at": [u_px, v_px], "size": size}, (depth.data,), timeout_s
-        )
-        measured = answer["depth_m"]
-        return None if measured is None else float(measured)
+        head = {"at": [u_px, v_px], "size": [depth.header.width, depth.header.height]}
+        return await self.ask(head, (depth.data,), timeout_s, _depth_m)
 
-    async def close(self) -> None:
-        """End the process and wait until it is gone. Safe to call twice."""
-        await self._kept.close()
-
-    def _greet(self, head: dict[str, Any]) -> None:
-        if "refused" in head:
-            raise VisionFailure(known(head["refused"]), str(head["detail"]))
-        self.about = read_about(head["ready"])
+    def _greet(self, said: dict[str, Any] | None) -> None:
+        self.about = read_about(said)
         log.info("%s", "no detector is installed" if self.about is None else self.about.line)
 
     def _counted(self, result: LookResult) -> LookResult:
@@ -150,3 +139,12 @@ def settings_text(settings: VisionSettings) -> str:
 def _same_instant(color: Image, depth: Image) -> bool:
     one, other = color.header, depth.header
     return (one.boot_id, one.seq) == (other.boot_id, other.seq)
+
+
+def _picture(frame: Frame) -> bytes:
+    return frame[1]
+
+
+def _depth_m(frame: Frame) -> float | None:
+    measured = frame[0]["depth_m"]
+    return None if measured is None else float(measured)

@@ -6,18 +6,17 @@ once, and one that crashes fails alone. The forking process must have one thread
 
 from __future__ import annotations
 
-import ctypes
 import os
 import pickle
 import signal
-import sys
 import traceback
 from collections.abc import Callable
 from types import TracebackType
 from typing import Generic, NoReturn, TypeVar
 
+from planner.kept import bind_to_parent
+
 T = TypeVar("T")
-PR_SET_PDEATHSIG = 1  # prctl(2)
 
 
 class Apart(Generic[T]):
@@ -76,19 +75,11 @@ def _work(work: Callable[[], object], answers: int, parent: int) -> NoReturn:
     """Be the fork: nothing of the parent's stack is ever run on."""
     status = 1
     try:
-        _bind_to_parent(parent)
-        with os.fdopen(answers, "wb") as pipe:
-            pipe.write(pickle.dumps(work()))
-        status = 0
+        if bind_to_parent(parent):
+            with os.fdopen(answers, "wb") as pipe:
+                pipe.write(pickle.dumps(work()))
+            status = 0
     finally:
         if status:
             traceback.print_exc()
         os._exit(status)
-
-
-def _bind_to_parent(parent: int) -> None:
-    """Die with the parent from now on."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-    if os.getppid() != parent:
-        os._exit(1)

@@ -9,14 +9,11 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-import os
-import signal
-import sys
-from asyncio.subprocess import PIPE, Process
+from asyncio.subprocess import Process
 from collections.abc import Sequence
 from typing import Any
 
-from planner.voice.frames import HEADER, lengths, pack, unpack
+from planner.kept import STREAM_ERRORS, command_of, exchange, pack, reap, spawn
 from planner.voice.protocol import Heard, VoiceFailure
 from planner.voice.wav import Sound
 
@@ -36,7 +33,7 @@ class VoiceWorker:
         self._names = tuple(names)
         self._told: tuple[str, ...] = ()
         """The names that the process of now was started with."""
-        self._command = command or (sys.executable, "-m", "planner.voice.child")
+        self._command = command or command_of("planner.voice.child")
         self._process: Process | None = None
         self._turn = asyncio.Lock()
         self._waiting = 0
@@ -103,14 +100,14 @@ class VoiceWorker:
         head = {"number": self._number, "rate_hz": sound.rate_hz, "channels": sound.channels}
         try:
             async with asyncio.timeout(HEAR_S):
-                answer = await self._exchange(process, pack(head, sound.pcm))
+                answer, _ = await exchange(process, pack(head, sound.pcm))
             if answer.get("number") != self._number or "failed" in answer:
                 raise ValueError(str(answer.get("failed", "an answer out of turn")))
             return _heard(answer)
         except TimeoutError:
             await self._bury()
             raise VoiceFailure("voice_timed_out", f"after {HEAR_S:g} s") from None
-        except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
+        except STREAM_ERRORS as error:
             await self._bury()
             raise VoiceFailure("recogniser_unavailable", f"it failed: {error}") from None
         except BaseException:  # cancelled half-way: the next answer would be this one's
@@ -128,11 +125,11 @@ class VoiceWorker:
             return self._process
         await self._bury()
         try:
-            self._process = process = await self._spawn()
+            self._process = process = await spawn(self._command)
             self._told = self._names
             async with asyncio.timeout(READY_S):
-                greeting = await self._exchange(process, pack({"names": self._told}))
-        except (TimeoutError, OSError, EOFError, ValueError) as error:
+                greeting, _ = await exchange(process, pack({"names": self._told}))
+        except STREAM_ERRORS as error:
             await self._bury()
             text = f"it did not start: {str(error) or type(error).__name__}"
             raise VoiceFailure("recogniser_unavailable", text) from None
@@ -141,42 +138,16 @@ class VoiceWorker:
             raise
         if "ready" not in greeting:
             await self._bury()
-            raise VoiceFailure("recogniser_unavailable", str(greeting.get("refused")))
+            raise VoiceFailure("recogniser_unavailable", str(greeting.get("detail")))
         self.left_out = tuple(str(name) for name in greeting["ready"])
         return process
-
-    async def _spawn(self) -> Process:
-        single = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # the bridge needs the cores
-        return await asyncio.create_subprocess_exec(
-            *self._command, stdin=PIPE, stdout=PIPE, env=os.environ | single
-        )
-
-    async def _exchange(self, process: Process, frame: bytes) -> dict[str, Any]:
-        if process.stdin is None or process.stdout is None:
-            raise ValueError("the process has no pipes")
-        process.stdin.write(frame)
-        await process.stdin.drain()
-        head, _ = lengths(await process.stdout.readexactly(HEADER.size))
-        return unpack(await process.stdout.readexactly(head))
 
     async def _bury(self) -> None:
         process, self._process = self._process, None
         if process is not None:
-            await asyncio.shield(_reap(process))
+            await asyncio.shield(reap(process))
 
 
 def _heard(answer: dict[str, Any]) -> Heard:
     sure = answer["understood"] is True
     return Heard(str(answer["transcript"]), float(answer["confidence"]), sure)
-
-
-async def _reap(process: Process) -> None:
-    if process.returncode is None:
-        # Not process.kill(): it reaps what has died, and asyncio's own watcher then finds no child.
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(process.pid, signal.SIGKILL)
-    if process.stdin is not None:
-        process.stdin.close()
-    if process.stdout is not None:
-        await process.stdout.read()
-    await process.wait()

@@ -9,7 +9,6 @@ import pytest
 from bridge.core.fence import build_fence
 from bridge.core.horizon import check_horizon
 from planner.route import LegPath, RouteFailure, RouteLimits, RouteRequest, RouteResult, cut
-from planner.route.frames import pack_request, read_request, unpack
 from planner.route.router import Router
 from planner.route.straight import BACK_MPS
 from planner.world import Site
@@ -91,8 +90,3 @@ def test_the_bridge_takes_every_horizon_of_it(two_room: Site, along_m: float) ->
         assert hypot(horizon.points[0].x_m - robot.x_m, horizon.points[0].y_m - robot.y_m) < 0.02
         progress_m, final = horizon.progress_m, horizon.final
     assert final
-
-
-def test_a_straight_request_survives_its_frame() -> None:
-    asked = RouteRequest(Pose2(1, 2, 3), Pose2(4, 5, 6), ((0.5, 0.5),), straight=True)
-    assert read_request(unpack(pack_request(7, asked)[4:])) == (7, asked)

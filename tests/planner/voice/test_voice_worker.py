@@ -5,14 +5,14 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
-from collections.abc import AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from typing import Any
 
 import pytest
 
-from planner.voice import Heard, Sound, VoiceFailure, VoiceWorker, frames, worker
-from planner.voice.frames import lengths, unpack
+from planner.kept import frames
+from planner.voice import Heard, Sound, VoiceFailure, VoiceWorker, worker
+from tests.planner.kept.keeping import story
 
 SECOND = Sound(16_000, 1, bytes(32_000))
 ECHO = """
@@ -49,68 +49,55 @@ async def running(*command: str) -> AsyncIterator[VoiceWorker]:
         assert ears.pid is None
 
 
-def run(story: Callable[[], Coroutine[Any, Any, None]]) -> None:
-    asyncio.run(story())
-
-
 async def code_of(ears: VoiceWorker) -> str:
     with pytest.raises(VoiceFailure) as failure:
         await ears.hear(SECOND)
     return failure.value.code
 
 
-def test_the_real_process_hears_silence_and_ends() -> None:
+@story
+async def test_the_real_process_hears_silence_and_ends() -> None:
     pytest.importorskip("pocketsphinx")
-
-    async def story() -> None:
-        async with running() as ears:
-            ears.warm()
-            assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
-            assert ears.left_out == ("xyzzy",)
-            pid = ears.pid
-            assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
-            assert ears.pid == pid
-        with pytest.raises(ProcessLookupError):
-            os.kill(pid or 0, 0)
-
-    run(story)
+    async with running() as ears:
+        ears.warm()
+        assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
+        assert ears.left_out == ("xyzzy",)
+        pid = ears.pid
+        assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
+        assert ears.pid == pid
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid or 0, 0)
 
 
-def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
-    async def story() -> None:
-        async with running(*stub(TELL)) as ears:
-            ears.warm()
-            ears.know(("kitchen", "xyzzy"))  # the same as before: the process stays
-            assert (await ears.hear(SECOND)).understood
-            pid, left_out = ears.pid, ears.left_out
-            ears.know(("kitchen", "corner", "nook"))
-            ears.know(("kitchen", "corner"))
-            assert (await ears.hear(SECOND)).understood
-            assert (left_out, ears.left_out) == (("xyzzy",), ("corner",))
-            assert ears.pid != pid
-
-    run(story)
+@story
+async def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
+    async with running(*stub(TELL)) as ears:
+        ears.warm()
+        ears.know(("kitchen", "xyzzy"))  # the same as before: the process stays
+        assert (await ears.hear(SECOND)).understood
+        pid, left_out = ears.pid, ears.left_out
+        ears.know(("kitchen", "corner", "nook"))
+        ears.know(("kitchen", "corner"))
+        assert (await ears.hear(SECOND)).understood
+        assert (left_out, ears.left_out) == (("xyzzy",), ("corner",))
+        assert ears.pid != pid
 
 
-def test_recordings_come_whole_and_one_after_the_other() -> None:
-    async def story() -> None:
-        async with running(*stub(TELL)) as ears:
-            sounds = [Sound(16_000, 1, bytes(2 * n)) for n in (1_600, 240_000, 3)]
-            heard = await asyncio.gather(*map(ears.hear, sounds))
-            assert [one.transcript for one in heard] == ["3200", "480000", "6"]
-
-    run(story)
+@story
+async def test_recordings_come_whole_and_one_after_the_other() -> None:
+    async with running(*stub(TELL)) as ears:
+        sounds = [Sound(16_000, 1, bytes(2 * n)) for n in (1_600, 240_000, 3)]
+        heard = await asyncio.gather(*map(ears.hear, sounds))
+        assert [one.transcript for one in heard] == ["3200", "480000", "6"]
 
 
-def test_a_fourth_at_once_is_told_to_come_again() -> None:
-    async def story() -> None:
-        async with running(*stub(TELL)) as ears:
-            asked = [asyncio.create_task(ears.hear(SECOND)) for _ in range(worker.MAX_WAITING)]
-            await asyncio.sleep(0)
-            assert await code_of(ears) == "voice_busy"
-            assert all(heard.understood for heard in await asyncio.gather(*asked))
-
-    run(story)
+@story
+async def test_a_fourth_at_once_is_told_to_come_again() -> None:
+    async with running(*stub(TELL)) as ears:
+        asked = [asyncio.create_task(ears.hear(SECOND)) for _ in range(worker.MAX_WAITING)]
+        await asyncio.sleep(0)
+        assert await code_of(ears) == "voice_busy"
+        assert all(heard.understood for heard in await asyncio.gather(*asked))
 
 
 @pytest.mark.parametrize(
@@ -123,54 +110,38 @@ def test_a_fourth_at_once_is_told_to_come_again() -> None:
         "write(number=head['number'], failed='RuntimeError: broken')",
     ],
 )
-def test_a_failure_is_typed_and_the_next_order_gets_a_new_process(act: str) -> None:
-    async def story() -> None:
-        async with running(*stub(act)) as ears:
-            assert await code_of(ears) == "recogniser_unavailable"
-            assert await code_of(ears) == "recogniser_unavailable"
-
-    run(story)
+@story
+async def test_a_failure_is_typed_and_the_next_order_gets_a_new_process(act: str) -> None:
+    async with running(*stub(act)) as ears:
+        assert await code_of(ears) == "recogniser_unavailable"
+        assert await code_of(ears) == "recogniser_unavailable"
 
 
-def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+@story
+async def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(worker, "HEAR_S", 0.05)
-
-    async def story() -> None:
-        async with running(*stub("import time; time.sleep(60)")) as ears:
-            assert await code_of(ears) == "voice_timed_out"
-            assert ears.pid is None
-
-    run(story)
+    async with running(*stub("import time; time.sleep(60)")) as ears:
+        assert await code_of(ears) == "voice_timed_out"
+        assert ears.pid is None
 
 
-def test_who_goes_away_leaves_no_answer_for_the_next() -> None:
-    async def story() -> None:
-        async with running(*stub("import time; time.sleep(0.2); " + TELL)) as ears:
-            task = asyncio.create_task(ears.hear(SECOND))
-            while ears.pid is None:  # noqa: ASYNC110
-                await asyncio.sleep(0.001)
-            await asyncio.sleep(0.05)
-            task.cancel()
-            with pytest.raises(asyncio.CancelledError):
-                await task
-            assert (await ears.hear(Sound(16_000, 1, bytes(4)))).transcript == "4"
-
-    run(story)
+@story
+async def test_who_goes_away_leaves_no_answer_for_the_next() -> None:
+    async with running(*stub("import time; time.sleep(0.2); " + TELL)) as ears:
+        task = asyncio.create_task(ears.hear(SECOND))
+        while ears.pid is None:  # noqa: ASYNC110
+            await asyncio.sleep(0.001)
+        await asyncio.sleep(0.05)
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+        assert (await ears.hear(Sound(16_000, 1, bytes(4)))).transcript == "4"
 
 
 @pytest.mark.parametrize("command", [("/no/such/program",), (sys.executable, "-S", "-c", "")])
-def test_where_there_is_no_recogniser_it_says_so(command: tuple[str, ...]) -> None:
-    async def story() -> None:
-        async with running(*command) as ears:
-            ears.warm()
-            await asyncio.sleep(0)
-            assert await code_of(ears) == "recogniser_unavailable"
-
-    run(story)
-
-
-def test_a_frame_too_long_is_no_frame() -> None:
-    with pytest.raises(ValueError, match="a frame of"):
-        lengths(b"\xff" * 8)
-    with pytest.raises(ValueError, match="no object"):
-        unpack(b"[1]")
+@story
+async def test_where_there_is_no_recogniser_it_says_so(command: tuple[str, ...]) -> None:
+    async with running(*command) as ears:
+        ears.warm()
+        await asyncio.sleep(0)
+        assert await code_of(ears) == "recogniser_unavailable"

@@ -1,0 +1,113 @@
+"""Be a kept process: bound to its parent, frames in, frames out, work while nobody asks.
+
+Standard output is kept for frames alone. Runs at nice 10, because the bridge's loop and the
+planner's heartbeat share its cores, and in a session of its own: Linux may weigh whole sessions
+against each other, and the planner's share is for its loop.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterable
+from select import select
+from typing import Any, NoReturn
+
+from planner.kept.failure import Failure
+from planner.kept.frames import HEADER, Frame, lengths, pack, unpack
+
+PR_SET_PDEATHSIG = 1  # prctl(2)
+NICE = 10
+REFUSED = 1
+DONE = object()
+
+
+class Parent:
+    """Hold both pipes to the process that started this one."""
+
+    def __init__(self, requests: int, answers: int) -> None:
+        """Take the descriptors to read from and to write to."""
+        self._requests, self._answers = requests, answers
+
+    def read(self) -> Frame | None:
+        """Return the next frame, or None at the end of the input."""
+        header = self._exactly(HEADER.size)
+        if header is None:
+            return None
+        head, body = lengths(header)
+        text, data = self._exactly(head), self._exactly(body)
+        return None if text is None or data is None else (unpack(text), data)
+
+    def write(self, head: dict[str, Any], *bodies: bytes) -> None:
+        """Send one frame."""
+        view = memoryview(pack(head, *bodies))
+        while view:
+            view = view[os.write(self._answers, view) :]
+
+    def refuse(self, code: str, detail: str) -> int:
+        """Say why this process can't do its work at all; return what to exit with."""
+        self.write({"refused": code, "detail": detail})
+        return REFUSED
+
+    def serve(self, answer: Callable[[Frame], Frame], idle: Iterable[object] = ()) -> int:
+        """Answer until the input ends; return what to exit with.
+
+        Args:
+            answer: returns the answer to a request, or raises the Failure that is the answer.
+            idle: is gone through, a piece at a time, while nobody asks.
+        """
+        work = iter(idle)
+        while True:
+            while not self._asked() and next(work, DONE) is not DONE:
+                pass
+            request = self.read()
+            if request is None:
+                return 0
+            try:
+                head, data = answer(request)
+            except Failure as failure:
+                head, data = {"failed": failure.code, "detail": failure.detail}, b""
+            self.write({"number": request[0]["number"], **head}, data)
+
+    def _asked(self) -> bool:
+        return bool(select([self._requests], [], [], 0.0)[0])
+
+    def _exactly(self, count: int) -> bytes | None:
+        # No buffered reader: what it had read ahead, select would not see.
+        parts, missing = [], count
+        while missing > 0:
+            part = os.read(self._requests, missing)
+            if not part:
+                return None
+            parts.append(part)
+            missing -= len(part)
+        return b"".join(parts)
+
+
+def run(main: Callable[..., int]) -> NoReturn:
+    """Be the process for which the parent ran this module, and exit with what ``main`` returns.
+
+    Args:
+        main: called with the parent and the arguments that came.
+    """
+    parent_pid, *arguments = sys.argv[1:]
+    if not bind_to_parent(int(parent_pid)):
+        sys.exit(REFUSED)
+    os.nice(max(0, NICE - os.nice(0)))
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the group; the parent decides
+    if sys.platform == "linux":  # elsewhere only its parent's group is there to end it with
+        os.setsid()
+    answers = os.dup(1)
+    os.dup2(2, 1)  # what a library prints must not look like a frame
+    sys.exit(main(Parent(0, answers), *arguments))
+
+
+def bind_to_parent(parent_pid: int) -> bool:
+    """Die with the parent from now on; False if it is gone already."""
+    if sys.platform == "linux":
+        libc = ctypes.CDLL(None, use_errno=True)
+        if libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0) != 0:
+            raise OSError(ctypes.get_errno(), "prctl(PR_SET_PDEATHSIG)")
+    return os.getppid() == parent_pid

@@ -1,0 +1,19 @@
+"""Hold the planner's own process to what it needs: arrays live in its children alone."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+CODE = """
+import sys
+import planner.route, planner.vision, planner.voice, planner.world
+print([name for name in ("numpy", "cv2", "onnxruntime", "pocketsphinx") if name in sys.modules])
+"""
+
+
+def test_the_planners_own_process_loads_no_array_library() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", CODE], check=True, capture_output=True, text=True, timeout=30
+    )
+    assert done.stdout.strip() == "[]"
