@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from train.augment import augmented
-from train.budget import HEIGHT_PX, WIDTH_PX
+from train.augment import WHOLE, augmented
+from train.budget import SMALL_PX
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,7 +28,7 @@ LAST_RATE = 0.02
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """Hold pictures (B, 240, 320, 3), RGB from 0 to 1, and what is in them (B, M, 6), padded."""
+    """Hold pictures (B, height, width, 3), RGB from 0 to 1, and their things (B, M, 6), padded."""
 
     pictures: NDArray[np.float32]
     targets: NDArray[np.float32]
@@ -50,12 +50,14 @@ class Feeder:
         epoch, at = divmod(step, self.steps_an_epoch)
         seed, size = self._schedule.seed, self._schedule.batch
         order = np.random.default_rng([seed, epoch]).permutation(len(self._frames))
-        chosen = order[at * size : (at + 1) * size]
-        seen = [
-            augmented(self._frames[index], np.random.default_rng([seed, epoch, int(index), 1]))
-            for index in chosen
-        ]
-        pictures = np.empty((size, HEIGHT_PX, WIDTH_PX, 3), np.float32)
+        done = step / self.steps
+        plain = done >= 1 - self._schedule.plain_share
+        wide, high = SMALL_PX if done < self._schedule.small_share else WHOLE
+        seen = []
+        for index in order[at * size : (at + 1) * size]:
+            random = np.random.default_rng([seed, epoch, int(index), 1])
+            seen.append(augmented(self._frames[index], random, (wide, high), plain=plain))
+        pictures = np.empty((size, high, wide, 3), np.float32)
         for i, (picture, _) in enumerate(seen):
             np.multiply(picture, np.float32(1 / 255), out=pictures[i])
         return Batch(pictures, padded([things for _, things in seen]))

@@ -28,6 +28,8 @@ CLASSES = (
 WIDTH_PX, HEIGHT_PX = 320, 240
 """The simulated camera's own size: no letterbox, and a cup at 3 m is still 6 px wide."""
 
+SMALL_PX = (192, 144)
+"""What the first steps learn from; a multiple of the coarsest stride."""
 STRIDES = (4, 8, 16)
 """Stride 4 is there for what is 6 to 10 px wide."""
 
@@ -56,8 +58,12 @@ MIN_SCORE = 0.4
 class Schedule:
     """Say how a network is fitted. The same schedule, frames and threads give the same weights."""
 
-    epochs: int = 12
+    epochs: int = 16
     """So many fit into the hours above; more are better."""
+    small_share: float = 0.55
+    """Of the steps: the first see pictures of SMALL_PX, the same shapes for a third of the work."""
+    plain_share: float = 0.2
+    """Of the steps: the last see frames as they were drawn, mirrored at most."""
     batch: int = 16
     peak_rate: float = 2e-3
     """Learning rate [1/step] after the warm-up; a cosine leads it to 2 % of that."""

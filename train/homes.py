@@ -17,6 +17,8 @@ from wire import Misconfigured
 
 Kind = Literal["train", "unseen", "bare"]
 """``bare``: never shown either, and without anything of our classes."""
+BARE_SHARE = {"train": 0.1, "unseen": 0.04}
+"""How many homes hold nothing of our classes: there it is learnt what only looks like them."""
 TRIES = 60
 HALF_WALL_M = 0.05
 DOORWAY_M = 0.7
@@ -33,7 +35,7 @@ def drawn_home(kind: Kind, seed: int) -> Home:
     random = Random(f"{kind} home {seed}")
     refused: Misconfigured | None = None
     for _ in range(TRIES):
-        home = _declared(random, seed, bare=kind == "bare" or random.random() < 0.04)
+        home = _declared(random, seed, bare=kind == "bare" or random.random() < BARE_SHARE[kind])
         try:
             return parse_home(json.dumps(home), f"a drawn home ({kind} {seed})")
         except Misconfigured as error:

@@ -32,7 +32,6 @@ class Learner:
         self.average = copy.deepcopy(self.net).eval()
         self._feeder, self._schedule = feeder, schedule
         self._optimiser = _optimiser(self.net, schedule)
-        self._grid = cells()
         self.step = 0
         self.seconds = 0.0
 
@@ -43,7 +42,8 @@ class Learner:
             group["lr"] = self._feeder.rate(self.step)
         pictures = torch.from_numpy(batch.pictures).permute(0, 3, 1, 2)  # channels last, uncopied
         logits, sides = self.net.train()(pictures)
-        scores, boxes = loss(logits, sides, self._grid, torch.from_numpy(batch.targets))
+        grid = cells(pictures.shape[3], pictures.shape[2])
+        scores, boxes = loss(logits, sides, grid, torch.from_numpy(batch.targets))
         self._optimiser.zero_grad(set_to_none=True)
         (scores + boxes).backward()
         nn.utils.clip_grad_norm_(self.net.parameters(), self._schedule.clip)

@@ -121,11 +121,11 @@ class Net(nn.Module):
         return logits, sides
 
 
-def cells() -> tuple[Tensor, Tensor]:
+def cells(wide: int = WIDTH_PX, high: int = HEIGHT_PX) -> tuple[Tensor, Tensor]:
     """Return the middles (2, N) [px] and strides (1, N) [px] of all cells, finest first."""
     middles, strides = [], []
     for stride in STRIDES:
-        rows, columns = HEIGHT_PX // stride, WIDTH_PX // stride
+        rows, columns = high // stride, wide // stride
         y, x = torch.meshgrid(torch.arange(rows), torch.arange(columns), indexing="ij")
         middles.append((torch.stack([x, y]).flatten(1) + 0.5) * stride)
         strides.append(torch.full((1, rows * columns), float(stride)))

@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 import pytest
 
-from train.augment import augmented, clipped, decoded, mirrored, moved
+from train.augment import WHOLE, augmented, clipped, decoded, mirrored, moved, shrunk
 from train.batches import Feeder, padded
-from train.budget import HEIGHT_PX, WIDTH_PX, Schedule
+from train.budget import HEIGHT_PX, SMALL_PX, STRIDES, WIDTH_PX, Schedule
 from train.store import Framed
 
 BOX = (200.0, 60.0, 240.0, 120.0)
@@ -59,8 +59,25 @@ def test_a_moved_box_holds_what_it_held(seed: int) -> None:
 def test_what_is_mostly_cut_off_is_not_judged(
     right: float, down: float, left_over: tuple[float, ...] | None, judged: int
 ) -> None:
-    rows = clipped(framed((3, *BOX, 1)).things, 1.0, right, down)
+    rows = clipped(framed((3, *BOX, 1)).things, 1.0, (right, down), WHOLE)
     assert [tuple(row) for row in rows] == ([] if left_over is None else [(3, *left_over, judged)])
+
+
+def test_a_smaller_frame_holds_the_same_and_asks_for_nothing_too_small() -> None:
+    frame = framed((3, *BOX, 1), (10, 10, 10, 16, 40, 1))
+    picture, things = shrunk(painted(), frame.things, SMALL_PX)
+    assert picture.shape == (SMALL_PX[1], SMALL_PX[0], 3)
+    assert tuple(things[0, 1:5].round()) == bright(picture) == (120, 36, 144, 72)
+    assert things[:, 5].tolist() == [1, -1]
+    assert all(side % STRIDES[-1] == 0 for side in SMALL_PX)
+
+
+def test_a_plain_frame_is_mirrored_at_most() -> None:
+    frame = framed((3, *BOX, 1))
+    mirror, _ = mirrored(painted(), frame.things)
+    for seed in range(8):
+        picture, _ = augmented(frame, np.random.default_rng(seed), plain=True)
+        assert any(np.array_equal(picture, whole) for whole in (painted(), mirror))
 
 
 def test_the_same_generator_gives_the_same_frame() -> None:
@@ -81,12 +98,13 @@ def test_what_is_no_picture_of_ours_is_refused() -> None:
 
 def test_each_epoch_shows_every_frame_once() -> None:
     frames = [framed((index, *BOX, 1)) for index in range(5)]
-    feeder = Feeder(frames, Schedule(epochs=2, batch=2))
+    feeder = Feeder(frames, Schedule(epochs=2, batch=2, small_share=0.5))
     assert (feeder.steps_an_epoch, feeder.steps) == (2, 4)
-    batch = feeder.batch(1)
+    assert feeder.batch(1).pictures.shape == (2, SMALL_PX[1], SMALL_PX[0], 3)
+    batch = feeder.batch(2)
     assert batch.pictures.shape == (2, HEIGHT_PX, WIDTH_PX, 3)
     assert 0.0 <= batch.pictures.min() <= batch.pictures.max() <= 1.0
-    assert np.array_equal(batch.pictures, feeder.batch(1).pictures)
+    assert np.array_equal(batch.pictures, feeder.batch(2).pictures)
     first = {int(row[0]) for step in (0, 1) for row in feeder.batch(step).targets[:, 0]}
     assert len(first) == 4
     with pytest.raises(ValueError, match="do not fill a batch"):

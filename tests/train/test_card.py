@@ -19,6 +19,8 @@ def test_the_card_states_what_was_measured() -> None:
         "threads": 1,
         "steps": 2000,
         "batch": 16,
+        "small_share": 0.5,
+        "plain_share": 0.2,
         "seed": 6,
         "torch": "2.13.0",
     }
@@ -37,6 +39,7 @@ def test_the_card_states_what_was_measured() -> None:
         "| false detections in an empty frame | 0.000 | <= 0.02 |",
         "| cup | 1 | 1.000 | 1.000 | 1.000 |",
         "2000 steps of 16 frames",
+        "the first 50% of them in a smaller size",
         "abc1234",
     ):
         assert said in text
