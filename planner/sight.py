@@ -11,9 +11,10 @@ from planner.brain.lookfall import FallbackLooker
 from planner.brain.looking import Detected, NotSent
 from planner.plan import Bilingual
 from planner.vision import VisionFailure, VisionWorker
-from planner.vision.eyes import Means, Sightseer
+from planner.vision.eyes import Sightseer
 from planner.vision.failure import REFUSALS
 from planner.vision.labels import named
+from planner.vision.means import Means
 from planner.vision.pictures import WireCamera
 from planner.vision.poses import Poses
 from planner.vision.seeing import Scenery

@@ -24,7 +24,7 @@ from bench.report import Row
 from bench.signs import WORDS, shown
 from planner.brain import BrainDown, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.looking import Described, NotThere, Picture, Pointed
+from planner.brain.looking import Asked, Described, NotThere, Picture, Pointed
 from planner.brain.protocol import Observation
 from planner.brain.wary import deeds, think_warily
 from planner.mission.facts import vocabulary_of
@@ -141,7 +141,7 @@ class _Stage:
         """Return what a mission would keep of a look: the words, or None where there are none."""
         try:
             said: Described = await self._looker.describe(
-                picture, "what is there?", language, (_cup(picture),), "g"
+                Asked(picture, "what is there?", language, (_cup(picture),), "g")
             )
         except (PlanRejected, BrainDown):
             self.counts["unread"] += 1
@@ -168,7 +168,9 @@ class _Stage:
         return deeds((await think).plan)
 
     async def _point(self, picture: Picture) -> tuple[int, int] | None:
-        found = await self._looker.point(picture, "the cup", detections=(_cup(picture),), goal="g")
+        found = await self._looker.point(
+            Asked(picture, "the cup", detections=(_cup(picture),), goal="g")
+        )
         if isinstance(found, NotThere):
             return None
         point: Pointed = found

@@ -24,10 +24,13 @@ def routes(services: Services) -> APIRouter:
         responses={200: {"content": {"image/jpeg": {}}}},
     )
     async def camera() -> Response:
-        """Give the newest picture; headers tell its seq and its age in seconds."""
+        """Give the newest picture; headers tell its seq and its age in seconds.
+
+        The camera may rest while nobody looks: the first picture then takes up to a second.
+        """
         if services.eyes.sight.blind == "no_camera":
             raise Problem(503, "no_camera", "this robot has no camera")
-        picture = services.eyes.show()
+        picture = await services.eyes.show()
         age_s = None if picture is None else services.eyes.now_s - picture.taken_s
         kind = None if picture is None else KINDS.get(picture.color.data[:2])
         if picture is None or age_s is None or kind is None or not age_s <= OLDEST_S:

@@ -24,6 +24,10 @@ MIN_SHARE = 0.4
 """Of the pixels that must agree: half a thing may lie in the shade or be of another colour."""
 MIN_PIXELS = 4
 BITS = 5
+STEP = 1 << (8 - BITS)
+MOST_STEP = np.float32(255 / STEP)
+PLACES = np.array([1 << 2 * BITS, 1 << BITS, 1])
+"""What a step of blue, green and red counts in the table."""
 
 # Tuned on 800 things of drawn homes. In lights of all kinds 72 % were named as they are painted,
 # brightened by `exposure` 81 %; in plain light 87 %. Most others are half hidden.
@@ -31,7 +35,7 @@ BRIGHT_SHARE, BRIGHT, MOST_GAIN = 90, 235.0, 4.0
 """So many percent of a picture's pixels are to be darker than this; no more is added than that."""
 STEP_PX = 8
 """Between the pixels that are asked how bright a picture is."""
-DARK = 12
+DARK_SHARE, DARK = 99, 12
 """Nearly all of a picture is darker where the lens is covered, or there is no light."""
 
 # Hue as OpenCV counts it: half degrees, 0 to 179. Upper ends, in order.
@@ -52,14 +56,27 @@ def exposure(picture: Pixels) -> float:
 
     A brown and an orange have one hue, and so have gray and white: only the light tells them apart.
     """
-    sample = picture[::STEP_PX, ::STEP_PX].max(axis=2)
-    bright = float(np.percentile(sample, BRIGHT_SHARE))
-    return min(MOST_GAIN, max(1.0, BRIGHT / max(1.0, bright)))
+    return min(MOST_GAIN, max(1.0, BRIGHT / max(1.0, _brightness(picture, BRIGHT_SHARE))))
 
 
 def dark(picture: Pixels) -> bool:
     """Tell whether nothing can be told from a picture (height x width x 3): a covered lens."""
-    return bool(np.percentile(picture[::STEP_PX, ::STEP_PX].max(axis=2), 99) < DARK)
+    return _brightness(picture, DARK_SHARE) < DARK
+
+
+def _brightness(picture: Pixels, share: float) -> float:
+    """Return what so many percent of a picture's pixels are darker than, by their largest channel.
+
+    As numpy's percentile, which takes five times as long to find out what it was given.
+    """
+    sample = picture[::STEP_PX, ::STEP_PX]
+    values = np.maximum(np.maximum(sample[..., 0], sample[..., 1]), sample[..., 2]).reshape(-1)
+    place = share / 100.0 * (len(values) - 1)
+    below = int(place)
+    above = min(below + 1, len(values) - 1)
+    values.partition((below, above))
+    low, high = int(values[below]), int(values[above])
+    return low + (high - low) * (place - below)
 
 
 def prevailing(pixels: Pixels, gain: float = 1.0) -> str | None:
@@ -71,10 +88,10 @@ def prevailing(pixels: Pixels, gain: float = 1.0) -> str | None:
     """
     if len(pixels) < MIN_PIXELS:
         return None
-    lit = np.minimum(pixels * np.float32(gain), np.float32(255.0))
-    parts = lit.astype(np.intp) >> (8 - BITS)
-    places = (parts[:, 0] << (2 * BITS)) | (parts[:, 1] << BITS) | parts[:, 2]
-    votes = np.bincount(_table()[places], minlength=len(IDS))
+    steps = pixels * np.float32(gain / STEP)  # a power of two: exactly as if divided later
+    np.minimum(steps, MOST_STEP, out=steps)
+    places = steps.astype(np.intp) @ PLACES
+    votes = np.bincount(_table().take(places), minlength=len(IDS))
     winner = int(votes.argmax())
     return IDS[winner] if votes[winner] >= MIN_SHARE * len(pixels) else None
 
@@ -82,7 +99,7 @@ def prevailing(pixels: Pixels, gain: float = 1.0) -> str | None:
 @cache
 def _table() -> NDArray[np.uint8]:
     """Return the colour's number for each blue, green and red at five bits."""
-    steps = np.arange(1 << BITS, dtype=np.uint8) * 8 + 4  # the middle of each step
+    steps = np.arange(1 << BITS, dtype=np.uint8) * STEP + STEP // 2  # the middle of each
     colors = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1)
     hsv = cv2.cvtColor(colors.reshape(1, -1, 3), cv2.COLOR_BGR2HSV)[0].astype(np.intp)
     hue, saturation, value = hsv[:, 0], hsv[:, 1], hsv[:, 2]

@@ -11,9 +11,9 @@ import asyncio
 import logging
 import time
 from collections import Counter
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from planner.vision.changes import Changes
 from planner.vision.failure import REFUSALS, VisionFailure
 from planner.vision.handed import Handed
 from planner.vision.keeping import Keeper
@@ -24,26 +24,26 @@ from planner.vision.pointing import pixel, point_on_map
 from planner.vision.ports import PointRefused
 from planner.vision.project import View
 from planner.vision.records import Look, Sight
-from planner.vision.seeing import Scenery, saw
+from planner.vision.seeing import saw
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
-    from planner.vision.pictures import Camera
+    from planner.vision.means import Means
     from planner.vision.ports import Detector, Looked, Picture, Spot
-    from planner.vision.poses import Poses
     from planner.vision.records import Thing
-    from planner.vision.store import ThingStore
 
 log = logging.getLogger(__name__)
 
 POLL_S, IDLE_POLL_S = 0.01, 0.03
-IDLE_HZ = 2.0
-"""Nobody asks, yet what is passed is remembered."""
+PASSING_HZ, STANDING_HZ = 2.0, 0.5
+"""Nobody asks, yet what is passed is remembered, and what comes before a robot that stands."""
 EARLY_S = 0.02
 """A picture that comes so much before its time is taken: cameras and clocks jitter."""
 SHOWN_S = 3.0
 """A page that asked for the picture is taken to look on for so long."""
+NO_MODEL = frozenset({"no_detector", *REFUSALS})
+"""While one of these is why nothing is seen, no picture is looked at: a person must act."""
 UNUSABLE_AFTER = 5
 """Looks in a row that were skipped: a lens that is covered, a camera or a model that is broken."""
 REST_S = 1.0
@@ -51,21 +51,6 @@ REST_S = 1.0
 AGING_S = 0.5
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 10.0
 """Before eyes that ended by an error of ours are opened again; doubled until one sees."""
-
-
-@dataclass(frozen=True, slots=True)
-class Means:
-    """Hold what eyes are made of."""
-
-    scenery: Scenery
-    camera: Camera
-    detector: Detector | None
-    poses: Poses
-    store: ThingStore | None = None
-    has_model: bool = True
-    """The detector has something to detect with, as far as is known before it starts."""
-    rate_hz: float = 10.0
-    """Of looks, while somebody needs eyes."""
 
 
 class Sightseer:
@@ -85,6 +70,7 @@ class Sightseer:
         self._sight = Sight(blind=self._down if self._there else "no_camera")
         self._listeners: list[Callable[[Sight], None]] = []
         self._wanted: set[str] = set()
+        self._awaited = 0
         self._handed = Handed()
         self._keeper = Keeper(means.store)
         self._shown_s = self._began_s = self._aged_s = self._rest_until_s = float("-inf")
@@ -92,10 +78,7 @@ class Sightseer:
         self._task: asyncio.Task[None] | None = None
         self._pause_s = FIRST_PAUSE_S
         self._idle_poll_s = min(IDLE_POLL_S, max(POLL_S, 0.5 / camera.rate_hz))
-        self.version = 0
-        """Rises when a thing comes, goes, or gets another colour or room."""
-        self.changed_s: dict[str, float] = {}
-        """When each thing was last seen or doubted."""
+        self._changes = Changes()
         self.counts: Counter[str] = Counter()
         """Looks, and what became of them."""
         self.lag_s = self.took_s = 0.0
@@ -109,6 +92,16 @@ class Sightseer:
         return self._sight
 
     @property
+    def version(self) -> int:
+        """Return a number that rises when a thing comes, goes, or gets another colour or room."""
+        return self._changes.version
+
+    @property
+    def changed_s(self) -> Mapping[str, float]:
+        """Return when each thing was last seen or doubted."""
+        return self._changes.changed_s
+
+    @property
     def classes(self) -> tuple[str, ...]:
         """Return the class ids that can be seen now; none where nothing can be."""
         detector = self._means.detector
@@ -118,7 +111,7 @@ class Sightseer:
 
     @property
     def picture(self) -> Picture | None:
-        """Return the newest picture, however old; where it was taken is known from then on."""
+        """Return the newest picture, or None; where it was taken is known from then on."""
         newest = self._pictures.newest
         if newest is not None:
             self._handed.note(newest)
@@ -149,10 +142,21 @@ class Sightseer:
         """Say that somebody needs eyes now, or no longer."""
         (self._wanted.add if wanted else self._wanted.discard)(who)
 
-    def show(self) -> Picture | None:
+    async def show(self) -> Picture | None:
         """Return the newest picture to a page, which is then taken to look on."""
         self._shown_s = self._clock()
-        return self._pictures.newest
+        return await self.fresh()
+
+    async def fresh(self) -> Picture | None:
+        """Return the newest picture; where nobody wanted any so far, wait a moment for one."""
+        self._awaited += 1
+        try:
+            self._listen(self._clock())
+            while not self._pictures.settled(self._clock()):  # noqa: ASYNC110  # a round tells
+                await asyncio.sleep(POLL_S)
+            return self.picture
+        finally:
+            self._awaited -= 1
 
     async def spot(self, picture: Picture, x: float, y: float) -> Spot:
         """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
@@ -214,6 +218,7 @@ class Sightseer:
     def turn(self) -> None:
         """Do one round: take pictures in, judge them, begin a look where one is due."""
         now_s, busy = self._clock(), self._thinking is not None
+        self._listen(now_s)
         self._pictures.poll(now_s, busy=busy)
         self._handed.settle(self._means.poses, now_s)
         self._age(now_s)
@@ -229,6 +234,15 @@ class Sightseer:
                 self._thinking.add_done_callback(self._thought)
         self._keeper.keep(self._sight.things, self.version, now_s)
 
+    def _listen(self, now_s: float) -> None:
+        """Listen to the camera while anybody wants pictures: a detector, a page, a question.
+
+        While nobody asks, it is listened to for a glance at a time: until the next look begins.
+        """
+        glance = self._down not in NO_MODEL and self._due(now_s)
+        wanted = glance or self._awaited > 0 or self._attended(now_s)
+        self._pictures.listen(wanted and self._there, now_s)
+
     def _age(self, now_s: float) -> None:
         """Let go of what time alone takes."""
         if now_s - self._aged_s >= AGING_S:
@@ -238,7 +252,8 @@ class Sightseer:
                 self._tell(self._look)
 
     def _due(self, now_s: float) -> bool:
-        rate_hz = self._means.rate_hz if self._attended(now_s) else IDLE_HZ
+        idle_hz = PASSING_HZ if self._means.poses.moving else STANDING_HZ
+        rate_hz = self._means.rate_hz if self._attended(now_s) else idle_hz
         rate_hz = min(rate_hz, self._means.rate_hz)
         return now_s >= self._rest_until_s and now_s - self._began_s >= 1.0 / rate_hz - EARLY_S
 
@@ -310,17 +325,10 @@ class Sightseer:
     def _tell(self, look: Look | None) -> None:
         """Make the new sight, and tell it."""
         now_s, told_of = self._clock(), self._sight.things
-        before = {thing.id: thing for thing in told_of}
         things = self._memory.things
         things = told_of if things == told_of else things
         self._look = look
-        for thing in things:
-            if before.get(thing.id) is not thing:
-                self.changed_s[thing.id] = now_s
-        marks = {(t.id, t.color, t.room) for t in things}
-        if marks != {(t.id, t.color, t.room) for t in before.values()}:
-            self.version += 1
-            self.changed_s = {t.id: self.changed_s[t.id] for t in things}
+        self._changes.note(told_of, things, now_s)
         blind = (self._pictures.blind(now_s) or self._down) if self._there else "no_camera"
         self._sight = Sight(look, things, blind)
         for told in self._listeners:

@@ -15,7 +15,7 @@ from wire import Image, Rejected
 from wire import keys as k
 
 if TYPE_CHECKING:
-    from wire.session import Session
+    from wire.session import ImageSubscriber, Session
 
 OLDEST_S = 0.5
 """An older picture is not thought upon."""
@@ -30,6 +30,8 @@ LIES_S = 0.035
 """However fast the camera, a picture may lie so long: nobody asks more often when at rest."""
 AS_GOOD_S = 0.25
 """A picture with depth is handed out rather than one newer by so little without."""
+FIRST_S = 1.0
+"""Who wants a picture waits so long for the first of a camera that nobody listened to."""
 DEPTH_GONE_S = 2.0
 """Without depth for so long, pictures no longer wait for theirs."""
 
@@ -37,23 +39,35 @@ DEPTH_GONE_S = 2.0
 class Camera(Protocol):
     """Hand out pictures that were not taken yet."""
 
+    def listen(self, wanted: bool) -> None:
+        """Say whether pictures are wanted; a camera may rest while nobody wants any."""
+
     def color(self) -> Image | Rejected | None: ...
 
     def depth(self) -> Image | Rejected | None: ...
 
 
 class WireCamera:
-    """Hear the camera on the wire."""
+    """Hear the camera on the wire, while somebody wants pictures: it draws for its hearers only."""
 
     def __init__(self, session: Session) -> None:
-        self._color = session.image_subscriber(k.CAMERA_COLOR)
-        self._depth = session.image_subscriber(k.CAMERA_DEPTH)
+        self._session = session
+        self._ears: tuple[ImageSubscriber, ImageSubscriber] | None = None
+
+    def listen(self, wanted: bool) -> None:
+        ears, self._ears = self._ears, None
+        for ear in ears or ():
+            ear.close()
+        if wanted:
+            hear = self._session.image_subscriber
+            depth = hear(k.CAMERA_DEPTH)  # first: no picture comes without its depth
+            self._ears = hear(k.CAMERA_COLOR), depth
 
     def color(self) -> Image | Rejected | None:
-        return self._color.newest()
+        return None if self._ears is None else self._ears[0].newest()
 
     def depth(self) -> Image | Rejected | None:
-        return self._depth.newest()
+        return None if self._ears is None else self._ears[1].newest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,22 +92,42 @@ class Pictures:
         self._depth: tuple[Image, float] | None = None
         self._last: Picture | None = None
         self._whole: Picture | None = None
+        self._before: Image | None = None
+        """What came last, whenever that was."""
         self._repeats = 0
+        self._since_s: float | None = None
+        """When listening began; None while nobody wants pictures."""
+        self._first_s: float | None = None
         self._fresh_s = float("-inf")
         self.skipped: Counter[str] = Counter()
         """Pictures that were not thought upon, by reason."""
-        self.came = 0
+
+    def listen(self, wanted: bool, now_s: float) -> None:
+        """Begin or end to listen. What came before only tells a frozen camera."""
+        if wanted != (self._since_s is not None):
+            self._camera.listen(wanted)
+            self._since_s, self._fresh_s = now_s if wanted else None, now_s
+            self._heard = []
+            self._depth = self._last = self._whole = self._first_s = None
+
+    def settled(self, now_s: float) -> bool:
+        """Tell whether it is known by now what the camera gives: no use in waiting longer."""
+        if self._since_s is None or now_s - self._since_s >= FIRST_S or self._whole is not None:
+            return True
+        return self._first_s is not None and now_s - self._first_s >= DEPTH_WAIT_S
 
     @property
     def newest(self) -> Picture | None:
-        """Return the newest picture, however old; one with its depth where that is as good."""
+        """Return the newest picture since listening began; with its depth where that is as good."""
         last, whole = self._last, self._whole
         if last is None or whole is None:
             return last
         return whole if last.taken_s - whole.taken_s <= AS_GOOD_S else last
 
     def blind(self, now_s: float) -> str | None:
-        """Say why there is nothing to look at, or None."""
+        """Say why there is nothing to look at, or None. Whoever does not listen has no reason."""
+        if self._since_s is None:
+            return None
         if not now_s - self._fresh_s <= self._silent_s:
             return "camera_silent"
         return "camera_frozen" if self._repeats >= FROZEN_AFTER else None
@@ -141,12 +175,12 @@ class Pictures:
 
     def _take(self, color: Image, now_s: float, *, busy: bool) -> None:
         header = color.header
-        old = None if self._last is None else self._last.color
+        old, self._before = self._before, color
         if old is not None and (old.header.boot_id, old.header.seq) == (header.boot_id, header.seq):
             self.skipped["repeated"] += 1
             return
         self._pass("busy" if busy else "rate", now_s)
-        self.came += 1
+        self._first_s = now_s if self._first_s is None else self._first_s
         again = old is not None and old.data == color.data
         self._repeats = self._repeats + 1 if again else 0
         stamp_age_s = now_s - header.stamp_s
@@ -181,5 +215,8 @@ class Pictures:
     def _ripe_s(self, heard: _Heard, now_s: float) -> float:
         if heard.whole_s is not None:
             return heard.whole_s
-        speaks = self._depth is not None and now_s - self._depth[1] <= DEPTH_GONE_S
+        if self._depth is None:
+            speaks = heard.heard_s == self._first_s  # the first waits for it, whoever sends none
+        else:
+            speaks = now_s - self._depth[1] <= DEPTH_GONE_S
         return heard.heard_s + (DEPTH_WAIT_S if speaks else 0.0)

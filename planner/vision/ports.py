@@ -61,11 +61,14 @@ class Eyes(Protocol):
 
     @property
     def picture(self) -> Picture | None:
-        """Return the newest picture, however old; None where none ever came."""
+        """Return the newest picture; None before one came, and while nobody wants any."""
 
     @property
     def looked(self) -> Picture | None:
         """Return the picture of the newest look; None before there was one."""
+
+    async def fresh(self) -> Picture | None:
+        """Return the newest picture; where nobody wanted any so far, wait a moment for one."""
 
     def listen(self, told: Callable[[Sight], None]) -> None:
         """Have something called after each look and when ``blind`` changes. It must be quick."""

@@ -33,6 +33,8 @@ GOOD_QUALITY = 0.5
 SIGMA_M = 0.03
 """Of a good localization; the stand-in's error is 0.02 m on each axis."""
 SIGMA_RAD = 0.012
+MOVING_MPS, MOVING_RADPS = 0.02, 0.05
+"""Slower than this the robot stands."""
 STAMP_S = 0.01
 """A stamp's own error: exposure, and the clock of a camera's driver."""
 
@@ -71,6 +73,14 @@ class Poses:
             self._placed.clear()
         elif not self._placed or localization.stamp_s > self._placed[-1].stamp_s:
             self._placed.append(localization)
+
+    @property
+    def moving(self) -> bool:
+        """Tell whether the robot moved when odometry spoke last; unheard, it stands."""
+        if not self._moved:
+            return False
+        twist = self._moved[-1].twist
+        return abs(twist.v_mps) > MOVING_MPS or abs(twist.w_radps) > MOVING_RADPS
 
     def at(self, stamp_s: float) -> Stance | None:
         """Return where the robot was; None where odometry or localization do not tell."""

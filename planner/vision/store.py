@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 FILE = "objects.json"
+PRIVATE = 0o600
+"""Where people were seen in a home is its owner's business, whatever the umask is."""
 OLDEST_S = 365.0 * 86_400.0
 
 Word = Annotated[str, Field(min_length=1, max_length=120)]
@@ -98,7 +100,7 @@ class ThingStore:
         beside = self._path.with_suffix(".new")
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
-            with beside.open("wb") as file:
+            with open(beside, "wb", opener=_private) as file:
                 file.write(record.model_dump_json().encode() + b"\n")
                 file.flush()
                 os.fsync(file.fileno())
@@ -107,6 +109,13 @@ class ThingStore:
             log.warning("objects_unwritable: %s: %s", self._path, error.strerror)
             return False
         return True
+
+
+def _private(path: str, flags: int) -> int:
+    """Open a file that nobody else may read, one that was left there too."""
+    descriptor = os.open(path, flags, PRIVATE)
+    os.fchmod(descriptor, PRIVATE)
+    return descriptor
 
 
 def _stored(thing: Thing, offset_s: float) -> StoredThing:

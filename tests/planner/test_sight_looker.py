@@ -10,8 +10,7 @@ import pytest
 
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.looking import Described, Picture
-from planner.plan import Language
+from planner.brain.looking import Asked, Described, Picture
 from planner.settings import ModelSettings, VisionSettings
 from planner.sight import looker_of
 from planner.vision import Detection, VisionWorker
@@ -42,7 +41,9 @@ def test_the_detector_answers_for_a_picture_that_does_not_leave(
         assert looker is not None
         shown = Picture(jpeg(*size), *size, seq=1)
         try:
-            return await looker.describe(shown, "what is there?", Language.EN, [CUP], "g1")
+            return await looker.describe(
+                Asked(shown, "what is there?", detections=[CUP], goal="g1")
+            )
         finally:
             await worker.close()
             await model.close()

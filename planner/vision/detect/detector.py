@@ -7,7 +7,7 @@ and no process.
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from planner.vision.colors_pixels import dark, exposure
 from planner.vision.detect.found import Found, believed, in_picture
@@ -119,33 +119,26 @@ class Detector:
     def _detections(
         self, found: Found, picture: Picture, depth: Depth | None, focal_px: float | None
     ) -> tuple[Detection, ...]:
-        kinds = [self._kinds[number] for number in found.classes]
-        size = (picture.shape[1], picture.shape[0])
-        told = [ANY] * len(found) if depth is None else hints(found.boxes, kinds, size, focal_px)
-        gain = exposure(picture) if len(found) else 1.0
+        if not len(found):
+            return ()
+        # As Python's numbers from here on: a numpy scalar costs ten times as much to reckon with.
+        boxes, numbers = found.boxes.tolist(), found.classes.tolist()
+        told = [ANY] * len(found)
+        if depth is not None:
+            kinds = [self._kinds[number] for number in numbers]
+            size = (picture.shape[1], picture.shape[0])
+            told = hints(found.boxes, kinds, size, focal_px)
+        gain = exposure(picture)
         made: list[Detection] = []
         for box, score, number, hint in zip(
-            found.boxes, found.scores, found.classes, told, strict=True
+            boxes, found.scores.tolist(), numbers, told, strict=True
         ):
-            if not (label := self._classes[number]):
-                continue
-            seen = look_inside(picture, depth, box, hint, gain)
-            left, top, right, bottom = _numbers(box)
-            made.append(
-                Detection(
-                    label,
-                    float(score),
-                    (left, top, right, bottom),
-                    seen.color,
-                    seen.depth_m,
-                    seen.spread_m,
+            if label := self._classes[number]:
+                seen = look_inside(picture, depth, box, hint, gain)
+                made.append(
+                    Detection(label, score, tuple(box), seen.color, seen.depth_m, seen.spread_m)
                 )
-            )
         return tuple(made)
-
-
-def _numbers(box: Floats) -> Sequence[float]:
-    return [float(side) for side in box]
 
 
 def _skipped(code: str, began_s: float) -> LookResult:

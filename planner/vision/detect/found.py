@@ -40,29 +40,34 @@ class Found:
 
 def from_centres(cxcywh: Floats) -> Floats:
     """Return left, top, right, bottom of boxes given by centre and size."""
-    half = cxcywh[:, 2:4] * np.float32(0.5)
-    return np.concatenate((cxcywh[:, :2] - half, cxcywh[:, :2] + half), axis=1)
+    middle, half = cxcywh[:, :2], cxcywh[:, 2:4] * np.float32(0.5)
+    boxes = np.empty((len(cxcywh), 4), np.float32)
+    np.subtract(middle, half, out=boxes[:, :2])
+    np.add(middle, half, out=boxes[:, 2:])
+    return boxes
 
 
 def believed(found: Found, min_score: float, class_count: int) -> Found:
     """Keep rows whose every number is possible; NaN and infinity fail by themselves."""
     if not len(found):
         return found
-    score_is_one = (found.scores >= min_score) & (found.scores <= HIGHEST_SCORE)
-    class_is_one = (found.classes >= 0) & (found.classes < class_count)
-    kept = found.only(score_is_one & class_is_one & np.isfinite(found.boxes).all(axis=1))
-    np.minimum(kept.scores, np.float32(1.0), out=kept.scores)
-    return kept
+    kept = np.isfinite(found.boxes).all(axis=1)
+    kept &= (found.scores >= min_score) & (found.scores <= HIGHEST_SCORE)
+    kept &= (found.classes >= 0) & (found.classes < class_count)
+    found = found if kept.all() else found.only(kept)
+    return Found(found.boxes, np.minimum(found.scores, np.float32(1.0)), found.classes)
 
 
 def in_picture(found: Found, placed: Placed, width: int, height: int) -> Found:
     """Return the input's boxes as the picture's, cut at its borders, without slivers."""
     if not len(found):
         return found
-    offset = np.array((placed.left, placed.top) * 2, np.float32)
-    scale = np.array((placed.scale_x, placed.scale_y) * 2, np.float32)
-    boxes = (found.boxes - offset) / scale
-    np.clip(boxes, 0.0, np.array((width, height) * 2, np.float32), out=boxes)
-    sides = boxes[:, 2:] - boxes[:, :2]
-    kept = (sides >= MIN_SIDE_PX).all(axis=1)
-    return Found(boxes[kept], found.scores[kept], found.classes[kept])
+    boxes = found.boxes
+    if not placed.as_it_is:
+        boxes = boxes - np.array((placed.left, placed.top) * 2, np.float32)
+        boxes /= np.array((placed.scale_x, placed.scale_y) * 2, np.float32)
+    boxes = np.maximum(boxes, np.float32(0.0))
+    np.minimum(boxes, np.array((width, height) * 2, np.float32), out=boxes)
+    kept = (boxes[:, 2:] - boxes[:, :2]).min(axis=1) >= MIN_SIDE_PX
+    found = Found(boxes, found.scores, found.classes)
+    return found if kept.all() else found.only(kept)

@@ -6,7 +6,9 @@ nearest ones that stand close together and are enough count as the thing.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +75,7 @@ class _Sample:
 
 
 def look_inside(
-    picture: Picture, depth: Depth | None, box: Boxes, hint: Hint = ANY, gain: float = 1.0
+    picture: Picture, depth: Depth | None, box: Sequence[float], hint: Hint = ANY, gain: float = 1.0
 ) -> Inner:
     """Return colour and depth of the thing in a box: left, top, right, bottom [px].
 
@@ -98,7 +100,7 @@ def look_inside(
 def _sampled(
     picture: Picture,
     depth: Depth,
-    box: Boxes,
+    box: Sequence[float],
     shares: tuple[float, float, float, float],
     others: Boxes | None,
 ) -> _Sample:
@@ -120,7 +122,7 @@ def _sampled(
     return _Sample(pixels[kept], millimetres[kept])
 
 
-def inner(box: Boxes, width: int, height: int) -> tuple[slice, slice]:
+def inner(box: Sequence[float], width: int, height: int) -> tuple[slice, slice]:
     """Return rows and columns of a box's middle, thinned where it is large."""
     left, top, right, bottom = MIDDLE
     return _between(box[1], box[3], height, top, bottom), _between(
@@ -132,7 +134,7 @@ def _between(low: float, high: float, limit: int, begin: float, end: float) -> s
     """Return a part of an interval as pixels: at least one, all inside the picture."""
     side = high - low
     first = min(max(0, int(low + begin * side)), limit - 1)
-    last = min(max(first + 1, int(np.ceil(low + end * side))), limit)
+    last = min(max(first + 1, ceil(low + end * side)), limit)
     return slice(first, last, max(1, (last - first) // MOST_PIXELS_A_SIDE))
 
 

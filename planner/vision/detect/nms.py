@@ -21,9 +21,10 @@ def suppress(found: Found, max_overlap: float = MAX_OVERLAP) -> Found:
     """Return the strongest boxes, strongest first. Boxes must lie inside the picture."""
     if len(found) < 2:
         return found
-    found = strongest(found, MAX_CANDIDATES)
-    corners = found.boxes.astype(np.float64)
-    rectangles = np.concatenate((corners[:, :2], corners[:, 2:] - corners[:, :2]), axis=1)
+    if len(found) > MAX_CANDIDATES:
+        found = strongest(found, MAX_CANDIDATES)
+    rectangles = found.boxes.astype(np.float64)
+    rectangles[:, 2:] -= rectangles[:, :2]
     kept = cv2.dnn.NMSBoxesBatched(
         rectangles.tolist(), found.scores.tolist(), found.classes.tolist(), 0.0, max_overlap
     )

@@ -1,7 +1,8 @@
 """Turn a picture into a model's input: fit it in, order its channels, scale its values.
 
 The float buffer and the canvas are made once and used for every picture: making them anew costs
-2.4 ms at 640 x 640. Only what the picture covers is written; the border stays as it was.
+2.4 ms at 640 x 640. Only what the picture covers is written; the border stays as it was. What a
+byte becomes stands in a table of 256, which OpenCV looks up faster than numpy multiplies.
 """
 
 from __future__ import annotations
@@ -46,6 +47,11 @@ class Placed:
     height: int
     """Of the picture's copy in the input [px]."""
 
+    @property
+    def as_it_is(self) -> bool:
+        """Tell whether the input's pixels are the picture's."""
+        return (self.scale_x, self.scale_y, self.left, self.top) == (1.0, 1.0, 0, 0)
+
 
 def place(picture: tuple[int, int], size: tuple[int, int], fit: str) -> Placed:
     """Return where a picture (width, height) lies in an input of that width and height."""
@@ -73,7 +79,7 @@ class Preparer:
         self._bytes = [np.empty((height, width), np.uint8) for _ in range(3)]
         order = (2, 1, 0) if recipe.channels == "rgb" else (0, 1, 2)
         self._planes = tuple(
-            (source, recipe.scale / deviation, -mean / deviation)
+            (source, _table(recipe.scale / deviation, -mean / deviation))
             for source, mean, deviation in zip(order, recipe.mean, recipe.deviation, strict=True)
         )
         self._placed: Placed | None = None
@@ -103,11 +109,16 @@ class Preparer:
         if self._bytes[0].shape != copy.shape[:2]:
             self._bytes = [np.empty(copy.shape[:2], np.uint8) for _ in range(3)]
         cv2.split(copy, self._bytes)  # into the same three again: a third of the time
-        for plane, (source, factor, offset) in enumerate(self._planes):
+        for plane, (source, table) in enumerate(self._planes):
             target = self.buffer[0, plane, rows, columns]
-            if factor == 1.0:
-                np.copyto(target, self._bytes[source])  # half of what multiplying costs
+            if table is None:
+                np.copyto(target, self._bytes[source])
             else:
-                np.multiply(self._bytes[source], np.float32(factor), out=target)
-            if offset:
-                target += np.float32(offset)
+                cv2.LUT(self._bytes[source], table, target)
+
+
+def _table(factor: float, offset: float) -> Floats | None:
+    """Return what each byte becomes; None where it stays what it is."""
+    if (factor, offset) == (1.0, 0.0):
+        return None
+    return np.arange(256, dtype=np.float32) * np.float32(factor) + np.float32(offset)

@@ -6,6 +6,7 @@ twice the processor, so spinning is off and the threads are counted.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,6 +36,8 @@ RUN_ERRORS: tuple[type[Exception], ...] = (
 QUIET = 3
 """Errors alone: warnings of a stranger's graph tell its owner nothing."""
 MAX_WORDS = 240
+_NEWEST = re.compile(r"till opset (\d+)")
+"""How onnxruntime says which operators it knows, after much else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +139,9 @@ def _refusal(path: Path, file: OnnxFile, error: Exception) -> VisionFailure:
     newer = "opset" in text.lower() and "guarantee" in text.lower()
     if newer or "unsupported model ir version" in text.lower():
         needs = f"operators {file.opset}, format {file.ir_version}"
-        detail = f"{path.name} needs {needs}; onnxruntime is {ort.__version__}: {text}"
+        most = _NEWEST.search(text)
+        knows = f", which knows operators to {most[1]}" if most is not None else f": {text}"
+        detail = f"{path.name} needs {needs}; onnxruntime is {ort.__version__}{knows}"
         return VisionFailure("model_too_new", detail)
     return VisionFailure("model_broken", f"{path.name}: {text}")
 

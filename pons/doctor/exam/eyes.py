@@ -11,8 +11,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.brain import BrainDown, PlanRejected
-from planner.brain.looking import NotSent, Picture, Pointed
-from planner.plan import Language
+from planner.brain.looking import Asked, NotSent, Picture, Pointed
 from pons.doctor.exam.record import Eyes
 
 if TYPE_CHECKING:
@@ -49,11 +48,11 @@ NEAR = 120
 async def examine_eyes(looker: Looker, goal: str) -> Eyes:
     """Return what a model makes of the picture: two calls, and two repairs at most."""
     try:
-        said = await looker.describe(PICTURE, QUESTION, Language.EN, goal=goal)
+        said = await looker.describe(Asked(PICTURE, QUESTION, goal=goal))
         named = "red" in said.text.en.lower() and "blue" not in said.text.en.lower()
         if not named:
             return Eyes("wrong", f"asked for red: {said.text.en}"[:120])
-        found = await looker.point(PICTURE, "the red disc", goal=goal)
+        found = await looker.point(Asked(PICTURE, "the red disc", goal=goal))
     except NotSent as no:
         return Eyes("none", no.why)
     except BrainDown as down:

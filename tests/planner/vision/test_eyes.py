@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 
 from planner.vision import Detection, PointRefused, Sight, VisionFailure
-from planner.vision.eyes import IDLE_HZ, REST_S, SHOWN_S, Sightseer
-from planner.vision.pictures import FROZEN_AFTER, OLDEST_S, Pictures
+from planner.vision.eyes import REST_S, Sightseer
+from planner.vision.pictures import FROZEN_AFTER, OLDEST_S
 from tests.planner.vision.scenes import box_of, image, view
-from tests.planner.vision.watching import MAP_ID, FakeCamera, World
+from tests.planner.vision.watching import MAP_ID, World
 from wire import Localization, Pose2, Rejected
 
 
@@ -42,23 +42,6 @@ def test_what_is_in_the_picture_comes_onto_the_map() -> None:
         assert world.eyes.version == 1
         assert world.eyes.classes == ("cup", "tv")
         assert world.eyes.lag_s == pytest.approx(0.05)
-
-    play(story())
-
-
-def test_looks_are_rare_until_somebody_needs_them() -> None:
-    async def story() -> None:
-        world = World()
-        await world.film(5.0)
-        assert len(world.detector.looks) == pytest.approx(5.0 * IDLE_HZ, abs=1)
-        world.eyes.attend("goal", True)
-        await world.film(2.0)
-        world.eyes.attend("goal", False)
-        assert len(world.detector.looks) == pytest.approx(30, abs=2)
-        assert world.eyes.show() is world.eyes.picture
-        await world.film(2 * SHOWN_S)  # a page looked, and went
-        assert len(world.detector.looks) == pytest.approx(30 + 10 * SHOWN_S + 2 * SHOWN_S, abs=4)
-        assert world.eyes.skipped["rate"] > 30
 
     play(story())
 
@@ -112,6 +95,7 @@ def test_pictures_are_judged_before_they_are_thought_upon(
 def test_a_camera_that_vanishes_or_was_never_there_is_said() -> None:
     async def story() -> None:
         world = World()
+        world.eyes.attend("test", True)
         await world.film(1.0)
         assert world.eyes.sight.blind is None
         for _ in range(15):
@@ -206,6 +190,7 @@ def test_a_thing_is_placed_on_the_floor_where_depth_measures_nothing() -> None:
 def test_an_error_of_ours_ends_one_look_and_no_more(caplog: pytest.LogCaptureFixture) -> None:
     async def story() -> None:
         world = World()
+        world.eyes.attend("test", True)
         broken = [True]
 
         def told(sight: Sight) -> None:
@@ -226,6 +211,7 @@ def test_an_error_of_ours_ends_one_look_and_no_more(caplog: pytest.LogCaptureFix
 def test_a_pixel_leads_to_the_floor_by_its_own_picture(tmp_path: Path) -> None:
     async def story() -> None:
         world = World()
+        world.eyes.attend("test", True)
         await world.film(0.6)
         picture = world.eyes.picture
         assert picture is not None
@@ -249,6 +235,7 @@ def test_a_pixel_leads_to_the_floor_by_its_own_picture(tmp_path: Path) -> None:
 def test_what_was_seen_outlives_the_process(tmp_path: Path) -> None:
     async def story() -> None:
         world = World(tmp_path)
+        world.eyes.attend("test", True)
         await world.eyes.start()
         await world.film(1.0)
         await world.eyes.close()
@@ -280,7 +267,7 @@ def test_eyes_that_end_are_opened_again_and_it_is_told(
         world.eyes.listen(lambda _: ended.set() if world.eyes.counts["eyes_ended"] == 3 else None)
         await world.eyes.start()
         await ended.wait()
-        assert world.told[-1].blind == "camera_silent"
+        assert world.told[-1].blind == "detector_down"
         world.camera.color = color  # type: ignore[method-assign]
         world.eyes.attend("test", True)
         while world.eyes.sight.look is None:
@@ -291,53 +278,3 @@ def test_eyes_that_end_are_opened_again_and_it_is_told(
 
     with caplog.at_level(logging.CRITICAL + 1):
         play(asyncio.wait_for(story(), 10.0))
-
-
-@pytest.mark.parametrize("lag_s", [0.0, 0.02, 0.04, None])
-@pytest.mark.parametrize("hz", [10.0, 30.0, 60.0])
-def test_each_picture_is_handed_out_once_and_whole_at_any_rate(
-    hz: float, lag_s: float | None
-) -> None:
-    """Depth comes a moment after its colour, or never; eyes look every 10 ms."""
-    camera = FakeCamera()
-    pictures = Pictures(camera, hz)
-    taken = [(100.0 + index / hz, index) for index in range(round(4 * hz))]
-    soon = [] if lag_s is None else [(came_s + lag_s, index) for came_s, index in taken]
-    given: list[tuple[int, bool]] = []
-    for tick in range(400):
-        now_s = 100.0 + 0.01 * tick
-        while taken and taken[0][0] <= now_s:
-            came_s, index = taken.pop(0)
-            camera.colors.append(image(index, came_s))
-        while soon and soon[0][0] <= now_s:
-            came_s, index = soon.pop(0)
-            camera.depths.append(image(index, came_s, b"d"))
-        pictures.poll(now_s, busy=False)
-        if (ready := pictures.ready(now_s)) is not None:
-            given.append((ready.color.header.seq, ready.depth is not None))
-    assert [seq for seq, _ in given] == sorted({seq for seq, _ in given})
-    assert len(given) >= min(hz, 15.0) * 4 - 4
-    whole = sum(deep for _, deep in given)
-    assert whole == (0 if lag_s is None else pytest.approx(len(given), abs=2))
-
-
-def test_colour_waits_a_moment_for_its_depth() -> None:
-    camera = FakeCamera()
-    pictures = Pictures(camera)
-    camera.colors, camera.depths = [image(1, 1.0)], [image(0, 0.9, b"d")]
-    pictures.poll(1.0, busy=False)
-    assert pictures.ready(1.0) is None
-    camera.depths = [image(1, 1.0, b"d")]
-    pictures.poll(1.02, busy=False)
-    ready = pictures.ready(1.02)
-    assert ready is not None
-    assert ready.depth is not None
-    assert pictures.ready(1.02) is None  # once
-    camera.colors = [image(2, 1.1)]
-    pictures.poll(1.1, busy=False)
-    assert pictures.newest is not None
-    assert pictures.newest.color.header.seq == 1  # the newest that is whole
-    assert pictures.ready(1.14) is None
-    late = pictures.ready(1.16)
-    assert late is not None
-    assert late.depth is None

@@ -38,3 +38,12 @@ def test_a_clock_set_back_makes_nothing_younger_than_now(tmp_path: Path) -> None
         assert back.first_s <= back.seen_s
     blocked = ThingStore(tmp_path / FILE / "below", MAP_ID)
     assert not blocked.save((thing,), 100.0)
+
+
+def test_nobody_else_may_read_what_was_seen(tmp_path: Path) -> None:
+    path = tmp_path / FILE
+    for there in (path, path.with_suffix(".new")):  # of an older version, and of a crash
+        there.write_bytes(b"{}")
+        there.chmod(0o644)
+    assert ThingStore(path, MAP_ID).save((), 100.0)
+    assert path.stat().st_mode & 0o777 == 0o600

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from planner.vision import Detection, LookResult, Sight, VisionFailure
-from planner.vision.eyes import Means, Sightseer
+from planner.vision.eyes import Sightseer
+from planner.vision.means import Means
 from planner.vision.poses import Poses
 from planner.vision.seeing import Scenery
 from planner.vision.store import FILE, ThingStore
@@ -26,6 +27,10 @@ class FakeCamera:
 
     colors: list[Image | Rejected] = field(default_factory=list)
     depths: list[Image | Rejected] = field(default_factory=list)
+    heard: bool = False
+
+    def listen(self, wanted: bool) -> None:
+        self.heard, self.colors, self.depths = wanted, [], []
 
     def color(self) -> Image | Rejected | None:
         newest, self.colors = self.colors[-1:], []
@@ -76,19 +81,32 @@ class World:
             self.poses, store, rate_hz=10.0,
         )  # fmt: skip
         self.eyes = Sightseer(self.means, clock=lambda: self.now_s)
+        self.drawn, self.speed_mps = 0, 0.0
+        """As odometry says; where it is never changes."""
         self.told: list[Sight] = []
         self.eyes.listen(self.told.append)
+        self.eyes.turn()  # from now on it listens to its camera
+
+    def blindfold(self) -> Sightseer:
+        """Return other eyes of this robot, which have no model."""
+        self.detector.failure = VisionFailure("no_detector")
+        self.camera.heard = False
+        bare = replace(self.means, has_model=False)
+        self.eyes = Sightseer(bare, clock=lambda: self.now_s)
+        return self.eyes
 
     def shoot(self, age_s: float = 0.05, data: bytes | None = None, *, depth: bool = True) -> None:
         """Let a picture arrive that was taken a while ago."""
         self.seq += 1
         stamp_s = self.now_s - age_s
-        self.camera.colors.append(image(self.seq, stamp_s, data))
-        if depth:
+        if self.camera.heard:  # it draws for its hearers only
+            self.drawn += 1
+            self.camera.colors.append(image(self.seq, stamp_s, data))
+        if self.camera.heard and depth:
             self.camera.depths.append(image(self.seq, stamp_s, b"\x89PNG"))
         here = Pose2(1.0, 1.5, 0.0)
         self.poses.odometry(Odometry(odom_id="o", seq=self.seq, stamp_s=self.now_s,
-                                     base_in_odom=here, twist=Twist2(0.0, 0.0),
+                                     base_in_odom=here, twist=Twist2(self.speed_mps, 0.0),
                                      yaw_rate_radps=None))  # fmt: skip
         self.poses.localization(Localization(odom_id="o", seq=self.seq, stamp_s=self.now_s,
                                              odom_in_map=Pose2(0.0, 0.0, 0.0), quality=0.9,

@@ -13,7 +13,7 @@ import pytest
 
 from planner.brain import BrainDown, PlanRejected
 from planner.brain.jpeg import jpeg_size
-from planner.brain.looking import Described, Looker, NotSent, NotThere, Pointed
+from planner.brain.looking import Asked, Described, Looker, NotSent, NotThere, Pointed
 from planner.budget import Ledger, Purse
 from planner.budget.day import utc_date
 from planner.budget.purse import OpenCall
@@ -104,13 +104,13 @@ class Scripted:
     failure: Exception | None = None
     tag: BrainTag = TAG
 
-    async def describe(self, *_: object, goal: str) -> Described:
-        assert goal == "exam"
+    async def describe(self, asked: Asked) -> Described:
+        assert asked.goal == "exam"
         if self.failure is not None:
             raise self.failure
         return Described(same(self.words), None, TAG)
 
-    async def point(self, *_: object, goal: str) -> Pointed | NotThere:
+    async def point(self, _asked: Asked) -> Pointed | NotThere:
         return self.at
 
 

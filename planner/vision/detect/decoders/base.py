@@ -56,7 +56,12 @@ def by_objectness(rows: Floats, min_score: float) -> tuple[Floats, Floats, NDArr
     Returns:
         The boxes' four numbers as they are, objectness x best class score, and that class.
     """
-    best = rows[:, 5:].argmax(axis=1)
-    scores = rows[:, 4] * rows[np.arange(len(rows)), best + 5]
+    scores, best = best_class(rows)
     kept = (scores >= min_score) & finite_rows(rows)
     return rows[kept, :4], scores[kept], best[kept]
+
+
+def best_class(rows: Floats) -> tuple[Floats, NDArray[np.intp]]:
+    """Return objectness x best class score, and that class, of rows as above."""
+    classes = rows[:, 5:]
+    return rows[:, 4] * classes.max(axis=1), classes.argmax(axis=1)

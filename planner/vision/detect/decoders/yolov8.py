@@ -42,14 +42,15 @@ class YoloV8:
         columns = floats(outputs[0])
         if self._turned:
             columns = columns.T
-        scores = columns[4:].max(axis=0)
-        candidates = np.flatnonzero(scores >= min_score)
+        # Channel by channel as it lies in memory; only what is left is turned into rows.
+        best = columns[4:].max(axis=0)
+        candidates = (best >= min_score).nonzero()[0]
         if not len(candidates):
             return Found.none()
-        rows = columns[:, candidates].T
-        rows = rows[finite_rows(rows)]
+        kept = columns.take(candidates, axis=1)
+        rows = kept.T[finite_rows(kept.T)]
         classes = rows[:, 4:].argmax(axis=1)
-        return Found(from_centres(rows), rows[:, 4:].max(axis=1, initial=0.0), classes)
+        return Found(from_centres(rows), rows[:, 4:].max(axis=1), classes)
 
 
 def _cells_at(facts: Facts) -> int | None:

@@ -13,7 +13,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.vision.detect.decoders.base import GRIDS, by_objectness, floats
+from planner.vision.detect.decoders.base import GRIDS, best_class, finite_rows, floats
 from planner.vision.detect.facts import Facts
 from planner.vision.detect.found import Found, from_centres
 from planner.vision.detect.prepare import Floats, Recipe
@@ -45,16 +45,23 @@ class YoloX:
 
     def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
         rows = floats(outputs[0])
-        candidates = np.flatnonzero(rows[:, 4] >= min_score)
+        # No class raises a score above its objectness, so most rows are done with here.
+        candidates = (rows[:, 4] >= min_score).nonzero()[0]
         if not len(candidates):
             return Found.none()
-        rows, strides = rows[candidates], self._strides[candidates]
-        centres = (rows[:, :2] + self._corners[candidates]) * strides
+        rows = rows.take(candidates, axis=0)
+        scores, classes = best_class(rows)
+        kept = ((scores >= min_score) & finite_rows(rows)).nonzero()[0]
+        return Found(self._boxes(rows[kept, :4], candidates[kept]), scores[kept], classes[kept])
+
+    def _boxes(self, raw: Floats, cells: NDArray[np.intp]) -> Floats:
+        """Return what some cells say of their boxes, in input pixels."""
+        placed = raw.copy()
+        placed[:, :2] += self._corners[cells]
         with np.errstate(over="ignore"):  # an infinite box is believed by nobody
-            sides = np.exp(rows[:, 2:4]) * strides
-        placed = np.concatenate((centres, sides, rows[:, 4:]), axis=1)
-        boxes, scores, classes = by_objectness(placed, min_score)
-        return Found(from_centres(boxes), scores, classes)
+            np.exp(placed[:, 2:], out=placed[:, 2:])
+            placed *= self._strides[cells]
+        return from_centres(placed)
 
 
 def grid(width: int, height: int, strides: Sequence[int]) -> tuple[Floats, Floats]:

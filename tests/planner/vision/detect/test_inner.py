@@ -10,7 +10,7 @@ from planner.vision.detect.inner import inner, look_inside
 from planner.vision.detect.pictures import Depth, Picture
 
 WALL_MM = 4000
-BOX = np.array([20, 20, 60, 60], np.float32)
+BOX = (20.0, 20.0, 60.0, 60.0)
 
 
 def scene() -> tuple[Picture, Depth]:
@@ -60,11 +60,11 @@ def test_the_middle_of_any_box_is_in_the_picture_and_not_large(
     box: tuple[float, float, float, float],
 ) -> None:
     picture, depth = scene()
-    rows, columns = inner(np.array(box, np.float32), 80, 80)
+    rows, columns = inner(box, 80, 80)
     part = picture[rows, columns]
     assert 0 < part.shape[0] <= 64
     assert 0 < part.shape[1] <= 64
-    look_inside(picture, depth, np.array(box, np.float32))
+    look_inside(picture, depth, box)
 
 
 @pytest.mark.parametrize(
