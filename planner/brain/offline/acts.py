@@ -7,6 +7,7 @@ for, never guessed.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from pydantic import ValidationError
 
@@ -19,17 +20,28 @@ WHERE_IS = Bilingual(en="where is {name}? Name the place.", zh="{name}在哪里�
 WHERE_TO = Bilingual(en="where to?", zh="要去哪里？")
 HOW_LONG = Bilingual(en="how long? For example: ten seconds.", zh="等多久？例如：十秒。")
 WHO = Bilingual(en="who or what is meant?", zh="指的是谁或什么？")
+SEARCH = Bilingual(en="shall I go and look for it?", zh="要我去找吗？")
 WHERE_ARE_YOU = Bilingual(en="where are you? Name the place.", zh="您在哪里？请说出地点。")
 
 _SELF = frozenset({"me", "us", "我", "我们"})
 _THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta"})
 _IT = frozenset({"it", "them", "one", "它", "它们"})
+_WHO_IS_THERE = re.compile(r"\b(?:any|some)(?:one|body)\b|\bwho\b|\bpeople\b|有(?:没有)?人|谁|有人")
+"""A question about people: "tell them …" means whoever is found."""
+_ANYBODY = re.compile(r"(?:any|some)(?:one|body)")
 _THERE = frozenset({"there", "over there", "那里", "那儿", "那边"})
 _HERE = frozenset({"here", "over here", "这里", "这儿", "这边"})
 _ARTICLE = re.compile(
     r"^(?:(?:the|a|an|my|our|your|some|any|that|this|all|all of|of|every|each|me)\s+)+"
     r"|^(?:这个|那个|一个|一下|一只|一位|一些|所有的?|我的|咱们?的)"
 )
+_AT_HAND = re.compile(
+    r" (?:(?:right |just )?in front of (?:you|me)|ahead(?: of you)?|before you|"
+    r"(?:that |which |who )?you (?:see|saw|found|have seen)|"
+    r"(?:somewhere |anywhere )?in (?:the|this) (?:whole |entire )?(?:house|home|flat))$"
+    r"|^(?:你|您)?(?:前面|面前|眼前|前方)的?(?=.)|^(?:家里|家中|屋里)(?:所有)?的?(?=.)"
+)
+"""What says no more of a thing than that the robot is to see it, in the home that it is in."""
 _TITLE = 80
 
 
@@ -53,7 +65,8 @@ def arrive(place: str | None, reading: Reading) -> tuple[Step, ...]:
 
 def label_of(words: str, reading: Reading) -> str:
     """Return what to look for, in the sentence's own words."""
-    return _ARTICLE.sub("", reading.marked.restore(words).strip(" ,的")).strip()[:_TITLE]
+    said = _AT_HAND.sub("", reading.marked.restore(words).strip(" ,的"))
+    return _ARTICLE.sub("", said).strip()[:_TITLE]
 
 
 def person_of(words: str, reading: Reading) -> str | Problem:
@@ -75,7 +88,8 @@ def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> M
         return place
     if place is None and re.search(NAME, words):
         return missing(WHERE_IS, words, reading, person)
-    again = words in _THEY and where is None  # who was met is still there
+    # Who was met is still there; who was only asked about may be nowhere.
+    again = words in _THEY and where is None and reading.scene.kind != "look"
     steps: tuple[Step, ...] = () if again else (Find(object=person, place=place),)
     said = (Say(text=saying),) if saying else ()
     return Steps((*arrive(place, reading), *steps, *said), person=person, seen=True)
@@ -143,7 +157,22 @@ def look(question: str, where: str | None, reading: Reading) -> Meaning:
     if isinstance(place, Problem):
         return place
     asked = reading.marked.restore(question)[:500]
-    return Steps((*arrive(place, reading), Look(question=asked, place=place)), seen=True)
+    somebody = spoken("person", "人", reading) if _WHO_IS_THERE.search(question) else None
+    steps = (*arrive(place, reading), Look(question=asked, place=place))
+    return Steps(steps, person=somebody, seen=True)
+
+
+def offer_search(words: str, part: str, reading: Reading) -> Meaning:
+    """Offer to search for what a question asks the whereabouts of: no word of it orders a drive.
+
+    Where a clause before it drove somewhere, it is looked for there.
+    """
+    if reading.scene.place is not None:
+        return find(words, "there", reading)
+    label = "person" if _ANYBODY.fullmatch(words) else label_of(words, reading)
+    asked = missing(SEARCH, part, reading)
+    sought = label and not re.search(NAME, words)  # who is who, no eye tells
+    return replace(asked, instead=(Find(object=label),)) if sought else asked
 
 
 def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:

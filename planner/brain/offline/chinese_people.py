@@ -11,7 +11,9 @@ from planner.brain.offline.meaning import About, Meaning, Reading, Rule, Steps
 from planner.brain.offline.talk import Topic, told, topic_of
 from planner.plan import Ask, Code
 
-_FIND = r"(?:接到?|找到|寻找|找找|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
+_FIND = r"(?:接到?|找到|寻找|找找看?|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
+_WHETHER = r"(?:(?<=找)|(?<=找看)|(?<=找一下))还?(?:有没有|是否有|是不是有|有无)"
+"""Whether somebody is there is searched for where the words say so; else looking answers it."""
 _GREET = (
     r"(?:打(?:个|一?声)?招呼|问好|问候|打招呼|挥手|说(?:一声)?(?:你好|您好|早上好|晚上好|晚安|"
     r"再见|欢迎))"
@@ -123,7 +125,7 @@ RULES: tuple[Rule, ...] = (
         _follow,
     ),
     rule(
-        rf"{_AT}{_FIND}{_AT2}(?:还?有没有|是否有|是不是有|有无)?{_WHO}(?:在家?|在不在|在没在|了)?",
+        rf"{_AT}{_FIND}{_AT2}(?:{_WHETHER})?{_WHO}(?:在家?|在不在|在没在|了)?",
         _meet_somewhere,
     ),
     rule(

@@ -2,27 +2,62 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+from math import pi
 from re import Match
 
-from planner.brain.offline.acts import count, find, look
+from planner.brain.offline.acts import count, find, look, offer_search
 from planner.brain.offline.chinese_words import SPOT, THING, loc
 from planner.brain.offline.grammar import rule, where
+from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Reading, Rule, Steps
+from planner.brain.offline.things import by_neighbour
+from planner.plan import Code, Look, Step, Turn
 
 _AT = rf"(?:{loc('at')})?"
 _MUST = loc("at")
 _FIND = r"(?:找到|寻找|找找看?|找一找|找一下|找|搜索|搜寻|搜一下|定位|识别|寻)(?:一下|一个|个)?"
 _SEE = (
-    r"(?:看一看|看看|看一下|看下|看|瞧瞧|瞧|检查一下|检查|查看一下|查看|观察一下|观察|确认一下|"
+    r"(?:看一看|看一眼|瞄一眼|瞅一眼|瞅瞅|瞅|看看|看一下|看下|看|瞧瞧|瞧|检查一下|检查|查看一下|查看|观察一下|观察|确认一下|"
     r"确认|巡视|查一下|"
-    r"查查|拍照|拍张照片?|拍一张照片?|描述一下|描述|描绘|告诉我|说说|监控|盯着|留意|了解一下)"
+    r"查查|拍照|拍张照片?|拍一张照片?|描述一下|描述|描绘|告诉我|说说|监控|盯着|看着|留意|了解一下)"
 )
 _UNIT = r"(?:个|只|张|位|把|本|台|瓶|杯|名|条|件|辆|盒|罐|双|支|口|盏)?"
-_IS_THERE = r"(?:还)?(?:有没有|是否有|是不是有|有无|有)"
+_WHETHER = r"[都还]?(?:有没有|是否有|是不是有|有无)"
+_IS_THERE = rf"(?:{_WHETHER}|[都还]?有)"
+_WHAT = r"[都还]?有(?:些|点)?(?:什么|啥|谁|哪些|何|甚么)"
+_ASKS = r"(?:吗|呢|么|嘛|啊)?"
+_AROUND = (
+    r"(?:在?(?:你|您)?的?(?:这里|这儿|这边|那里|那儿|那边|附近|周围|四周|身边|旁边|边上|面前|眼前|"
+    r"前面|前方)|(?:地上|地板上|地面上)|(?:这个?|这间)?(?:屋里|屋子里|房间里面?|房里))"
+)
+"""Where the robot is anyhow: a question about it drives nowhere."""
+_WHOLE = r"(?:家里|家中|屋子里|房子里|哪里|哪儿|哪个(?:房间|屋子?)里?面?|什么地方)"
+_ALL_OVER = r"(?:(?:在?家里|屋里|全家|全屋|整个(?:家|屋子|房子)|每个房间)?(?:到处|四处|挨个|都)?)"
 
 
 def _find(found: Match[str], reading: Reading) -> Meaning:
     return find(found["what"], where(found, "at"), reading)
+
+
+def _find_under(found: Match[str], reading: Reading) -> Meaning:
+    named = by_neighbour(found["what"], found["how"], found["by"], reading)
+    if named is None:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    return find(named, found["by"], reading)
+
+
+def _find_all(found: Match[str], reading: Reading) -> Meaning:
+    """Find one thing after the other: "杯子和球"."""
+    steps: tuple[Step, ...] = ()
+    meaning: Meaning = Steps(())
+    for what in re.split(r"和|以及|还有|与", found["what"]):
+        meaning = find(what, None, reading)
+        if not isinstance(meaning, Steps):
+            return meaning
+        steps += meaning.steps
+    return replace(meaning, steps=steps) if isinstance(meaning, Steps) else meaning
 
 
 def _count(found: Match[str], reading: Reading) -> Meaning:
@@ -40,6 +75,30 @@ def _reported(_found: Match[str], reading: Reading) -> Meaning | None:
     return Steps(()) if reading.scene.seen else None
 
 
+def _look_here(found: Match[str], reading: Reading) -> Meaning | None:
+    """Look where nothing named a place; what is counted elsewhere is read by the next rules."""
+    return None if reading.scene.place else _look(found, reading)
+
+
+def _aside(found: Match[str], reading: Reading) -> Meaning:
+    """Turn to the side that is to be looked at: the camera looks ahead."""
+    angle_rad = {"左": pi / 2, "右": -pi / 2}.get(found["side"] or found["side2"], pi)
+    return Steps((Turn(angle_rad=angle_rad), Look(question=found[0])), seen=True)
+
+
+def _asked(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read a question about what is there; said flatly it is none: "厨房有杯子" only tells."""
+    groups = found.groupdict()
+    flat = groups.get("flat") is not None and not reading.marked.text.rstrip(" 。!").endswith("?")
+    return None if flat else _look(found, reading)
+
+
+def _sought(found: Match[str], reading: Reading) -> Meaning:
+    return offer_search(
+        found["what"] or found["what2"] or found["what3"] or found["what4"], found[0], reading
+    )
+
+
 RULES: tuple[Rule, ...] = (
     rule(
         r"(?:然后)?(?:告诉|通知|报告|汇报)(?:给)?(?:我|我们)?(?:一下)?(?:结果|数量|情况|有几个|"
@@ -47,8 +106,19 @@ RULES: tuple[Rule, ...] = (
         _reported,
     ),
     rule(
+        rf"(?:{_SEE}|数一数|数一下|数数|数|清点)?(?:{_AROUND})(?:现在|一共|总共)?(?:有|坐着|站着)?(?:几|多少)"
+        rf"{_UNIT}{THING}|有(?:几|多少){_UNIT}(?!岁|点){THING}"
+        rf"|(?:数一数|数一下|数数|数|清点)(?:{_AROUND})的?{THING}",
+        _look_here,
+    ),
+    rule(
         rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT})(?:里面?|上面?|"
         rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{_UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
+        _count,
+    ),
+    rule(
+        rf"(?:{_SEE}|数一数|数一下|数数|数)?(?:家里|全家|屋子里|整个屋子)(?:一共|总共)?有?(?:几|多少){_UNIT}"
+        rf"(?P<what>{THING})",
         _count,
     ),
     rule(
@@ -59,25 +129,71 @@ RULES: tuple[Rule, ...] = (
     rule(
         rf"(?:{_SEE})(?P<what>{THING})(?:在不在|是不是在|是否在)(?P<at>{SPOT})(?:里面?|上面?|那里|"
         r"旁边)?",
-        _find,
+        _look,
     ),
-    rule(rf"{_AT}{_FIND}(?P<what>{THING})", _find),
-    rule(rf"{_FIND}{_MUST}(?P<what>{THING})", _find),
+    rule(
+        rf"{_WHOLE}(?:{_WHETHER}|有)(?P<what>(?!什么|谁|事|问题|异常|情况|[几多]){THING}){_ASKS}"
+        rf"|{_WHETHER}?有?(?P<what4>人)在家(?:里)?{_ASKS}"
+        rf"|你?(?:有没有)?见过(?P<what3>{THING})(?:吗|没有)?"
+        rf"|(?:告诉我|你?知不?知?道|你?知道)?(?P<what2>(?![他她它你您我]们?在|大家|告诉|知道){THING})"
+        r"(?:现在|都)?在(?:哪里|哪儿|哪|什么地方|哪个房间)(?:里|呢|啊|呀|吗)?",
+        _sought,
+    ),
+    rule(
+        rf"{_FIND}(?:{_WHETHER})?(?P<by>{MARK})(?P<how>下面?|下边|底下)的(?P<what>{THING})",
+        _find_under,
+    ),
+    rule(rf"{_ALL_OVER}{_FIND}(?:{_WHETHER})?(?P<what>{THING})", _find_all),
+    rule(rf"{_AT}{_FIND}(?:{_WHETHER})?(?P<what>{THING})", _find),
+    rule(rf"{_FIND}{_MUST}(?:{_WHETHER})?(?P<what>{THING})", _find),
     rule(rf"(?:把)?(?P<what>{THING})(?:给我)?找(?:出来|到)", _find),
-    rule(rf"(?:{_SEE}){_MUST}{_IS_THERE}(?P<what>{THING})", _find),
-    rule(rf"{_MUST}(?:{_SEE})?{_IS_THERE}(?P<what>(?!什么|事|问题|异常|情况){THING})", _find),
+    rule(
+        rf"(?:{_SEE})?(?:{_WHETHER}|是不是有|有){THING}在(?P<at>{SPOT})(?:里面?|上面?|那里|旁边)?{_ASKS}",
+        _look,
+    ),
+    rule(
+        rf"{_MUST}(?:的?人)?(?:是谁|都?有(?:些)?谁|现在)?(?:的?情况)?"
+        r"(?:怎么样|怎样|如何|什么情况|啥情况|是谁|有谁)(?:了|啊|呀)?",
+        _look,
+    ),
+    rule(rf"拍一?张?{_MUST}照片?", _look),
+    rule(r"[这那]?(?:个)?(?:东西)?是(?:什么|谁|啥)(?:东西)?", _look),
+    rule(
+        rf"(?:往|向|朝)(?P<side>左|右|后)(?:边|面|侧)?(?:{_SEE})(?:{_WHAT}[^,\ue000-\ue8ff]*)?"
+        rf"|(?:{_SEE})(?:你|您)?(?:的)?(?P<side2>左|右|后|背后|身后)(?:边|面|侧)?(?:{_WHAT}[^,\ue000-\ue8ff]*)?",
+        _aside,
+    ),
+    rule(rf"(?:{_SEE}){_MUST}(?:{_WHAT}|{_IS_THERE}{THING}){_ASKS}", _look),
+    rule(
+        rf"{_MUST}(?:(?:{_SEE}){_IS_THERE}|{_WHETHER}|[都还]?有(?={THING}[吗呢么])|[都还]?(?P<flat>有)"
+        rf"(?!什么|啥|谁|哪些)){THING}{_ASKS}",
+        _asked,
+    ),
     rule(
         rf"(?:{_SEE})?有?(?:几|多少){_UNIT}(?P<what>(?!岁|点){THING}){_MUST}",
         _count,
     ),
-    rule(rf"(?:(?:{_SEE})(?:谁|什么)?(?:人)?|谁){_MUST}(?:[^,]*)", _look),
+    rule(
+        rf"{THING}(?:现在)?还?在(?P<at>{SPOT})(?:里面?|上面?|那里|旁边)?(?:吗|没有)",
+        _look,
+    ),
+    rule(rf"(?:(?:{_SEE})(?:谁|什么)?(?:人)?|谁(?:正?[坐站躺睡待](?=在))?){_MUST}(?:[^,]*)", _look),
     rule(rf"{_MUST}(?:{_SEE})(?:[^,\ue000-\ue8ff]*)", _look),
     rule(
-        rf"{_MUST}(?:有(?:什么|谁|哪些)|(?:是|在)?(?:什么|怎么样|干净|整洁|安全|空的?|开着|"
+        rf"{_MUST}(?:{_WHAT}|(?:[^,\ue000-\ue8ff]{{1,4}}(?=[开亮关锁]着))?(?:是|在)?(?:什么|怎么样|干净|整洁|安全|空的?|开着|"
         r"亮着))[^,\ue000-\ue8ff]*",
         _look,
     ),
-    rule(rf"{_IS_THERE}(?P<what>(?!什么|事|问题|异常|情况){THING})", _find),
+    rule(
+        rf"(?:{_SEE})?(?:{_AROUND})?(?:{_WHAT}[^,\ue000-\ue8ff]*|{_WHETHER}{THING}{_ASKS}|"
+        rf"有{THING}[吗呢么]|(?P<flat>有){THING})",
+        _asked,
+    ),
+    rule(
+        rf"你?(?:能|可以|有没有)?(?:看得到|看得见|看到|看见|见到|瞧见|发现)(?:了|过)?{THING}(?:了|没有)?"
+        rf"{_ASKS}",
+        _look,
+    ),
     rule(
         rf"(?:四处|到处|周围|环顾)?(?:{_SEE})(?:四周|周围|环境|情况)?[^,\ue000-\ue8ff]*|"
         r"你?看到了?什么|看见什么|环顾四周",

@@ -149,12 +149,10 @@ def _explain(
         # Of two places the order was not understood either.
         certain = len(offered) == 1 and _drives(offered)
         return _ask(worst, (setting.button(offered),) if certain else (), setting)
-    choices = worst.places if alone else ()
-    return _ask(
-        worst,
-        tuple(setting.button(_steps_of(meanings, worst, place)) for place in choices),
-        setting,
-    )
+    stead = [worst.instead] if worst.instead else [(GoTo(place=p),) for p in worst.places]
+    choices = stead if alone else ()
+    options = tuple(setting.button(_steps_of(meanings, worst, steps)) for steps in choices)
+    return _ask(worst, options, setting)
 
 
 def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Plan:
@@ -206,15 +204,15 @@ def _filled(text: Bilingual, key: str, fact: Bilingual) -> Bilingual:
 
 
 def _steps_of(
-    meanings: Sequence[Meaning], instead_of: Problem | None = None, place: str = ""
+    meanings: Sequence[Meaning], instead_of: Problem | None = None, instead: tuple[Step, ...] = ()
 ) -> tuple[Step, ...]:
-    """Return all steps in order, one problem replaced by a drive to a place."""
+    """Return all steps in order, one problem replaced by other steps."""
     steps: list[Step] = []
     for meaning in meanings:
         if isinstance(meaning, Steps):
             steps.extend(meaning.steps)
         elif meaning is instead_of:
-            steps.append(GoTo(place=place))
+            steps.extend(instead)
     return tuple(steps)
 
 

@@ -24,7 +24,7 @@ _FIND = (
     r"(?:find|locate|look for|search for|seek|spot|pinpoint|identify|meet(?: with)?|face|contact|"
     r"see|"
     r"visit|approach|get acquainted with|get to know|talk to|speak (?:to|with)|go (?:up )?to|"
-    r"move to|drive to|"
+    r"move to|drive to|check (?:up )?on|"
     r"come to|join|call on|go and see)"
 )
 _GREET = (
@@ -32,8 +32,10 @@ _GREET = (
     r"goodbye|bye) to|wish)"
 )
 _FOLLOW = (
-    r"(?:follow|come after|go after|go behind|come behind|run after|walk behind|drive behind|trail|"
-    r"come along with|go along with|come with|go with|stay (?:behind|close to|with)|keep up with)"
+    r"(?:follow|(?:start|keep|keep on|continue|begin) following|come after|go after|go behind|"
+    r"come behind|run after|walk behind|drive behind|trail|"
+    r"walk with|keep behind|come along with|"
+    r"go along with|come with|go with|stay (?:behind|close to|with)|keep up with)"
 )
 _GUIDE = r"(?:take|guide|lead|escort|accompany|conduct|bring|walk|show|usher|direct|drive)"
 _FOUND = (

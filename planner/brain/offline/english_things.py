@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+from math import pi
 from re import Match
 
-from planner.brain.offline.acts import count, find, look, place_of
+from planner.brain.offline.acts import count, find, look, offer_search, place_of
 from planner.brain.offline.english_words import PREP, THE, loc, sure_loc
-from planner.brain.offline.grammar import rule, where
+from planner.brain.offline.grammar import lacks, rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Rule, Steps
+from planner.brain.offline.things import HOW_EN, by_neighbour
+from planner.plan import Code, Look, Turn
 
 _TWORD = r"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/\u3400-\u9fff-]+"
 _THING = rf"(?:{THE})?(?:{_TWORD} )*?{_TWORD}"
@@ -25,7 +28,8 @@ _LOOK = (
     r"scan|observe|"
     r"examine|watch|monitor|survey|have a look(?: (?:at|in|around))?|take a look(?: (?:at|in|"
     r"around))?|"
-    r"explore|see|photograph|take (?:a )?(?:photo|picture|pictures|photos)(?: of)?|keep an eye on)"
+    r"peek(?: (?:in|into|inside))?|explore|see|"
+    r"photograph|take (?:a )?(?:photo|picture|pictures|photos)(?: of)?|keep an eye on)"
 )
 _LOOK_VERB = (
     r"(?:tell (?:me|us)|say|find out|see|check|look|report|show me|let me know|let us know)(?: me)?"
@@ -40,11 +44,46 @@ _STATE = (
     r"unlocked|free|occupied|"
     r"ready|charging|lit|dark|running|made|set|full|taken|busy|safe|clear|warm|cold|wet)"
 )
-_THERE_IS = r"(?:is there|are there|do you see|can you see|did you see|is|are|has|have|do you find)"
+_THERE_IS = (
+    r"(?:is there|are there|do you see|can you see|did you see|is|are|do you find|"
+    r"(?:has|have)(?= (?:the|any|you|my|our)\b))"
+)
+_SOMEBODY = r"(?:any|some)(?:one|body|thing)"
+_SEEN_HERE = (
+    r"(?:(?:(?:are|do you see|can you see|you see) )?(?:in )?here|"
+    r"(?:do|can) you see|you see|are (?:there )?in front of you|(?:are )?in sight|are around|"
+    r"are there)(?: (?:right )?now)?"
+)
+"""How many of it the robot sees where it stands: for a bare question it drives nowhere."""
+_SEARCHED = (
+    r"(?:everywhere|all over|(?:in |through )?(?:the|this) (?:whole |entire )?(?:house|home|flat))"
+)
+_HOME = r"(?:(?:at )?home|(?:in|around|at) (?:the |this )?(?:house|flat|apartment|building))"
+_NOBODY = frozenset(
+    {"i", "it", "they", "them", "we", "you", "that", "this", "everybody", "everyone"}
+)
 
 
 def _find(found: Match[str], reading: Reading) -> Meaning:
     return find(found["what"], where(found, "at"), reading)
+
+
+def _find_by(found: Match[str], reading: Reading) -> Meaning | None:
+    """Find a thing by its neighbour; on or near a place of the site, it is found at that place."""
+    by, how = found["by"], found["how"]
+    marked = re.fullmatch(MARK, by) is not None
+    if marked and not how.startswith(("under", "be", "close")):
+        return None
+    named = by_neighbour(found["what"], how, by, reading)
+    return find(named, found["at"] or (by if marked else None), reading) if named else None
+
+
+def _find_anywhere(found: Match[str], reading: Reading) -> Meaning:
+    return find(found["what"] or found["what2"], None, reading)
+
+
+def _describe(found: Match[str], reading: Reading) -> Meaning:
+    return look(found[0], found["at"] or found["at2"], reading)
 
 
 def _find_in_unknown(found: Match[str], reading: Reading) -> Meaning:
@@ -70,6 +109,22 @@ def _look_here(found: Match[str], reading: Reading) -> Meaning:
 def _reported(found: Match[str], reading: Reading) -> Meaning | None:
     """Pass over "and tell me" after something was looked at: the outcome tells."""
     return Steps(()) if reading.scene.seen else None
+
+
+def _seen_here(found: Match[str], reading: Reading) -> Meaning | None:
+    """Look where nothing named a place; what is counted elsewhere is read by the next rules."""
+    return None if reading.scene.place else look(found[0], None, reading)
+
+
+def _aside(found: Match[str], reading: Reading) -> Meaning:
+    """Turn to the side that is to be looked at: the camera looks ahead."""
+    angle_rad = {"left": pi / 2, "right": -pi / 2}.get(found["side"] or "", pi)
+    return Steps((Turn(angle_rad=angle_rad), Look(question=found[0])), seen=True)
+
+
+def _sought(found: Match[str], reading: Reading) -> Meaning | None:
+    what = found["what"] or found.groupdict().get("what2") or ""
+    return None if what in _NOBODY else offer_search(what, found[0], reading)
 
 
 def _next_thing(found: Match[str], reading: Reading) -> Meaning | None:
@@ -100,6 +155,12 @@ RULES: tuple[Rule, ...] = (
         _reported,
     ),
     rule(
+        r"what (?:is|do you see|can you see) (?:behind|(?:on|to) (?:your|the) (?:left|right)).*",
+        lacks(Code.NOT_UNDERSTOOD),
+    ),
+    rule(rf"(?:{_LOOK_VERB} )?how many {_COUNTED} {_SEEN_HERE}", _seen_here),
+    rule(rf"count {_COUNTED} (?:(?:in )?here|in this room|around you|you see)", _seen_here),
+    rule(
         r"(?:(?:tell (?:me|us)|say|report|find out|check|let me know|"
         rf"see) )?how many (?P<what>{_COUNTED})"
         r"(?: (?:there are|are there|are|is|do you see|can you see|you see|"
@@ -120,11 +181,48 @@ RULES: tuple[Rule, ...] = (
         rf"{_AT}",
         _count,
     ),
+    rule(
+        r"(?:(?:tell|show) (?:me|us) )?"
+        r"(?:where (?:is|are|can i find|did (?:i|you|we) (?:leave|put|see))|have you seen)"
+        rf" (?P<what>{_THING}?)(?: now)?",
+        _sought,
+    ),
+    rule(
+        rf"(?:(?:tell|show) (?:me|us)|do you know) where (?P<what>{_THING}?) (?:is|are)(?: now)?",
+        _sought,
+    ),
+    rule(
+        rf"(?:(?:{_LOOK_VERB} (?:if|whether) )?(?:is|are) (?:there )?(?P<what>{_SOMEBODY})|"
+        rf"{_LOOK_VERB} (?:if|whether) (?P<what2>{_SOMEBODY}) is)(?: there)? {_HOME}",
+        _sought,
+    ),
+    rule(rf"(?:{_SOMEBODY}|any [a-z ]+?)(?: else)?{_MUST}", _look),
+    rule(
+        rf"(?:{_SOMEBODY}|any [a-z ]+?(?= (?:around|here|there|in sight)))(?: else)?"
+        r"(?: (?:around|about|here|there|in here|out there|in sight))?",
+        _look_here,
+    ),
+    rule(
+        rf"(?:look|search|hunt|check) {_SEARCHED} for (?P<what>{_THING})"
+        rf"|(?:find|look for) (?P<what2>{_THING}) (?:somewhere )?(?:in )?{_SEARCHED}",
+        _find_anywhere,
+    ),
+    rule(
+        r"(?:have a |take a )?look (?:(?:to )?(?:the |your )?(?P<side>left|right)|behind(?: you)?)"
+        r"(?: (?:and|to) (?:tell me|see) what [a-z ]+)?",
+        _aside,
+    ),
+    rule(rf"describe (?P<at>{THE}{MARK})|tell (?:me|us) about (?P<at2>{THE}{MARK})", _describe),
     rule(rf"search {THE}?(?P<at>{MARK})(?P<at_there>)? for (?P<what>{_THING})", _find),
     rule(
         r"(?:look|search|"
         rf"check)(?: around)? {PREP} (?P<at>{THE}{MARK})(?P<at_there>)? for (?P<what>{_THING})",
         _find,
+    ),
+    rule(
+        rf"{_FIND} {THE}?(?P<what>[a-z0-9][a-z0-9' -]*?) (?P<how>{HOW_EN}) {THE}"
+        rf"(?P<by>[a-z][a-z -]*?|{MARK})(?: (?:in|inside) (?P<at>{THE}{MARK}))?",
+        _find_by,
     ),
     rule(rf"{_FIND} (?P<what>{_ANY_THING}){_AT}", _find),
     rule(

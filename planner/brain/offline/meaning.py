@@ -40,6 +40,7 @@ class Problem:
     before: tuple[Step, ...] = ()  # what could be done of the clause, or ahead of it
     name: str = ""  # the unknown name
     what: Bilingual | None = None  # what is missing
+    instead: tuple[Step, ...] = ()  # offered in its stead: it was asked about, not ordered
 
 
 Meaning = Steps | About | Problem

@@ -123,7 +123,9 @@ def _within(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
     """Turn steps that this robot can't do into the problem that it lacks the means."""
     if isinstance(meaning, Problem):
         can = tuple(step for step in meaning.before if step.kind in runnable)
-        return replace(meaning, before=can)
+        if all(step.kind in runnable for step in meaning.instead):
+            return replace(meaning, before=can)
+        return Problem(blind, meaning.part, before=can)
     lacks = (
         [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
     )
@@ -163,10 +165,13 @@ _WHETHER = re.compile(
 _A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
 """看看她在不在: to be looked at, no negation."""
 
+_DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?着)没有?(?=[,。;!?]|$)")
+"""看看电视开着没有: likewise."""
+
 
 def asks_whether(text: str) -> str:
     """Return the text without the "if" of a question that looking answers: no condition."""
-    plain = _A_NOT_A.sub(r"\1\2", text)
+    plain = _DONE_OR_NOT.sub(r"\1", _A_NOT_A.sub(r"\1\2", text))
     return _WHETHER.sub(lambda found: found[1] or "有", plain)
 
 

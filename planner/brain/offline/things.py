@@ -21,8 +21,22 @@ _EN = re.compile(
 )
 _ZH = re.compile(
     rf"(?:(?P<at>{MARK})(?:里面?|里边|内)?的?)?(?:这个|那个|这把|那把)?(?P<what>[^{MARK[1:-1]}]+?)"
-    r"(?:的?(?:旁边|边上|附近|跟前|前面|面前|那边|那里|那儿|这边|这里|处))?"
+    r"(?:的?(?:旁边|边上|附近|跟前|前面|面前|身边|身旁|那边|那里|那儿|这边|这里|处))?"
 )
+
+
+HOW_EN = r"(?:on(?: top of)?|under(?:neath)?|beneath|below|near|next to|beside|close to|by)"
+HOW_ZH = r"(?:上面?|上边|旁边?|边上|附近|下面?|下边|底下)"
+"""How a thing may stand to its neighbour: the eyes judge it (planner/mission/skills/beside.py)."""
+_BY_EN = re.compile(
+    rf"(?:(?:over|up|close|next) to )?{_THE}(?P<what>[a-z][a-z' -]*?) (?P<how>{HOW_EN}) "
+    rf"(?P<the>{_THE})(?P<by>{MARK})(?: (?:in|inside|of) {_THE}(?P<at>{MARK}))?"
+)
+_BY_ZH = re.compile(
+    rf"(?:(?P<at>{MARK})(?:里面?|里边|内)?的?)?(?P<by>{MARK})(?P<how>{HOW_ZH})的(?P<what>[^{MARK[1:-1]}]+?)"
+    r"(?:的?(?:旁边|边上|附近|跟前|前面|面前|身边|身旁|那边|那里|那儿|这边|这里|处))?"
+)
+_ASIDE_ZH = re.compile(rf"{HOW_ZH}的")
 
 
 _BEFORE_ZH = re.compile(
@@ -33,15 +47,40 @@ _BEFORE_ZH = re.compile(
 def up_to(phrase: str, reading: Reading) -> Steps | None:
     """Return the step that drives up to a thing, or None where the phrase names none."""
     phrase = phrase.strip(" \"'")
+    related = _BY_EN.fullmatch(phrase) or _BY_ZH.fullmatch(phrase)
+    if related is not None:
+        named = by_neighbour(related["what"], related["how"], related["by"], reading)
+        place = _only(related["at"] or related["by"], reading)
+        if named is None or place is None:
+            return None
+        return Steps((GoToObject(object=named, place=place),), thing=named)
     found = _EN.fullmatch(phrase) or _ZH.fullmatch(phrase)
     what = found["what"].strip(" 的") if found else ""
-    if found is None or not _known(what, reading.things):
+    if found is None or not _known(what, reading.things) or _ASIDE_ZH.match(what):
         return None
     ids = reading.marked.mention(found["at"]).ids if found["at"] else (None,)
     if len(ids) != 1:
         return None
     label = reading.marked.restore(what)
     return Steps((GoToObject(object=label, place=ids[0]),), thing=label)
+
+
+def by_neighbour(what: str, how: str, by: str, reading: Reading) -> str | None:
+    """Return a thing's words with its neighbour's, where eyes know that neighbour; else None.
+
+    A neighbour may be a place of the site as well: "the cup on the desk".
+    """
+    near = reading.marked.restore(by)
+    if not _known(near, reading.things):
+        return None
+    thing = reading.marked.restore(what)
+    joined = f"{thing} {how} the {near}" if how.isascii() else f"{near}{how}的{thing}"
+    return joined[:80]
+
+
+def _only(mark: str, reading: Reading) -> str | None:
+    ids = reading.marked.mention(mark).ids
+    return ids[0] if len(ids) == 1 else None
 
 
 def _known(what: str, things: frozenset[str]) -> bool:

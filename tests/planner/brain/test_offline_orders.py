@@ -133,11 +133,11 @@ MOTION = {
         "sofa find=Mary@sofa follow=Mary say=Please come with me. sofa"
     ),
     "what do you see?": "look=what do you see",
-    "看看有没有人": "find=人",
+    "看看有没有人": "look=看看有没有人",
     "go to the kitchen and look for a red cup": "kitchen find=red cup@kitchen",
     "look for a red cup in the kitchen": "kitchen find=red cup@kitchen",
     "how many people are in the bedroom": "bedroom count=people@bedroom",
-    "去客厅看看有没有人": "living_room find=人@living_room",
+    "去客厅看看有没有人": "living_room look=看看有没有人@living_room",
     "从卧室出发，去书房看一下情况": "bedroom study look=看一下情况@study",
 }
 

@@ -5,7 +5,17 @@ from __future__ import annotations
 import pytest
 
 from planner.brain.offline.reader import Context, plan
-from planner.plan import EVERY_KIND, Clarify, Code, GoToObject, StepPlan, Vocabulary
+from planner.plan import (
+    EVERY_KIND,
+    Clarify,
+    Code,
+    Count,
+    Find,
+    GoToObject,
+    Step,
+    StepPlan,
+    Vocabulary,
+)
 
 WHOLE = Context(runnable=EVERY_KIND)
 THINGS = {
@@ -27,6 +37,31 @@ def test_what_eyes_know_is_driven_up_to_though_it_is_no_place(
         made = plan(text, home, blind)
         assert isinstance(made, Clarify)
         assert made.code in (Code.UNKNOWN_PLACE, Code.NOT_UNDERSTOOD)
+
+
+BESIDE = {
+    "go to the box beside the chair": GoToObject(object="box beside the chair"),
+    "go to the cup on the desk": GoToObject(object="cup on the desk", place="desk"),
+    "drive to the cup on the chair in the study": (
+        GoToObject(object="cup on the chair", place="study")
+    ),
+    "find the cup next to the chair": Find(object="cup next to the chair"),
+    "find the cup on the chair": Find(object="cup on the chair"),
+    "find the box under the chair in the study": Find(object="box under the chair", place="study"),
+    "count the cups on the chair": Count(object="cups on the chair"),
+    "去椅子旁边的箱子那里": GoToObject(object="椅子旁边的箱子"),
+    "去书桌上的箱子那里": GoToObject(object="书桌上的箱子", place="desk"),
+    "找椅子旁边的箱子": Find(object="椅子旁边的箱子"),
+    "找床下面的箱子": Find(object="床下面的箱子", place="bed"),
+}
+
+
+@pytest.mark.parametrize(("text", "step"), BESIDE.items(), ids=ascii)
+def test_a_thing_may_be_told_by_its_neighbour(text: str, step: Step, home: Vocabulary) -> None:
+    things = frozenset({"chair", "box", "cup", "desk", "bed", "椅子", "箱子", "书桌", "床"})
+    made = plan(text, home, Context(runnable=EVERY_KIND, things=things))
+    assert isinstance(made, StepPlan), made
+    assert made.steps[-1] == step
 
 
 @pytest.mark.parametrize(

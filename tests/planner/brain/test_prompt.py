@@ -19,7 +19,7 @@ from planner.world import Site
 from tests.conftest import ROOT
 from wire import Misconfigured
 
-HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c"}
+HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c", 3: "feca617e9515"}
 """A changed prompt needs a new version, so that a goal's record says what was asked."""
 
 

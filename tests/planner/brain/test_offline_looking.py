@@ -1,0 +1,120 @@
+"""Look, find, count and follow as people say it: a question is looked at, an order is done.
+
+A bare question moves the robot to the place that it names, and nowhere without one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from planner.brain.offline.reader import Context, plan
+from planner.plan import EVERY_KIND, Clarify, Code, Find, StepPlan, Vocabulary
+
+AT_A_PLACE = {
+    "看看客厅有什么": "living_room",
+    "客厅里有什么": "living_room",
+    "客厅里都有谁": "living_room",
+    "看一下厨房有什么东西": "kitchen",
+    "厨房有杯子吗": "kitchen",
+    "厨房有杯子？": "kitchen",
+    "看看有没有人在厨房": "kitchen",
+    "客厅有没有人": "living_room",
+    "客厅现在什么情况": "living_room",
+    "书房的灯亮着吗": "study",
+    "门口是谁": "front_door",
+    "看看电视开着没有": "tv",
+    "拍一张厨房的照片": "kitchen",
+    "我的手机在沙发上吗": "sofa",
+    "谁坐在沙发上": "sofa",
+    "书房还有椅子吗": "study",
+    "what is in the kitchen?": "kitchen",
+    "have a look what's in the kitchen": "kitchen",
+    "see what's on the desk": "desk",
+    "is anybody in the living room?": "living_room",
+    "anyone in the kitchen?": "kitchen",
+    "describe the kitchen": "kitchen",
+}
+HERE = (
+    "有没有人", "有人吗？", "有人？", "看看有没有人", "这里有没有人", "房间里有人吗", "地上有什么",
+    "有没有杯子", "看到人了吗", "你看到几个人", "有几把椅子", "数一数这里有几个人", "这是什么",
+    "数一下这个房间里的人", "count the people in this room",
+    "is anybody there?", "anybody there?", "any people around?", "is there a cup?",
+    "do you see anyone", "how many chairs do you see", "how many people are in here",
+    "how many chairs are there?",
+)  # fmt: skip
+OTHERS = {
+    "去厨房看看有没有人，告诉他饭好了": (
+        "kitchen look=看看有没有人@kitchen find=人@kitchen say=饭好了"
+    ),
+    "去厨房看看有没有人，然后回来告诉我": "kitchen look=看看有没有人@kitchen come_back",
+    "go to the kitchen and tell me where the cup is": "kitchen find=cup@kitchen",
+    "看看左边": "turn=90 look=看看左边",
+    "look behind you": "turn=180 look=look behind you",
+    "到处找找我的手机": "find=手机",
+    "去厨房找找看有没有杯子": "kitchen find=杯子@kitchen",
+    "找杯子和球": "find=杯子 find=球",
+    "家里有几个箱子": "count=箱子",
+    "search the whole house for my phone": "find=phone",
+    "count all the boxes in the house": "count=boxes",
+    "start following me": "find=person follow=person",
+    "follow the person in front of you": "find=person follow=person",
+    "跟着前面那个人": "find=人 follow=人",
+    "check on the baby in the bedroom": "bedroom find=baby@bedroom",
+}
+SAID_FLATLY = (
+    "厨房有杯子", "客厅有人", "there is a cup in the kitchen", "have breakfast in the kitchen",
+    "what is behind you", "what do you see on your left", "where is everyone", "他们在哪里",
+)  # fmt: skip
+WHEREABOUTS = {
+    "where is the red cup?": "red cup",
+    "do you know where the ball is": "ball",
+    "have you seen my phone?": "phone",
+    "is anybody home?": "person",
+    "杯子在哪里": "杯子",
+    "告诉我椅子在哪里": "椅子",
+    "哪个房间里有球": "球",
+    "家里有没有人": "人",
+}
+
+
+@pytest.mark.parametrize(("text", "place"), AT_A_PLACE.items(), ids=ascii)
+def test_a_question_about_a_place_is_answered_by_looking_there(
+    text: str, place: str, understood: Callable[[str], str]
+) -> None:
+    steps = understood(text).split(" ", 1)
+    assert (steps[0], steps[1][:5], steps[1].rsplit("@")[-1]) == (place, "look=", place)
+
+
+@pytest.mark.parametrize("text", HERE, ids=ascii)
+def test_a_question_without_a_place_drives_nowhere(text: str, home: Vocabulary) -> None:
+    made = plan(text, home, Context(runnable=EVERY_KIND))
+    assert isinstance(made, StepPlan), made
+    assert [(step.kind, getattr(step, "place", None)) for step in made.steps] == [("look", None)]
+
+
+@pytest.mark.parametrize(("text", "steps"), OTHERS.items(), ids=ascii)
+def test_an_order_is_done(text: str, steps: str, understood: Callable[[str], str]) -> None:
+    assert understood(text) == steps
+
+
+@pytest.mark.parametrize("text", SAID_FLATLY, ids=ascii)
+def test_what_is_only_told_or_not_to_be_seen_moves_nothing(text: str, home: Vocabulary) -> None:
+    made = plan(text, home, Context(runnable=EVERY_KIND))
+    assert isinstance(made, Clarify)
+    assert made.code is Code.NOT_UNDERSTOOD
+
+
+@pytest.mark.parametrize(("text", "what"), WHEREABOUTS.items(), ids=ascii)
+def test_who_asks_where_something_is_is_offered_a_search(
+    text: str, what: str, home: Vocabulary
+) -> None:
+    made = plan(text, home, Context(runnable=EVERY_KIND))
+    assert isinstance(made, Clarify)
+    assert made.code is Code.INCOMPLETE
+    (offered,) = made.options
+    again = plan(offered.text, home, Context(runnable=EVERY_KIND))
+    assert again == StepPlan(steps=(Find(object=what),))
+    blind = plan(text, home, Context(runnable=frozenset({"go_to"})))
+    assert blind.kind == "refuse"
