@@ -14,9 +14,9 @@ from contextlib import contextmanager
 from planner.brain.breaker import Breaker
 from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.fallback import HOPELESS
-from planner.brain.looking import Described, Detected, Looker, NotSent, NotThere, Picture, Pointed
+from planner.brain.looking import Asked, Described, Detected, Looker, NotSent, NotThere, Pointed
 from planner.brain.reasons import reason
-from planner.plan import Bilingual, BrainTag, Language
+from planner.plan import Bilingual, BrainTag
 
 log = logging.getLogger(__name__)
 
@@ -44,37 +44,23 @@ class FallbackLooker:
         """Return the model's name."""
         return self._model.tag
 
-    async def describe(
-        self,
-        picture: Picture,
-        question: str,
-        language: Language,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Described:
+    async def describe(self, asked: Asked) -> Described:
         """Return the model's answer, else the detector's. Raises nothing but a cancellation."""
         try:
             with self._watched():
-                return await self._model.describe(picture, question, language, detections, goal)
+                return await self._model.describe(asked)
         except (BrainDown, PlanRejected) as failure:
-            text, seen = self._words(question, detections)
+            text, seen = self._words(asked.words, asked.detections)
             return Described(text, seen, self._instead(failure))
 
-    async def point(
-        self,
-        picture: Picture,
-        words: str,
-        language: Language = Language.EN,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Pointed | NotThere:
+    async def point(self, asked: Asked) -> Pointed | NotThere:
         """Return where the model points; no detector can do that for it.
 
         Raises:
             NotSent, PlanRejected, BrainDown, OutOfBudget: as the model's, or ``resting``.
         """
         with self._watched():
-            return await self._model.point(picture, words, language, detections, goal)
+            return await self._model.point(asked)
 
     @contextmanager
     def _watched(self) -> Iterator[None]:

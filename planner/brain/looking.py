@@ -63,6 +63,21 @@ class Detected(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Asked:
+    """Hold what is asked about one picture."""
+
+    picture: Picture
+    words: str
+    """A question, or what is to be pointed at: the plan's own words."""
+    language: Language = Language.EN
+    """The person's."""
+    detections: Sequence[Detected] = ()
+    """What the detector found in this very picture: handed over as data."""
+    goal: str = ""
+    """Whose budget pays."""
+
+
+@dataclass(frozen=True, slots=True)
 class Described:
     """Answer a question about a picture."""
 
@@ -108,22 +123,8 @@ class Looker(Protocol):
         """Return the model's name, for the goal's record."""
         ...
 
-    async def describe(
-        self,
-        picture: Picture,
-        question: str,
-        language: Language,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Described:
+    async def describe(self, asked: Asked) -> Described:
         """Return the answer to a question about a picture.
-
-        Args:
-            picture: what is looked at.
-            question: the plan's own words.
-            language: the person's.
-            detections: what the detector found in this very picture: handed over as data.
-            goal: whose budget pays.
 
         Raises:
             NotSent: the picture did not leave.
@@ -133,14 +134,7 @@ class Looker(Protocol):
         """
         ...
 
-    async def point(
-        self,
-        picture: Picture,
-        words: str,
-        language: Language = Language.EN,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Pointed | NotThere:
+    async def point(self, asked: Asked) -> Pointed | NotThere:
         """Return where in a picture something is, or that it is not there.
 
         Raises:

@@ -10,10 +10,9 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-from planner.brain.looking import FULL, Detected, Picture
+from planner.brain.looking import FULL, Asked, Detected, Picture
 from planner.brain.schema import Message
 from planner.brain.template import FOLDER, Template, as_json
-from planner.plan import Language
 
 MAX_QUESTION = 500
 MAX_LISTED = 20
@@ -49,31 +48,24 @@ class LookPrompts:
         """Return the prompt of a point."""
         return Template.load(FOLDER / "point.md", _BLANKS)
 
-    def look_messages(
-        self, picture: Picture, question: str, language: Language, found: Sequence[Detected]
-    ) -> list[Message]:
+    def look_messages(self, asked: Asked) -> list[Message]:
         """Return the messages of a question about a picture."""
-        asked = {"question": question[:MAX_QUESTION], "language": language.value}
-        return _messages(self.look, LOOK_SCHEMA, asked, picture, found)
+        return _messages(self.look, LOOK_SCHEMA, "question", asked)
 
-    def point_messages(
-        self, picture: Picture, words: str, language: Language, found: Sequence[Detected]
-    ) -> list[Message]:
+    def point_messages(self, asked: Asked) -> list[Message]:
         """Return the messages that ask where something is."""
-        asked = {"point_at": words[:MAX_QUESTION], "language": language.value}
-        return _messages(self.point, POINT_SCHEMA, asked, picture, found)
+        return _messages(self.point, POINT_SCHEMA, "point_at", asked)
 
 
-def _messages(
-    template: Template,
-    schema: dict[str, Any],
-    asked: dict[str, Any],
-    picture: Picture,
-    found: Sequence[Detected],
-) -> list[Message]:
+def _messages(template: Template, schema: dict[str, Any], key: str, asked: Asked) -> list[Message]:
+    told = {
+        key: asked.words[:MAX_QUESTION],
+        "language": asked.language.value,
+        "detector": listed(asked.picture, asked.detections),
+    }
     return [
         {"role": "system", "content": template.filled(schema=as_json(schema))},
-        {"role": "user", "content": as_json({**asked, "detector": listed(picture, found)})},
+        {"role": "user", "content": as_json(told)},
     ]
 
 

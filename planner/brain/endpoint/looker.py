@@ -7,7 +7,7 @@ A picture leaves this machine only after the owner's second yes, never larger th
 from __future__ import annotations
 
 import logging
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable
 from typing import Any, TypeVar
 
 from planner.brain.endpoint.judge import Unusable, clean
@@ -19,8 +19,8 @@ from planner.brain.form import LOOK_FORM, POINT_FORM, Form
 from planner.brain.jpeg import jpeg_size, without_notes
 from planner.brain.looking import (
     LONG_SIDE_PX,
+    Asked,
     Described,
-    Detected,
     NotSent,
     NotThere,
     Picture,
@@ -29,7 +29,7 @@ from planner.brain.looking import (
 from planner.brain.lookprompt import LOOK_SCHEMA, POINT_SCHEMA, LookPrompts
 from planner.brain.schema import Message
 from planner.brain.template import Template, repair
-from planner.plan import Bilingual, BrainTag, Language
+from planner.plan import Bilingual, BrainTag
 
 log = logging.getLogger(__name__)
 
@@ -73,40 +73,26 @@ class EndpointLooker:
         takes = self._line.asker.pictures if settings.pictures is None else settings.pictures
         return "no_pictures" if takes is False else None
 
-    async def describe(
-        self,
-        picture: Picture,
-        question: str,
-        language: Language,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Described:
+    async def describe(self, asked: Asked) -> Described:
         """Return the model's answer; see ``planner.brain.looking.Looker``."""
 
         async def talk(end_s: float) -> Words:
-            url = await self._url(picture)
-            messages = self._prompts.look_messages(picture, question, language, detections)
+            url = await self._url(asked.picture)
+            messages = self._prompts.look_messages(asked)
             return await self._twice(messages, (LOOK_FORM, LOOK_SCHEMA), url, end_s, judge_look)
 
-        said = await self._line.turn(goal, talk, "answer")
+        said = await self._line.turn(asked.goal, talk, "answer")
         return Described(self._struck(said.text), said.seen, self._look)
 
-    async def point(
-        self,
-        picture: Picture,
-        words: str,
-        language: Language = Language.EN,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Pointed | NotThere:
+    async def point(self, asked: Asked) -> Pointed | NotThere:
         """Return where the model points; see ``planner.brain.looking.Looker``."""
 
         async def talk(end_s: float) -> object:
-            url = await self._url(picture)
-            messages = self._prompts.point_messages(picture, words, language, detections)
+            url = await self._url(asked.picture)
+            messages = self._prompts.point_messages(asked)
             return await self._twice(messages, (POINT_FORM, POINT_SCHEMA), url, end_s, judge_point)
 
-        found = await self._line.turn(goal, talk, "point")
+        found = await self._line.turn(asked.goal, talk, "point")
         if isinstance(found, Point):
             return Pointed(found.x, found.y, self._point)
         return NotThere(self._point)

@@ -10,8 +10,8 @@ import pytest
 from planner.brain import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.breaker import TRIPS, Breaker
 from planner.brain.lookfall import FallbackLooker
-from planner.brain.looking import Described, Detected, NotSent, NotThere, Picture, Pointed
-from planner.plan import Bilingual, BrainTag, Language, same
+from planner.brain.looking import Asked, Described, Detected, NotSent, NotThere, Picture, Pointed
+from planner.plan import Bilingual, BrainTag, same
 from planner.vision import Detection
 
 MODEL = BrainTag(name="m", version="1")
@@ -46,7 +46,7 @@ def by_detector(question: str, found: Sequence[Detected]) -> tuple[Bilingual, bo
 
 
 def describe(looker: FallbackLooker) -> Described:
-    return asyncio.run(looker.describe(PICTURE, "a cup?", Language.EN, [CUP], "g1"))
+    return asyncio.run(looker.describe(Asked(PICTURE, "a cup?", detections=[CUP], goal="g1")))
 
 
 @pytest.mark.parametrize(
@@ -74,13 +74,13 @@ def test_the_detector_answers_for_a_model_that_fails(
     assert breaker.closed is not rests
     assert (model.calls < TRIPS + 2) is rests, "a server that is down is not waited for again"
     with pytest.raises((BrainDown, PlanRejected)):
-        asyncio.run(looker.point(PICTURE, "the cup"))
+        asyncio.run(looker.point(Asked(PICTURE, "the cup")))
 
 
 def test_a_model_that_answers_is_believed_and_a_cancellation_is_not_swallowed() -> None:
     looker = FallbackLooker(Scripted(None), by_detector)
     assert (describe(looker).brain, looker.tag) == (MODEL, MODEL)
-    assert asyncio.run(looker.point(PICTURE, "the cup")) == Pointed(1, 2, MODEL)
+    assert asyncio.run(looker.point(Asked(PICTURE, "the cup"))) == Pointed(1, 2, MODEL)
     breaker = Breaker()
     with pytest.raises(asyncio.CancelledError):
         describe(FallbackLooker(Scripted(asyncio.CancelledError()), by_detector, breaker))

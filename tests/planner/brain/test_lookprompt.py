@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from planner.brain.looking import Asked
 from planner.brain.lookprompt import LOOK_SCHEMA, MAX_LISTED, POINT_SCHEMA, LookPrompts, listed
 from planner.brain.prompt import tokens
 from planner.brain.template import FOLDER, Template
@@ -32,8 +33,8 @@ def test_a_version_means_one_text() -> None:
 def test_questions_and_detections_enter_as_data_and_within_bounds() -> None:
     prompts, seen = LookPrompts(), Detection(HOSTILE, 0.9, (0.0, 0.0, 10.0, 10.0))
     for messages, key in (
-        (prompts.look_messages(picture(), HOSTILE, Language.ZH, [seen]), "question"),
-        (prompts.point_messages(picture(), HOSTILE, Language.ZH, [seen] * 99), "point_at"),
+        (prompts.look_messages(Asked(picture(), HOSTILE, Language.ZH, [seen])), "question"),
+        (prompts.point_messages(Asked(picture(), HOSTILE, Language.ZH, [seen] * 99)), "point_at"),
     ):
         system, user = messages
         assert system["content"].count("\nRules:\n") == 1
@@ -42,7 +43,7 @@ def test_questions_and_detections_enter_as_data_and_within_bounds() -> None:
         assert told["detector"][0]["what"] == HOSTILE
         assert len(told["detector"]) <= MAX_LISTED
         assert tokens([system]) < 500
-    asked = prompts.look_messages(picture(), "y" * 9000, Language.EN, [])
+    asked = prompts.look_messages(Asked(picture(), "y" * 9000))
     assert len(asked[1]["content"]) < 600
 
 

@@ -12,11 +12,11 @@ import pytest
 
 from planner.brain import BrainDown, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain, EndpointLooker
-from planner.brain.looking import Described, NotSent, NotThere, Picture, Pointed
+from planner.brain.looking import Asked, Described, NotSent, NotThere, Picture, Pointed
 from planner.brain.protocol import Observation
 from planner.brain.wary import think_warily
 from planner.budget import Ledger, Purse
-from planner.plan import GoTo, Language, StepPlan, same
+from planner.plan import GoTo, StepPlan, same
 from planner.settings import BudgetSettings, ModelSettings
 from planner.vision import Detection
 from pons.mock_llm.pictures import NUMBER_OF_BAD_POINTS, with_words
@@ -56,14 +56,14 @@ def looking(
 
 def describe(mock: RunningMock, home: Path, shown: Picture = PLAIN, **more: Any) -> Described:
     async def ask(looker: EndpointLooker) -> Described:
-        return await looker.describe(shown, "is there a cup?", Language.EN, [CUP], "g1")
+        return await looker.describe(Asked(shown, "is there a cup?", detections=[CUP], goal="g1"))
 
     return looking(mock, home, ask, **more)
 
 
 def point(mock: RunningMock, home: Path, words: str = "the cup") -> Pointed | NotThere:
     async def ask(looker: EndpointLooker) -> Pointed | NotThere:
-        return await looker.point(PLAIN, words, Language.EN, [CUP], "g1")
+        return await looker.point(Asked(PLAIN, words, detections=[CUP], goal="g1"))
 
     return looking(mock, home, ask)
 
@@ -118,7 +118,7 @@ def test_a_slow_look_ends_in_time_and_is_cancelled_at_once(
     assert slow.value.why == "timeout"
 
     async def cancelled(looker: EndpointLooker) -> float:
-        task = asyncio.ensure_future(looker.describe(PLAIN, "?", Language.EN))
+        task = asyncio.ensure_future(looker.describe(Asked(PLAIN, "?")))
         await asyncio.sleep(0.1)
         began_s = time.monotonic()
         task.cancel()
@@ -135,7 +135,7 @@ def test_what_a_picture_costs_is_the_goals(mock: RunningMock, tmp_path: Path) ->
     async def story() -> tuple[int, int]:
         purse = Purse(BudgetSettings(), Ledger(tmp_path), most_reply=1000)
         model = EndpointBrain(ModelSettings(url=mock.url, name="m"), tmp_path, meter=purse)
-        await model.looker().describe(PLAIN, "?", Language.EN, goal="g1")
+        await model.looker().describe(Asked(PLAIN, "?", goal="g1"))
         mine, other = purse.usage("g1").goal, purse.usage("g2").goal
         await model.close()
         purse.close()

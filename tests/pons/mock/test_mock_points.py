@@ -53,6 +53,9 @@ class Standing:
         self.sight = Sight(look)
         self._view = View(header, CAMERA, Stance(taken))
 
+    async def fresh(self) -> Picture:
+        return self.picture
+
     async def spot(self, picture: Picture, x: float, y: float) -> Spot:
         assert picture is self.picture
         return point_on_map(self._view, SITE, x, y, None)

@@ -15,7 +15,7 @@ from planner.brain import OutOfBudget, PlanRejected
 from planner.brain.endpoint import EndpointBrain, EndpointLooker
 from planner.brain.endpoint.dialects import FILE
 from planner.brain.endpoint.pictures import MAX_JPEG_BYTES, TOKENS
-from planner.brain.looking import Described, NotSent, NotThere, Picture, Pointed
+from planner.brain.looking import Asked, Described, NotSent, NotThere, Picture, Pointed
 from planner.brain.lookprompt import MAX_LISTED
 from planner.brain.reasons import REASONS, reason
 from planner.budget import Ledger, Purse
@@ -51,7 +51,7 @@ def describe(
         try:
             looker = model.looker(shrink)
             what = picture() if shown is None else shown
-            return await looker.describe(what, "a cup?", Language.EN, [CUP], "g1")
+            return await looker.describe(Asked(what, "a cup?", detections=[CUP], goal="g1"))
         finally:
             await model.close()
 
@@ -111,7 +111,7 @@ def test_every_rung_takes_a_picture_with_its_own_name(tmp_path: Path) -> None:
     async def point() -> Pointed | NotThere:
         model = brain(server, tmp_path, mode="tool", preset="anthropic")
         looker = model.looker()
-        found = await looker.point(picture(), "the red cup", Language.ZH, [CUP] * 30)
+        found = await looker.point(Asked(picture(), "the red cup", Language.ZH, [CUP] * 30))
         await model.close()
         return found
 
@@ -234,7 +234,7 @@ def test_a_refusal_without_a_reason_counts_where_words_were_taken(
         looker, why = model.looker(), list[str]()
         for _ in range(2):
             try:
-                await looker.describe(picture(), "a cup?", Language.EN)
+                await looker.describe(Asked(picture(), "a cup?"))
             except NotSent as no:
                 why.append(no.why)
         await model.close()
@@ -273,7 +273,7 @@ def test_pictures_are_paid_by_the_goal_that_asked(tmp_path: Path) -> None:
         model = EndpointBrain(settings(), tmp_path, transport=transport, meter=purse)
         looker: EndpointLooker = model.looker()
         try:
-            await looker.describe(picture(padding=300_000), "a cup?", Language.EN, goal="g1")
+            await looker.describe(Asked(picture(padding=300_000), "a cup?", goal="g1"))
             return len(server.requests), purse.usage("g1").goal.prompt_tokens  # type: ignore[union-attr]  # it was asked for
         finally:
             assert purse.usage("g1").goal.calls == min(calls, 2)  # type: ignore[union-attr]  # likewise
