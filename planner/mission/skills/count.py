@@ -1,20 +1,32 @@
 """Count things or people, in one place or in the whole home.
 
-Precondition and budget as for ``find``. Verdict: things that are sure, stand apart from each other
-and were seen during this step; what moves from room to room may be counted twice, and is not when
-it stays one thing to the memory. None is a result, too.
+Precondition and budget as for ``find``. Law: things told by a neighbour ("cups on the table") are
+counted in one room, the first in order that turns out to have such a neighbour; in the home where
+several are meant or none is seen. Verdict: things that are sure, stand apart from each other and
+were seen during this step; what moves from room to room may be counted twice, and is not when it
+stays one thing to the memory. None is a result, too.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 from planner.mission.skills.act import Act, Done, Later, Scene
 from planner.mission.skills.around import look_round
+from planner.mission.skills.beside import several
 from planner.mission.skills.find import unknown
 from planner.mission.skills.notes import Notes
+from planner.mission.skills.rooms import NEAR, room_at
 from planner.mission.skills.search import begin, spent, spots, within
-from planner.mission.skills.seen import apart, confirmed, wanted_of
-from planner.mission.skills.tell import counted, looked_in, room_name
+from planner.mission.skills.seen import apart, confirmed, fits, sure, wanted_of
+from planner.mission.skills.tell import by_neighbour, counted, looked_in, room_name
 from planner.plan import Bilingual, Code
+
+if TYPE_CHECKING:
+    from planner.mission.skills.eyesight import Wanted
+    from planner.vision.records import Thing
+    from wire import Pose2
 
 
 def count(scene: Scene) -> Act:
@@ -22,22 +34,55 @@ def count(scene: Scene) -> Act:
     wanted = wanted_of(scene)
     if wanted is None:
         return unknown(scene)
-    if scene.pose is None:
-        return Later()
     pose = scene.pose
+    if pose is None:
+        return Later()
     scene = begin(scene, pose, wanted)
-    next_ = look_round(scene, pose, spots(scene, pose), None)
-    if not isinstance(next_, Notes) and spent(scene) is None:
-        return next_
-    scene = scene.but(next_) if isinstance(next_, Notes) else scene
+    inside = _narrowed(scene, pose, wanted)
+    next_ = look_round(scene, pose, spots(inside, pose), None)
+    if isinstance(next_, Notes):
+        changed = next_ != scene.notes  # another room may be meant, where this one was shut
+        return count(scene.but(next_)) if changed else _told(inside, wanted)
+    return replace(next_, notes=scene.notes) if spent(scene) is None else _told(inside, wanted)
+
+
+def _narrowed(scene: Scene, pose: Pose2, wanted: Wanted) -> Scene:
+    """Return the scene as if the room were named whose neighbour is meant, once that is known.
+
+    It is the first in order that has one; a room that was not looked through may have one yet.
+    """
+    by, words = wanted.by, scene.step.object or ""
+    if by is None or scene.step.place is not None or several(words, by.label):
+        return scene
+    notes, neighbours = scene.notes, _neighbours(scene, wanted)
+    has = {t.room or room_at(scene.facts, (t.x_m, t.y_m)) for t in neighbours}
+    left = [s for s in spots(scene, pose) if s.key not in notes.spots and not s.key.endswith(NEAR)]
+    to_see = {spot.room for spot in left}
+    open_ = (r for r in notes.order if r not in notes.shut or r in notes.rooms)
+    room = next((r for r in open_ if r in has or r in to_see), None)
+    if room is None or room not in has:
+        return scene
+    step = scene.step.model_copy(update={"place": room})
+    return replace(scene, step=step, notes=notes.but(order=(room,)))
+
+
+def _neighbours(scene: Scene, wanted: Wanted) -> list[Thing]:
+    return [t for t in scene.sight.things if sure(t) and fits(t, wanted.by)]
+
+
+def _told(scene: Scene, wanted: Wanted) -> Done:
+    """Tell the number; where there is no such neighbour, that there is none."""
+    notes, inside = scene.notes, within(scene)
     seen = confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
-    number = len(apart(filter(within(scene), seen)))
-    what = counted(number, wanted.label, wanted.color)
+    number = len(apart(filter(inside, seen)))
+    what = by_neighbour(counted(number, wanted.label, wanted.color), wanted)
+    if number == 0 and wanted.by is not None and not any(map(inside, _neighbours(scene, wanted))):
+        what = counted(0, wanted.by.label, wanted.by.color)
     place = room_name(scene.facts, scene.step.place)
-    shut = tuple(room for room in scene.notes.shut if room not in scene.notes.rooms)
-    where = looked_in(scene.facts, scene.notes.rooms, shut, spent(scene))
+    shut = tuple(room for room in notes.shut if room not in notes.rooms)
+    where = looked_in(scene.facts, notes.rooms, shut, spent(scene))
     said = Bilingual(
         en=f"I saw {what.en}" + (f" in the {place.en}." if place else f". {where.en}"),
         zh=(f"在{place.zh}" if place else "") + f"看到 {what.zh}。" + ("" if place else where.zh),
     )
-    return Done({"count": number, "rooms": scene.notes.rooms}, Code.COUNTED, said)
+    return Done({"count": number, "rooms": notes.rooms}, Code.COUNTED, said)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
+from planner.mission.skills.beside import Relation
 from planner.plan import BARE, Means
 
 if TYPE_CHECKING:
@@ -20,10 +21,13 @@ WELL_INSIDE = 0.85
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """Name a kind of thing, of one colour or of any."""
+    """Name a kind of thing, of one colour or of any; by a neighbour where one is named."""
 
     label: str
     color: str | None = None
+    relation: Relation | None = None
+    by: Wanted | None = None
+    """What it stands on, under or near; it has no neighbour itself."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from planner.mission.skills.eyesight import Wanted
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.search import search, spent
 from planner.mission.skills.seen import found, wanted_of
-from planner.mission.skills.tell import found_at, looked_in, unknown_words
+from planner.mission.skills.tell import by_neighbour, found_at, looked_in, unknown_words
 from planner.plan import Code, message
 from planner.vision.labels import named
 from planner.vision.records import Thing
@@ -27,13 +27,13 @@ def find(scene: Scene) -> Act:
         return Later()
     next_ = search(scene, scene.pose, wanted)
     if isinstance(next_, Thing):
-        return _found(scene, next_)
+        return _found(scene, next_, wanted)
     return not_found(scene.but(next_), wanted) if isinstance(next_, Notes) else next_
 
 
-def _found(scene: Scene, thing: Thing) -> Done:
+def _found(scene: Scene, thing: Thing, wanted: Wanted) -> Done:
     record = found(thing, scene.pose, scene.now_s)
-    said = found_at(scene.facts, thing.label, thing.color, thing.room, record.distance_m)
+    said = found_at(scene.facts, thing.label, thing.color, thing.room, record.distance_m, wanted)
     figures = {"found": record, "rooms": scene.notes.rooms}
     return Done(figures, Code.FOUND, said)
 
@@ -43,7 +43,8 @@ def not_found(scene: Scene, wanted: Wanted) -> Cannot:
     notes = scene.notes
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
     looked = looked_in(scene.facts, notes.rooms, shut, spent(scene))
-    said = message(Code.NOT_FOUND, thing=named(wanted.label, wanted.color), looked=looked)
+    name = by_neighbour(named(wanted.label, wanted.color), wanted)
+    said = message(Code.NOT_FOUND, thing=name, looked=looked)
     return Cannot(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})
 
 

@@ -20,7 +20,7 @@ from planner.mission.skills.find import unknown
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import short_of
-from planner.mission.skills.seen import away_m, bearing, one_of, turn_to
+from planner.mission.skills.seen import away_m, bearing, one_of, turn_to, twice
 from planner.mission.skills.tell import called
 from planner.plan import Code, message
 
@@ -73,7 +73,10 @@ def follow(scene: Scene) -> Act:
 
 
 def _in_sight(scene: Scene, wanted: Wanted) -> Thing | None:
-    """Return the one who is followed, where they are in sight: nearest to where they were."""
+    """Return the one who is followed, where they are in sight: nearest to where they were.
+
+    Who is begun with was seen in two pictures; on the way one shows where they are now.
+    """
     seen = [
         t for t in scene.sight.things if t.label == wanted.label and t.seen_s >= scene.now_s - NEW_S
     ]
@@ -83,7 +86,7 @@ def _in_sight(scene: Scene, wanted: Wanted) -> Thing | None:
         return min(seen, key=lambda t: _apart(t, at), default=None)
     if pose is None:
         return None
-    return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
+    return min(filter(twice, seen), key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
 
 
 def _reach_m(scene: Scene) -> float:

@@ -27,6 +27,7 @@ from planner.mission.skills.seen import (
     seen_now,
     spot_of,
     turn_to,
+    twice,
 )
 from planner.mission.skills.tell import called
 from planner.mission.skills.unanswered import not_pointed
@@ -120,7 +121,7 @@ def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> Act:
 def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
     """Say that the thing is there, go after it once where it has moved, or look for it once."""
     notes, at = scene.notes, scene.notes.at
-    seen = seen_now(scene, wanted)
+    seen = filter(twice, seen_now(scene, wanted))
     if at is not None and any(hypot(t.x_m - at[0], t.y_m - at[1]) <= MOVED_M for t in seen):
         return _there(scene, pose)
     if wanted is None or notes.again > 0:
@@ -138,7 +139,7 @@ def _there(scene: Scene, pose: Pose2) -> Done:
             en=f"I am {away:.1f} m from what you pointed out.", zh=f"我在目标前 {away:.1f} 米处。"
         )
         return Done(figures, Code.ARRIVED, said)
-    seen = [t for t in scene.sight.things if t.label == notes.label]
+    seen = [t for t in scene.sight.things if t.label == notes.label and twice(t)]
     near = min(seen, key=lambda t: hypot(t.x_m - at[0], t.y_m - at[1]), default=None)
     if near is not None and hypot(near.x_m - at[0], near.y_m - at[1]) <= MOVED_M:
         figures["found"] = found(near, pose, scene.now_s)

@@ -1,10 +1,11 @@
 """Look, and answer a question about what is seen.
 
-Law: a place that is named is driven to and looked round in; else one gaze ahead, or round where
-the words ask for it. With a vision model its words are the answer: they may repeat what stands
-written in the picture, so they describe and never command. Without one the answer is what the
-detector saw, by kind, colour and number; where one is set and does not answer, why is told, too.
-Verdict: looked. Budget: one leg and one turn about.
+Precondition: without a vision model, the one kind of thing that is asked for is known to the
+detector. Law: a place that is named is driven to and looked round in; else one gaze ahead, or round
+where the words ask for it. With a vision model its words are the answer: they may repeat what
+stands written in the picture, so they describe and never command. Without one the answer is what
+the detector saw, by kind, colour and number; where one is set and does not answer, why is told,
+too. Verdict: looked. Budget: one leg and one turn about.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.act import Act, Done, Gaze, Inquire, Later, Scene
+from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
 from planner.mission.skills.around import LOOKS, look_round
+from planner.mission.skills.asked import asked_for, unknown_kind
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import begin, spots, within
 from planner.mission.skills.seen import apart, confirmed, fits, mentioned
-from planner.mission.skills.tell import counted, listed, room_name
+from planner.mission.skills.tell import counted, listed, room_name, unknown_name
 from planner.mission.skills.unanswered import why_silent
 from planner.plan import Bilingual, Code
 from planner.vision.labels import named
@@ -42,10 +44,14 @@ def looks_round(question: str) -> bool:
 
 def look(scene: Scene) -> Act:
     """Return the next look, or the answer."""
-    pose = scene.pose
+    pose, question = scene.pose, scene.step.text or ""
+    if not scene.eyes.model:
+        name = unknown_kind(question, scene.facts, scene.language, scene.eyes.classes)
+        if name is not None:
+            said = unknown_name(name, scene.eyes.classes)
+            return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", said)
     if pose is None:
         return Later()
-    question = scene.step.text or ""
     scene = begin(scene, pose, None)
     notes = scene.notes
     if notes.stage < GAZED and not _model_alone(scene):
@@ -85,7 +91,7 @@ def _seen(scene: Scene, question: str) -> Bilingual:
     things = apart(t for t in confirmed(scene.sight, None, since_s) if inside(t))
     place = room_name(scene.facts, scene.step.place)
     en, zh = (f" in the {place.en}", f"在{place.zh}") if place is not None else ("", "")
-    asked = mentioned(question, scene.eyes.classes)
+    asked = mentioned(asked_for(question, scene.facts), scene.eyes.classes)
     if asked is not None:
         fitting = [t for t in things if fits(t, asked)]
         if not fitting:

@@ -3,7 +3,8 @@
 A room is looked round from its own pose first; what lies farther from there than a picture shows
 well is looked at from more spots, each chosen to cover most of what is left. No map is known here:
 a spot in furniture is moved or given up by the route search. Rooms: the one that is named, else
-the one that the robot is in, then where such a thing was seen last, then by the straight distance.
+the one that the robot is in, then where such a thing was seen last, then where it is likely by the
+names of the rooms, then the rest; of both always on to the nearest by the straight distance.
 """
 
 from __future__ import annotations
@@ -13,10 +14,14 @@ from functools import lru_cache
 from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
+from planner.mission.skills.likely import likely_rooms
 from planner.world.polygon import area_m2, border_distance_m, contains
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from planner.mission.records import Facts, Target
+    from planner.mission.skills.eyesight import Wanted
     from planner.vision.records import Thing
     from wire import Pose2
 
@@ -35,7 +40,7 @@ INSET_M = 0.5
 LEAST_LEFT = 0.12
 """Of a room: when no more than this is out of reach, no further spot is worth the way."""
 MAX_SPOTS = 4
-HERE = "here"
+HERE, NEAR = "here", "/near"
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,23 +70,41 @@ def room_of(facts: Facts, place: str | None) -> str | None:
     return room_at(facts, (target.pose.x_m, target.pose.y_m))
 
 
-def in_order(facts: Facts, pose: Pose2, known: tuple[Thing, ...]) -> tuple[str, ...]:
-    """Return all rooms in the order in which to look through them."""
-    here = room_at(facts, (pose.x_m, pose.y_m))
+def in_order(
+    facts: Facts, pose: Pose2, known: tuple[Thing, ...], wanted: Wanted | None = None
+) -> tuple[str, ...]:
+    """Return all rooms in the order in which to look through them.
+
+    Args:
+        facts: the rooms.
+        pose: where the robot stands.
+        known: things that say by where they were seen in which rooms to begin.
+        wanted: what is sought, where the first of it ends the search; None: all is to be seen.
+    """
+    at = (pose.x_m, pose.y_m)
+    here = room_at(facts, at)
     left = [t for t in facts.targets.values() if t.room and t.id != here]
     last_seen = {t.room: t.seen_s for t in sorted(known, key=lambda t: t.seen_s)}
     remembered = [t for t in left if t.id in last_seen]
-    remembered.sort(key=lambda t: -last_seen[t.id])
-    order = [here] if here is not None else []
-    order += [t.id for t in remembered]
-    at = (pose.x_m, pose.y_m)
-    rest = [t for t in left if t.id not in last_seen]
-    while rest:  # always on to the nearest
-        nearest = min(rest, key=lambda t: (_gap_m(at, t), t.id))
-        rest.remove(nearest)
-        order.append(nearest.id)
-        at = (nearest.pose.x_m, nearest.pose.y_m)
-    return tuple(order)
+    order = sorted(remembered, key=lambda t: -last_seen[t.id])
+    rest = tuple(t for t in left if t.id not in last_seen)
+    likely = likely_rooms(wanted, rest)
+    for group in (likely, [t for t in rest if t not in likely]):
+        order += _onwards(order[-1].pose if order else pose, group)
+    return (*([here] if here is not None else []), *(t.id for t in order))
+
+
+def _onwards(pose: Pose2, rooms: Iterable[Target]) -> list[Target]:
+    """Return rooms in order, from a pose always on to the nearest."""
+    left = list(rooms)
+    order: list[Target] = []
+    while left:
+        at = (pose.x_m, pose.y_m)
+        nearest = min(left, key=lambda t: (_gap_m(at, t), t.id))
+        left.remove(nearest)
+        order.append(nearest)
+        pose = nearest.pose
+    return order
 
 
 def _gap_m(at: Point, target: Target) -> float:
@@ -100,7 +123,7 @@ def near_spot(target: Target, first: Point | None = None) -> tuple[Spot, ...]:
     pose = (target.pose.x_m, target.pose.y_m)
     began = first or pose
     at = _before_the_feet(target.polygon, _cover(target.polygon, began, pose), pose)
-    return () if at is None else (Spot(f"{target.id}/near", target.id, at),)
+    return () if at is None else (Spot(f"{target.id}{NEAR}", target.id, at),)
 
 
 @lru_cache(maxsize=256)

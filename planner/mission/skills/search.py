@@ -6,6 +6,7 @@ when all was looked at or the budget is spent. What is seen on the way is gone t
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import cos, sin
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ from planner.mission.skills.seen import (
     confirmed,
     fits,
     may_fit,
+    placed,
     spot_of,
     turn_to,
 )
@@ -43,7 +45,14 @@ AWAY = 2.5
 
 def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | Notes:
     """Return what to do next, or the thing that was found, or the notes when it was not."""
-    scene = begin(scene, pose, wanted)
+    scene = begin(scene, pose, wanted, first=True)
+    next_ = _next(scene, pose, wanted)
+    if isinstance(next_, (Drive, Gaze)):  # the order holds from its first act on
+        return replace(next_, notes=scene.notes)
+    return next_
+
+
+def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | Notes:
     inside = within(scene)
     seen = [t for t in _confirmed(scene, wanted) if inside(t)]
     if seen:
@@ -106,15 +115,28 @@ def spots(scene: Scene, pose: Pose2) -> tuple[Spot, ...]:
     return (*found, *(spot for target in rooms for spot in near_spot(target)))
 
 
-def begin(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Scene:
-    """Return the scene with where the robot stood first, and the rooms in their order."""
+def begin(scene: Scene, pose: Pose2, wanted: Wanted | None, *, first: bool = False) -> Scene:
+    """Return the scene with where the robot stood first, and the rooms in their order.
+
+    Where the ``first`` that is found ends the step, likely rooms come early; else all is looked at,
+    and the shorter way counts.
+    """
     if scene.notes.here is not None:
         return scene
-    known = tuple(t for t in scene.sight.things if wanted is not None and fits(t, wanted))
+    known = tuple(t for t in scene.sight.things if wanted is not None and _leads(t, wanted))
     here = (round(pose.x_m, 3), round(pose.y_m, 3))
     place = scene.facts.targets.get(scene.step.place or "")
-    order = in_order(scene.facts, pose, known) if place is None else (place.id,)
+    order = (
+        in_order(scene.facts, pose, known, wanted if first else None)
+        if place is None
+        else (place.id,)
+    )
     return scene.but(scene.notes.but(here=here, order=order))
+
+
+def _leads(thing: Thing, wanted: Wanted) -> bool:
+    """Tell whether a thing says in which room to begin: where its neighbour is, it may well be."""
+    return fits(thing, wanted.by or wanted)
 
 
 def _confirmed(scene: Scene, wanted: Wanted) -> tuple[Thing, ...]:
@@ -132,6 +154,7 @@ def _worth(scene: Scene, wanted: Wanted) -> list[Thing]:
         if t.seen_s >= oldest_s
         and t.confidence >= WORTH
         and (fits(t, wanted) or may_fit(t, wanted))
+        and placed(t, wanted, scene.sight.things)
     ]
 
 

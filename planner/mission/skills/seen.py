@@ -6,6 +6,7 @@ import re
 from math import atan2, hypot
 from typing import TYPE_CHECKING
 
+from planner.mission.skills.beside import parted, stands
 from planner.mission.skills.eyesight import Wanted
 from planner.plan import Found, Language
 from planner.vision.kinds import kind_of
@@ -45,14 +46,34 @@ def wanted_of(scene: Scene) -> Wanted | None:
 def meant(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
     """Return what words mean to eyes that know these classes (none: not known yet), or None."""
     somebody = words.strip().casefold() in SOMEBODY
-    found = resolve("person" if somebody else words, language, classes)
-    return Wanted(*found) if found is not None else None
+    related = _related(words, language, classes)
+    found = resolve("person" if somebody else words, language, classes) if not related else None
+    return related or (Wanted(*found) if found is not None else None)
+
+
+def _related(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+    """Return what is meant by a neighbour that these eyes know, too; None without one."""
+    parts = parted(words)
+    if parts is None or any(singles_out(parts[at], classes) for at in (0, 2)):
+        return None
+    what, by = (resolve(parts[at], language, classes) for at in (0, 2))
+    return Wanted(*what, parts[1], Wanted(*by)) if what is not None and by is not None else None
+
+
+def picks_out(words: str, kind: str, language: Language, classes: tuple[str, ...]) -> bool:
+    """Tell whether words mean one among several by what this kind of step can't judge.
+
+    Where a thing stands by another can be judged of things, not of somebody who walks.
+    """
+    related = kind != "follow" and _related(words, language, classes) is not None
+    return singles_out(words, classes) and not related
 
 
 def one_of(scene: Scene) -> Wanted | None:
     """Return what the words mean where the robot goes up to it, or None: any of a kind won't do."""
-    words = scene.step.object or ""
-    return None if singles_out(words, scene.eyes.classes) else wanted_of(scene)
+    step, classes = scene.step, scene.eyes.classes
+    picked = picks_out(step.object or "", step.kind, scene.language, classes)
+    return None if picked else wanted_of(scene)
 
 
 def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:
@@ -81,6 +102,14 @@ def fits(thing: Thing, wanted: Wanted | None) -> bool:
     return thing.label == wanted.label and wanted.color in (None, thing.color)
 
 
+def placed(thing: Thing, wanted: Wanted | None, things: Iterable[Thing]) -> bool:
+    """Tell whether a thing stands by such a neighbour as is wanted; True where none is."""
+    if wanted is None or wanted.by is None or wanted.relation is None:
+        return True
+    by, relation = wanted.by, wanted.relation
+    return any(sure(t) and fits(t, by) and stands(thing, relation, t) for t in things)
+
+
 def may_fit(thing: Thing, wanted: Wanted) -> bool:
     """Tell whether a second look may show that a thing fits: its colour is not known yet."""
     return thing.label == wanted.label and (wanted.color is None or thing.color is None)
@@ -88,12 +117,18 @@ def may_fit(thing: Thing, wanted: Wanted) -> bool:
 
 def sure(thing: Thing) -> bool:
     """Tell whether a thing is there beyond doubt."""
-    return thing.confidence >= SURE and thing.sightings >= SIGHTINGS
+    return thing.confidence >= SURE and twice(thing)
+
+
+def twice(thing: Thing) -> bool:
+    """Tell whether two pictures at least showed a thing: one alone proves nothing."""
+    return thing.sightings >= SIGHTINGS
 
 
 def fresh(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:
     """Return what fits and was seen since then, sure or not."""
-    return tuple(t for t in sight.things if t.seen_s >= since_s and fits(t, wanted))
+    seen = (t for t in sight.things if t.seen_s >= since_s and fits(t, wanted))
+    return tuple(t for t in seen if placed(t, wanted, sight.things))
 
 
 def confirmed(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from planner.mission.skills.beside import told
 from planner.plan import Bilingual, Code, message, same
 from planner.vision.kinds import HOME
 from planner.vision.labels import listed as labels_listed
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from planner.mission.records import Facts
+    from planner.mission.skills.eyesight import Wanted
     from planner.vision.records import Thing
 
 _MANY = {"person": "people", "sheep": "sheep", "knife": "knives", "mouse": "mice"}
@@ -48,13 +50,20 @@ def known_things(classes: tuple[str, ...]) -> Bilingual:
     return labels_listed(classes or [kind.id for kind in HOME])
 
 
+def unknown_name(name: str, classes: tuple[str, ...]) -> Bilingual:
+    """Say that these eyes don't know such a thing, and what they know."""
+    return message(Code.OBJECT_UNKNOWN, name=same(name), known=known_things(classes))
+
+
 def unknown_words(words: str, classes: tuple[str, ...]) -> Bilingual:
     """Say that these eyes don't know a thing and what they know, or not which one is meant."""
     if not singles_out(words, classes):
-        return message(Code.OBJECT_UNKNOWN, name=same(words), known=known_things(classes))
+        return unknown_name(words, classes)
     return Bilingual(
-        en=f"I can't tell by sight which one “{words}” is: I know kind and colour alone.",
-        zh=f"我看不出“{words}”指的是哪一个：我只能分辨种类和颜色。",
+        en=f"I can't tell by sight which one “{words}” is: I know kind, colour, and what a thing "
+        "is on, under or near, where I know that, too.",
+        zh=f"我看不出“{words}”指的是哪一个：我只能分辨种类和颜色，"
+        "以及它在我认得的什么东西的上面、下面或旁边。",
     )
 
 
@@ -64,10 +73,17 @@ def room_name(facts: Facts, room: str | None) -> Bilingual | None:
     return target.name if target is not None else None
 
 
-def found_at(facts: Facts, label: str, color: str | None, room: str | None, away: float | None
-             ) -> Bilingual:  # fmt: skip
+def by_neighbour(what: Bilingual, wanted: Wanted | None) -> Bilingual:
+    """Return a thing's name with the neighbour that it was told by, where there is one."""
+    if wanted is None or wanted.by is None or wanted.relation is None:
+        return what
+    return told(what, wanted.relation, named(wanted.by.label, wanted.by.color))
+
+
+def found_at(facts: Facts, label: str, color: str | None, room: str | None, away: float | None,
+             wanted: Wanted | None = None) -> Bilingual:  # fmt: skip
     """Say where a thing is: its room and how far it is from the robot."""
-    what, where = called(label, color), room_name(facts, room)
+    what, where = by_neighbour(called(label, color), wanted), room_name(facts, room)
     en = f"I found {what.en}" + (f" in the {where.en}" if where else "")
     zh = f"在{where.zh}看到{what.zh}" if where else f"看到{what.zh}"
     if away is not None:

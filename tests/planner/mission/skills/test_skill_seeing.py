@@ -21,6 +21,7 @@ from planner.mission.skills import (
     act_of,
 )
 from planner.mission.skills.eyesight import Answer
+from planner.mission.skills.go_to_object import JUDGE
 from planner.mission.skills.look import looks_round
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import REACH_M, in_order, room_of, spots_in
@@ -227,3 +228,18 @@ def test_only_who_asks_for_it_has_the_robot_turn_about(question: str, about: boo
 def test_an_answer_is_waited_for_as_long_as_a_model_may_be_given() -> None:
     longest_s = ModelSettings.model_json_schema()["properties"]["timeout_s"]["maximum"]
     assert longest_s < Inquire().seconds
+
+
+def test_one_picture_alone_sets_nothing_off_and_proves_nothing() -> None:
+    anna = {"id": "person_1", "label": "person", "color": None, "x_m": 3.0}
+    step: dict[str, Any] = {"step": {"object": "person"}}
+    ghost = looking("follow", thing(**anna, sightings=1), **step)
+    assert isinstance(ghost, Gaze)
+    assert isinstance(looking("follow", thing(**anna, sightings=2), **step), Drive)
+    known = Notes(at=(3.0, 0.0, 0.9), label="person")
+    assert isinstance(looking("follow", thing(**anna, sightings=1), notes=known, **step), Drive)
+    there = Notes(stage=JUDGE, at=(1.6, 0.0, 0.8), label="cup", color="red")
+    gazed: dict[str, Any] = {"notes": there, "gazed_s": NOW_S - 1.0}
+    unsure = thing(sightings=2, confidence=0.4)
+    assert isinstance(looking("go_to_object", unsure, **gazed), Done), "it was found before"
+    assert not isinstance(looking("go_to_object", thing(sightings=1), **gazed), Done)
