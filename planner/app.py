@@ -10,7 +10,7 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from planner.api import Access, build
+from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.budget import purse_of
 from planner.link import Link, WireBus
@@ -167,7 +167,9 @@ def application(planner: Planner, access: Access) -> FastAPI:
             watch.cancel()
             await planner.close()
 
-    return build(planner, access, lifespan)
+    app = build(planner, access, lifespan)
+    warm_up(app)
+    return app
 
 
 async def _end_with(planner: Planner) -> None:

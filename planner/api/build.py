@@ -68,6 +68,16 @@ def build(
     return app
 
 
+def warm_up(app: FastAPI) -> None:
+    """Have FastAPI build its routes, which it does when a request first comes by them.
+
+    That takes 50 ms of a processor, on the loop that the bridge listens to (docs/adr/0026).
+    """
+    nowhere = {"type": "http", "method": "GET", "path": "/nowhere", "root_path": "", "headers": []}
+    for route in app.router.routes:
+        route.matches(dict(nowhere))
+
+
 async def _mission(_: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, MissionError):
         raise error

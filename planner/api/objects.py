@@ -26,7 +26,10 @@ def routes(services: Services) -> APIRouter:
 
     @router.get("", operation_id="list_objects")
     async def objects() -> dict[str, Any]:
-        """List what was seen and is remembered, why nothing is seen now, and what could be."""
+        """List what was seen and is remembered, why nothing is seen now, and what could be.
+
+        What has one of `sightings` was in one picture alone, and may be a mistake.
+        """
         return objects_view(services)
 
     @router.delete("", operation_id="forget_objects")

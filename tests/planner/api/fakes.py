@@ -202,7 +202,7 @@ class FakeEyes:
         self.picture: Picture | None = None
         self.shown = 0
 
-    def show(self) -> Picture | None:
+    async def show(self) -> Picture | None:
         self.shown += 1
         return self.picture
 
