@@ -1,9 +1,7 @@
-"""Look at a request as it comes in: its language, its fingerprint, and when it came."""
+"""Look at a request as it comes in: its language, and when it came."""
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections import deque
 
@@ -18,12 +16,6 @@ def language_of(text: str) -> Language:
     chinese = len(_CJK.findall(text))
     words = len(re.findall(r"[A-Za-z]+", text))
     return Language.ZH if chinese > words else Language.EN
-
-
-def body_of(text: str, language: Language, confirm: bool, replace: bool) -> str:
-    """Return the fingerprint of a request, by which a repeated one is known."""
-    fields = json.dumps([text, language.value, confirm, replace], ensure_ascii=True)
-    return hashlib.sha256(fields.encode()).hexdigest()[:32]
 
 
 class Accepted:

@@ -7,12 +7,13 @@ for people and never a step. Whatever fails comes back as a code inside the answ
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from typing import TYPE_CHECKING
 
 from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.looking import Asked, Pointed
 from planner.brain.looking import Picture as Shown
-from planner.brain.looking import Pointed
 from planner.mission.events import Told
 from planner.mission.skills.eyesight import Answer
 from planner.vision.ports import PointRefused
@@ -37,17 +38,24 @@ class EyeDoor:
     def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
         """Ask these eyes, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
-        self._pictures: dict[str, Picture] = {}
+        self._pictures: dict[str, asyncio.Future[Picture | None]] = {}
 
     def note(self, goal_id: str) -> None:
-        """Keep the newest picture: a plan for this goal is asked for now."""
-        picture = self._eyes.picture if self._eyes is not None else None
-        if picture is None:
+        """Keep the newest picture: a plan for this goal is asked for now.
+
+        Where nobody wanted pictures so far, the next one counts.
+        """
+        if self._eyes is None:
             return
+        loop, newest = asyncio.get_running_loop(), self._eyes.picture
         self._pictures.pop(goal_id, None)
-        self._pictures[goal_id] = picture
+        if newest is None:
+            self._pictures[goal_id] = loop.create_task(self._eyes.fresh())
+        else:
+            self._pictures[goal_id] = loop.create_future()
+            self._pictures[goal_id].set_result(newest)
         if len(self._pictures) > KEPT:
-            self._pictures.pop(next(iter(self._pictures)))
+            self._pictures.pop(next(iter(self._pictures))).cancel()
 
     async def ask(self, ask: AskEyes) -> Told:
         """Return the answer to one question."""
@@ -55,11 +63,12 @@ class EyeDoor:
 
     async def _answer(self, ask: AskEyes) -> Answer:
         eyes = self._eyes
-        picture = _newest(eyes) if eyes is not None else None
+        picture = _newest(eyes, await eyes.fresh()) if eyes is not None else None
         if eyes is None or picture is None:
             return Answer(failure="camera_silent")
         if ask.x is not None and ask.y is not None:
-            meant = self._pictures.get(ask.id)
+            noted = self._pictures.get(ask.id)
+            meant = None if noted is None else await asyncio.shield(noted)
             if meant is None:  # planned by a planner that is gone, or before any picture came
                 return Answer(failure="point_no_pose")
             return await _point(eyes, meant, ask.x, ask.y)
@@ -73,24 +82,25 @@ class EyeDoor:
             return Answer(failure=code)
 
     async def _model(self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes) -> Answer:
-        shown, seen = _shown(eyes, picture), _detections(eyes, picture)
+        seen = _detections(eyes, picture)
+        asked = Asked(_shown(eyes, picture), ask.words, ask.language, seen, ask.id)
         if ask.point:
-            found = await looker.point(shown, ask.words, ask.language, seen, ask.id)
+            found = await looker.point(asked)
             if not isinstance(found, Pointed):
                 return Answer(failure="not_in_picture")
             return await _point(eyes, picture, found.x, found.y)
-        said = await looker.describe(shown, ask.words, ask.language, seen, ask.id)
+        said = await looker.describe(asked)
         if said.brain.fallback_from is not None:  # the detector spoke: the skill does that itself
             return Answer(failure=said.brain.fallback_reason)
         return Answer(text=said.text)
 
 
-def _newest(eyes: Eyes) -> Picture | None:
+def _newest(eyes: Eyes, picture: Picture | None) -> Picture | None:
     """Return the newest picture; one that was thought upon where that is about as new.
 
     What was found in it, and from where it was taken, then belong to what is shown.
     """
-    picture, looked = eyes.picture, eyes.looked
+    looked = eyes.looked
     if picture is None or looked is None or picture.taken_s - looked.taken_s > AS_NEW_S:
         return picture
     return looked

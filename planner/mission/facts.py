@@ -20,6 +20,7 @@ def _target(place: Place) -> Target:
         name=Bilingual(en=place.name.en, zh=place.name.zh),
         pose=place.pose,
         polygon=place.polygon,
+        aliases=(*place.aliases.en, *place.aliases.zh),
     )
 
 

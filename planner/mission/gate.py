@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from planner.mission.records import Book, Facts, Mission
-from planner.mission.skills import SKILLS, Eyesight
-from planner.mission.skills.seen import meant
-from planner.mission.skills.tell import unknown_words
-from planner.plan import NEEDS_DETECTOR, Code, Language, Outcome, StepRecord, message, same
-from planner.vision.labels import singles_out
+from planner.mission.skills import SKILLS
+from planner.mission.skills.asked import unknown_kind
+from planner.mission.skills.seen import meant, picks_out
+from planner.mission.skills.tell import unknown_name, unknown_words
+from planner.plan import (
+    NEEDS_DETECTOR,
+    Bilingual,
+    Code,
+    Language,
+    Outcome,
+    StepRecord,
+    message,
+    same,
+)
 
 UP_TO = frozenset({"go_to_object", "follow"})
 """The robot goes up to what these name: any other of its kind is the wrong one."""
@@ -21,7 +30,7 @@ def unwalkable(book: Book, mission: Mission, steps: tuple[StepRecord, ...]) -> O
         code = book.means.lacks(step.kind) if step.kind in SKILLS else Code.NO_CAPABILITY
         if code is not None:
             return Outcome(code=code, message=message(code, part=same(step.kind)))
-    return _unknown_place(book.facts, steps) or _unknown_thing(book.eyes, mission.language, steps)
+    return _unknown_place(book.facts, steps) or _unknown_thing(book, mission.language, steps)
 
 
 def _unknown_place(facts: Facts, steps: tuple[StepRecord, ...]) -> Outcome | None:
@@ -34,20 +43,29 @@ def _unknown_place(facts: Facts, steps: tuple[StepRecord, ...]) -> Outcome | Non
     return Outcome(code=Code.UNKNOWN_PLACE, message=said)
 
 
-def _unknown_thing(
-    eyes: Eyesight, language: Language, steps: tuple[StepRecord, ...]
-) -> Outcome | None:
+def _unknown_thing(book: Book, language: Language, steps: tuple[StepRecord, ...]) -> Outcome | None:
     """Return why a thing can't be looked for: the detector does not know it, nor can a model tell.
 
-    A vision model can point at anything, but only at what is in the picture: enough to go there.
+    A vision model can point at anything, but only at what is in the picture: enough to go there. It
+    answers any question about a picture.
     """
     for step in steps:
-        pointed = eyes.model and step.kind == "go_to_object"
-        if step.kind not in NEEDS_DETECTOR or pointed:
-            continue
-        name = step.object or ""
-        which = step.kind in UP_TO and singles_out(name, eyes.classes)
-        if which or meant(name, language, eyes.classes) is None:
-            said = unknown_words(name, eyes.classes)
+        said = _unknown_in(book, language, step)
+        if said is not None:
             return Outcome(code=Code.OBJECT_UNKNOWN, message=said)
     return None
+
+
+def _unknown_in(book: Book, language: Language, step: StepRecord) -> Bilingual | None:
+    eyes = book.eyes
+    if eyes.model and step.kind in ("go_to_object", "look"):
+        return None
+    if step.kind == "look":
+        kind = unknown_kind(step.text or "", book.facts, language, eyes.classes)
+        return unknown_name(kind, eyes.classes) if kind is not None else None
+    if step.kind not in NEEDS_DETECTOR:
+        return None
+    name = step.object or ""
+    which = step.kind in UP_TO and picks_out(name, step.kind, language, eyes.classes)
+    unknown = which or meant(name, language, eyes.classes) is None
+    return unknown_words(name, eyes.classes) if unknown else None

@@ -31,8 +31,8 @@ ASK_S = 0.5
 SAME_M, SAME_RAD = 0.25, 0.15
 """A goal that moved by less is the same."""
 SEEN_S = 1.0
-LOOKING = frozenset({"find", "count", "look", "follow"})
-"""Steps in which nothing is driven but to see."""
+LOOKING = frozenset({"find", "count", "look", "follow", "go_to_object"})
+"""Steps in which nothing is driven but to see, or up to what is seen."""
 MORE = 2
 """Where something was seen and is not sure, a gaze takes so many times its looks."""
 

@@ -39,6 +39,7 @@ from planner.mission.safekeeping import Safekeeping
 from planner.mission.sight import at_rest
 from planner.mission.skills import Eyesight
 from planner.mission.view import Progress, goal_of, progress_of
+from planner.mission.warm import warm_up
 from planner.route import RoutePoint
 from wire import OpRequest, Status, Waypoints
 
@@ -125,6 +126,7 @@ class Loop:
             Misconfigured: the journal holds what this version can't read.
         """
         kept = await asyncio.to_thread(self._journal.load)
+        await asyncio.to_thread(warm_up, self.book.facts)
         self._safe = Safekeeping(self._journal, self._on_safe)
         answers = Answers(
             self.event, self._on_routed, self._link.obstacles, self.event, self._break

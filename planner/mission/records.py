@@ -83,7 +83,7 @@ class Mission(Frozen):
     tried: tuple[str, ...] = ()
     """Fingerprints of the plans that were taken: the same again leads nowhere."""
     failure: Outcome | None = None
-    """Why the current step failed, while a new plan is thought about."""
+    """Why a step failed, while a new plan is thought about or the robot drives back after it."""
     leg: int = 0
     """The newest leg of this mission; legs only rise."""
     accepted_at: tuple[float, float, float] | None = None
@@ -113,6 +113,12 @@ class Mission(Frozen):
         return self.steps[self.step] if self.step < len(self.steps) else None
 
     @property
+    def returning(self) -> bool:
+        """Tell whether the goal has failed, and only its way back is left."""
+        failed = self.now is not None and self.now.state is StepState.FAILED
+        return self.failure is not None and not failed
+
+    @property
     def begun(self) -> bool:
         """Tell whether any step was begun: from then on the goal keeps its place at the front."""
         return self.step > 0 or (self.now is not None and self.now.state is not StepState.PENDING)
@@ -127,6 +133,8 @@ class Target:
     name: Bilingual
     pose: Pose2
     polygon: tuple[tuple[float, float], ...] | None = None
+    aliases: tuple[str, ...] = ()
+    """What else people call it, in both languages."""
 
 
 @dataclass(frozen=True, slots=True)

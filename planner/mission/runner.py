@@ -16,13 +16,12 @@ from planner.brain.intents import Resume as GoOn
 from planner.brain.looking import Looker
 from planner.brain.protocol import Brain
 from planner.link import Identity, Link, StopResult
-from planner.mission.accept import body_of, language_of
+from planner.mission.accept import language_of
 from planner.mission.ahead import RouteAhead
 from planner.mission.asking import asks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine, Leg
 from planner.mission.errors import (
-    IdempotencyConflict,
     JournalDown,
     MissionError,
     NothingToResume,
@@ -45,11 +44,12 @@ from planner.mission.events import (
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Router
 from planner.mission.hub import Subscription
-from planner.mission.journal import GoalKey, MissionJournal
+from planner.mission.journal import MissionJournal
 from planner.mission.local import Local, current, to_resume
 from planner.mission.loop import Clocks, Loop
 from planner.mission.memory import Memory
 from planner.mission.records import MAX_OPEN, Book, Rules
+from planner.mission.repeats import Repeats, body_of
 from planner.mission.table import refusal
 from planner.mission.thinking import thinker
 from planner.mission.view import goal_of
@@ -88,7 +88,7 @@ class Missions:
         self._think = Local(
             self._ask_brain, self.memory, lambda: self._book, self._obey, self._age_s
         ).think
-        self._keys: dict[str, GoalKey] = {}
+        self._repeats = Repeats()
         self.memory.listen(lambda: self._loop.event(Known(self.memory.facts)))
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
@@ -108,8 +108,8 @@ class Missions:
             Misconfigured: the journal holds what this version can't read.
         """
         self._loop.rule(rules or Rules())
-        keys = await self._loop.start(self._think, self._router, freeze=freeze)
-        self._keys = {key.key: key for key in keys}
+        kept = await self._loop.start(self._think, self._router, freeze=freeze)
+        self._repeats = Repeats(kept)
 
     async def close(self) -> None:
         """End everything; a running goal comes back paused in the next process."""
@@ -167,8 +167,8 @@ class Missions:
         if stops(text):
             return await self._stop_goal(text, said, source)
         body = body_of(text, said, confirm, replace)
-        if (known := self._known(idempotency_key, body)) is not None:
-            return known
+        if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
+            return self.goal(known)
         waiting = sum(not m.ended for m in self._book.missions.values())
         local = intent is not None and not isinstance(intent, Replace)
         if waiting >= MAX_OPEN and not local:
@@ -180,7 +180,7 @@ class Missions:
         if isinstance(intent, Replace):
             replace = not intent.now
         goal_id = self._clocks.new_id()
-        key = self._remember(idempotency_key, body, goal_id)
+        key = self._repeats.remember(idempotency_key, body, goal_id)
         self._loop.clear_hold(act)
         self._loop.accepted.note(goal_id, self._clocks.monotonic())
         self._loop.event(Submitted(goal_id, text, said, confirm, replace, first, operator), key)
@@ -190,7 +190,7 @@ class Missions:
             await self._loop.settled()
         except JournalDown:
             self._loop.event(Cancel(goal_id))
-            self._keys.pop(idempotency_key or "", None)
+            self._repeats.forget(idempotency_key)
             raise
         return self.goal(goal_id)
 
@@ -298,21 +298,6 @@ class Missions:
     @property
     def _book(self) -> Book:
         return self._loop.book
-
-    def _known(self, key: str | None, body: str) -> Goal | None:
-        """Return the goal that a repeated request made, if it is one."""
-        known = self._keys.get(key) if key is not None else None
-        if known is None:
-            return None
-        if known.body != body:
-            raise IdempotencyConflict(known.key, known.goal)
-        return self.goal(known.goal)
-
-    def _remember(self, key: str | None, body: str, goal_id: str) -> GoalKey | None:
-        if key is None:
-            return None
-        self._keys[key] = GoalKey(key, body, goal_id)
-        return self._keys[key]
 
     async def _stop_goal(self, text: str, language: Language, source: str) -> Goal:
         result = await self.stop(source)

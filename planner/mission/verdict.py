@@ -102,7 +102,7 @@ def ended(
 ) -> Outcome:
     """Return the outcome of a mission that had begun, with the bridge's figures."""
     drives = [s for s in mission.steps if moves(s)]
-    tried = [s for s in drives if s.state is not StepState.PENDING]
+    tried = [s for s in drives if s.state not in (StepState.PENDING, StepState.SKIPPED)]
     last = tried[-1] if tried else (drives[0] if drives else None)
     pose = status.base_in_map if status is not None else None
     return Outcome(
@@ -130,6 +130,13 @@ def success(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:
         sentences.append(said)
     en, zh = " ".join(s.en for s in sentences), "".join(s.zh for s in sentences)
     return code, Bilingual(en=en, zh=zh)
+
+
+def back_in_vain(facts: Facts, mission: Mission, why: Outcome) -> Bilingual:
+    """Return the sentence of a mission that came back without what it was sent for."""
+    back = mission.steps[mission.step - 1]
+    arrived = message(Code.ARRIVED, place=place_name(facts, mission, back))
+    return Bilingual(en=f"{why.message.en} {arrived.en}", zh=f"{why.message.zh}{arrived.zh}")
 
 
 def _driven(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:

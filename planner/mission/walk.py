@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from planner.mission.amounts import measure_from, settle_amounts
 from planner.mission.effects import AskEyes, SayAloud
-from planner.mission.failing import fail_step, think
+from planner.mission.failing import end_failed, fail_step, think, to_step
 from planner.mission.legs import RETRY_S, ask_route, lost_route
 from planner.mission.queue import finish, next_up, note_step, pause_running, settle_walk, step_aside
 from planner.mission.records import Mission, Walk
 from planner.mission.sight import cannot_move, standing
 from planner.mission.skills import (
-    NOTHING,
     Act,
     Answer,
     Cannot,
@@ -33,7 +32,14 @@ from planner.mission.skills import (
     act_of,
 )
 from planner.mission.turn import Turn
-from planner.mission.verdict import accepted_at, ended, moves, spot_at, success
+from planner.mission.verdict import (
+    accepted_at,
+    back_in_vain,
+    ended,
+    moves,
+    spot_at,
+    success,
+)
 from planner.plan import Code, GoalState, Outcome, StepState, message, same
 from planner.world.polygon import contains
 from wire import Pose2
@@ -55,7 +61,7 @@ def begin_step(turn: Turn) -> None:
     if mission is None:
         return
     step = mission.now
-    if step is None:
+    if step is None or step.state is StepState.SKIPPED:  # left out: only the way back was driven
         _succeed(turn, mission)
         return
     if step.state is StepState.FAILED:  # paused while a better plan was thought about
@@ -289,17 +295,8 @@ def finish_step(turn: Turn, state: StepState, **record: object) -> None:
 
 
 def next_step(turn: Turn, mission: Mission) -> Mission:
-    """Point at the next step, of which nothing is done yet."""
-    return turn.put(
-        mission,
-        step=mission.step + 1,
-        part=0,
-        began_at=None,
-        done=0.0,
-        notes=NOTHING,
-        step_s=0.0,
-        step_m=0.0,
-    )
+    """Point at the next step."""
+    return to_step(turn, mission, mission.step + 1)
 
 
 def speak_if_safe(turn: Turn) -> None:
@@ -327,6 +324,9 @@ def end_wait_if_due(turn: Turn) -> None:
 
 
 def _succeed(turn: Turn, mission: Mission) -> None:
+    if mission.failure is not None:
+        end_failed(turn, mission, back_in_vain(turn.book.facts, mission, mission.failure))
+        return
     code, said = success(turn.book.facts, mission)
     now_unix_s = turn.now_s + turn.book.wall_offset_s
     outcome = ended(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from dataclasses import replace
 from typing import cast
 
 import pytest
@@ -17,6 +18,7 @@ from planner.mission.reducer import asked_about_picture
 from planner.mission.skills.eyesight import Answer
 from planner.plan import Language, same
 from tests.planner.mission.fakes import FACTS
+from tests.planner.vision.watching import World
 
 Door = Callable[[AskEyes], Awaitable[Told]]
 
@@ -112,3 +114,28 @@ def test_an_answer_is_told_and_a_fault_of_the_eyes_is_one() -> None:
 )
 def test_who_waits_is_told_by_the_walk(walk: Walk | None, ticket: int | None) -> None:
     assert asked_about_picture(Book(FACTS, walk=walk)) == ticket
+
+
+def test_a_pixel_counts_in_the_picture_that_was_wanted_for_it() -> None:
+    """Nobody wants pictures, so the camera rests, until a plan is asked for."""
+
+    async def story() -> tuple[Answer, Answer]:
+        world = World()
+        world.blindfold()
+        await world.film(1.0)
+        door = EyeDoor(world.eyes)
+        door.note("g1")
+        await asyncio.sleep(0)
+        await world.film(0.6)
+        world.detector.failure = None
+        ask = AskEyes("g1", 1, Language.EN, "", False, 500, 900)
+        told = asyncio.create_task(door.ask(ask))
+        await world.film(0.5)
+        other = asyncio.create_task(door.ask(replace(ask, id="g2")))
+        await world.film(0.5)
+        return (await told).answer, (await other).answer
+
+    noted, never = asyncio.run(asyncio.wait_for(story(), 20.0))
+    assert noted.at is not None
+    assert noted.at[0] == pytest.approx(2.0, abs=0.3)
+    assert never.failure == "point_no_pose"

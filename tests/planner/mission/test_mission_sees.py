@@ -6,8 +6,6 @@ from dataclasses import replace
 
 import pytest
 
-from planner.mission.events import Sighted
-from planner.mission.skills import Eyesight
 from planner.plan import (
     Code,
     Count,
@@ -15,44 +13,16 @@ from planner.plan import (
     Follow,
     Frozen,
     GoalState,
+    GoTo,
     GoToObject,
+    Look,
     Step,
     StepPlan,
     StepState,
 )
-from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.driving import FAILED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import row
-from tests.planner.mission.lockstep import Together
-from wire import CameraConfig
-
-CUP = Thing("cup_1", "cup", "red", 5.0, 0.0, 0.8, 0.05, 0.9, 0.0, 0.0, 5, "kitchen")
-ANNA = Thing("person_1", "person", None, 3.0, 0.0, 0.9, 0.05, 0.9, 0.0, 0.0, 5, "hall")
-
-
-class Seeing(Together):
-    """Look on while time passes: a new picture each fifth of a second, with these things in it."""
-
-    things: tuple[Thing, ...] = ()
-    blind: str | None = None
-    seq = 0
-
-    def open_eyes(self) -> None:
-        self.engine.book = replace(self.book, eyes=Eyesight(CameraConfig()))
-
-    def see(self, seconds: float) -> None:
-        for _ in range(round(seconds / 0.2)):
-            self.run(0.2)
-            self.seq += 1
-            fresh = tuple(replace(t, seen_s=self.now_s) for t in self.things)
-            look = Look(self.seq, self.now_s, None, 320, 240, ())
-            self.event(Sighted(Sight(look, fresh, self.blind)))
-
-    def see_until(self, goal: str, *states: GoalState, limit_s: float = 120.0) -> None:
-        end_s = self.now_s + limit_s
-        while self.goal(goal).state not in states:
-            assert self.now_s < end_s, self.goal(goal)
-            self.see(0.2)
+from tests.planner.mission.seeing import ANNA, CUP, Seeing
 
 
 @pytest.fixture
@@ -156,14 +126,9 @@ def test_where_a_person_was_seen_last_is_not_driven_onto(seeing: Seeing) -> None
     assert 1.15 <= ANNA.x_m - seeing.bridge.pose.x_m <= 1.6
 
 
-@pytest.mark.parametrize("what", ["cup", "cups"])
-def test_a_search_goes_nowhere_while_its_eyes_see_nothing(seeing: Seeing, what: str) -> None:
-    step = Find(object=what) if what == "cup" else Count(object=what)
-    goal = seeing.give(StepPlan(steps=(step,)))
-    while seeing.bridge.pose.x_m < 0.6:
-        seeing.see(0.2)
-    here = seeing.bridge.pose.x_m
-    seeing.blind = "camera_silent"
+def stands_while_blind(seeing: Seeing, goal: str) -> None:
+    """See a drive stand while its eyes see nothing, go on with them, and end without them."""
+    here, seeing.blind = seeing.bridge.pose.x_m, "camera_silent"
     seeing.see(1.0)
     assert seeing.book.walk is not None
     assert seeing.book.walk.kind == "gaze"
@@ -174,6 +139,26 @@ def test_a_search_goes_nowhere_while_its_eyes_see_nothing(seeing: Seeing, what: 
     seeing.see_until(goal, FAILED, limit_s=15.0)
     assert seeing.bridge.pose.x_m - here < 0.3
     assert seeing.goal(goal).reason == "camera_silent"
+
+
+@pytest.mark.parametrize("what", ["cup", "cups"])
+def test_a_search_goes_nowhere_while_its_eyes_see_nothing(seeing: Seeing, what: str) -> None:
+    step = Find(object=what) if what == "cup" else Count(object=what)
+    goal = seeing.give(StepPlan(steps=(step,)))
+    while seeing.bridge.pose.x_m < 0.6:
+        seeing.see(0.2)
+    stands_while_blind(seeing, goal)
+
+
+def test_what_is_known_is_not_driven_up_to_by_eyes_that_fail(seeing: Seeing) -> None:
+    seeing.things = (CUP,)
+    seeing.see(1.0)
+    goal = seeing.give(StepPlan(steps=(GoToObject(object="red cup"),)))
+    while seeing.bridge.pose.x_m < 0.6:
+        seeing.see(0.2)
+    assert seeing.book.walk is not None
+    assert (seeing.book.walk.wanted, seeing.book.walk.watch) == (None, False)
+    stands_while_blind(seeing, goal)
 
 
 def test_a_person_without_a_way_to_them_is_watched_and_given_up_in_time(seeing: Seeing) -> None:
@@ -226,7 +211,9 @@ def test_a_leg_that_is_laid_anew_is_bounded_as_its_skill_says(seeing: Seeing) ->
     ("step", "refused"),
     [
         (GoToObject(object="the small cup"), True),
-        (GoToObject(object="桌子上的杯子"), True),
+        (GoToObject(object="窗户上的杯子"), True),
+        (GoToObject(object="桌子上的杯子"), False),
+        (Follow(object="the person next to the table"), True),
         (Follow(object="the other person"), True),
         (Follow(object="另一个人"), True),
         (GoToObject(object="the nearest cup"), False),
@@ -246,3 +233,16 @@ def test_what_only_one_of_a_kind_can_be_is_not_taken_for_any_of_it(
         assert mission.outcome.code is Code.OBJECT_UNKNOWN
         assert "which one" in mission.outcome.message.en
         assert seeing.routes == []
+
+
+@pytest.mark.parametrize(("model", "refused"), [(False, True), (True, False)])
+def test_a_question_about_what_these_eyes_do_not_know_is_answered_before_anything_moves(
+    seeing: Seeing, model: bool, refused: bool
+) -> None:
+    eyes = replace(seeing.book.eyes, classes=("cup",), model=model)
+    seeing.engine.book = replace(seeing.book, eyes=eyes)
+    look = Look(question="is there a piano in the kitchen?", place="kitchen")
+    goal = seeing.give(StepPlan(steps=(GoTo(place="kitchen"), look)))
+    seeing.see(0.6)
+    assert (seeing.goal(goal).state is GoalState.REFUSED) is refused
+    assert (seeing.routes == []) is refused

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from planner.brain.errors import BrainDown
-from planner.brain.looking import Described, Detected, NotThere, Pointed
-from planner.brain.looking import Picture as Shown
+from planner.brain.looking import Asked, Described, NotThere, Pointed
 from planner.mission.effects import AskEyes
 from planner.mission.eyedoor import EyeDoor
 from planner.mission.skills import Answer
@@ -73,6 +72,9 @@ class FakeEyes:
         )  # fmt: skip
         return Picture(Image(header, b"jpeg"), None, self._bridge.now_s() - 0.1 * (self.seq - seq))
 
+    async def fresh(self) -> Picture | None:
+        return self.picture
+
     def listen(self, told: Callable[[Sight], None]) -> None:
         self._told.append(told)
 
@@ -105,29 +107,16 @@ class FakeLooker:
     def tag(self) -> BrainTag:
         return TAG
 
-    async def describe(
-        self,
-        picture: Shown,
-        question: str,
-        language: Language,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Described:
-        self.asked.append((question, goal))
-        self.shown.append((picture.seq, picture.base_in_map, len(detections)))
+    async def describe(self, asked: Asked) -> Described:
+        self.asked.append((asked.words, asked.goal))
+        shown = asked.picture
+        self.shown.append((shown.seq, shown.base_in_map, len(asked.detections)))
         if self._fails:
             raise BrainDown("503")
         return Described(SIGN, None, TAG)
 
-    async def point(
-        self,
-        picture: Shown,
-        words: str,
-        language: Language = Language.EN,
-        detections: Sequence[Detected] = (),
-        goal: str = "",
-    ) -> Pointed | NotThere:
-        self.asked.append((words, goal))
+    async def point(self, asked: Asked) -> Pointed | NotThere:
+        self.asked.append((asked.words, asked.goal))
         return Pointed(500, 500, TAG)
 
 
