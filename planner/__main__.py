@@ -16,6 +16,7 @@ import uvicorn
 from planner.api import Access
 from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.app import Planner, Where, application
+from planner.share import take_larger_share
 from planner.world import SiteError
 from wire import Misconfigured
 
@@ -107,4 +108,5 @@ def _listed(name: str) -> set[str]:
 
 
 if __name__ == "__main__":
+    take_larger_share()  # before any thread, so that all have it; never in who only calls main
     sys.exit(main())

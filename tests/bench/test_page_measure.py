@@ -18,7 +18,7 @@ from bench.watchers import Watchers
 def test_without_a_browser_it_is_not_measured_and_no_failure(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(page, "_chromium", lambda: None)
+    monkeypatch.setattr(page, "chromium", lambda: None)
     store = Store(tmp_path / "results.jsonl", False, "c1", "m1")
     (row,) = page.measure(Lab(store, long=False, name="page"))
     assert (row.value, row.valid) == ("not measured", True)

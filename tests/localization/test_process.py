@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -11,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from localization import read_map_id
+from localization.__main__ import PRIORITY
 from wire import IDENTITY, STILL, Localization, Odometry, Pose2, SimTruth, keys
 from wire.keys import Party
 from wire.session import open_session
@@ -32,6 +34,9 @@ def test_it_places_odom_in_map_and_says_that_it_is_a_stand_in(
         assert answer.odom_id == "bridge-1"
         assert answer.odom_in_map.x_m == pytest.approx(1.5, abs=0.1)
         assert answer.odom_in_map.y_m == pytest.approx(1.9, abs=0.1)
+        first, *others = ranks(process.pid)
+        assert first == (PRIORITY if may_be_first() else 0)
+        assert first in others, "its transport has the same rank"
         process.send_signal(signal.SIGTERM)
         _, said = process.communicate(timeout=LIMIT_S)
         assert process.returncode == 0
@@ -39,6 +44,19 @@ def test_it_places_odom_in_map_and_says_that_it_is_a_stand_in(
     finally:
         process.kill()
         process.communicate(timeout=LIMIT_S)
+
+
+def ranks(pid: int) -> list[int]:
+    """Return the real-time priorities of a process's threads, the first's first; 0: ordinary."""
+    threads = sorted(int(thread.name) for thread in Path(f"/proc/{pid}/task").iterdir())
+    return [os.sched_getparam(thread).sched_priority for thread in threads]
+
+
+def may_be_first() -> bool:
+    """Ask in a process of its own whether this machine gives real-time priority."""
+    ask = "import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))"
+    asked = subprocess.run([sys.executable, "-c", ask], stderr=subprocess.DEVNULL, check=False)
+    return asked.returncode == 0
 
 
 def converse(home: Path) -> Localization:

@@ -10,15 +10,14 @@ import re
 import shutil
 import subprocess
 from collections.abc import Callable, Generator, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from shlex import quote
 from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Error, Page, sync_playwright
 
+from bench.measure.page import CHROMIUM, behind, chromium
 from planner.settings import FILE
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
@@ -27,7 +26,6 @@ from tests.pons.mock.mocks import RunningMock, running_mock
 from tests.web.person import ended
 
 ROOT = Path(__file__).resolve().parents[2]
-CHROMIUM = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 LAPTOP = (1280, 800)
 ORDER = "go to the kitchen"
 """What Chromium's microphone hears."""
@@ -44,11 +42,6 @@ rest_s = 4
 OpenPage = Callable[..., Page]
 
 
-def chromium() -> str | None:
-    """Return the system's Chromium, if there is one."""
-    return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, CHROMIUM)), None)
-
-
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     """Keep one headless Chromium, or skip aloud."""
@@ -58,9 +51,10 @@ def browser() -> Iterator[Browser]:
     if not (ROOT / "web" / "dist" / "index.html").is_file():
         pytest.skip("the page is not built; `make page` builds it")
     arguments = ["--no-sandbox"] if os.geteuid() == 0 else []  # root may not have its sandbox
-    with sync_playwright() as playwright, polite(found) as polite_one:
-        arguments += ["--use-fake-device-for-media-stream", *heard_by(polite_one.parent)]
-        made = playwright.chromium.launch(executable_path=polite_one, args=arguments)
+    with TemporaryDirectory(prefix="pons-chromium-") as folder, sync_playwright() as playwright:
+        arguments += ["--use-fake-device-for-media-stream", *heard_by(Path(folder))]
+        command = behind(Path(folder), found)
+        made = playwright.chromium.launch(executable_path=command, args=arguments)
         yield made
         made.close()
 
@@ -72,16 +66,6 @@ def heard_by(folder: Path) -> list[str]:
     sound = folder / "order.wav"
     subprocess.run([voice, "-v", "en-us", "-s", "140", "-w", str(sound), "--", ORDER], check=True)
     return [f"--use-file-for-fake-audio-capture={sound}%noloop"]
-
-
-@contextmanager
-def polite(chromium: str) -> Iterator[Path]:
-    """Lend a command that starts Chromium behind the robot: a person's is on another machine."""
-    with TemporaryDirectory(prefix="pons-chromium-") as folder:
-        command = Path(folder) / "chromium"
-        command.write_text(f'#!/bin/sh\nexec nice -n 10 {quote(chromium)} "$@"\n', "utf-8")
-        command.chmod(0o700)
-        yield command
 
 
 @pytest.fixture(scope="session")
