@@ -22,12 +22,15 @@ if TYPE_CHECKING:
 
     from pons.calibrate.findings import Finding
     from pons.calibrate.rig import Rig
+    from pons.calibrate.room import Way
+    from pons.calibrate.wall import Points
     from wire import RobotDescription, Status
 
 R = TypeVar("R")
 
 TRIES = 3
-ALIGNED_RAD = 0.05
+TURNS = 6
+"""At most, until it faces its way; then the way ahead serves if it is long enough."""
 FEWEST_RUNS = 2
 
 _MODES = {
@@ -117,24 +120,37 @@ def ready(status: Status, robot: RobotDescription) -> None:
 def _face_the_way(
     rig: Rig, robot: RobotDescription, plan: Plan, say: Callable[[str], None]
 ) -> float:
-    """Turn to where there is most room; return how long a run may be."""
-    points = points_of(rig.look().scans[-1], robot)
-    way = best_way(points, robot.base.radius_m)
+    """Look, choose and turn until it faces what it chose; return how long a run may be.
+
+    A turn by a robot.toml that is wrong ends some degrees off: each look chooses anew.
+    """
+    for _ in range(TURNS):
+        way = _again(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
+        if not way.turns_rad:
+            return way.run_m
+    return best_way(_points(rig, robot), robot.base.radius_m, (0.0,)).run_m
+
+
+def _turn_nearer(rig: Rig, robot: RobotDescription, say: Callable[[str], None]) -> Way:
+    """Look, choose a way and, unless it is ahead, take the first turn that leads there."""
+    way = best_way(_points(rig, robot), robot.base.radius_m)
     say(
         f"needs {needed_m(way.run_m):.2f} m ahead of the robot's edge and a turn of "
         f"{way.heading_rad * 180 / pi:.0f} degrees to face it"
     )
-    if abs(way.heading_rad) > ALIGNED_RAD:
-        _again(rig, plan, say, lambda: turn(rig, robot, way.heading_rad))
-    points = points_of(rig.look().scans[-1], robot)
-    return best_way(points, robot.base.radius_m, (0.0,)).run_m
+    for angle_rad in way.turns_rad[:1]:
+        turn(rig, robot, angle_rad)
+    return way
+
+
+def _points(rig: Rig, robot: RobotDescription) -> Points:
+    return points_of(rig.look().scans[-1], robot)
 
 
 def _straight(
     rig: Rig, robot: RobotDescription, metres: float, reference: str, ask_m: Callable[[], float]
 ) -> Straight:
-    points = points_of(rig.look().scans[-1], robot)
-    ahead, behind = (free_m(points, robot.base.radius_m, heading) for heading in (0.0, pi))
+    ahead, behind = free_m(_points(rig, robot), robot.base.radius_m)
     run_m, needs_m = abs(metres), needed_m(abs(metres))
     if metres > 0.0 and not ahead >= needs_m:
         # After a run that was cut short the robot is somewhere on its way: drive it back.
@@ -154,7 +170,7 @@ def _straight(
 def _turn(
     rig: Rig, robot: RobotDescription, angle_rad: float, reference: str, radius_m: float
 ) -> float:
-    clear_to_turn(points_of(rig.look().scans[-1], robot), robot.base.radius_m)
+    clear_to_turn(_points(rig, robot), robot.base.radius_m)
     run = turn(rig, robot, angle_rad)
     left, right = run.track.turned_rad()
     by_wheels = (right - left) * radius_m / robot.base.wheel_separation_m
@@ -174,7 +190,7 @@ def _again(rig: Rig, plan: Plan, say: Callable[[str], None], take: Callable[[], 
         try:
             return take()
         except RunLost as lost:
-            say(f"lost a run ({lost}); pons arm, if that disarmed it")
+            say(f"lost a run ({lost}); pons arm, if that disarmed it, after pons reset, if FAULT")
             before = lost
             if not rig.settle(plan.patience_s):
                 break

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 
 from pons.calibrate.refusals import CalibrationRefused, RunLost
 from pons.calibrate.room import points_of
+from pons.calibrate.wall import wall_ahead
 from wire import distance
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pons.calibrate.room import Points
     from pons.calibrate.track import Track
     from wire import RobotDescription, Scan, SimTruth
 
@@ -30,7 +30,6 @@ SPOKEN = {
 SCANS = 5
 """Taken standing and averaged beam by beam."""
 
-WALL_HALF_M, WALL_OFF_M, WALL_SHARE, WALL_POINTS = 0.35, 0.03, 0.9, 8
 SEARCH_RAD = 0.35
 FINE_RAD = 0.0005
 
@@ -88,33 +87,7 @@ def wall_m(scans: Sequence[Scan], robot: RobotDescription) -> float:
         CalibrationRefused: ``no_wall``: what is ahead is not flat, or nothing is.
     """
     points = [point for scan in scans for point in points_of(scan, robot)]
-    near = _ahead(points)
-    if len(near) < WALL_POINTS * len(scans):
-        raise CalibrationRefused("no_wall", f"{len(near)} points ahead")
-    # Least squares of x = d + m y: the wall stands across the heading, so x is the far side of it.
-    for _ in range(3):
-        d, m = _line(near)
-        flat = [(x, y) for x, y in near if abs(x - d - m * y) <= WALL_OFF_M]
-        if not len(flat) >= WALL_SHARE * len(near) or abs(m) > 1.0:
-            raise CalibrationRefused("no_wall", f"{len(flat)} of {len(near)} points on one line")
-        near = flat
-    return _line(near)[0]
-
-
-def _ahead(points: Points) -> Points:
-    """Return what lies before the robot, on the nearest surface there."""
-    ahead = [(x, y) for x, y in points if x > 0.0 and abs(y) <= WALL_HALF_M]
-    if not ahead:
-        return []
-    middle = median(x for x, _ in ahead)
-    return [(x, y) for x, y in ahead if abs(x - middle) <= WALL_HALF_M]
-
-
-def _line(points: Points) -> tuple[float, float]:
-    mean_x, mean_y = fmean(x for x, _ in points), fmean(y for _, y in points)
-    spread = sum((y - mean_y) ** 2 for _, y in points)
-    m = sum((x - mean_x) * (y - mean_y) for x, y in points) / spread if spread > 0.0 else 0.0
-    return mean_x - m * mean_y, m
+    return wall_ahead(points, len(scans)).distance_m
 
 
 def matched_rad(before: Sequence[Scan], after: Sequence[Scan], near_rad: float) -> float:

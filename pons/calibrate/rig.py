@@ -25,6 +25,8 @@ SOURCE = "calibrate"
 PERIOD_S = 0.05
 SILENT_S = 1.0
 TAKE_OVER_S, STAND_S, FIRST_S = 3.0, 6.0, 3.0
+PASSES_S = 3.0
+"""What a hand that has just ended leaves behind, another calibration's too, has passed by then."""
 STANDS_S = 0.4
 QUIET_S = 3.0
 """Rows of the drive clear by themselves within a second, once it is well."""
@@ -135,6 +137,7 @@ class Rig:
             raise CalibrationRefused("no_drive")
         if not self.scans:
             raise CalibrationRefused("no_lidar", "no scan arrived")
+        self._until(lambda: not self._in({Mode.TELEOP, Mode.STOPPING}), PASSES_S)
         return self.status
 
     def take(self) -> None:
@@ -153,7 +156,7 @@ class Rig:
 
     def held(self) -> bool:
         """Tell whether this hand moves the robot."""
-        return self.status is not None and self.status.mode is Mode.TELEOP
+        return self._in({Mode.TELEOP})
 
     def steer(
         self, v_mps: float, w_radps: float, until: Callable[[], bool], limit_s: float
@@ -199,10 +202,16 @@ class Rig:
         self._wish = None
 
     def settle(self, patience_s: float) -> bool:
-        """Wait for the drive's rows to clear, then for a person to arm; tell whether one did."""
+        """Wait for the drive's rows to clear, then for a person to arm; tell whether one did.
+
+        A stop that was pressed is the end of it.
+        """
         self._until(self._quiet, QUIET_S)
-        self._until(lambda: self.status is not None and self.status.mode is Mode.HOLD, patience_s)
-        return self.status is not None and self.status.mode is Mode.HOLD
+        self._until(lambda: self._in({Mode.HOLD, Mode.ESTOPPED}), patience_s)
+        return self._in({Mode.HOLD})
+
+    def _in(self, modes: set[Mode]) -> bool:
+        return self.status is not None and self.status.mode in modes
 
     def _quiet(self) -> bool:
         status = self.status

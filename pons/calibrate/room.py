@@ -7,10 +7,11 @@ from its edge, as the bridge does.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, hypot, pi, sin, tau
+from math import copysign, cos, hypot, sin, tau
 from typing import TYPE_CHECKING
 
 from pons.calibrate.refusals import CalibrationRefused
+from pons.calibrate.wall import Points, wall_ahead
 from wire import Pose2, transform, wrap
 
 if TYPE_CHECKING:
@@ -24,13 +25,23 @@ END_M = 0.30
 """Beyond a run's end: the bridge slows down where it could not stop, and a run must be even."""
 BEHIND_M = 0.25
 """Behind a run's beginning, for the way back."""
+SPARE_M = 0.06
+"""A heading to turn to has so much more ahead, behind and on either side than is needed, for a turn
+ends some degrees off; the one that is faced has half of it, for each run looks anew."""
 LONGEST_M, SHORTEST_M = 1.2, 0.75
 OFF = 1.12
 """A radius may be so much larger than robot.toml believes."""
 RETURNS = 0.5
-HEADINGS = 72
-
-Points = list[tuple[float, float]]
+HEADINGS = 144
+REAL_TURN_RAD, PAST_RAD = 0.3, 0.45
+"""A shorter turn may be no turn: it ends before it is fast, and the motor's dead zone is not known
+yet. So what is nearer is gone past by so much, and then come back to."""
+TURN_COSTS_M = 0.1
+"""Of a run's length, for each radian that is turned."""
+EVERYWHERE = tuple(wrap(index * tau / HEADINGS) for index in range(HEADINGS))
+WALL_WORTH_M, SQUARE = 0.3, 0.3
+"""A wall ahead that stands across, or nearly, is worth so much of a run's length: the lidar can
+measure against it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +50,24 @@ class Way:
 
     heading_rad: float
     run_m: float
+    wall: bool = False
+    """The lidar can measure against what is ahead."""
+
+    @property
+    def turns_rad(self) -> tuple[float, ...]:
+        """Return the turns that lead there, each a real one; none where it is ahead."""
+        if self.heading_rad == 0.0:
+            return ()
+        if abs(self.heading_rad) >= REAL_TURN_RAD:
+            return (self.heading_rad,)
+        past_rad = copysign(PAST_RAD, self.heading_rad)
+        return (self.heading_rad + past_rad, -past_rad)
+
+    @property
+    def worth_m(self) -> float:
+        """Return how long a run it gives, less what the turning costs; more before a wall."""
+        wall_m = WALL_WORTH_M if self.wall else 0.0
+        return self.run_m + wall_m - TURN_COSTS_M * sum(map(abs, self.turns_rad))
 
 
 def points_of(scan: Scan, robot: RobotDescription) -> Points:
@@ -59,15 +88,24 @@ def points_of(scan: Scan, robot: RobotDescription) -> Points:
     return points
 
 
-def free_m(points: Points, radius_m: float, heading_rad: float) -> float:
-    """Return the free length from the disc's edge along a heading."""
+def seen_along(points: Points, heading_rad: float) -> Points:
+    """Return the points as a robot would see them that had turned to a heading."""
     c, s = cos(heading_rad), sin(heading_rad)
-    nearest = 100.0
+    return [(x * c + y * s, y * c - x * s) for x, y in points]
+
+
+def free_m(points: Points, radius_m: float, spare_m: float = 0.0) -> tuple[float, float]:
+    """Return the free lengths ahead and behind from the disc's edge, less what is to be spared."""
+    ahead = behind = 100.0
+    aside = radius_m + ASIDE_M + spare_m
     for x, y in points:
-        along, aside = x * c + y * s, y * c - x * s
-        if along > 0.0 and abs(aside) <= radius_m + ASIDE_M:
-            nearest = min(nearest, along)
-    return max(0.0, nearest - radius_m)
+        if -aside <= y <= aside:
+            if x > 0.0:
+                ahead = min(ahead, x)
+            else:
+                behind = min(behind, -x)
+    edge = radius_m + spare_m
+    return max(0.0, ahead - edge), max(0.0, behind - edge)
 
 
 def needed_m(run_m: float) -> float:
@@ -88,26 +126,33 @@ def clear_to_turn(points: Points, radius_m: float) -> None:
         raise CalibrationRefused("no_room", text)
 
 
-def best_way(points: Points, radius_m: float, headings: Sequence[float] = ()) -> Way:
+def best_way(points: Points, radius_m: float, headings: Sequence[float] = EVERYWHERE) -> Way:
     """Choose the heading that needs the least turning among those with room for a long run.
 
     Raises:
         CalibrationRefused: ``no_room``, with what the best heading has.
     """
     clear_to_turn(points, radius_m)
-    candidates = headings or [wrap(index * tau / HEADINGS) for index in range(HEADINGS)]
-    best, most = Way(0.0, 0.0), -1.0
-    for heading in candidates:
-        ahead, behind = free_m(points, radius_m, heading), free_m(points, radius_m, heading + pi)
-        run_m = min(LONGEST_M, (ahead - END_M) / OFF) if behind >= BEHIND_M else 0.0
-        worth = run_m - 0.1 * abs(heading)
-        if worth > most:
-            best, most = Way(heading, run_m), worth
+    best = max((_way(points, radius_m, heading) for heading in headings), key=lambda w: w.worth_m)
     if not best.run_m >= SHORTEST_M:
-        had = max(free_m(points, radius_m, heading) for heading in candidates)
+        had = max(free_m(seen_along(points, heading), radius_m)[0] for heading in headings)
         text = (
-            f"{had:.2f} m are free at best; a run needs {needed_m(SHORTEST_M):.2f} m ahead and "
-            f"{BEHIND_M:.2f} m behind"
+            f"{had:.2f} m are free at best; a run needs {needed_m(SHORTEST_M) + SPARE_M:.2f} m "
+            f"ahead and {BEHIND_M + SPARE_M:.2f} m behind"
         )
         raise CalibrationRefused("no_room", text)
     return best
+
+
+def _way(points: Points, radius_m: float, heading_rad: float) -> Way:
+    seen = seen_along(points, heading_rad)
+    ahead, behind = free_m(seen, radius_m, SPARE_M if heading_rad else SPARE_M / 2)
+    run_m = min(LONGEST_M, (ahead - END_M) / OFF) if behind >= BEHIND_M else 0.0
+    return Way(heading_rad, run_m, run_m >= SHORTEST_M and _has_a_wall(seen))
+
+
+def _has_a_wall(seen: Points) -> bool:
+    try:
+        return abs(wall_ahead(seen).slope) <= SQUARE
+    except CalibrationRefused:
+        return False
