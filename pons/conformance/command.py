@@ -87,7 +87,8 @@ def main(settings: Settings, arguments: list[str]) -> int:
         return EXIT_INTERRUPTED
     site = settings.site.name
     origin = matrix.Origin(rig.name, site, commit(), today(), machine(), said.seed)
-    print(f"\n{matrix.table(lines)}\n\n{origin.line()}\n{matrix.summary(lines)}")
+    failed = matrix.tries(lines)
+    print(f"\n{matrix.table(lines)}\n\n{failed}{origin.line()}\n{matrix.summary(lines)}")
     _write(said, lines, origin)
     return EXIT_HELD if lines and all(line.passed for line in lines) else EXIT_BROKEN
 
@@ -96,15 +97,18 @@ def run(adapter: Adapter, track: Track, faults: tuple[Fault, ...], seed: int) ->
     """Play the faults at one bridge, telling each row as it ends."""
     count = sum(len(fault.kinds) for fault in faults)
     began_s = time.monotonic()
-    print(f"starting {adapter.name}; {count} rows", file=sys.stderr, flush=True)
+    _say(f"starting {adapter.name}; {count} rows")
     lines: list[Line] = []
     with adapter:
-        for line in play_all(adapter, track, faults, seed):
+        for line in play_all(adapter, track, faults, seed, _say):
             lines.append(line)
             at_s = time.monotonic() - began_s
-            told = matrix.one_line(line, len(lines), count, at_s)
-            print(told, file=sys.stderr, flush=True)
+            _say(matrix.one_line(line, len(lines), count, at_s))
     return lines
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
 
 
 def _write(said: argparse.Namespace, lines: list[Line], origin: matrix.Origin) -> None:

@@ -59,13 +59,23 @@ def table(lines: list[Line]) -> str:
     )
 
 
+def tries(lines: list[Line]) -> str:
+    """Tell of each try that failed, a line each; nothing where none did."""
+    return "".join(
+        f"- {line.brain} {line.fault}, try {number}: {failed}\n"
+        for line in lines
+        for number, failed in enumerate(line.tried, 1)
+    )
+
+
 def markdown(lines: list[Line], origin: Origin) -> str:
     """Return the matrix for a page."""
     head = ("brain", "fault", "what it does", *COLUMNS)
     rows = [head, ("---",) * len(head)]
     rows += [(one.brain, f"`{one.fault}`", one.what, *_cells(one)) for one in lines]
     body = "\n".join(f"| {' | '.join(row)} |" for row in rows)
-    return f"{origin.line()}.\n\n{summary(lines)}\n\n{body}\n"
+    told = "".join(f"{part}\n" for part in (body, tries(lines)) if part)
+    return f"{origin.line()}.\n\n{summary(lines)}\n\n{told}"
 
 
 def summary(lines: list[Line]) -> str:

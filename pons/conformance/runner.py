@@ -7,6 +7,7 @@ end of one is the beginning of the next.
 from __future__ import annotations
 
 import time
+from contextlib import closing
 from dataclasses import dataclass
 from random import Random
 from typing import TYPE_CHECKING
@@ -14,16 +15,19 @@ from typing import TYPE_CHECKING
 from pons.conformance import verdict
 from pons.conformance.brain import METRES, Brain
 from pons.conformance.driver import Driver, mute, plain
+from pons.conformance.fairness import Fairness
 from pons.conformance.fault import W, X
 from pons.conformance.helpers import Helpers
+from pons.conformance.pulse import Pulse
 from pons.conformance.stage import NotBegun, Stage
 from pons.conformance.verdict import NOT_ASKED, Cell
 from wire import Mode
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from pons.conformance.adapter import Adapter
+    from pons.conformance.fairness import Try
     from pons.conformance.fault import Fault
     from pons.conformance.track import Track
     from wire import OpKind, OwnerKind
@@ -33,7 +37,7 @@ COLUMNS = ("speed", "acceleration", "stands", "unasked", "ticks", "contacts", AG
 AGAIN_S = 9.0
 ACT_S = 0.2
 PATIENCE_S = 3.0
-TRIES = 3
+TRIES = 4
 GIVE_UP = 3
 """A bridge that can't be driven after so many faults running has failed all that is left."""
 NAMES: dict[OwnerKind, str] = {X: "velocity", W: "waypoints"}
@@ -47,6 +51,9 @@ class Line:
     what: str
     brain: str
     cells: dict[str, Cell]
+    """Of its last try."""
+    tried: tuple[Try, ...] = ()
+    """Those that failed, the last one too."""
 
     @property
     def passed(self) -> bool:
@@ -55,29 +62,33 @@ class Line:
 
 
 def play_all(
-    adapter: Adapter, track: Track, faults: tuple[Fault, ...], seed: int
+    adapter: Adapter,
+    track: Track,
+    faults: tuple[Fault, ...],
+    seed: int,
+    say: Callable[[str], None],
 ) -> Iterator[Line]:
     """Play every fault with each brain that it concerns, brain by brain."""
-    helpers = Helpers(adapter)
-    helpers.load()
-    try:
+    with Pulse() as pulse, closing(Helpers(adapter)) as helpers:
+        helpers.load()
+        fair = Fairness(pulse, say)
         for kind in (X, W):
             mine = [fault for fault in faults if kind in fault.kinds]
             if mine:
-                runner = Runner(adapter, helpers, Brain(kind, f"kit-{NAMES[kind]}", track), seed)
-                try:
+                brain = Brain(kind, f"kit-{NAMES[kind]}", track)
+                runner = Runner(adapter, helpers, brain, fair, seed)
+                with closing(runner.driver):
                     yield from runner.play(mine)
-                finally:
-                    runner.driver.close()
-    finally:
-        helpers.close()
 
 
 class Runner:
     """Play faults with one brain."""
 
-    def __init__(self, adapter: Adapter, helpers: Helpers, brain: Brain, seed: int) -> None:
-        self._adapter, self._helpers = adapter, helpers
+    def __init__(
+        self, adapter: Adapter, helpers: Helpers, brain: Brain, fair: Fairness, seed: int
+    ) -> None:
+        self._adapter, self._helpers, self._fair = adapter, helpers, fair
+        self._name = NAMES[brain.kind]
         self._chance = Random(f"{seed} {brain.kind}")
         self.driver = Driver(brain, adapter.status, adapter.say)
 
@@ -86,37 +97,45 @@ class Runner:
         drives = self.again()
         lost = 0
         for fault in faults:
+            tried: tuple[Try, ...] = ()
             if lost < GIVE_UP:
-                cells = self._play_fairly(fault, drives=drives.ok is True)
+                cells, tried = self._play_fairly(fault, drives=drives.ok is True)
             else:
                 cells = dict.fromkeys(COLUMNS, NOT_ASKED) | {AGAIN: Cell(False, "not played")}
             drives = cells[AGAIN]
             lost = 0 if drives.ok else lost + 1
-            yield Line(fault.name, fault.what, NAMES[self.driver.brain.kind], cells)
+            yield Line(fault.name, fault.what, self._name, cells, tried)
 
-    def _play_fairly(self, fault: Fault, *, drives: bool) -> dict[str, Cell]:
-        """Play it; where it failed while the machine held the simulator up, play it again."""
-        cells: dict[str, Cell] = {}
-        for _ in range(TRIES):
-            from_s = time.monotonic()
-            cells = self._play(fault, from_s, TRIES, drives=drives)
-            failed = any(cell.ok is False for cell in cells.values())
-            record, bounds = self._adapter.record, self._adapter.bounds
-            if not (failed and verdict.held_up(record, bounds, from_s, time.monotonic())):
+    def _play_fairly(
+        self, fault: Fault, *, drives: bool
+    ) -> tuple[dict[str, Cell], tuple[Try, ...]]:
+        """Play it; again where it could not begin, or failed while the machine kept no time."""
+        from_s = time.monotonic()
+        tried: list[Try] = []
+        while True:
+            cells, began = self._play(fault, from_s, drives=drives)
+            failed = self._fair.judge(self._adapter, cells, from_s)
+            if failed is None:
                 break
+            tried.append(failed)
+            if not (failed.excused or (cells[AGAIN].ok and not began)) or len(tried) == TRIES:
+                break
+            if failed.excused:
+                self._fair.wait(f"{self._name} {fault.name}", failed)
             drives = self.again().ok is True
-        return cells
+            if failed.excused:
+                from_s = time.monotonic()
+        return cells, tuple(tried)
 
-    def _play(self, fault: Fault, from_s: float, tries: int, *, drives: bool) -> dict[str, Cell]:
-        """Play it; what could not begin, for the machine held something up, is begun again."""
+    def _play(self, fault: Fault, from_s: float, *, drives: bool) -> tuple[dict[str, Cell], bool]:
+        """Play it once; return its cells and whether it could begin."""
         stage = self._stage()
         trouble = self._try(stage, fault) if drives else "the good brain does not drive"
         drives_again = self.again()
         self._helpers.load()
-        if trouble is not None and drives_again.ok and tries > 1:
-            return self._play(fault, from_s, tries - 1, drives=True)
         stands = Cell(False, trouble) if trouble else _stands(stage, fault)
-        return self._judge(from_s) | {"stands": stands, AGAIN: drives_again}
+        cells = self._judge(from_s) | {"stands": stands, AGAIN: drives_again}
+        return cells, trouble is None
 
     def _try(self, stage: Stage, fault: Fault) -> str | None:
         """Play it once; return why it could not begin."""

@@ -43,6 +43,8 @@ class Cell:
 
     ok: bool | None
     figure: str
+    measured: bool = True
+    """False: it fails because nothing was seen."""
 
 
 NOT_ASKED = Cell(None, "-")
@@ -56,7 +58,7 @@ def speed(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
     commands = between(record.commands, from_s, to_s)
     rims = [rim for rim in turning(record, bounds, from_s, to_s) if rim is not None]
     if not (commands and rims):
-        return Cell(False, "no command, or no wheel, was seen")
+        return Cell(False, "no command, or no wheel, was seen", measured=False)
     bad = [text for at_s, text in record.unreadable if from_s <= at_s <= to_s]
     if bad:
         return Cell(False, f"unreadable command: {bad[0][:60]}")
@@ -127,7 +129,7 @@ def acceleration(record: Record, bounds: Bounds, from_s: float, to_s: float) -> 
             over = max(over, more - bounds.accel_mps2 * (s + LATE_S))
             over = max(over, abs(now - was) - bounds.hardest_mps2 * (s + LATE_S))
     if not looked:
-        return Cell(False, "no wheel was seen turning")
+        return Cell(False, "no wheel was seen turning", measured=False)
     return Cell(over <= REAL_MPS, f"+{grew:.2f} -{braked:.2f} m/s2")
 
 
@@ -145,7 +147,7 @@ def stands(
     """
     commands = between(record.commands, from_s, to_s)
     if not commands:
-        return Cell(False, "no command was seen")
+        return Cell(False, "no command was seen", measured=False)
     before = between(record.commands, from_s - 0.5, from_s)
     start = before[-1] if before else commands[0]
     rims = [bounds.rim_mps(speed) for one in (*before[-1:], *commands) for speed in _both(one)]
@@ -212,7 +214,7 @@ def alive(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
     """
     words = between(record.words, from_s, to_s)
     if len(words) < 2:
-        return Cell(False, "silent")
+        return Cell(False, "silent", measured=False)
     first, last = words[0], words[-1]
     if first.boot != last.boot:
         return Cell(False, "it was started anew")
@@ -237,7 +239,7 @@ def contacts(record: Record, from_s: float, to_s: float) -> Cell:
     """Hold that the robot touched nothing."""
     seen = between(record.truths, from_s, to_s)
     if not seen:
-        return Cell(False, "no truth was heard")
+        return Cell(False, "no truth was heard", measured=False)
     count = seen[-1].contacts - seen[0].contacts
     return Cell(count == 0, str(count))
 

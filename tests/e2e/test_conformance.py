@@ -22,10 +22,12 @@ from tests.e2e.judge import Judge
 from tests.e2e.polling import until
 from tests.e2e.system import ROOT, System
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(180)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(450)]
 
 CARELESS = "tests.pons.conformance.careless"
-LIMIT_S = 150.0
+LIMIT_S = 420.0
+"""A short run takes under a minute; on a machine that keeps no time the kit waits for calm and
+plays rows again, for three minutes and what is then under way."""
 
 
 def kit(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:

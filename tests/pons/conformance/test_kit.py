@@ -17,6 +17,7 @@ from pons.conformance.adapter import CannotTest
 from pons.conformance.brain import Brain
 from pons.conformance.catalogue import FAULTS, chosen
 from pons.conformance.driver import pack, plain
+from pons.conformance.fairness import Try
 from pons.conformance.fault import W, X
 from pons.conformance.flooder import halves
 from pons.conformance.proxy import Proxy, Way
@@ -178,12 +179,19 @@ def test_a_stalled_proxy_holds_both_ways(tmp_path: Path) -> None:
 def lines() -> list[Line]:
     good = dict.fromkeys(COLUMNS, Cell(True, "1")) | {"stands": NOT_ASKED}
     bad = good | {"speed": Cell(False, "3.00 m/s")}
-    return [Line("nan", "NaN", "velocity", good), Line("flood", "much", "waypoints", bad)]
+    tried = Try({"ticks": "90 of 180"}, "40 of 90 naps late", kept_time=False, excused=True)
+    return [
+        Line("nan", "NaN", "velocity", good, (tried,)),
+        Line("flood", "much", "waypoints", bad),
+    ]
 
 
 def test_the_matrix_says_what_failed_in_every_form() -> None:
     origin = matrix.Origin("bridge", "two_room", "abc", "2026-01-01", "a machine", 1)
     assert "FAIL 3.00 m/s" in matrix.table(lines())
+    failed_try = "- velocity nan, try 1: ticks: 90 of 180 (the machine did not keep time: 40 of 90"
+    assert matrix.tries(lines()).startswith(failed_try)
+    assert matrix.tries(lines()[1:]) == ""
     assert "2 rows, 1 failed; 12 cells measured, 1 failed: FAIL" in matrix.summary(lines())
     assert matrix.summary(lines()[:1]).endswith("PASS")
     assert matrix.summary([]).endswith("FAIL"), "nothing played is nothing proven"
@@ -195,6 +203,8 @@ def test_the_matrix_says_what_failed_in_every_form() -> None:
     assert page.startswith("a\n")
     assert page.endswith("\nb\n")
     assert "old" not in page
+    assert failed_try in page
+    assert told["rows"][0]["tried"][0]["excused"] is True
     assert "| waypoints | `flood` | much | FAIL 3.00 m/s |" in page
     with pytest.raises(ValueError, match="no <!-- matrix"):
         matrix.into_page("a page", "x")
