@@ -46,7 +46,7 @@ STORIES = $(filter-out $(WHOLE) $(OWN) $(ALONE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 6 min on 2 cores)
-	@$(BIN)/python -m pytest -n logical --maxprocesses 4 --dist worksteal -m "not e2e and not home" $(ARGS)
+	@scripts/units.sh $(ARGS)
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, fence, black box, units, and the page in Chromium

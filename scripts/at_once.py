@@ -2,6 +2,7 @@
 
 The first is shown as it comes, each other one when those before it have ended. Fails if any fails.
 Ctrl-C reaches all of them, for they are of one terminal; each cleans up by itself. Knows no test.
+``AT_ONCE_LOCK`` names a file to lock for who must wait until the others have ended.
 """
 
 from __future__ import annotations
@@ -35,8 +36,12 @@ def main(words: Sequence[str]) -> int:
     with ExitStack() as stack:
         outputs: list[BinaryIO | None] = [None]
         outputs += [stack.enter_context(tempfile.TemporaryFile()) for _ in commands[1:]]
+        lock = stack.enter_context(tempfile.NamedTemporaryFile(prefix="at-once-"))
+        told = os.environ | {"AT_ONCE_LOCK": lock.name}
         running = [
-            subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=output)
+            subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=output, stderr=output, env=told
+            )
             for command, output in zip(commands, outputs, strict=True)
         ]
         signal.signal(signal.SIGTERM, lambda *_: end(running))

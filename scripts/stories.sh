@@ -1,16 +1,24 @@
 #!/usr/bin/env bash
 # Run stories with real processes in real time, three files at once on two cores: a robot takes half a
-# core and mostly waits. Tell each failed one once more, alone and aloud. A shared machine may stall a
-# real-time story for seconds; a story that fails twice is red.
+# core and mostly waits. Tell each failed one again, alone and aloud (again.sh): a shared machine may stall a
+# real-time story for minutes. What runs beside others (at_once.py) waits for them first: else it is not alone.
 set -uo pipefail
+if [ -n "${AT_ONCE_LOCK:-}" ]; then
+  exec 9>>"$AT_ONCE_LOCK"
+  flock -s 9
+fi
 
 # What failed is kept apart: unit tests and other stories may run beside these.
 memory=$(mktemp -d)
 trap 'rm -rf "$memory"' EXIT
 set -- -o cache_dir="$memory" "$@"
 cores=$(nproc)
-.venv/bin/python -m pytest -n $((cores < 3 ? cores + 1 : 3)) --dist loadfile "$@"
+.venv/bin/python -m pytest -n $((cores < 3 ? cores + 1 : 3)) --dist loadfile "$@" 9>&-
 code=$?
 [ "$code" = 1 ] || exit "$code" # 1: tests failed; all else (Ctrl-C, bad usage) is not tried again
-echo "stories: some failed; each of those is told once more, alone. Failing again is red."
-.venv/bin/python -m pytest "$@" --last-failed --last-failed-no-failures none
+echo "stories: some failed; each of those is told once more, alone. Failing again is red, but in stolen time."
+if [ -n "${AT_ONCE_LOCK:-}" ]; then
+  flock -u 9
+  flock -x 9
+fi
+"$(dirname "$0")/again.sh" "$@" 9>&-

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Run unit tests on all processors. A few of them talk to real sockets, disks and processes: what failed
+# while the host took the processors away (stolen.py) is run again; a failure in our own time is red.
+set -uo pipefail
+memory=$(mktemp -d)
+trap 'rm -rf "$memory"' EXIT
+set -- -o cache_dir="$memory" -m "not e2e and not home" "$@"
+.venv/bin/python -m scripts.stolen .venv/bin/python -m pytest -n logical --maxprocesses 4 --dist worksteal "$@"
+code=$?
+[ "$code" = 75 ] || exit "$code"
+echo "units: some failed in time that was not ours; each of those is run again, alone."
+"$(dirname "$0")/again.sh" "$@"
