@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bridge.core import decide as decide_module
 from bridge.core.decide import _call, _tire, arrive, decide
+from bridge.core.hazards import HAZARDS
+from bridge.core.rows import ROWS
 from bridge.core.state import Gate, RowUp
 from bridge.core.tick import Tick
 from tests.bridge.core.reached import reached
@@ -200,3 +203,23 @@ def test_who_stands_at_the_end_has_arrived(
     if mode is Mode.HOLD:
         why = "reached" if start == "active" else "released"
         assert tick.events[-1] == ("mode", f"ACTIVE HOLD {why}")
+
+
+def test_each_detector_that_a_hazard_names_is_run_and_no_other() -> None:
+    rows = {row.id for row in ROWS}
+    named = {hazard.function for hazard in HAZARDS if hazard.guard in rows}
+    run = [f"{one.__module__.rpartition('.')[2]}.{one.__name__}" for one in decide_module.DETECTORS]
+    assert sorted(run) == sorted(named)
+    tick = tick_of(reached("active"))
+    tick.s.drive.reborn_s = tick.now_s
+    decide_module.detect(tick)
+    assert "DRIVE_REBOOT.0" in tick.s.rows
+
+
+@table("start", ["hold", "active", "teleop"])
+def test_whoever_follows_is_stopped_by_what_must_stop(start: str) -> None:
+    tick = tick_of(reached(start))
+    tick.s.rows = {"DRIVE_REBOOT.0": RowUp(tick.now_s, tick.now_s, "by hand")}
+    before = tick.s.mode.value
+    decide(tick)
+    assert tick.events[0] == ("mode", f"{before} STOPPING drive_reboot")

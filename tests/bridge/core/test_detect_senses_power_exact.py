@@ -58,6 +58,14 @@ def test_a_scan_is_old_or_the_same_again(
     assert seen("lidar", tick) == ["LIDAR_STALE.0", "LIDAR_STALE.1"][:stages]
 
 
+def test_a_scan_five_times_over_exactly_2_cm_is_a_frozen_lidar() -> None:
+    tick = at()
+    tick.s.odometry = replace(tick.s.odometry, travelled_m=0.02)
+    tick.s.lidar = replace(tick.s.lidar, received_s=NOW_S, equal=5, equal_from_m=0.0)
+    tick.inbox = replace(tick.inbox, sensors_same_host=False)
+    assert seen("lidar", tick) == ["LIDAR_STALE.0"]
+
+
 def test_a_pose_is_lost_or_jumps() -> None:
     tick = at()
     assert seen("pose", tick) == ["POSE_LOST.0", "POSE_LOST.1"], "the tick has not looked for it"
@@ -114,9 +122,10 @@ def test_a_pressed_button_is_remembered_and_an_order_is_one_too() -> None:
 @table(
     ("charge", "low_s", "empty_s", "after"),
     [
-        (0.15, 0.0, 0.0, (0.01, 0.0)), (0.05, 0.0, 0.0, (0.01, 0.01)),
+        (0.18, 0.0, 0.0, (0.01, 0.0)), (0.05, 0.0, 0.0, (0.01, 0.01)),
         (0.9, 0.5, 0.0, (0.4975, 0.0)), (0.9, 0.5, 0.5, (0.4975, 0.4975)),
         (0.22, 0.0, 0.0, (0.0, 0.0)), (0.9, 0.0, 0.0, (0.0, 0.0)),
+        (0.9, 1.0, 1.0, (0.9975, 0.9975)),
     ],
 )  # fmt: skip
 def test_a_low_charge_fills_its_windows(
@@ -136,9 +145,10 @@ def test_a_lidar_that_sees_again_drains_its_window_and_a_zone_left_is_none() -> 
     tick.s.watch.blind_s, tick.s.watch.zone_mps = 0.5, 0.2
     detect_place.blind(tick, [])
     assert tick.s.watch.blind_s == pytest.approx(0.4975)
-    tick.s.watch.blind_s = 0.0
-    detect_place.blind(tick, [])
-    assert tick.s.watch.blind_s == 0.0
+    for level_s, after_s in ((0.0, 0.0), (1.0, 0.9975)):
+        tick.s.watch.blind_s = level_s
+        detect_place.blind(tick, [])
+        assert tick.s.watch.blind_s == pytest.approx(after_s)
     detect_place.zone(tick, [])
     zone_mps: float | None = tick.s.watch.zone_mps
     assert zone_mps is None
@@ -183,6 +193,7 @@ def test_without_a_path_or_a_place_nothing_is_followed() -> None:
 @table(("start", "arrives"), [("teleop", False), ("active_external", False)])
 def test_a_hand_and_another_brain_have_no_end(start: str, arrives: bool) -> None:
     assert drive_out.wanted(at(start))[1] is arrives
+    assert drive_out.wanted(at(start))[0] != STILL
 
 
 @table(

@@ -83,7 +83,7 @@ def test_of_32_parts_so_many_pass_as_stop_clear_and_not_one_more(
         # half the turn of those 5 cm, 0.25 rad, is what decides
         (Pose2(1.9, 0, pi / 2 - 0.24), Twist2(0.1, 1.0), 1.0),
         (Pose2(1.9, 0, pi / 2 - 0.26), Twist2(0.1, 1.0), 0.0),
-        (Pose2(4.0, 0, pi), Twist2(0.5, 0.0), 0.0),  # further out than anybody sees
+        (Pose2(4.0, 0, pi), Twist2(0.5, 0.0), 0.0),  # further out than is known: a hand alone
         (Pose2(1.0, 0, 0), Twist2(inf, 0.0), 0.0),
         (Pose2(1.0, 0, 0), Twist2(0.1, inf), 0.0),
         (Pose2(1.0, 0, 0), Twist2(0.0, inf), 0.0),

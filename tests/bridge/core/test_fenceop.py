@@ -6,8 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from bridge.core.fenceop import hear_fence
+from bridge.core.operator import nonce_text
 from bridge.core.state_fence import FenceArrived, FenceDone
+from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
+from tests.bridge.core.test_quick_core import tick_of
 from wire import Mode
 
 TEXT = '{"version":1}'
@@ -139,7 +143,7 @@ def test_a_stop_in_the_same_tick_wins(world: World) -> None:
     world.stop()
     send(world)
     world.tick()
-    assert world.verdict("f1") in {"stopped", "old_nonce"}
+    assert world.verdict("f1") == "stopped"
     assert world.state.fence_asked is None
 
 
@@ -158,6 +162,8 @@ def test_a_robot_that_nobody_located_gets_no_fence(world: World) -> None:
     send(world)
     world.tick()
     assert world.verdict("f1") == "robot_unlocated"
+    said = [item.answer.detail for item in world.state.operator.answers if item.answer.id == "f1"]
+    assert said == ["where the robot stands is not known, so it may be outside"]
 
 
 def test_a_pushed_robot_gets_no_fence(world: World) -> None:
@@ -172,3 +178,15 @@ def test_an_answer_nobody_waits_for_changes_nothing(world: World) -> None:
     done(world, "ok", "other")
     assert world.state.fence_asked is None
     assert said(world) == []
+
+
+def test_half_a_second_of_standing_is_long_enough() -> None:
+    for still_s, refused in ((0.48, True), (0.52, False)):
+        tick = tick_of(reached("disarmed"))
+        tick.s.drive.still_since_s = tick.now_s - still_s
+        tick.robot_in_map = tick.s.odometry.base_in_odom
+        hear_fence(tick, FenceArrived("f1", "cli", nonce_text(tick, tick.s.operator.nonce_no),
+                                      authentic=True, text=TEXT))  # fmt: skip
+        codes = [item.answer.code for item in tick.s.operator.answers if item.answer.id == "f1"]
+        assert codes == (["not_standing"] if refused else [])
+        assert (tick.s.fence_asked is None) is refused

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import pi
 
 import pytest
 
@@ -21,7 +22,7 @@ from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
-from wire import STILL, Mode, Twist2
+from wire import STILL, Mode, Pose2, Twist2
 
 EPS = 1e-6
 AHEAD = Twist2(0.5, 0.0)
@@ -228,6 +229,22 @@ def test_the_fence_counts_what_was_learnt_of_the_brakes(
     assert tick.s.motion.bound_by == ("robot" if v_mps < 0.0 else "fence")
     tick.config = replace(tick.config, fence=None)
     assert _inside_fence(tick, twist) is twist
+
+
+@table("start", ["active", "active_external", "teleop"])
+@table("v_mps", [0.4, -0.4])
+def test_further_outside_than_the_fence_is_known_a_hand_alone_moves_it(
+    start: str, v_mps: float
+) -> None:
+    """Inward or not: how far it is to the fence is told up to 1 m, so no gain can be shown."""
+    tick, far = tick_of(reached(start)), Pose2(3.0, 0.0, pi)
+    fence = build_fence(MAP_ID, (((-5.0, -5.0), (1.5, -5.0), (1.5, 5.0), (-5.0, 5.0)),))
+    tick.config, tick.robot_in_map = replace(tick.config, fence=fence), far
+    passed = 0.2 if start == "teleop" else 0.0
+    assert abs(_inside_fence(tick, Twist2(v_mps, 0.0)).v_mps) == pytest.approx(passed)
+    tick.robot_in_map = Pose2(2.4, 0.0, pi)
+    inward = passed if passed or v_mps < 0.0 else 0.15
+    assert abs(_inside_fence(tick, Twist2(v_mps, 0.0)).v_mps) == pytest.approx(inward)
 
 
 @table(

@@ -329,3 +329,18 @@ def test_the_correction_learns_no_further_than_it_may(
 ) -> None:
     found = wheelcontrol._corrected(integral, off, spare, 0.01, ROBOT.drive)
     assert found == pytest.approx((grown, whole))
+
+
+def test_without_a_share_of_what_is_off_it_is_learnt_up_to_the_bound() -> None:
+    bare = ROBOT.drive.model_copy(update={"kp": 0.0})
+    for sign in (1.0, -1.0):
+        found = wheelcontrol._corrected(sign * 0.95, sign * 1.0, 9.0, 0.01, bare)
+        assert found == (sign, sign)
+
+
+@table(("meant", "learnt"), [(3.7, 0.2), (3.5, 0.24)])
+def test_near_its_fastest_a_wheel_learns_no_more_than_it_can_use(
+    meant: float, learnt: float
+) -> None:
+    # 0.44 of the 0.5 rad/s of the bound is asked; 4 rad/s less what is fed forward is left
+    assert told(ROLLING, meant, 1.6).integral == pytest.approx(learnt)

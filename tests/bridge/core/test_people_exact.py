@@ -222,7 +222,7 @@ def test_many_stops_at_once_are_one_change_of_epoch_and_a_verdict_each() -> None
     assert tick.s.operator == before
 
 
-@table(("start", "kind"), [("disarmed", "arm"), ("estopped", "reset")])
+@table(("start", "kind"), [("disarmed", "arm"), ("estopped", "reset"), ("hold", "resume")])
 def test_an_act_needs_a_proof_and_spends_it(start: str, kind: OpKind) -> None:
     for authentic, code in ((False, "bad_proof"), (True, "ok")):
         world = reached(start)
@@ -235,6 +235,16 @@ def test_an_act_needs_a_proof_and_spends_it(start: str, kind: OpKind) -> None:
         spent = f"{nonce} {kind} {request_id}" in tick.s.operator.accepted
         assert spent is authentic
         assert tick.s.operator.nonce_no == nonce + authentic
+
+
+@table(("kind", "mode"), [("disarm", Mode.STOPPING), ("estop", Mode.ESTOPPED)])
+def test_what_takes_power_away_needs_no_proof(kind: OpKind, mode: Mode) -> None:
+    world = reached("active")
+    request_id = world.op(kind, authentic=False)
+    tick = tick_of(world)
+    operator.hear_op(tick, world.extra.ops[0])
+    world.state = tick.s
+    assert (world.verdict(request_id), tick.s.mode) == ("ok", mode)
 
 
 @table(

@@ -234,6 +234,7 @@ def test_points_along_the_path(along: float, place: tuple[float, float]) -> None
     assert pursuit._point(BENT, along) == pytest.approx(place)
     assert pursuit._point(L_SHAPED, 0.1) == pytest.approx((0.1, 0.0))
     assert pursuit._point(L_SHAPED, 0.3) == pytest.approx((0.2, 0.1))
+    assert pursuit._point(L_SHAPED, inf) == (0.2, 0.2)
 
 
 @table(
