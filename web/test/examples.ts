@@ -80,6 +80,7 @@ export const cup: Thing = {
   confidence: 0.9,
   age_s: 0.2,
   room: "kitchen",
+  sightings: 4,
 };
 
 export const sight: Sight = {

@@ -110,6 +110,9 @@ describe("things", () => {
   it("are told of in both languages", () => {
     const look = sight.look as Look;
     expect(knownWords(cup, 0.4)).toBe("kitchen · in view · 90 % sure · within 0.08 m");
+    expect(knownWords({ ...cup, room: null, sightings: 1 }, 0.4)).toBe(
+      "in view · in one picture only · 90 % sure · within 0.08 m",
+    );
     expect(knownWords({ ...cup, room: null }, 7.6)).toBe(
       "seen 8 s ago · 90 % sure · within 0.08 m",
     );

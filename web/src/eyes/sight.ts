@@ -5,7 +5,7 @@ import { since, type Moment } from "../state/moment";
 import { steady } from "../state/steady";
 import { known, now, sight } from "../state/store";
 import type { Look, Thing } from "../wire/types";
-import { knownWords, orderTo } from "./words";
+import { knownWords, orderTo, seenOnce } from "./words";
 
 /** Old or doubtful things are told from those that are surely there. */
 const FAINT_S = 600;
@@ -71,5 +71,5 @@ const rowOf = (thing: Thing, ageS: number): Row => ({
   what: say(thing.name),
   order: orderTo(thing),
   known: knownWords(thing, ageS),
-  faint: ageS > FAINT_S || thing.confidence < FAINT_BELOW,
+  faint: ageS > FAINT_S || thing.confidence < FAINT_BELOW || seenOnce(thing),
 });

@@ -18,11 +18,15 @@ export const agoWords = (ageS: number): string =>
 
 export const percent = (share: number): string => fixed(share * 100, 0, "%");
 
+/** Say whether one picture alone showed it: it may be a mistake. */
+export const seenOnce = (thing: Pick<Thing, "sightings">): boolean => thing.sightings < 2;
+
 /** Say where a thing is and how well that is known. */
 export const knownWords = (thing: Thing, ageS: number): string =>
   [
     nameOf(thing.room),
     agoWords(ageS),
+    seenOnce(thing) ? t("objects.once") : "",
     t("objects.sure", { share: percent(thing.confidence) }),
     t("objects.within", { metres: fixed(thing.sigma_m, 2, "m") }),
   ]

@@ -189,6 +189,7 @@ export const en = {
   "objects.none": "Nothing has been seen yet.",
   "objects.now": "in view",
   "objects.ago": "seen {age} ago",
+  "objects.once": "in one picture only",
   "objects.sure": "{share} sure",
   "objects.within": "within {metres}",
   "objects.go": "Go to it",

@@ -188,6 +188,7 @@ export const zh: Record<Key, string> = {
   "objects.none": "还没有见过任何物体。",
   "objects.now": "正看着",
   "objects.ago": "{age}前见过",
+  "objects.once": "只在一张画面中见过",
   "objects.sure": "把握 {share}",
   "objects.within": "误差约 {metres}",
   "objects.go": "过去",

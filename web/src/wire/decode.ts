@@ -182,7 +182,8 @@ const isThing = (value: unknown): boolean =>
   words(value.name) &&
   textOrNull(value.color) &&
   textOrNull(value.room) &&
-  [value.x_m, value.y_m, value.sigma_m, value.confidence, value.age_s].every(finite);
+  [value.x_m, value.y_m, value.sigma_m, value.confidence, value.age_s].every(finite) &&
+  finite(value.sightings);
 
 const isSight = (value: unknown): value is Sight =>
   bag(value) &&

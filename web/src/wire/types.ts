@@ -237,6 +237,8 @@ export type Thing = {
   readonly confidence: number;
   readonly age_s: number;
   readonly room: string | null;
+  /** Pictures that it was in; one alone may be a mistake. */
+  readonly sightings: number;
 };
 
 /** What eyes report: `things` are those of which there is news, `version` counts their coming and going. */
