@@ -88,6 +88,10 @@ class ImageSubscriber:
         attached = sample.attachment.to_bytes() if sample.attachment is not None else b""
         return image(self._key, attached, sample.payload.to_bytes())
 
+    def close(self) -> None:
+        """Hear no more: who says it learns that nobody listens."""
+        self._subscriber.undeclare()  # type: ignore[no-untyped-call]  # its stub has no annotation
+
 
 class Subscriber(Generic[M]):
     """Hold the newest messages of one key until somebody drains them."""

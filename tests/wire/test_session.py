@@ -181,4 +181,9 @@ def test_a_picture_is_wanted_while_somebody_listens(tmp_path: Path) -> None:
             ears = planner.image_subscriber(CAMERA_COLOR)
             assert until(lambda: mouth.wanted)
             assert ears.newest() is None
+            ears.close()
+            assert until(lambda: not mouth.wanted)
+            again = planner.image_subscriber(CAMERA_COLOR)
+            assert until(lambda: mouth.wanted)
+            assert again.newest() is None
         assert until(lambda: not mouth.wanted)
