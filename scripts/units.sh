@@ -9,4 +9,4 @@ set -- -o cache_dir="$memory" -m "not e2e and not home" "$@"
 code=$?
 [ "$code" = 75 ] || exit "$code"
 echo "units: some failed in time that was not ours; each of those is run again, alone."
-"$(dirname "$0")/again.sh" "$@"
+FIRST=$code "$(dirname "$0")/again.sh" "$@"

@@ -16,6 +16,8 @@ import psutil
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.contact import Contacts
+
 ROOT = Path(__file__).resolve().parents[1]
 CHILD_GRACE_S = 5.0
 SELDOM = (100_000, 50, 100)
@@ -35,6 +37,11 @@ settings.register_profile(
 settings.register_profile("dev", deadline=None, max_examples=50)
 settings.register_profile("laws", deadline=None, max_examples=2_000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci" if os.environ.get("CI") else "dev"))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Let a contact decide how the run ends."""
+    config.pluginmanager.register(Contacts())
 
 
 @pytest.hookimpl(wrapper=True)

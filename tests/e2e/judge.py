@@ -15,6 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Generic, Self, TypeVar
 
+from tests.contact import SEEN
 from tests.e2e.polling import until
 from wire import DriveState, Event, Mode, SimTruth, Status
 from wire.keys import DRIVE_STATE, EVENT, SIM_TRUTH, STATUS, Party
@@ -182,4 +183,5 @@ class Judge:
 
     def assert_no_contact(self) -> None:
         """Hold that the robot touched nothing since the simulator started."""
-        assert self.truth.contacts_total == 0, self.describe()
+        touched = self.truth.contacts_total
+        assert touched == 0, f"{SEEN}: {touched}; {self.describe()}"

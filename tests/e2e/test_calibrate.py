@@ -108,7 +108,7 @@ def test_a_wrong_description_is_measured_and_mended(wrong: Robot) -> None:
     (kept,) = home.glob("robot.toml.bak-*")
     assert kept.read_text("utf-8") == before
     assert "+wheel_radius_m" in done.stdout
-    assert wrong.judge.truth.contacts_total == 0
+    wrong.judge.assert_no_contact()
     assert wrong.judge.status.mode is Mode.HOLD
 
 
