@@ -1,22 +1,28 @@
-"""Drive the whole home for hours with the page open and count the stops that nobody asked for.
+"""Drive the whole home for hours with page and eyes open; count stops that nobody asked for.
 
 An unexplained stop is a STOPPING from ACTIVE with no injected fault, obstacle, fence, order or
 arrival. One that began within a second of the host's taking a processor away for over 100 ms is
-counted apart. Driven time is time in ACTIVE.
+counted apart. Driven time is time in ACTIVE. The page shows the camera's picture, the detector
+looks at every one, and cyclictest turns beside the bridge: same processor, rank and period.
 """
 
 from __future__ import annotations
 
+import os
+import re
 import time
+import urllib.request
 from collections import Counter
-from contextlib import ExitStack, suppress
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager, suppress
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from bench.figures import NONE_SEEN_95
+from bench.figures import NONE_SEEN_95, poisson_upper_95
+from bench.lateness import cyclictest_late_us, missed
 from bench.measure import page
-from bench.report import Row
-from bench.robot import SLOW, Robot
+from bench.report import Row, row_of
+from bench.robot import CAMERA, EVERYTHING, SLOW, Robot
 from bench.stalls import Stalls
 from pons.http import Refused, call
 from wire import Event, Mode, Status, decode, load_robot
@@ -24,10 +30,14 @@ from wire.keys import EVENT, STATUS, Party
 from wire.session import Subscriber, open_session
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Page
+
     from bench.lab import Lab
 
 NAME = "unexplained_stops"
-TITLE = "stops that nobody asked for, the page open"
+TITLE = "stops that nobody asked for and missed ticks, page and picture open"
 LONG_ONLY = True
 SLICES = 20
 SLICE_S = 600.0
@@ -43,6 +53,10 @@ WITHIN_S = 1.0
 """Rows that a stall raises come within their windows of it; none is longer than this."""
 ENDED = frozenset({"succeeded", "failed", "cancelled", "refused", "needs_clarification"})
 LOOK_S = 0.02
+PERIOD_US = 10_000
+FULL_RATE = "10"
+"""Looks a second: as many as the camera gives pictures."""
+_LOOKS = re.compile(r'^pons_eyes_looks\{what="looks"\} (\S+)', re.MULTILINE)
 GAP_S = 0.2
 """Statuses further apart than this say nothing of the time between them."""
 
@@ -78,27 +92,48 @@ def measure(lab: Lab) -> list[Row]:
         Row("stops after a host's stall over 100 ms", "", "", value=str(sum(stalled.values()))),
         Row("longest stall in the second before", "", "", value=", ".join(before[:8]) or "none"),
         Row("all stops from ACTIVE", "", "", value=str(sum(stops.values())), note=told),
+        _ticks(runs),
+        row_of("looks of the detector", "1/s", "", [run["looks_per_s"] for run in runs]),
     ]  # fmt: skip
+
+
+def _ticks(runs: list[dict[str, Any]]) -> Row:
+    """Compare the bridge's missed ticks with cyclictest's in the same minutes."""
+    runs = [run for run in runs if run["cyclictest"]["ticks"]]
+    if not runs:
+        return Row("ticks missed", "", "", value="not compared", note="no cyclictest here")
+    ours, its = (
+        [sum(run[who][what] for run in runs) for what in ("missed", "ticks")]
+        for who in ("bridge", "cyclictest")
+    )
+    goal = f"<= {max(1.5 * its[0], poisson_upper_95(its[0])):.1f}"
+    note = f"of {ours[1]}; cyclictest {its[0]} of {its[1]}, in the same minutes"
+    return Row("ticks missed", "", goal, value=str(ours[0]), note=note)
 
 
 def _drive(lab: Lab) -> dict[str, Any]:
     """Drive one slice; every stop from ACTIVE is kept with its reason and its time."""
     with ExitStack() as stack:
         home = stack.enter_context(lab.folder())
-        robot = stack.enter_context(Robot(home, "home"))
+        stack.enter_context(_full_rate())
+        robot = stack.enter_context(Robot(home, "home", only=(*EVERYTHING, CAMERA)))
         robot.make_ready()
         robot.forget()
         opened = not page.missing()
         if opened:
-            shown = stack.enter_context(page.browser(home)).new_page()
-            shown.goto(f"http://{robot.settings.host}:{robot.settings.port}/")
-            shown.wait_for_selector("#link[data-state=good]")
+            _open(stack.enter_context(page.browser(home)).new_page(), robot)
         ears = open_session(Party.JUDGE, load_robot(robot.settings.robot).id, home)
         stack.callback(ears.close)
         watch = Watch(ears.subscriber(STATUS), ears.subscriber(EVENT))
+        pool = stack.enter_context(ThreadPoolExecutor(1))
         stalls = Stalls()
         with stalls:
+            looks, began_s, ticks = _looks(robot), time.monotonic(), _counted(robot)
+            beside = pool.submit(cyclictest_late_us, SLICE_S, PERIOD_US)
             goals = _tour(lab, robot, watch)
+            late_us = beside.result()
+            looks_per_s = (_looks(robot) - looks) / (time.monotonic() - began_s)
+            turned = [now - then for now, then in zip(_counted(robot), ticks, strict=True)]
         for stop in watch.stops:
             stop["stall_s"] = stalls.longest_before_s(stop["at_s"], WITHIN_S)
         return {
@@ -108,7 +143,42 @@ def _drive(lab: Lab) -> dict[str, Any]:
             "stalls": stalls.seen,
             "speed": robot.speed,
             "page": opened,
+            "looks_per_s": looks_per_s,
+            "bridge": {"ticks": turned[0], "missed": turned[1]},
+            "cyclictest": {"ticks": len(late_us), "missed": missed(late_us, PERIOD_US)},
         }
+
+
+@contextmanager
+def _full_rate() -> Iterator[None]:
+    """Have planners that start meanwhile think upon every picture."""
+    os.environ["PONS_VISION_RATE_HZ"] = FULL_RATE
+    try:
+        yield
+    finally:
+        del os.environ["PONS_VISION_RATE_HZ"]
+
+
+def _open(shown: Page, robot: Robot) -> None:
+    """Open page and picture as a person does."""
+    shown.goto(f"http://{robot.settings.host}:{robot.settings.port}/")
+    shown.wait_for_selector("#link[data-state=good]")
+    shown.locator("#camera summary").click()
+    shown.wait_for_selector("#camera canvas")
+
+
+def _looks(robot: Robot) -> float:
+    """Return how many looks the planner's eyes have made."""
+    url = f"http://{robot.settings.host}:{robot.settings.port}/metrics"
+    with urllib.request.urlopen(url, timeout=5.0) as reply:
+        found = _LOOKS.search(reply.read().decode())
+    return float(found[1]) if found else 0.0
+
+
+def _counted(robot: Robot) -> tuple[int, int]:
+    """Return the bridge's ticks since its start, and how many of them it missed."""
+    status = robot.status
+    return (status.ticks.ticks, status.ticks.missed) if status else (0, 0)
 
 
 class Watch:
