@@ -4,7 +4,8 @@
 process: pytest collects once, each mutant is a fork that runs the tests that walk its line, until
 one fails. Results are kept in .mutants/results.jsonl, so a run may be broken off and gone on with:
 ``--again`` tries what lived or was not decided once more, ``--report`` counts what is known of the
-source as it is now. Nothing on disk is ever changed.
+source as it is now, ``--outside`` keeps to what stands outside functions: tables, constants and
+defaults of records. Nothing on disk is ever changed.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ import resource
 import signal
 import sys
 from collections import Counter
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from types import CodeType
 from typing import NoReturn
@@ -80,7 +83,7 @@ class Loop:
         walked = Walked(plain(session.items))
         gc.collect()
         gc.freeze()
-        for outside in (False, True):  # what is in no function may need imports anew: it comes last
+        for outside in parts(self.wanted):
             for name, source in sources.items():
                 self._file(name, source, walked, outside=outside)
         return True
@@ -90,19 +93,31 @@ class Loop:
         mutants = [one for one in mutants if in_no_function(one[0]) is outside]
         step = max(1, len(mutants) // self.wanted.sample) if self.wanted.sample else 1
         counts: Counter[str] = Counter()
+        sound = not outside
         for mutant, change in mutants[::step]:
             key = f"{name}:{mutant.key}"
             result = self.done.get(key)
             if result is None or (self.wanted.again and result in ALIVE):
-                child = os.fork()
-                if child == 0:
-                    change()
-                    exit_in_child(name, mutant, tree, walked, self.wanted)
-                result = self._told(name, mutant, os.waitpid(child, 0)[1], walked)
+                sound = sound or self._sound(name, source, walked)
+                number = partial(tried, name, mutant, change, tree, walked, self.wanted)
+                status = in_child(number, self.wanted.seconds)
+                result = self._told(name, mutant, status, walked)
                 self._keep(key, name, mutant, result)
             counts[result] += 1
         if mutants:
             print(f"{name}: {len(mutants)}, tried {counts.total()}: {dict(counts)}", flush=True)
+
+    def _sound(self, name: str, source: str, walked: Walked) -> bool:
+        """Tell that no test fails when the unchanged module is imported anew; else end the run.
+
+        A test that fails of the import alone would notice every mutant, and tell nothing.
+        """
+        code = compile(source, str(CORE / f"{name}.py"), "exec")
+        again = (f"bridge.core.{name}", code, files_first(walked, name), chosen(self.wanted))
+        status = in_child(lambda: OTHER if import_anew(*again) else NOTHING, resource.RLIM_INFINITY)
+        if not os.WIFEXITED(status) or os.WEXITSTATUS(status) != NOTHING:
+            raise SystemExit(f"{name}, imported anew without any mutant, fails a test")
+        return True
 
     def _told(self, name: str, mutant: Mutant, status: int, walked: Walked) -> str:
         if os.WIFSIGNALED(status):
@@ -124,6 +139,14 @@ class Loop:
             print(f"{result:9} {name}.py:{mutant.line} {mutant.where} {mutant.what}", flush=True)
 
 
+def parts(wanted: argparse.Namespace) -> tuple[bool, ...]:
+    """Return which mutants to try, by whether they stand outside functions.
+
+    Those may need core and tests imported anew: they come last.
+    """
+    return (True,) if wanted.outside else (False, True)
+
+
 def in_no_function(mutant: Mutant) -> bool:
     """Tell whether a mutant changes a table, a constant or a record's default."""
     return not mutant.where or mutant.where.rpartition(".")[2][:1].isupper()
@@ -142,23 +165,47 @@ def tests_of(walked: Walked, name: str, mutant: Mutant) -> list[str]:
     return walked.tests(name, lines - {min(lines)}, function)
 
 
-def exit_in_child(
-    name: str, mutant: Mutant, tree: ast.Module, walked: Walked, wanted: argparse.Namespace
-) -> NoReturn:
-    """Put the mutant in, run the tests and end the process: by the number of the test that noticed.
+def in_child(number: Callable[[], int], seconds: int) -> int:
+    """Fork, end the child with a number and return its wait status.
 
-    Nothing may leave this function: the parent's frames are above it.
+    Nothing may leave the child but that number: the parent's frames are above it.
+
+    Args:
+        number: run in the child, which says nothing; at most 255.
+        seconds: of processor time that the child may take [s].
     """
+    child = os.fork()
+    if child == 0:
+        exit_with(number, seconds)
+    return os.waitpid(child, 0)[1]
+
+
+def exit_with(number: Callable[[], int], seconds: int) -> NoReturn:
+    """End this process by what a function returns, or as broken where it raises."""
     code = BROKEN
     try:
         quiet = os.open(os.devnull, os.O_WRONLY)
         os.dup2(quiet, 1)
         os.dup2(quiet, 2)
-        resource.setrlimit(resource.RLIMIT_CPU, (wanted.seconds, wanted.seconds + 5))
-        made = compile(ast.fix_missing_locations(tree), str(CORE / f"{name}.py"), "exec")
-        code = number_of_noticing(name, mutant, made, walked, wanted)
+        most = seconds if seconds == resource.RLIM_INFINITY else seconds + 5
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, most))
+        code = number()
     finally:
         os._exit(code)
+
+
+def tried(
+    name: str,
+    mutant: Mutant,
+    change: Callable[[], None],
+    tree: ast.Module,
+    walked: Walked,
+    wanted: argparse.Namespace,
+) -> int:
+    """Make a mutant's change and return the number of the test that noticed."""
+    change()
+    made = compile(ast.fix_missing_locations(tree), str(CORE / f"{name}.py"), "exec")
+    return number_of_noticing(name, mutant, made, walked, wanted)
 
 
 def number_of_noticing(
@@ -191,15 +238,16 @@ def chosen(wanted: argparse.Namespace) -> str:
     return "core_quick" if wanted.quick else "not slow"
 
 
-def report(names: list[str]) -> None:
+def report(wanted: argparse.Namespace) -> None:
     """Print what is known of the source as it is: a table by file, then each that lives."""
     done, alive = known(), []
     print("| file | mutants | tried | noticed | undecided | alive |\n|---|---|---|---|---|---|")
     cells = ("mutants", "tried", "noticed", "undecided", "alive")
     whole: Counter[str] = Counter()
-    for name in names:
-        _, mutants = mutants_of((CORE / f"{name}.py").read_text("utf-8"))
-        found = Counter(done.get(f"{name}:{one.key}", "untried") for one, _ in mutants)
+    for name in wanted.names:
+        _, made = mutants_of((CORE / f"{name}.py").read_text("utf-8"))
+        mutants = [one for one, _ in made if in_no_function(one) in parts(wanted)]
+        found = Counter(done.get(f"{name}:{one.key}", "untried") for one in mutants)
         row = Counter(
             mutants=len(mutants),
             tried=len(mutants) - found["untried"],
@@ -209,11 +257,11 @@ def report(names: list[str]) -> None:
         )
         whole += row
         print(f"| {name} |", " | ".join(str(row[cell]) for cell in cells), "|")
-        for one, _ in mutants:
-            if done.get(f"{name}:{one.key}") in ALIVE:
-                alive.append(
-                    f"{done[f'{name}:{one.key}']} {name}.py:{one.line} {one.where} {one.what}"
-                )
+        alive += [
+            f"{done[f'{name}:{one.key}']} {name}.py:{one.line} {one.where} {one.what}"
+            for one in mutants
+            if done.get(f"{name}:{one.key}") in ALIVE
+        ]
     print("| all |", " | ".join(str(whole[cell]) for cell in cells), "|")
     print("\n".join(alive))
 
@@ -225,6 +273,7 @@ def main() -> int:
     parser.add_argument("--sample", type=int, default=0, help="at most so many mutants a file")
     parser.add_argument("--again", action="store_true", help="try what lived once more")
     parser.add_argument("--quick", action="store_true", help="the quick suite only")
+    parser.add_argument("--outside", action="store_true", help="only what is in no function")
     parser.add_argument("--seconds", type=int, default=LIMIT_S, help="of processor time a mutant")
     parser.add_argument("--report", action="store_true", help="count what is known, try nothing")
     wanted = parser.parse_args()
@@ -232,7 +281,7 @@ def main() -> int:
     wanted.names = wanted.names or [*FIRST, *rest]
     os.chdir(ROOT)
     if wanted.report:
-        report(wanted.names)
+        report(wanted)
         return 0
     arguments = [*PYTEST, "-m", chosen(wanted), str(TESTS)]
     return int(pytest.main(arguments, plugins=[Loop(wanted)]))
