@@ -42,6 +42,35 @@ def test_bounds_are_within() -> None:
         assert not horizon._all_within([1.5, odd], 1.0, 2.0)
 
 
+@table(
+    ("gaps", "spaced"),
+    [
+        # a millimetre is what coordinates may be rounded by; less in the middle than at the ends
+        ([0.1, 0.04905, 0.1], True), ([0.1, 0.04895, 0.1], False),
+        ([0.1, 0.25095, 0.1], True), ([0.1, 0.25105, 0.1], False),
+        ([0.00905, 0.1], True), ([0.00895, 0.1], False),
+        ([0.1, 0.00905], True), ([0.1, 0.00895], False),
+        ([0.25105, 0.1], False), ([0.1, 0.25105], False), ([0.25095], True),
+    ],
+)  # fmt: skip
+def test_gaps_are_within_their_bounds_and_a_millimetre(gaps: list[float], spaced: bool) -> None:
+    assert horizon._spaced(gaps) is spaced
+
+
+@table(
+    ("speed_mps", "fits"),
+    [
+        (0.05 - 0.95e-6, True),
+        (0.05 - 1.05e-6, False),
+        (0.5 + 0.95e-6, True),
+        (0.5 + 1.05e-6, False),
+    ],
+)
+def test_speeds_are_within_their_bounds_and_a_millionth(speed_mps: float, fits: bool) -> None:
+    assert horizon._speeds_fit([0.3, speed_mps], 0.5) is fits
+    assert horizon._speeds_fit([-speed_mps], 0.5) is fits
+
+
 Point = tuple[float, float]
 
 

@@ -181,6 +181,14 @@ def test_a_stick_is_ready_once_seen_released_and_neutral(
         assert tick.reasons == ["stick_not_ready"]
 
 
+def test_eight_sticks_are_remembered_as_ready_the_newest_ones() -> None:
+    tick = at("hold")
+    for number in range(9):
+        stick.hear_teleop(tick, velocity(tick, dead_man=False, source_id=f"s{number}"))
+    newest = tuple(f"s{number}" for number in range(1, 9))
+    assert (tick.s.stick.released, tick.s.stick.ready) == (newest, newest)
+
+
 @table(
     ("received_age_s", "sent_age_s", "fresh"),
     [(0.25, 0.4, True), (0.25 + EPS, 0.0, False), (0.0, 0.4 + EPS, False)],
