@@ -110,11 +110,12 @@ class Runner:
         self, fault: Fault, *, drives: bool
     ) -> tuple[dict[str, Cell], tuple[Try, ...]]:
         """Play it; again where it could not begin, or failed while the machine kept no time."""
-        from_s = time.monotonic()
+        from_s = facts_s = time.monotonic()
         tried: list[Try] = []
         while True:
-            cells, began = self._play(fault, from_s, drives=drives)
+            cells, began = self._play(fault, from_s, facts_s, drives=drives)
             failed = self._fair.judge(self._adapter, cells, from_s)
+            judged_s = time.monotonic()
             if failed is None:
                 break
             tried.append(failed)
@@ -123,18 +124,27 @@ class Runner:
             if failed.excused:
                 self._fair.wait(f"{self._name} {fault.name}", failed)
             drives = self.again().ok is True
-            if failed.excused:
-                from_s = time.monotonic()
+            if failed.excused:  # it has driven all the while: facts leave no gap
+                from_s, facts_s = time.monotonic(), judged_s
         return cells, tuple(tried)
 
-    def _play(self, fault: Fault, from_s: float, *, drives: bool) -> tuple[dict[str, Cell], bool]:
-        """Play it once; return its cells and whether it could begin."""
+    def _play(
+        self, fault: Fault, from_s: float, facts_s: float, *, drives: bool
+    ) -> tuple[dict[str, Cell], bool]:
+        """Play it once; return its cells and whether it could begin.
+
+        Args:
+            fault: what is played.
+            from_s: since when all must hold, on the monotonic clock.
+            facts_s: since when what no machine excuses must hold; not after ``from_s``.
+            drives: the good brain drives.
+        """
         stage = self._stage()
         trouble = self._try(stage, fault) if drives else "the good brain does not drive"
         drives_again = self.again()
         self._helpers.load()
         stands = Cell(False, trouble) if trouble else _stands(stage, fault)
-        cells = self._judge(from_s) | {"stands": stands, AGAIN: drives_again}
+        cells = self._judge(from_s, facts_s) | {"stands": stands, AGAIN: drives_again}
         return cells, trouble is None
 
     def _try(self, stage: Stage, fault: Fault) -> str | None:
@@ -151,15 +161,15 @@ class Runner:
                     stage.end()
         return None
 
-    def _judge(self, from_s: float) -> dict[str, Cell]:
+    def _judge(self, from_s: float, facts_s: float) -> dict[str, Cell]:
         """Judge what must hold at every moment, up to now."""
         record, bounds, to_s = self._adapter.record, self._adapter.bounds, time.monotonic()
         return {
-            "speed": verdict.speed(record, bounds, from_s, to_s),
+            "speed": verdict.speed(record, bounds, facts_s, to_s),
             "acceleration": verdict.acceleration(record, bounds, from_s, to_s),
             "unasked": verdict.unasked(record, from_s, to_s),
             "ticks": verdict.alive(record, bounds, from_s, to_s),
-            "contacts": verdict.contacts(record, from_s, to_s),
+            "contacts": verdict.contacts(record, facts_s, to_s),
         }
 
     def again(self) -> Cell:

@@ -136,10 +136,16 @@ def test_the_last_try_stands(
     monkeypatch.setattr(runner, "time", clock)
     left = list(plays)
     began: list[tuple[float, float]] = []
+    ended_s = [0.0]
 
-    def play(_fault: object, from_s: float, *, drives: bool) -> tuple[dict[str, Cell], bool]:
+    def play(
+        _fault: object, from_s: float, facts_s: float, *, drives: bool
+    ) -> tuple[dict[str, Cell], bool]:
         began.append((world.now_s, from_s))
+        assert facts_s in (from_s, ended_s[-1]), "a contact while one waits belongs to a row"
+        assert from_s < world.now_s or facts_s == ended_s[-1]
         world.now_s += PLAY_S
+        ended_s.append(world.now_s)
         return left.pop(0)
 
     playing = played_by(world, play)
