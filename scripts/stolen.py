@@ -7,6 +7,7 @@ taken, or nobody tells, a failure is a failure.
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -32,13 +33,24 @@ class Taken(NamedTuple):
 
 def main(command: list[str]) -> int:
     """Run it to its end; return its exit status, or 75."""
-    before = taken(STAT.read_text("ascii"))
-    code = subprocess.run(command, check=False).returncode
-    share = taken(STAT.read_text("ascii")).share_since(before)
+    before = now()
+    # Ctrl-C reaches the command too, for it is of one terminal; it cleans up by itself.
+    ours = signal.signal(signal.SIGINT, lambda *_: None)
+    code = subprocess.Popen(command).wait()
+    signal.signal(signal.SIGINT, ours)
+    share = now().share_since(before)
     if code != FAILED or not share > TOO_MUCH:
         return code
     print(f"stolen: the host took {share:.0%} of the processors meanwhile", flush=True)
     return SAYS_NOTHING
+
+
+def now() -> Taken:
+    """Look at this machine's processors; where nobody tells, nothing is taken."""
+    try:
+        return taken(STAT.read_text("ascii"))
+    except OSError:
+        return Taken(0, 0)
 
 
 def taken(stat: str) -> Taken:

@@ -94,8 +94,8 @@ nobody is taught or judged.
 The network has convolutions only, and heads at strides {", ".join(map(str, STRIDES))}. It was
 fitted from nothing by AdamW in {fit["steps"]} steps of {fit["batch"]} frames (seed {fit["seed"]},
 PyTorch {fit["torch"]}): the first {fit["small_share"]:.0%} of them in a smaller size, the last
-{fit["plain_share"]:.0%} on frames as they were drawn, those between lit, moved and blurred at
-random. It was exported with opset {export["opset"]} from commit {export["commit"] or "unknown"};
+{fit["plain_share"]:.0%} on frames as they were drawn, all others lit, moved and blurred at random.
+It was exported with opset {export["opset"]} from commit {export["commit"] or "unknown"};
 the file differs from the network by at most {export["worst_difference"]:.0e}. No picture, weight
 or label from elsewhere is in it.
 """

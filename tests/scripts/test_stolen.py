@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
 import sys
 from typing import TYPE_CHECKING
 
@@ -31,5 +34,27 @@ def test_its_exit_status_stands_but_for_stolen_time(
     assert stolen.main([sys.executable, "-S", "-c", script]) == code
 
 
-def test_where_nobody_tells_nothing_was_taken() -> None:
+def test_where_nobody_tells_nothing_was_taken(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert stolen.taken("cpu  5 4 3 2\nintr 1\n") == (0, 14)
+    monkeypatch.setattr(stolen, "STAT", tmp_path / "none")
+    assert stolen.main([sys.executable, "-S", "-c", "raise SystemExit(1)"]) == 1
+
+
+def test_a_command_that_is_interrupted_ends_by_itself(repository: Path, tmp_path: Path) -> None:
+    script = (
+        "import sys, time, pathlib\nprint('began', flush=True)\n"
+        "try:\n    time.sleep(30)\nexcept KeyboardInterrupt:\n    time.sleep(0.6)\n"
+        "    pathlib.Path(sys.argv[1]).touch()\n"
+    )
+    words = [sys.executable, "-m", "scripts.stolen", sys.executable, "-u", "-c", script]
+    words.append(str(tmp_path / "x"))
+    with subprocess.Popen(
+        words, cwd=repository, stdout=subprocess.PIPE, start_new_session=True, text=True
+    ) as running:
+        assert running.stdout is not None
+        assert running.stdout.readline() == "began\n"
+        os.killpg(running.pid, signal.SIGINT)
+        assert running.wait(20) == 0
+    assert (tmp_path / "x").exists(), "it was killed while it cleaned up"

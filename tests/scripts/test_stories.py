@@ -14,8 +14,8 @@ case "$*" in
   *--last-failed*)
     echo "$PWD again" >> ../told
     [ "$(grep -c again ../told)" = 2 ] || exit 75 ;;
-  *first*) echo "first failed" >> ../told; exit 1 ;;
-  *) until [ -s ../told ]; do sleep 0.01; done; sleep 0.3; echo "other ended" >> ../told ;;
+  *first*) until [ -e ../other ]; do sleep 0.01; done; echo "first failed" >> ../told; exit 1 ;;
+  *) touch ../other; until [ -s ../told ]; do sleep 0.01; done; sleep 0.3; echo "other ended" >> ../told ;;
 esac
 """
 
@@ -62,8 +62,9 @@ exit {code}
         (1, 1, None, True, ["first", "again"], 1),
         (75, 1, None, True, ["first", "again"], 1),
         (75, 0, None, True, ["first", "again"], 0),
-        (1, 75, None, True, ["first", "again", "again", "again"], "not judged"),
-        (1, 75, None, False, ["first", "again", "again", "again"], 75),
+        (75, 75, None, True, ["first", "again", "again", "again"], "not judged"),
+        (75, 75, None, False, ["first", "again", "again", "again"], 75),
+        (1, 75, None, True, ["first", "again", "again", "again"], 75),  # the first one counted
         (75, 75, "1", True, ["first"], "not judged"),  # no time is left
         (1, 75, "1", True, ["first"], 1),
     ],
