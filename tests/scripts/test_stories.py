@@ -15,7 +15,10 @@ case "$*" in
     echo "$PWD again" >> ../told
     [ "$(grep -c again ../told)" = 2 ] || exit 75 ;;
   *first*) until [ -e ../other ]; do sleep 0.01; done; echo "first failed" >> ../told; exit 1 ;;
-  *) touch ../other; until [ -s ../told ]; do sleep 0.01; done; sleep 0.3; echo "other ended" >> ../told ;;
+  *)
+    touch ../other
+    until [ -s ../told ]; do sleep 0.01; done
+    sleep 0.3; echo "other ended" >> ../told ;;
 esac
 """
 
