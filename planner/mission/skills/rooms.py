@@ -166,15 +166,17 @@ def _far(a: Point, b: Point) -> bool:
     return hypot(a[0] - b[0], a[1] - b[1]) > REACH_M
 
 
-def _grid(outline: tuple[Point, ...], inset_m: float) -> list[Point]:
+@lru_cache(maxsize=256)
+def _grid(outline: tuple[Point, ...], inset_m: float) -> tuple[Point, ...]:
+    """Return the points of a room, so far from its outline: the same from wherever one looks."""
     if not outline:
-        return []
+        return ()
     xs, ys = [x for x, _ in outline], [y for _, y in outline]
     step_m = max(STEP_M, sqrt((max(xs) - min(xs)) * (max(ys) - min(ys)) / MOST_POINTS))
     columns, rows = int((max(xs) - min(xs)) / step_m) + 1, int((max(ys) - min(ys)) / step_m) + 1
     points = [
         (min(xs) + c * step_m, min(ys) + r * step_m) for c in range(columns) for r in range(rows)
     ]
-    return [
+    return tuple(
         p for p in points if contains(outline, *p) and border_distance_m(outline, *p) >= inset_m
-    ]
+    )
