@@ -40,6 +40,7 @@ from planner.mission.sight import at_rest
 from planner.mission.skills import Eyesight
 from planner.mission.view import Progress, goal_of, progress_of
 from planner.mission.warm import warm_up
+from planner.mission.wording import Wording
 from planner.route import RoutePoint
 from wire import OpRequest, Status, Waypoints
 
@@ -75,6 +76,7 @@ class Loop:
         self._collector = Collector()
         self._key_now: GoalKey | None = None
         self._helpers: Helpers | None = None
+        self._wording: Wording | None = None
         self._safe: Safekeeping | None = None
         self._task: asyncio.Task[None] | None = None
         self._broken: BaseException | None = None
@@ -126,12 +128,13 @@ class Loop:
             Misconfigured: the journal holds what this version can't read.
         """
         kept = await asyncio.to_thread(self._journal.load)
-        await asyncio.to_thread(warm_up, self.book.facts)
+        await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
         self._safe = Safekeeping(self._journal, self._on_safe)
         answers = Answers(
             self.event, self._on_routed, self._link.obstacles, self.event, self._break
         )
         self._helpers = Helpers(think, router, answers, self._door)
+        self._wording = Wording(self.book.eyes.classes, self._helpers.spawn, self._seen_anew)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         self.event(Restarted(kept.missions, kept.queue, offset_s))
         if freeze:
@@ -248,11 +251,16 @@ class Loop:
             self._attends = wanted
             self._eyes.attend("mission", wanted)
 
+    def _seen_anew(self) -> None:
+        """Take what the eyes said last once more: their classes can be read now."""
+        if self._eyes is not None:
+            self._on_sight(self._eyes.sight)
+
     def _on_sight(self, sight: Sight) -> None:
-        if self._eyes is None or self._helpers is None:
+        if self._eyes is None or self._wording is None:
             return
         try:
-            self.event(Sighted(sight, self._eyes.classes))
+            self.event(Sighted(sight, self._wording.of(self._eyes.classes)))
         except Exception as error:
             self._break(error)
             raise

@@ -79,6 +79,13 @@ def resolve(
     return None
 
 
+def prepare(classes: Collection[str]) -> None:
+    """Make what reads words in these classes. Takes long once: call it off the event loop."""
+    own = _own_names(classes)
+    _english_patterns(own)
+    _chinese_pattern(own)
+
+
 def singles_out(words: str, classes: Collection[str] = ()) -> bool:
     """Tell whether words say which one is meant by more than its kind and colour.
 
