@@ -6,7 +6,6 @@ It passes the simulator's truth on with noise and localizes nothing; see localiz
 from __future__ import annotations
 
 import argparse
-import contextlib
 import gc
 import logging
 import os
@@ -18,6 +17,7 @@ from pathlib import Path
 from localization.shell import Shell
 from localization.site_map import read_map_id
 from localization.standin import StandIn
+from rank import fifo
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -25,7 +25,9 @@ from wire.session import open_session
 log = logging.getLogger("localization")
 
 PRIORITY = 30
-"""Below the simulator, whose word it passes on, and below all of the bridge."""
+"""Of SCHED_FIFO, as it stands for what a machine has room for and has next to nothing to do; below
+the simulator, whose word it passes on, and below all of the bridge. As any other process it was
+silent for as long as others kept it waiting: POSE_LOST after 0.3 s (docs/adr/0026)."""
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
@@ -45,23 +47,13 @@ def _serve(options: argparse.Namespace) -> None:
     robot_id = (load_robot(options.robot) if options.robot else RobotDescription()).id
     stand_in = StandIn(read_map_id(options.site), seed=options.seed)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    _go_before_others()  # before the session, whose threads inherit it
+    fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.LOCALIZATION, robot_id, home) as session:
         shell = Shell(stand_in, session)
         gc.collect()
         gc.freeze()
         log.warning("STAND-IN: simulator truth plus noise, no localization; seed %d", options.seed)
         shell.run(stopped.is_set)
-
-
-def _go_before_others() -> None:
-    """Ask for SCHED_FIFO: it stands for what a machine has room for, and has next to nothing to do.
-
-    As any other process it was silent for as long as others kept it waiting, which the bridge must
-    call POSE_LOST after 0.3 s (docs/adr/0026). Where refused, goes on without.
-    """
-    with contextlib.suppress(AttributeError, OSError):  # no Linux; no right to it
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
 
 
 def main(arguments: list[str] | None = None) -> int:

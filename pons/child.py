@@ -1,7 +1,8 @@
 """Run one of our processes so that it cannot outlive the supervisor: ``python -m pons.child …``.
 
 The child asks the kernel for SIGTERM on its parent's death (prctl(2) PR_SET_PDEATHSIG) and then
-checks that the parent still is who started it, which closes the gap before the request.
+checks that the parent still is who started it, which closes the gap before the request. It was
+started in a session of its own, and weighs that for who sets no more than a nice of his own.
 """
 
 from __future__ import annotations
@@ -12,7 +13,11 @@ import runpy
 import signal
 import sys
 
+from rank import nice_among_sessions
+
 PR_SET_PDEATHSIG = 1
+BEHIND = {"sim.camera": 5}
+"""Whose sessions stand behind others, and how many steps of nice: a late picture is only late."""
 USAGE = "usage: python -m pons.child PARENT_PID MODULE [ARGUMENT …]"
 
 
@@ -33,6 +38,8 @@ def main(arguments: list[str]) -> int:
     if not bind_to_parent(int(arguments[0])):
         return 1
     module = arguments[1]
+    if module in BEHIND:
+        nice_among_sessions(BEHIND[module])
     sys.argv = [module, *arguments[2:]]
     runpy.run_module(module, run_name="__main__", alter_sys=True)
     return 0

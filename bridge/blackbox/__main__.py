@@ -18,10 +18,13 @@ from pathlib import Path
 from bridge.blackbox.frames import BadFrame, Splitter
 from bridge.blackbox.known import Clock
 from bridge.blackbox.writer import Writer
+from rank import nice
 
 BEAT_S = 0.5
 SYNC_S = 2.0
-NICE = 10
+NICE = 5
+"""A third of an ordinary weight. Of a core it needs 2.7 %, and one that gets less loses ticks: five
+steps behind sixteen busy processes on two cores it has 3.9 %, ten behind 1.3 %."""
 _READ_BYTES = 1 << 16
 EXIT_DONE, EXIT_BAD_FRAME = 0, 1
 
@@ -64,7 +67,7 @@ def be_humble() -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    os.nice(NICE)
+    nice(NICE, apart=True)
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, range(os.cpu_count() or 1))
 

@@ -87,11 +87,13 @@ class WriterProcess:
         return self._alive
 
     def join(self, limit_s: float = _ENDS_WITHIN_S) -> bool:
-        """Wait until it has written everything; for use after the loop."""
+        """Wait until it has written everything, and end it if it does not; after the loop only."""
         end_s = time.monotonic() + limit_s
         while self.alive() and time.monotonic() < end_s:
             time.sleep(0.01)
         self.forget()
+        if self._alive:  # who ends our group would not: it is a session of its own (rank)
+            os.kill(self.pid, signal.SIGKILL)
         return not self._alive
 
     def forget(self) -> None:

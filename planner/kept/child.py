@@ -1,8 +1,8 @@
 """Be a kept process: bound to its parent, frames in, frames out, work while nobody asks.
 
-Standard output is kept for frames alone. Runs at nice 10, because the bridge's loop and the
-planner's heartbeat share its cores, and in a session of its own: Linux may weigh whole sessions
-against each other, and the planner's share is for its loop.
+Standard output is kept for frames alone. Runs ten steps of nice behind the planner, because the
+bridge's loop and the planner's heartbeat share its cores, and apart: the planner's share is for its
+loop.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import Any, NoReturn
 
 from planner.kept.failure import Failure
 from planner.kept.frames import HEADER, Frame, lengths, pack, unpack
+from rank import nice
 
 PR_SET_PDEATHSIG = 1  # prctl(2)
 NICE = 10
@@ -95,10 +96,8 @@ def run(main: Callable[..., int]) -> NoReturn:
     parent_pid, *arguments = sys.argv[1:]
     if not bind_to_parent(int(parent_pid)):
         sys.exit(REFUSED)
-    os.nice(max(0, NICE - os.nice(0)))
+    nice(NICE, apart=True)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the group; the parent decides
-    if sys.platform == "linux":  # elsewhere only its parent's group is there to end it with
-        os.setsid()
     answers = os.dup(1)
     os.dup2(2, 1)  # what a library prints must not look like a frame
     sys.exit(main(Parent(0, answers), *arguments))

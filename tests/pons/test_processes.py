@@ -13,7 +13,10 @@ from pathlib import Path
 import psutil
 import pytest
 
+from pons.child import BEHIND
 from pons.processes import FIRST_PAUSE_S, LONGEST_PAUSE_S, STEADY_S, Backoff, Child
+from sim.camera.__main__ import NICE
+from tests.rank.standing import leads_its_session, stand_of
 
 SLEEPER = "import time\nprint('awake', flush=True)\ntime.sleep(60)\n"
 STUBBORN = (
@@ -104,6 +107,29 @@ def test_stopping_ends_the_process(child: Child) -> None:
     child.stop(5.0)
     assert gone(pid)
     assert child.process is None
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_the_session_of_a_camera_stands_behind_the_others(
+    modules: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (modules / "sim").mkdir()
+    (modules / "sim" / "__init__.py").touch()
+    (modules / "sleeper.py").rename(modules / "sim" / "camera.py")
+    monkeypatch.chdir(modules)  # in its place
+    path = {"PYTHONPATH": str(Path(__file__).parents[2])}
+    child = Child("camera", ["sim.camera"], modules / "log", path)
+    try:
+        child.start(0.0)
+        assert child.process is not None
+        wait_for_word(child.log, "awake")
+        assert leads_its_session(child.process.pid)
+        nice, session = stand_of(child.process.pid)
+        assert (nice, session) == (os.nice(0), None if session is None else NICE)
+        assert child.log.read_text() == "awake\n", "to stand behind takes no right"
+    finally:
+        child.stop(5.0)
+    assert BEHIND == {"sim.camera": NICE}
 
 
 @pytest.mark.parametrize("child", ["stubborn"], indirect=True)

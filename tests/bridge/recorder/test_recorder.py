@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from bridge.blackbox.__main__ import NICE
 from bridge.core import BridgeState, Decision, Inbox, LoopFacts, initial, step
 from bridge.recorder import Recorder, Sizes
 from bridge.recorder.process import WriterProcess
@@ -28,6 +29,7 @@ from bridge.recorder.reading import (
 )
 from bridge.replay import replay
 from tests.bridge.ground import ROOT, core_config, run_core, until
+from tests.rank.standing import leads_its_session, stand_of
 from tests.wire.examples import EXAMPLES
 from wire import Scan, Stop
 
@@ -146,6 +148,22 @@ def test_it_is_down_until_the_writer_has_spoken_and_then_fine(
     assert recorder.trouble == "recorder_down: the writing process begins a file"
     driver = Driver(recorder)
     assert driver.until(lambda: recorder.trouble == "")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_the_writer_stands_behind_the_bridge_and_does_not_outlive_it(
+    make: Callable[..., Recorder],
+) -> None:
+    recorder = make()
+    driver = Driver(recorder)
+    assert driver.until(lambda: not recorder.trouble)
+    pid = pid_of(recorder)
+    assert leads_its_session(pid)
+    assert stand_of(pid) == stand_of(os.getpid()).behind(NICE)
+    os.kill(pid, signal.SIGSTOP)
+    assert recorder._writer is not None
+    assert not recorder._writer.join(0.0)
+    assert os.waitpid(pid, 0) == (pid, signal.SIGKILL)
 
 
 def test_a_full_file_is_followed_by_another_that_replays_alone(

@@ -16,6 +16,7 @@ import pytest
 from planner.kept import NICE
 from tests.planner.kept.keeping import LIMIT_S, Tiny, code_of, pid_of, running, story
 from tests.planner.kept.tiny import MODULE, SPOILS, Trouble
+from tests.rank.standing import leads_its_session, stand_of
 
 
 @story
@@ -27,7 +28,9 @@ async def test_many_at_once_are_each_answered_with_their_own() -> None:
         child = psutil.Process(pid_of(kept))
         assert child.ppid() == os.getpid()
         assert child.nice() >= NICE
-        assert os.getsid(child.pid) == (child.pid if sys.platform == "linux" else os.getsid(0))
+        if sys.platform == "linux":
+            assert leads_its_session(child.pid)
+            assert stand_of(child.pid) == stand_of(os.getpid()).behind(NICE)
         assert child.environ()["OMP_NUM_THREADS"] == "1"
 
 
