@@ -76,3 +76,8 @@ def moved(command: list[str], home: Path, site: Path, port: int) -> list[str]:
     left = [word for word in made if word.startswith(("/opt/pons", "/etc/pons", "/var/lib/pons"))]
     assert not left, left
     return made
+
+
+def weight_of(nice: int, ordinary: int) -> float:
+    """Return the weight that is to others' what a nice is: each step is a quarter (sched(7))."""
+    return ordinary * float(1.25**-nice)

@@ -10,13 +10,17 @@ from typing import Any
 
 import pytest
 
-from tests.deploy.installed import PROCESSES, ROOT, compose
+from planner.__main__ import NICE as PLANNER_NICE
+from sim.camera.__main__ import NICE as CAMERA_NICE
+from tests.deploy.installed import PROCESSES, ROOT, compose, weight_of
 
 KNOWN = {
     *("build", "image", "init", "restart", "read_only", "tmpfs", "cap_drop", "cap_add", "ports"),
     *("security_opt", "stop_grace_period", "network_mode", "volumes", "profiles", "command"),
-    *("entrypoint", "environment", "healthcheck", "ulimits"),
+    *("entrypoint", "environment", "healthcheck", "ulimits", "cpu_shares"),
 }
+ORDINARY = 1024
+"""Of who says nothing."""
 
 
 def instructions() -> list[tuple[str, str]]:
@@ -108,6 +112,16 @@ def test_only_the_robots_bridge_may_be_real_time() -> None:
             assert service["ulimits"] == {"rtprio": 70, "memlock": -1}
         else:
             assert not {"cap_add", "ulimits"} & set(service), name
+
+
+def test_a_container_weighs_what_its_process_would_elsewhere() -> None:
+    shares = {name: one.get("cpu_shares") for name, one in compose()["services"].items()}
+    planner, camera = weight_of(PLANNER_NICE, ORDINARY), weight_of(CAMERA_NICE, ORDINARY)
+    assert shares["planner"] == shares["robot-planner"] == pytest.approx(planner, rel=0.02)
+    assert shares["camera"] == pytest.approx(camera, rel=0.02)
+    for name in ("bridge", "robot-bridge", "sim", "localization"):
+        assert shares[name] > 2 * shares["planner"], name
+    assert shares["llm"] is None
 
 
 def test_the_planner_starts_behind_its_token() -> None:

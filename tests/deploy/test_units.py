@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from planner.__main__ import NICE as PLANNER_NICE
+from sim.camera.__main__ import NICE as CAMERA_NICE
 from tests.deploy.installed import (
     PROCESSES,
     UNITS,
@@ -16,8 +18,12 @@ from tests.deploy.installed import (
     by_units,
     services,
     unit,
+    weight_of,
 )
 from wire import load_robot
+
+ORDINARY = 100
+"""Of who says nothing (systemd.resource-control(5))."""
 
 
 def test_planner_bridge_and_simulator_are_users_of_their_own() -> None:
@@ -46,6 +52,15 @@ def test_nobody_else_may_be_real_time(name: str) -> None:
     assert service["RestrictRealtime"] == ["yes"]
     assert "LimitRTPRIO" not in service
     assert "MemoryMax" in service
+
+
+def test_a_service_weighs_what_its_process_would_elsewhere_and_nobody_before_who_drives() -> None:
+    """A service is a group of its own: its processes' nice counts for nothing outside it."""
+    weights = {name: int(one["Service"]["CPUWeight"][0]) for name, one in services().items()}
+    assert weights["planner"] == pytest.approx(weight_of(PLANNER_NICE, ORDINARY), rel=0.02)
+    assert weights["camera"] == pytest.approx(weight_of(CAMERA_NICE, ORDINARY), rel=0.02)
+    for name in ("bridge", "sim", "localization"):
+        assert weights[name] > 2 * weights["planner"], name
 
 
 @pytest.mark.parametrize("name", PROCESSES)
