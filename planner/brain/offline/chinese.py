@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from planner.brain.offline import chinese_drive, chinese_people, chinese_things
+from planner.brain.offline import chinese_beside, chinese_drive, chinese_people, chinese_things
 from planner.brain.offline.arm import lacks_arm
 from planner.brain.offline.chinese_words import GO, IN, VERB
 from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
@@ -88,6 +88,7 @@ CHINESE = Grammar(
     rules=(
         *chinese_drive.RULES[:-2],
         *chinese_people.GUIDE,
+        *chinese_beside.RULES,
         rule(rf".*{_ARM}.*", lacks_arm),
         *chinese_people.RULES,
         *chinese_things.RULES,

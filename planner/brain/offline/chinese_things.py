@@ -8,7 +8,7 @@ from math import pi
 from re import Match
 
 from planner.brain.offline.acts import count, find, look, offer_search
-from planner.brain.offline.chinese_words import SPOT, THING, loc
+from planner.brain.offline.chinese_words import SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
 from planner.brain.offline.grammar import rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Reading, Rule, Steps
@@ -18,15 +18,7 @@ from planner.plan import Code, Look, Step, Turn
 _AT = rf"(?:{loc('at')})?"
 _MUST = loc("at")
 _FIND = r"(?:找到|寻找|找找看?|找一找|找一下|找|搜索|搜寻|搜一下|定位|识别|寻)(?:一下|一个|个)?"
-_SEE = (
-    r"(?:看一看|看一眼|瞄一眼|瞅一眼|瞅瞅|瞅|看看|看一下|看下|看|瞧瞧|瞧|检查一下|检查|查看一下|查看|观察一下|观察|确认一下|"
-    r"确认|巡视|查一下|"
-    r"查查|拍照|拍张照片?|拍一张照片?|描述一下|描述|描绘|告诉我|说说|监控|盯着|看着|留意|了解一下)"
-)
-_UNIT = r"(?:个|只|张|位|把|本|台|瓶|杯|名|条|件|辆|盒|罐|双|支|口|盏)?"
-_WHETHER = r"[都还]?(?:有没有|是否有|是不是有|有无)"
-_IS_THERE = rf"(?:{_WHETHER}|[都还]?有)"
-_WHAT = r"[都还]?有(?:些|点)?(?:什么|啥|谁|哪些|何|甚么)"
+_IS_THERE = rf"(?:{WHETHER}|[都还]?有)"
 _ASKS = r"(?:吗|呢|么|嘛|啊)?"
 _AROUND = (
     r"(?:在?(?:你|您)?的?(?:这里|这儿|这边|那里|那儿|那边|附近|周围|四周|身边|旁边|边上|面前|眼前|"
@@ -106,49 +98,49 @@ RULES: tuple[Rule, ...] = (
         _reported,
     ),
     rule(
-        rf"(?:{_SEE}|数一数|数一下|数数|数|清点)?(?:{_AROUND})(?:现在|一共|总共)?(?:有|坐着|站着)?(?:几|多少)"
-        rf"{_UNIT}{THING}|有(?:几|多少){_UNIT}(?!岁|点){THING}"
+        rf"(?:{SEE}|数一数|数一下|数数|数|清点)?(?:{_AROUND})(?:现在|一共|总共)?(?:有|坐着|站着)?(?:几|多少)"
+        rf"{UNIT}{THING}|有(?:几|多少){UNIT}(?!岁|点){THING}"
         rf"|(?:数一数|数一下|数数|数|清点)(?:{_AROUND})的?{THING}",
         _look_here,
     ),
     rule(
         rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT})(?:里面?|上面?|"
-        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{_UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
+        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),
     rule(
-        rf"(?:{_SEE}|数一数|数一下|数数|数)?(?:家里|全家|屋子里|整个屋子)(?:一共|总共)?有?(?:几|多少){_UNIT}"
+        rf"(?:{SEE}|数一数|数一下|数数|数)?(?:家里|全家|屋子里|整个屋子)(?:一共|总共)?有?(?:几|多少){UNIT}"
         rf"(?P<what>{THING})",
         _count,
     ),
     rule(
-        rf"(?:{_SEE})?{_AT}(?:{_SEE})?(?:一共|总共|现在)?(?:有|坐着|站着|躺着|摆着|放着|停着|坐了|"
-        rf"站了)?(?:几|多少){_UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
+        rf"(?:{SEE})?{_AT}(?:{SEE})?(?:一共|总共|现在)?(?:有|坐着|站着|躺着|摆着|放着|停着|坐了|"
+        rf"站了)?(?:几|多少){UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),
     rule(
-        rf"(?:{_SEE})(?P<what>{THING})(?:在不在|是不是在|是否在)(?P<at>{SPOT})(?:里面?|上面?|那里|"
+        rf"(?:{SEE})(?P<what>{THING})(?:在不在|是不是在|是否在)(?P<at>{SPOT})(?:里面?|上面?|那里|"
         r"旁边)?",
         _look,
     ),
     rule(
-        rf"{_WHOLE}(?:{_WHETHER}|有)(?P<what>(?!什么|谁|事|问题|异常|情况|[几多]){THING}){_ASKS}"
-        rf"|{_WHETHER}?有?(?P<what4>人)在家(?:里)?{_ASKS}"
+        rf"{_WHOLE}(?:{WHETHER}|有)(?P<what>(?!什么|谁|事|问题|异常|情况|[几多]){THING}){_ASKS}"
+        rf"|{WHETHER}?有?(?P<what4>人)在家(?:里)?{_ASKS}"
         rf"|你?(?:有没有)?见过(?P<what3>{THING})(?:吗|没有)?"
         rf"|(?:告诉我|你?知不?知?道|你?知道)?(?P<what2>(?![他她它你您我]们?在|大家|告诉|知道){THING})"
         r"(?:现在|都)?在(?:哪里|哪儿|哪|什么地方|哪个房间)(?:里|呢|啊|呀|吗)?",
         _sought,
     ),
     rule(
-        rf"{_FIND}(?:{_WHETHER})?(?P<by>{MARK})(?P<how>下面?|下边|底下)的(?P<what>{THING})",
+        rf"{_FIND}(?:{WHETHER})?(?P<by>{MARK})(?P<how>下面?|下边|底下)的(?P<what>{THING})",
         _find_under,
     ),
-    rule(rf"{_ALL_OVER}{_FIND}(?:{_WHETHER})?(?P<what>{THING})", _find_all),
-    rule(rf"{_AT}{_FIND}(?:{_WHETHER})?(?P<what>{THING})", _find),
-    rule(rf"{_FIND}{_MUST}(?:{_WHETHER})?(?P<what>{THING})", _find),
+    rule(rf"{_ALL_OVER}{_FIND}(?:{WHETHER})?(?P<what>{THING})", _find_all),
+    rule(rf"{_AT}{_FIND}(?:{WHETHER})?(?P<what>{THING})", _find),
+    rule(rf"{_FIND}{_MUST}(?:{WHETHER})?(?P<what>{THING})", _find),
     rule(rf"(?:把)?(?P<what>{THING})(?:给我)?找(?:出来|到)", _find),
     rule(
-        rf"(?:{_SEE})?(?:{_WHETHER}|是不是有|有){THING}在(?P<at>{SPOT})(?:里面?|上面?|那里|旁边)?{_ASKS}",
+        rf"(?:{SEE})?(?:{WHETHER}|是不是有|有){THING}在(?P<at>{SPOT})(?:里面?|上面?|那里|旁边)?{_ASKS}",
         _look,
     ),
     rule(
@@ -159,33 +151,33 @@ RULES: tuple[Rule, ...] = (
     rule(rf"拍一?张?{_MUST}照片?", _look),
     rule(r"[这那]?(?:个)?(?:东西)?是(?:什么|谁|啥)(?:东西)?", _look),
     rule(
-        rf"(?:往|向|朝)(?P<side>左|右|后)(?:边|面|侧)?(?:{_SEE})(?:{_WHAT}[^,\ue000-\ue8ff]*)?"
-        rf"|(?:{_SEE})(?:你|您)?(?:的)?(?P<side2>左|右|后|背后|身后)(?:边|面|侧)?(?:{_WHAT}[^,\ue000-\ue8ff]*)?",
+        rf"(?:往|向|朝)(?P<side>左|右|后)(?:边|面|侧)?(?:{SEE})(?:{WHAT}[^,\ue000-\ue8ff]*)?"
+        rf"|(?:{SEE})(?:你|您)?(?:的)?(?P<side2>左|右|后|背后|身后)(?:边|面|侧)?(?:{WHAT}[^,\ue000-\ue8ff]*)?",
         _aside,
     ),
-    rule(rf"(?:{_SEE}){_MUST}(?:{_WHAT}|{_IS_THERE}{THING}){_ASKS}", _look),
+    rule(rf"(?:{SEE}){_MUST}(?:{WHAT}|{_IS_THERE}{THING}){_ASKS}", _look),
     rule(
-        rf"{_MUST}(?:(?:{_SEE}){_IS_THERE}|{_WHETHER}|[都还]?有(?={THING}[吗呢么])|[都还]?(?P<flat>有)"
+        rf"{_MUST}(?:(?:{SEE}){_IS_THERE}|{WHETHER}|[都还]?有(?={THING}[吗呢么])|[都还]?(?P<flat>有)"
         rf"(?!什么|啥|谁|哪些)){THING}{_ASKS}",
         _asked,
     ),
     rule(
-        rf"(?:{_SEE})?有?(?:几|多少){_UNIT}(?P<what>(?!岁|点){THING}){_MUST}",
+        rf"(?:{SEE})?有?(?:几|多少){UNIT}(?P<what>(?!岁|点){THING}){_MUST}",
         _count,
     ),
     rule(
         rf"{THING}(?:现在)?还?在(?P<at>{SPOT})(?:里面?|上面?|那里|旁边)?(?:吗|没有)",
         _look,
     ),
-    rule(rf"(?:(?:{_SEE})(?:谁|什么)?(?:人)?|谁(?:正?[坐站躺睡待](?=在))?){_MUST}(?:[^,]*)", _look),
-    rule(rf"{_MUST}(?:{_SEE})(?:[^,\ue000-\ue8ff]*)", _look),
+    rule(rf"(?:(?:{SEE})(?:谁|什么)?(?:人)?|谁(?:正?[坐站躺睡待](?=在))?){_MUST}(?:[^,]*)", _look),
+    rule(rf"{_MUST}(?:{SEE})(?:[^,\ue000-\ue8ff]*)", _look),
     rule(
-        rf"{_MUST}(?:{_WHAT}|(?:[^,\ue000-\ue8ff]{{1,4}}(?=[开亮关锁]着))?(?:是|在)?(?:什么|怎么样|干净|整洁|安全|空的?|开着|"
+        rf"{_MUST}(?:{WHAT}|(?:[^,\ue000-\ue8ff]{{1,4}}(?=[开亮关锁]着))?(?:是|在)?(?:什么|怎么样|干净|整洁|安全|空的?|开着|"
         r"亮着))[^,\ue000-\ue8ff]*",
         _look,
     ),
     rule(
-        rf"(?:{_SEE})?(?:{_AROUND})?(?:{_WHAT}[^,\ue000-\ue8ff]*|{_WHETHER}{THING}{_ASKS}|"
+        rf"(?:{SEE})?(?:{_AROUND})?(?:{WHAT}[^,\ue000-\ue8ff]*|{WHETHER}{THING}{_ASKS}|"
         rf"有{THING}[吗呢么]|(?P<flat>有){THING})",
         _asked,
     ),
@@ -195,7 +187,7 @@ RULES: tuple[Rule, ...] = (
         _look,
     ),
     rule(
-        rf"(?:四处|到处|周围|环顾)?(?:{_SEE})(?:四周|周围|环境|情况)?[^,\ue000-\ue8ff]*|"
+        rf"(?:四处|到处|周围|环顾)?(?:{SEE})(?:四周|周围|环境|情况)?[^,\ue000-\ue8ff]*|"
         r"你?看到了?什么|看见什么|环顾四周",
         _look,
     ),
