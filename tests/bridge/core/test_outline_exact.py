@@ -37,6 +37,18 @@ def elsewhere(edge: Edge) -> Edge:
     return 2 + 3 * x - 4 * y, 3 + 4 * x + 3 * y, 3 * dx - 4 * dy, 4 * dx + 3 * dy, 25 * square
 
 
+@table(("beside_m", "parts"), [(0.95e-6, 2), (-0.95e-6, 2), (1.05e-6, 1), (-1.05e-6, 1)])
+def test_an_end_within_a_micrometre_of_an_edge_cuts_it(beside_m: float, parts: int) -> None:
+    # beside the middle an edge begins that leads away
+    away = line(0.5, beside_m, 0.5, 1.0 if beside_m > 0.0 else -1.0)
+    assert len(cut(line(0.0, 0.0, 1.0, 0.0), [away])) == parts
+
+
+@table(("gap_m", "parts"), [(0.95e-6, 1), (1.05e-6, 2)])
+def test_a_piece_of_less_than_a_micrometre_is_left_out(gap_m: float, parts: int) -> None:
+    assert len(cut(line(0.0, 0.0, 1.0, 0.0), [line(gap_m, -1.0, gap_m, 1.0)])) == parts
+
+
 ROOF: Polygon = ((0, 0), (4, 0), (4, 2), (1, 3), (0, 1))
 """Slopes on its left and at its top."""
 
