@@ -5,14 +5,14 @@ failures are called. The recogniser is started by whoever speaks and given up at
 so it takes the pipes and the child's end from here, and no :class:`KeptProcess`.
 """
 
-from planner.kept.child import NICE, Parent, bind_to_parent, run
+from planner.kept.bound import bind_to_parent
+from planner.kept.child import Parent, run
 from planner.kept.failure import Codes, Failure
 from planner.kept.frames import Frame, pack
 from planner.kept.life import STREAM_ERRORS, command_of, exchange, reap, spawn
 from planner.kept.process import KeptProcess
 
 __all__ = [
-    "NICE",
     "STREAM_ERRORS",
     "Codes",
     "Failure",

@@ -1,13 +1,10 @@
-"""Be a kept process: bound to its parent, frames in, frames out, work while nobody asks.
+"""Be a kept process: frames in, frames out, work while nobody asks.
 
-Standard output is kept for frames alone. Runs ten steps of nice behind the planner, because the
-bridge's loop and the planner's heartbeat share its cores, and apart: the planner's share is for its
-loop.
+Standard output is kept for frames alone. ``begin`` has bound it to its parent and stepped back.
 """
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import sys
@@ -17,10 +14,7 @@ from typing import Any, NoReturn
 
 from planner.kept.failure import Failure
 from planner.kept.frames import HEADER, Frame, lengths, pack, unpack
-from rank import nice
 
-PR_SET_PDEATHSIG = 1  # prctl(2)
-NICE = 10
 REFUSED = 1
 DONE = object()
 
@@ -93,20 +87,7 @@ def run(main: Callable[..., int]) -> NoReturn:
     Args:
         main: called with the parent and the arguments that came.
     """
-    parent_pid, *arguments = sys.argv[1:]
-    if not bind_to_parent(int(parent_pid)):
-        sys.exit(REFUSED)
-    nice(NICE, apart=True)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the group; the parent decides
     answers = os.dup(1)
     os.dup2(2, 1)  # what a library prints must not look like a frame
-    sys.exit(main(Parent(0, answers), *arguments))
-
-
-def bind_to_parent(parent_pid: int) -> bool:
-    """Die with the parent from now on; False if it is gone already."""
-    if sys.platform == "linux":
-        libc = ctypes.CDLL(None, use_errno=True)
-        if libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0) != 0:
-            raise OSError(ctypes.get_errno(), "prctl(PR_SET_PDEATHSIG)")
-    return os.getppid() == parent_pid
+    sys.exit(main(Parent(0, answers), *sys.argv[1:]))

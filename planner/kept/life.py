@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from planner.kept.frames import HEADER, Frame, lengths, unpack
 
+BEGIN = "planner.kept.begin"
 STREAM_ERRORS = (OSError, EOFError, ValueError, KeyError, TypeError)
 """What reading and understanding another process's frames may raise."""
 SINGLE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
@@ -20,7 +21,7 @@ SINGLE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 def command_of(module: str, *arguments: str) -> tuple[str, ...]:
     """Return how to run a module of ours whose end is :func:`planner.kept.run`."""
-    return (sys.executable, "-m", module, str(os.getpid()), *arguments)
+    return (sys.executable, "-m", BEGIN, str(os.getpid()), module, *arguments)
 
 
 async def spawn(command: Sequence[str]) -> Process:

@@ -1,4 +1,4 @@
-"""Be the route process: ``python -m planner.route.child PARENT_PID SITE LIMITS``.
+"""Be the route process: ``planner.route.child SITE LIMITS``, begun by ``planner.kept.begin``.
 
 Started by :class:`planner.route.RouteWorker` and by nobody else. While nobody asks, it works out
 the exact costs to the places that people name.

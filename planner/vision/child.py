@@ -1,4 +1,4 @@
-"""Be the vision process: ``python -m planner.vision.child PARENT_PID SETTINGS``.
+"""Be the vision process: ``planner.vision.child SETTINGS``, begun by ``planner.kept.begin``.
 
 Started by :class:`planner.vision.VisionWorker` and by nobody else. Without a model it still shrinks
 pictures for whoever asks a model elsewhere.

@@ -1,4 +1,4 @@
-"""Be the voice process: ``python -m planner.voice.child PARENT_PID``; `VoiceWorker` starts it.
+"""Be the voice process: ``planner.voice.child``, begun by ``planner.kept.begin``.
 
 The first frame carries the site's names, each later one a recording. Decoding holds the interpreter
 for its whole length (measured: 0.1 s for each second of speech), which is why it is a process.

@@ -13,7 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from planner.kept import NICE
+from planner.kept.begin import NICE
 from tests.planner.kept.keeping import LIMIT_S, Tiny, code_of, pid_of, running, story
 from tests.planner.kept.tiny import MODULE, SPOILS, Trouble
 from tests.rank.standing import leads_its_session, stand_of
@@ -27,7 +27,8 @@ async def test_many_at_once_are_each_answered_with_their_own() -> None:
         assert answers == [(pid_of(kept), body[::-1]) for body in bodies]
         child = psutil.Process(pid_of(kept))
         assert child.ppid() == os.getpid()
-        assert child.nice() >= NICE
+        at_nice = await kept.ask({}, (), LIMIT_S, lambda frame: frame[0]["imported_at_nice"])
+        assert at_nice == child.nice() == min(os.nice(0) + NICE, 19), "before it loads anything"
         if sys.platform == "linux":
             assert leads_its_session(child.pid)
             assert stand_of(child.pid) == stand_of(os.getpid()).behind(NICE)

@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 from planner.kept import Codes, Failure, Frame, Parent, pack, run
 
+IMPORTED_AT_NICE = os.nice(0)
 MODULE = "tests.planner.kept.tiny"
 SPOILS = {
     "dies": b"",
@@ -71,7 +72,10 @@ def _answer(parent: Parent, asked: Frame) -> Frame:
     if "unwilling" in head:
         raise Trouble("unwilling", "so there")
     print("not a frame")
-    return {} if "spoils" in head else {"pid": os.getpid()}, body[::-1]
+    return {} if "spoils" in head else {
+        "pid": os.getpid(),
+        "imported_at_nice": IMPORTED_AT_NICE,
+    }, body[::-1]
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from planner.kept import NICE
+from planner.kept.begin import NICE
 from planner.route import RouteFailure, RouteLimits, RouteRequest, RouteWorker
 from planner.world import Site
 from tests.planner.kept.keeping import LIMIT_S, code_of, pid_of, story

@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from planner.kept import NICE
+from planner.kept.begin import NICE
 from planner.settings import VisionSettings
 from planner.vision import VisionWorker
 from planner.vision.detect.header import read_header
