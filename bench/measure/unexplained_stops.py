@@ -2,7 +2,7 @@
 
 An unexplained stop is a STOPPING from ACTIVE with no injected fault, obstacle, fence, order or
 arrival. One that began within a second of the host's taking a processor away for over 100 ms is
-counted apart. Driven time is time in ACTIVE. The page shows the camera's picture, the detector
+counted apart: a gap between two wake-ups of a watcher, as LOOP_LATE counts those of the bridge. Driven time is time in ACTIVE. The page shows the camera's picture, the detector
 looks at every one, and cyclictest turns beside the bridge: same processor, rank and period.
 """
 
@@ -23,7 +23,7 @@ from bench.lateness import cyclictest_late_us, missed
 from bench.measure import page
 from bench.report import Row, row_of
 from bench.robot import CAMERA, EVERYTHING, SLOW, Robot
-from bench.stalls import Stalls
+from bench.stalls import PERIOD_S, Stalls
 from pons.http import Refused, call
 from wire import Event, Mode, Status, decode, load_robot
 from wire.keys import EVENT, STATUS, Party
@@ -48,7 +48,8 @@ TOURS = (
 EXPLAINED = frozenset(
     {"obstacle", "fence", "contact", "stop", "pause", "cancel", "disarm", "teleop"}
 )
-STALL_S = 0.1
+GAP_S = 0.1
+"""Of wake-ups; a watcher tells how late one was, and it was to come a period after the last."""
 WITHIN_S = 1.0
 """Rows that a stall raises come within their windows of it; none is longer than this."""
 ENDED = frozenset({"succeeded", "failed", "cancelled", "refused", "needs_clarification"})
@@ -57,7 +58,7 @@ PERIOD_US = 10_000
 FULL_RATE = "10"
 """Looks a second: as many as the camera gives pictures."""
 _LOOKS = re.compile(r'^pons_eyes_looks\{what="looks"\} (\S+)', re.MULTILINE)
-GAP_S = 0.2
+SILENT_S = 0.2
 """Statuses further apart than this say nothing of the time between them."""
 
 
@@ -69,7 +70,7 @@ def measure(lab: Lab) -> list[Row]:
     stalled: Counter[str] = Counter()
     for run in runs:
         for stop in run["stops"]:
-            (stalled if stop["stall_s"] > STALL_S else stops)[stop["why"]] += 1
+            (stalled if stop["stall_s"] + PERIOD_S > GAP_S else stops)[stop["why"]] += 1
     unexplained = {why: n for why, n in stops.items() if why not in EXPLAINED}
     count = sum(unexplained.values())
     slowest = min((run["speed"] for run in runs), default=0.0)
@@ -89,8 +90,9 @@ def measure(lab: Lab) -> list[Row]:
     before = [f"{stop['why']} {stop['stall_s'] * 1e3:.0f} ms" for r in runs for stop in r["stops"]]
     return [
         Row("unexplained stops", "1/h", "<= 1", value=rate, note=note, valid=slowest >= SLOW),
-        Row("stops after a host's stall over 100 ms", "", "", value=str(sum(stalled.values()))),
-        Row("longest stall in the second before", "", "", value=", ".join(before[:8]) or "none"),
+        Row("stops after a host's stall over 100 ms", "", "", value=str(sum(stalled.values())),
+            note=f"{dict(stalled)}"),
+        Row("wake-ups late in the second before", "", "", value=", ".join(before[:8]) or "none"),
         Row("all stops from ACTIVE", "", "", value=str(sum(stops.values())), note=told),
         _ticks(runs),
         row_of("looks of the detector", "1/s", "", [run["looks_per_s"] for run in runs]),
@@ -196,7 +198,7 @@ class Watch:
             if not isinstance(status, Status):
                 continue
             if self._last is not None and self._last.mode is Mode.ACTIVE:
-                self.driven_s += max(0.0, min(GAP_S, status.at_s - self._last.at_s))
+                self.driven_s += max(0.0, min(SILENT_S, status.at_s - self._last.at_s))
             self._last = status
         for raw in self._events.drain_bytes():  # all of them: a stop brings several at once
             event = decode(EVENT, raw)
