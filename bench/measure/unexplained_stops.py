@@ -2,8 +2,9 @@
 
 An unexplained stop is a STOPPING from ACTIVE with no injected fault, obstacle, fence, order or
 arrival. One that began within a second of the host's taking a processor away for over 100 ms is
-counted apart: a gap between two wake-ups of a watcher, as LOOP_LATE counts those of the bridge. Driven time is time in ACTIVE. The page shows the camera's picture, the detector
-looks at every one, and cyclictest turns beside the bridge: same processor, rank and period.
+counted apart: a gap between two wake-ups of a watcher, as LOOP_LATE counts those of the bridge.
+Driven time is time in ACTIVE. The page shows the camera's picture, the detector looks at every one,
+and cyclictest turns beside the bridge: same processor, rank and period.
 """
 
 from __future__ import annotations
