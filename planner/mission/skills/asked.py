@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from planner.mission.skills.seen import READ, mentioned
 from planner.plan import Language
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 _WHERE_EN = (
     r"(?: (?:here|there|anywhere|somewhere|nearby|left|too|(?:right )?now|at all|in sight|ahead))*"
-    r"(?: (?:in|on|at|under|near|by|beside|inside|behind|around|outside|next to|close to) .+)?"
+    r"(?: (?P<where>(?:in|on|at|under(?:neath)?|below|beneath|near|by|beside|inside|behind|around"
+    r"|outside|next to|close to) .+))?"
 )
 _A = r"(?:(?:an?|any|some|another|the|my|our|your|his|her|their|this|that|these|those) )"
 _NOUN_EN = r"(?P<what>[a-z][a-z'-]*(?: [a-z][a-z'-]*){0,2}?)"
@@ -56,14 +57,14 @@ _ASKS_ZH = r"(?:吗|么|嘛|呢|啊)?"
 _SEE_ZH = r"(?:看得?[到见]|发现|见到)"
 _UNIT = r"[个只张把台架辆本瓶杯盆棵株扇条件副双支部块面口盏头匹颗]"
 _NOUN_ZH = (
-    rf"(?P<unit>(?:[一二两三几]|\d+)?{_UNIT})?(?:[我你您他她]们?的)?"
+    rf"(?P<unit>(?:[一二两三几]|\d+)?{_UNIT}(?!子))?(?:[我你您他她]们?的)?"
     rf"(?P<what>(?:(?:{CHINESE})(?:的|(?<=色)))?(?P<noun>[\u3400-\u9fff]{{1,6}}?))"
 )
 _AT_ZH = (
     r"(?P<at>[^有看]{0,12}?)(?P<in>(?:里|内|上|下|旁|边|底|前|后|附近|周围|中间|门口)[面边下]?"
     r"|[那这][里儿边])?"
 )
-_LEAD_ZH = (
+LEAD_ZH = (
     r"(?:请|麻烦)?[你您]?(?:帮我|给我|替我)?(?:去|到)?"
     r"(?:看一看|看一眼|看看|看一?下|瞧瞧|检查一?下?|查看一?下?|确认一?下?|观察一?下?|告诉我)?"
 )
@@ -71,12 +72,13 @@ _SEES_ZH = re.compile(
     rf"[你您]?(?P<q>能不能|有没有|是否)?能?{_SEE_ZH}[了过]?{_NOUN_ZH}(?P<end>了?(?:吗|没有|没|么))?"
 )
 _ZH = re.compile(
-    rf"{_LEAD_ZH}(?:{_AT_ZH})?{_LEAD_ZH}[还都]?(?:现在)?"
-    rf"(?:(?:有没有|是否有|是不是有|有无){_NOUN_ZH}(?:在.{{1,12}})?{_ASKS_ZH}"
-    rf"|有{_NOUN_ZH.replace('>', '_2>')}[吗么嘛])"
+    rf"{LEAD_ZH}(?:{_AT_ZH})?{LEAD_ZH}[还都]?(?:现在)?"
+    rf"(?:(?:有没有|是否有|是不是有|有无){_NOUN_ZH}(?:在(?P<where>.{{1,12}}))?{_ASKS_ZH}"
+    rf"|有(?!.*在){_NOUN_ZH.replace('>', '_2>')}[吗么嘛])"
 )
 _IS_IT_ZH = re.compile(
-    rf"{_LEAD_ZH}{_NOUN_ZH}(?:现在)?还?(?:(?:在不在|是不是在|是否在).{{0,12}}|在.{{1,12}}[吗么嘛])"
+    rf"{LEAD_ZH}{_NOUN_ZH}(?:现在)?还?"
+    r"(?:(?:在不在|是不是在|是否在)(?P<where>.{0,12})|在(?P<where_2>.{1,12})[吗么嘛])"
 )
 _NO_NOUN_ZH = re.compile(r"[的了着过吗呢啊没不在是和或跟与被把给有人谁什么哪几多少么怎物事]")
 _VAGUE_ZH = re.compile(
@@ -96,6 +98,16 @@ _ENDS = re.compile(r"^[ .,!?。]+|[ .,!?。]+$")
 _SIMPLE = str.maketrans("沒嗎見裡邊", "没吗见里边")
 
 
+class Asked(NamedTuple):
+    """Say what a question asks for, in its words."""
+
+    what: str
+    certain: bool = False
+    """It is a kind of thing though no table names it."""
+    where: str = ""
+    """Where it is to be: ``on the table``, ``桌子上``; empty: nowhere in particular."""
+
+
 def unknown_kind(
     question: str, facts: Facts, language: Language, classes: tuple[str, ...]
 ) -> str | None:
@@ -104,7 +116,7 @@ def unknown_kind(
     None where it asks for anything else, for what they know, or for a room or place of the site,
     and where it is not known yet what they know.
     """
-    for what, certain in _asked(question, facts) if classes else ():
+    for what, certain, _ in _asked(question, facts) if classes else ():
         if resolve(what, language, classes) is None and (
             resolve(what, language) is not None or (certain and mentioned(what, classes) is None)
         ):
@@ -112,50 +124,60 @@ def unknown_kind(
     return None
 
 
-def asked_for(question: str, facts: Facts) -> str:
-    """Return what a question asks for, yes or no, without where; the question where that is open.
+def asked_for(question: str, facts: Facts) -> Asked | None:
+    """Return what a question asks for, yes or no, apart from where; None where that is open.
 
     "Is there a cup next to the sofa?" asks for no sofa.
     """
-    return next((what for what, _ in _asked(question, facts)), question)
+    return next(iter(_asked(question, facts)), None)
 
 
-def _asked(question: str, facts: Facts) -> Iterable[tuple[str, bool]]:
-    """Yield what is asked for, and whether it is a kind of thing though no table names it."""
+def plain(question: str) -> str:
+    """Return a question in one way of writing; nothing of one that is too long to be read."""
     text = " ".join(unicodedata.normalize("NFKC", question).casefold().split())
     text = _ENDS.sub("", text)
-    if len(text) > READ:
-        return ()
-    chinese = re.search(r"[\u3400-\u9fff]", text) is not None
-    return (_in_chinese if chinese else _in_english)(text.translate(_SIMPLE), facts)
+    return text.translate(_SIMPLE) if len(text) <= READ else ""
 
 
-def _in_english(text: str, facts: Facts) -> Iterable[tuple[str, bool]]:
+def in_chinese(text: str) -> bool:
+    """Tell whether words are Chinese."""
+    return re.search(r"[\u3400-\u9fff]", text) is not None
+
+
+def _asked(question: str, facts: Facts) -> Iterable[Asked]:
+    text = plain(question)
+    return (_in_chinese if in_chinese(text) else _in_english)(text, facts)
+
+
+def _in_english(text: str, facts: Facts) -> Iterable[Asked]:
     found, places = _EN.fullmatch(text), _names(facts)
     if found is not None:
         named = not found["a"] and (found["sees"] or found["may"])  # Mary may be seen, no cat
         what, head = found["what"], found["what"].split()[-1]
         vague = _VAGUE_EN.fullmatch(head) is not None or _NO_NOUN_EN.search(what) is not None
-        yield what, not (named or vague) and what not in places
+        certain = not (named or vague) and what not in places
+        yield Asked(what, certain, found["where"] or "")
     found = _IS_IT_EN.fullmatch(text)
     if found is not None:
-        yield found["what"], False
+        yield Asked(found["what"], where=found["where"] or "")
 
 
-def _in_chinese(text: str, facts: Facts) -> Iterable[tuple[str, bool]]:
-    plain = text.replace(" ", "")
-    found = _SEES_ZH.fullmatch(plain)
+def _in_chinese(text: str, facts: Facts) -> Iterable[Asked]:
+    closed = text.replace(" ", "")
+    found = _SEES_ZH.fullmatch(closed)
     if found is not None and (found["q"] or found["end"]):
         noun = found["noun"]
-        yield found["what"], _noun(noun, found["unit"]) and not _NAME_ZH.fullmatch(noun)
+        certain = _noun(noun, found["unit"]) and not _NAME_ZH.fullmatch(noun)
+        yield Asked(found["what"], certain)
         return
-    found = _ZH.fullmatch(plain)
+    found = _ZH.fullmatch(closed)
     if found is not None and (not found["at"] or found["in"] or found["at"] in _names(facts)):
         noun, unit = found["noun"] or found["noun_2"], found["unit"] or found["unit_2"]
-        yield found["what"] or found["what_2"], _noun(noun, unit)
-    found = _IS_IT_ZH.fullmatch(plain)
+        where = found["where"] or f"{found['at'] or ''}{found['in'] or ''}"
+        yield Asked(found["what"] or found["what_2"], _noun(noun, unit), where)
+    found = _IS_IT_ZH.fullmatch(closed)
     if found is not None:
-        yield found["what"], False
+        yield Asked(found["what"], where=found["where"] or found["where_2"] or "")
 
 
 def _noun(what: str, unit: str | None) -> bool:

@@ -20,6 +20,14 @@ if TYPE_CHECKING:
 
 NEAR_M = 1.0
 """Beyond the half depth of the neighbour: a metre from its side."""
+UNSURE_M = 0.2
+"""Two places less sure than this together, or than the neighbour is large, tell nothing."""
+FURNITURE_M = 0.3
+"""What reaches so far stands on the floor, but for a screen and who walks."""
+SUPPOSED_M = 0.4
+"""What may stand on a table is put on the floor where there is no depth, and is so unsure."""
+LOW_M = 0.25
+"""A middle so low lies on the floor, however flat its kind is."""
 _EN = re.compile(
     r"(?P<what>.+?) (?:(?P<on>on(?: top of)?)|(?P<under>under(?:neath)?|below|beneath)"
     r"|(?P<near>near|next to|beside|close to|by)) (?P<by>.+)"
@@ -40,7 +48,7 @@ class Relation(StrEnum):
     NEAR = "near"
 
 
-_SAID = {
+SAID = {
     Relation.ON: ("on", "上"),
     Relation.UNDER: ("under", "下面"),
     Relation.NEAR: ("near", "旁边"),
@@ -76,7 +84,27 @@ def stands(thing: Thing, relation: Relation, by: Thing) -> bool:
     return inside and over == (relation is Relation.ON)
 
 
+def judged(thing: Thing, relation: Relation, by: Thing) -> bool | None:
+    """Tell whether a thing stands so; None where that is not known well enough to say no or yes."""
+    kind, reach_m = kind_of(thing.label), kind_of(by.label).reach_m
+    large = kind.reach_m >= FURNITURE_M and not (kind.perched or kind.mobile)
+    if large and relation is Relation.ON:  # a chair at a table is as high as what lies on that
+        return False
+    spread_m = hypot(thing.sigma_m, by.sigma_m)
+    enough_m = NEAR_M / 2 if relation is Relation.NEAR else max(reach_m, UNSURE_M)
+    far = hypot(thing.x_m - by.x_m, thing.y_m - by.y_m) > reach_m + NEAR_M + 2.0 * spread_m
+    return stands(thing, relation, by) if far or spread_m <= enough_m else None
+
+
+def on_floor(thing: Thing) -> bool | None:
+    """Tell whether a thing lies on the floor; None where its height is only supposed."""
+    kind = kind_of(thing.label)
+    if kind.perched and not thing.sigma_m <= SUPPOSED_M:
+        return None
+    return thing.z_m <= max(kind.height_m, LOW_M)
+
+
 def told(what: Bilingual, relation: Relation, by: Bilingual) -> Bilingual:
     """Return a thing's name with its neighbour's: ``cup on the table``, ``桌子上的杯子``."""
-    en, zh = _SAID[relation]
+    en, zh = SAID[relation]
     return Bilingual(en=f"{what.en} {en} the {by.en}", zh=f"{by.zh}{zh}的{what.zh}")

@@ -4,8 +4,8 @@ Precondition: without a vision model, the one kind of thing that is asked for is
 detector. Law: a place that is named is driven to and looked round in; else one gaze ahead, or round
 where the words ask for it. With a vision model its words are the answer: they may repeat what
 stands written in the picture, so they describe and never command. Without one the answer is what
-the detector saw, by kind, colour and number; where one is set and does not answer, why is told,
-too. Verdict: looked. Budget: one leg and one turn about.
+the detector saw, by kind, colour, number and neighbour (answering.py); where one is set and does
+not answer, why is told, too. Verdict: looked. Budget: one leg and one turn about.
 """
 
 from __future__ import annotations
@@ -14,16 +14,15 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
+from planner.mission.skills.answering import answer
 from planner.mission.skills.around import LOOKS, look_round
-from planner.mission.skills.asked import asked_for, unknown_kind
+from planner.mission.skills.asked import unknown_kind
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
-from planner.mission.skills.search import begin, spots, within
-from planner.mission.skills.seen import apart, confirmed, fits, mentioned
-from planner.mission.skills.tell import counted, listed, room_name, unknown_name
+from planner.mission.skills.search import begin, spots
+from planner.mission.skills.tell import unknown_name
 from planner.mission.skills.unanswered import why_silent
 from planner.plan import Bilingual, Code
-from planner.vision.labels import named
 
 if TYPE_CHECKING:
     from wire import Pose2
@@ -45,11 +44,9 @@ def looks_round(question: str) -> bool:
 def look(scene: Scene) -> Act:
     """Return the next look, or the answer."""
     pose, question = scene.pose, scene.step.text or ""
-    if not scene.eyes.model:
-        name = unknown_kind(question, scene.facts, scene.language, scene.eyes.classes)
-        if name is not None:
-            said = unknown_name(name, scene.eyes.classes)
-            return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", said)
+    unknown = _unknown(scene, question) if scene.notes.here is None else None
+    if unknown is not None:
+        return unknown
     if pose is None:
         return Later()
     scene = begin(scene, pose, None)
@@ -62,10 +59,21 @@ def look(scene: Scene) -> Act:
     if scene.eyes.model and notes.stage < ASKED:
         return Inquire(question, then=notes.but(stage=ASKED))
     read = scene.answer.text if scene.answer is not None else None
-    said, silent = _seen(scene, question), why_silent(scene.answer)
+    said, silent = answer(scene, question), why_silent(scene.answer)
     if silent is not None:
         said = Bilingual(en=f"{said.en} {silent.en}", zh=f"{said.zh}{silent.zh}")
     return Done({"rooms": notes.rooms}, Code.SEEN, said, read)
+
+
+def _unknown(scene: Scene, question: str) -> Cannot | None:
+    """Refuse, where no vision model is set, a question about a kind that these eyes don't know."""
+    eyes = scene.eyes
+    if eyes.model:
+        return None
+    name = unknown_kind(question, scene.facts, scene.language, eyes.classes)
+    if name is None:
+        return None
+    return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", unknown_name(name, eyes.classes))
 
 
 def _model_alone(scene: Scene) -> bool:
@@ -82,24 +90,3 @@ def _next(scene: Scene, pose: Pose2, question: str) -> Act | Notes:
         return Gaze(LOOKS + 1, then=scene.notes.but(stage=GAZED))
     at = scene.notes.here or (pose.x_m, pose.y_m)
     return look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
-
-
-def _seen(scene: Scene, question: str) -> Bilingual:
-    """Say what was seen during this step; where one thing is asked for, whether it was."""
-    inside = within(scene)
-    since_s = scene.now_s - scene.spent_s
-    things = apart(t for t in confirmed(scene.sight, None, since_s) if inside(t))
-    place = room_name(scene.facts, scene.step.place)
-    en, zh = (f" in the {place.en}", f"在{place.zh}") if place is not None else ("", "")
-    asked = mentioned(asked_for(question, scene.facts), scene.eyes.classes)
-    if asked is not None:
-        fitting = [t for t in things if fits(t, asked)]
-        if not fitting:
-            name = named(asked.label, asked.color)
-            return Bilingual(en=f"No, I see no {name.en}{en}.", zh=f"没有，{zh}没有看到{name.zh}。")
-        what = counted(len(fitting), asked.label, asked.color)
-        return Bilingual(en=f"Yes, I see {what.en}{en}.", zh=f"有，{zh}看到 {what.zh}。")
-    if not things:
-        return Bilingual(en=f"I see nothing that I know{en}.", zh=f"{zh}没有看到我认识的东西。")
-    what = listed(things)
-    return Bilingual(en=f"I see {what.en}{en}.", zh=f"{zh}看到 {what.zh}。")

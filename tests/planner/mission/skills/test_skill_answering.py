@@ -1,0 +1,180 @@
+"""What a question is answered by what was seen: yes, no, and where the robot can't tell."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from planner.mission.records import Facts, Target
+from planner.mission.skills import Cannot, Done, Eyesight, Gaze, act_of
+from planner.mission.skills.notes import Notes
+from planner.plan import Bilingual, Code
+from planner.vision.records import Look, Sight, Thing
+from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.skills.scenes import scene
+from wire import CameraConfig, Pose2
+
+CLASSES = ("cup", "bottle", "table", "chair", "person", "box")
+NOW_S = 100.0
+
+
+def at(label: str, x_m: float, z_m: float, **more: Any) -> Thing:
+    fields: dict[str, Any] = {
+        "id": f"{label}_{x_m}", "label": label, "color": None, "x_m": x_m, "y_m": 0.0, "z_m": z_m,
+        "sigma_m": 0.03, "confidence": 0.9, "seen_s": NOW_S - 0.5, "first_s": 0.0, "sightings": 5,
+        "room": "hall",
+    }  # fmt: skip
+    return Thing(**{**fields, **more})
+
+
+TABLE, CHAIR = at("table", 1.6, 0.4), at("chair", 2.2, 0.5)
+ON_IT, BELOW, AWAY = at("cup", 1.7, 0.8), at("cup", 1.9, 0.05), at("cup", 3.2, 0.8)
+VAGUE = at("cup", 1.7, 0.0, sigma_m=0.8)
+BEFORE = {"seen_s": NOW_S - 60.0}
+
+
+def asked(question: str, *things: Thing, **more: Any) -> Any:
+    sight = Sight(Look(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
+    fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
+    fields |= {"notes": Notes(here=(0.0, 0.0), stage=1), "spent_s": 5.0}
+    place = more.pop("place", None)
+    return act_of(scene("look", step={"text": question, "place": place}, **{**fields, **more}))
+
+
+@pytest.mark.parametrize(
+    ("things", "en", "zh"),
+    [
+        ((TABLE, ON_IT), "Yes, I see 1 cup on the table.", "有，在桌子上看到 1 个杯子。"),
+        (
+            (TABLE, ON_IT, BELOW),
+            "Yes, I see 1 cup on the table.",
+            "有，在桌子上看到 1 个杯子。",
+        ),
+        (
+            (TABLE, AWAY),
+            "No, I see no cup on the table. I see 1 cup elsewhere.",
+            "没有，在桌子上没有看到杯子。别处看到 1 个杯子。",
+        ),
+        ((TABLE,), "No, I see no cup on the table.", "没有，在桌子上没有看到杯子。"),
+        (
+            (AWAY,),
+            "I can't tell: I see 1 cup, but no table.",
+            "说不准：看到 1 个杯子，但没有看到桌子。",
+        ),
+        (
+            (),
+            "I can't tell: I see no cup and no table.",
+            "说不准：没有看到杯子，也没有看到桌子。",
+        ),
+        (
+            (TABLE, VAGUE),
+            "I can't tell: I see 1 cup, but not well enough where.",
+            "说不准：看到 1 个杯子，但位置不够确定。",
+        ),
+    ],
+)
+def test_it_is_said_whether_a_thing_stands_there_or_that_it_cannot_be_told(
+    things: tuple[Thing, ...], en: str, zh: str
+) -> None:
+    for question in ("is the cup on the table?", "桌子上有杯子吗"):
+        told = asked(question, *things)
+        assert isinstance(told, Done)
+        assert told.said is not None
+        assert (told.said.en, told.said.zh) == (en, zh)
+
+
+@pytest.mark.parametrize(
+    ("question", "things", "en"),
+    [
+        ("is there a cup under the table", (TABLE, ON_IT, BELOW), "Yes, I see 1 cup under the t"),
+        ("is there a cup next to the table", (TABLE, at("cup", 2.8, 0.1)), "Yes, I see 1 cup near"),
+        ("is there a cup on the shelf", (ON_IT,), "I see 1 cup; whether “on the shelf”, I can't"),
+        ("is there a cup on the shelf", (), "No, I see no cup."),
+        ("what is on the table?", (TABLE, CHAIR, ON_IT, AWAY), "I see 1 cup on the table."),
+        ("what is on the table?", (TABLE, CHAIR), "I see nothing that I know on the table."),
+        ("what is on the table?", (CHAIR,), "I can't tell: I see no table."),
+        ("is there a cup on the floor", (BELOW, ON_IT), "Yes, I see 1 cup on the floor."),
+        ("is there a cup on the floor", (ON_IT,), "No, I see no cup on the floor. I see 1 cup el"),
+        ("is there a cup on the floor", (VAGUE,), "I can't tell: I see 1 cup, but not well"),
+        ("is there a cup?", (ON_IT, AWAY), "Yes, I see 2 cups."),
+    ],
+)
+def test_every_relation_is_judged_or_said_to_be_beyond_sight(
+    question: str, things: tuple[Thing, ...], en: str
+) -> None:
+    told = asked(question, *things)
+    assert told.said.en.startswith(en)
+
+
+def test_no_is_said_of_a_neighbour_that_is_seen_now_and_not_of_one_that_is_remembered() -> None:
+    remembered = at("table", 1.6, 0.4, **BEFORE)
+    assert asked("is the cup on the table?", remembered).said.en.startswith("I can't tell")
+    yes = asked("is the cup on the table?", remembered, ON_IT)
+    assert yes.said.en == "Yes, I see 1 cup on the table."
+    unsure = at("table", 1.6, 0.4, confidence=0.4)
+    assert asked("is the cup on the table?", unsure, ON_IT).said.en.startswith("I can't tell")
+
+
+def test_a_place_is_told_and_its_tables_alone_count() -> None:
+    kitchen = at("table", 5.0, 0.4, room="kitchen"), at("cup", 5.0, 0.8, room="kitchen")
+    done = {"place": "kitchen", "pose": Pose2(5.0, 0.0, 0.0)}
+    told = asked("is there a cup on the table in the kitchen", *kitchen, TABLE, ON_IT, **done)
+    assert told.said.en == "Yes, I see 1 cup on the table in the kitchen."
+    told = asked("is there a cup on the table in the kitchen", TABLE, ON_IT, **done)
+    assert told.said.en == "I can't tell: I see no cup and no table in the kitchen."
+
+
+@pytest.mark.parametrize(
+    ("question", "en", "zh"),
+    [
+        (
+            "is there a cup on the table",
+            "Yes, I see 1 cup on the table.",
+            "有，在桌子上看到 1 个杯子。",
+        ),
+        ("is there a cup", "Yes, I see 1 cup near the table.", "有，在桌子附近看到 1 个杯子。"),
+        ("桌子旁边有杯子吗", "Yes, I see 1 cup near the table.", "有，在桌子附近看到 1 个杯子。"),
+    ],
+)
+def test_a_place_that_is_the_neighbour_itself_is_named_once(
+    question: str, en: str, zh: str
+) -> None:
+    place = Target("table", False, Bilingual(en="table", zh="桌子"), Pose2(1.6, 0.0, 0.0))
+    facts = Facts({**FACTS.targets, "table": place}, home="table")
+    told = asked(question, TABLE, ON_IT, at("cup", 5.0, 0.8), place="table", facts=facts)
+    assert told.said is not None
+    assert (told.said.en, told.said.zh) == (en, zh)
+
+
+def test_an_unknown_kind_is_asked_about_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[str] = []
+    look = sys.modules["planner.mission.skills.look"]  # its door has the function by that name
+    kind: Callable[..., str | None] = look.unknown_kind
+
+    def noted(question: str, *rest: Any) -> str | None:
+        calls.append(question)
+        return kind(question, *rest)
+
+    monkeypatch.setattr(look, "unknown_kind", noted)
+    notes = Notes()
+    for _ in range(60):
+        act = asked("look around: is there a cup?", ON_IT, notes=notes)
+        if isinstance(act, Done):
+            break
+        assert not isinstance(act, Cannot)
+        notes = act.then or notes
+        assert isinstance(act, Gaze) or act.then is not None
+    assert len(calls) == 1
+
+
+def test_who_told_late_what_they_know_still_says_that_they_do_not_know_it() -> None:
+    begun = asked("is there a piano?", ON_IT, notes=Notes())
+    assert isinstance(begun, Cannot)
+    assert begun.code is Code.OBJECT_UNKNOWN
+    late = asked("is there a piano?", ON_IT)
+    assert isinstance(late, Done)
+    assert late.said is not None
+    assert "“piano”" in late.said.en
