@@ -1,11 +1,12 @@
 """Follow a person at a distance.
 
-Precondition: somebody is in sight, or was found by the step before. Law: the way is laid anew as
-the person walks, twice a second at most, each time to a point short of them; the bridge's limits
-and gates hold as on any leg. Out of sight, the robot goes to as far short of where it saw them last
-and looks round; while its eyes see nothing at all it stands. Verdict: lost when nobody was seen for
-``LOST_S``, told and standing; failed when no way leads to them, try after try; done when the time
-is over. Budget: 300 s, and the bridge's grant.
+Precondition: somebody is in sight, or was found by the step before. Law: the robot sets off after
+nobody whom it saw for less than half a second; the way is laid anew as the person walks, twice a
+second at most, each time to a point short of them; the bridge's limits and gates hold as on any
+leg. Out of sight, the robot goes to as far short of where it saw them last and looks round; while
+its eyes see nothing at all it stands. Verdict: lost when nobody was seen for ``LOST_S``, told and
+standing; failed when no way leads to them, try after try; done when the time is over. Budget:
+300 s, and the bridge's grant.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from planner.mission.skills.find import unknown
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import short_of
-from planner.mission.skills.seen import away_m, bearing, one_of, turn_to, twice
+from planner.mission.skills.seen import away_m, bearing, lasting, one_of, turn_to
 from planner.mission.skills.tell import called
 from planner.plan import Code, message
 
@@ -62,7 +63,7 @@ def follow(scene: Scene) -> Act:
         return Gaze(1, notes=scene.notes, then=scene.notes, watch=True)
     person = _in_sight(scene, wanted)
     if person is None:
-        return _lost(scene, scene.pose)
+        return _lost(scene, scene.pose, wanted)
     at = (round(person.x_m, 2), round(person.y_m, 2), 0.9)
     stage = SHUT if scene.notes.stage == SHUT else 0
     notes = scene.notes.but(at=at, seen_s=round(scene.spent_s, 1), stage=stage, views=(), spot=None,
@@ -75,18 +76,21 @@ def follow(scene: Scene) -> Act:
 def _in_sight(scene: Scene, wanted: Wanted) -> Thing | None:
     """Return the one who is followed, where they are in sight: nearest to where they were.
 
-    Who is begun with was seen in two pictures; on the way one shows where they are now.
+    Who is begun with was seen for a while; on the way one picture shows where they are now.
     """
-    seen = [
-        t for t in scene.sight.things if t.label == wanted.label and t.seen_s >= scene.now_s - NEW_S
-    ]
-    pose, at = scene.pose, scene.notes.at
+    seen, pose, at = _shown(scene, wanted), scene.pose, scene.notes.at
     if at is not None:
         seen = [t for t in seen if _apart(t, at) <= _reach_m(scene)]
         return min(seen, key=lambda t: _apart(t, at), default=None)
     if pose is None:
         return None
-    return min(filter(twice, seen), key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
+    return min(filter(lasting, seen), key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
+
+
+def _shown(scene: Scene, wanted: Wanted) -> list[Thing]:
+    """Return who was seen just now, surely or not."""
+    since_s = scene.now_s - NEW_S
+    return [t for t in scene.sight.things if t.label == wanted.label and t.seen_s >= since_s]
 
 
 def _reach_m(scene: Scene) -> float:
@@ -125,12 +129,17 @@ def _watched(leg: Drive, notes: Notes) -> Drive:
     return replace(leg, notes=notes, watch=True, limit_s=None, limit_m=None)
 
 
-def _lost(scene: Scene, pose: Pose2) -> Act:
-    """Go to as far short of where the person was seen last, look round there, then give up."""
+def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> Act:
+    """Go to as far short of where the person was seen last, look round there, then give up.
+
+    Who may just have come into sight is watched until that is sure, or over.
+    """
     notes, at = scene.notes.but(stage=max(0, scene.notes.stage)), scene.notes.at
     gone_s = scene.spent_s - notes.seen_s
     if gone_s > LOST_S:
         return _give_up(gone_s)
+    if at is None and _shown(scene, wanted):
+        return Gaze(FIRST_LOOKS, notes=scene.notes, then=scene.notes, watch=True)
     if at is None and notes.stage < ROUND:  # nobody yet: they may well stand ahead
         return Gaze(FIRST_LOOKS, notes=notes, then=notes.but(stage=ROUND), watch=True)
     if at is not None and notes.stage < ROUND:

@@ -2,10 +2,12 @@
 
 Precondition: the detector knows what is meant, or a vision model can point at it; words that pick
 one out by more than kind and colour ("the small cup") only a model understands. The thing is
-found as ``find`` does; the standing point is tried from this side first, then about the thing, and
-the route search moves one that lies in furniture. Verdict: the bridge reached the leg, and where
-the thing must be in view a look confirms it; when it is gone it is looked for once more, then that
-is told. Budget: as for ``find``.
+found as ``find`` does, and looked at once more where it was seen for a moment only; the standing
+point is tried from this side first, then about the thing, and the route search moves one that lies
+in furniture. Verdict: the bridge reached the leg, and where the thing must be in view a look
+confirms it; where it is too near for that, it is still remembered, which it is not when it should
+have been seen on the way and was not. When it is gone it is looked for once more, then that is
+told. Budget: as for ``find``.
 """
 
 from __future__ import annotations
@@ -23,6 +25,7 @@ from planner.mission.skills.seen import (
     bearing,
     confirmed,
     found,
+    lasting,
     one_of,
     seen_now,
     spot_of,
@@ -36,6 +39,8 @@ from planner.vision.kinds import kind_of
 from planner.vision.records import Thing
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from planner.mission.skills.eyesight import Wanted
     from wire import Pose2
 
@@ -62,6 +67,9 @@ def go_to_object(scene: Scene) -> Act:
         return _pointed(scene, scene.pose)
     thing = _known(scene, scene.pose, wanted) or search(scene, scene.pose, wanted)
     if isinstance(thing, Thing):
+        if not lasting(thing) and thing.id not in scene.notes.tried:
+            tried = scene.notes.but(tried=(*scene.notes.tried, thing.id))
+            return Gaze(LOOKS, notes=scene.notes, then=tried)
         notes = scene.notes.but(label=thing.label, color=thing.color, aim=None)
         return set_off(scene, scene.pose, notes, spot_of(thing), wanted)
     return _gone(scene.but(thing), wanted) if isinstance(thing, Notes) else thing
@@ -91,15 +99,18 @@ def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
         return spin(pose, bearing(pose, at[:2]), notes.but(stage=CHECK))
     if notes.stage in (FACE, CHECK):
         in_view = wanted is not None and scene.eyes.should_see(pose, at)
-        return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE)) if in_view else _there(scene, pose)
+        if in_view:
+            return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE))
+        gone = wanted is not None and _near(scene, at, scene.sight.things) is None
+        return _look_anew(scene, wanted) if gone else _there(scene, pose)
     return _judge(scene, pose, wanted)
 
 
 def _known(scene: Scene, pose: Pose2, wanted: Wanted) -> Thing | None:
-    """Return the nearest that was seen just now, beyond doubt."""
+    """Return the nearest that was seen just now and for a while, beyond doubt."""
     inside = within(scene)
     known = [t for t in confirmed(scene.sight, wanted, scene.now_s - FRESH_S) if inside(t)]
-    known = [t for t in known if t.id not in scene.notes.tried]
+    known = [t for t in known if lasting(t) and t.id not in scene.notes.tried]
     return min(known, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
 
 
@@ -120,10 +131,27 @@ def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> Act:
 
 def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
     """Say that the thing is there, go after it once where it has moved, or look for it once."""
-    notes, at = scene.notes, scene.notes.at
-    seen = filter(twice, seen_now(scene, wanted))
-    if at is not None and any(hypot(t.x_m - at[0], t.y_m - at[1]) <= MOVED_M for t in seen):
+    at = scene.notes.at
+    if at is not None and _near(scene, at, seen_now(scene, wanted)) is not None:
         return _there(scene, pose)
+    return _look_anew(scene, wanted)
+
+
+def _near(scene: Scene, at: tuple[float, float, float], things: Iterable[Thing]) -> Thing | None:
+    """Return which of these, seen twice at least, is what was driven up to at a point."""
+    label = scene.notes.label
+    seen = [t for t in things if t.label == label and twice(t)]
+    near = min(seen, key=lambda t: _apart_m(t, at), default=None)
+    return near if near is not None and _apart_m(near, at) <= MOVED_M else None
+
+
+def _apart_m(thing: Thing, at: tuple[float, float, float]) -> float:
+    return hypot(thing.x_m - at[0], thing.y_m - at[1])
+
+
+def _look_anew(scene: Scene, wanted: Wanted | None) -> Act:
+    """Look for what is gone once more."""
+    notes = scene.notes
     if wanted is None or notes.again > 0:
         return _moved(scene)
     again = notes.but(again=1, at=None, stage=0, spots=(), rooms=(), here=None, tried=())
@@ -139,9 +167,8 @@ def _there(scene: Scene, pose: Pose2) -> Done:
             en=f"I am {away:.1f} m from what you pointed out.", zh=f"我在目标前 {away:.1f} 米处。"
         )
         return Done(figures, Code.ARRIVED, said)
-    seen = [t for t in scene.sight.things if t.label == notes.label and twice(t)]
-    near = min(seen, key=lambda t: hypot(t.x_m - at[0], t.y_m - at[1]), default=None)
-    if near is not None and hypot(near.x_m - at[0], near.y_m - at[1]) <= MOVED_M:
+    near = _near(scene, at, scene.sight.things)
+    if near is not None:
         figures["found"] = found(near, pose, scene.now_s)
     else:
         figures["found"] = Found(label=notes.label, color=notes.color, x_m=round(at[0], 3),

@@ -24,6 +24,9 @@ SURE = 0.6
 """Confidence from which a thing is told of."""
 SIGHTINGS = 2
 """One picture may err; two that agree seldom do."""
+APART_S = 0.5
+"""Between the first picture and the newest, where the robot is to set off: what one jolt, one flash
+or one exposure shows is over by then, and who drives stands elsewhere."""
 WORTH = 0.3
 """Confidence from which a remembered thing is worth a second look."""
 SOMEBODY = frozenset(
@@ -123,6 +126,11 @@ def sure(thing: Thing) -> bool:
 def twice(thing: Thing) -> bool:
     """Tell whether two pictures at least showed a thing: one alone proves nothing."""
     return thing.sightings >= SIGHTINGS
+
+
+def lasting(thing: Thing) -> bool:
+    """Tell whether pictures some time apart showed a thing: those of one moment err alike."""
+    return twice(thing) and thing.seen_s - thing.first_s >= APART_S
 
 
 def fresh(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:

@@ -21,11 +21,11 @@ from planner.mission.skills import (
     act_of,
 )
 from planner.mission.skills.eyesight import Answer
-from planner.mission.skills.go_to_object import JUDGE
+from planner.mission.skills.go_to_object import FACE, JUDGE
 from planner.mission.skills.look import looks_round
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import REACH_M, in_order, room_of, spots_in
-from planner.mission.skills.seen import apart, confirmed, fits, mentioned
+from planner.mission.skills.seen import APART_S, apart, confirmed, fits, mentioned
 from planner.mission.skills.tell import counted, found_at, listed, looked_in
 from planner.plan import Bilingual, Code
 from planner.settings.model import ModelSettings
@@ -243,3 +243,52 @@ def test_one_picture_alone_sets_nothing_off_and_proves_nothing() -> None:
     unsure = thing(sightings=2, confidence=0.4)
     assert isinstance(looking("go_to_object", unsure, **gazed), Done), "it was found before"
     assert not isinstance(looking("go_to_object", thing(sightings=1), **gazed), Done)
+
+
+def test_what_was_seen_for_a_moment_only_sets_nothing_off() -> None:
+    anna = {"id": "person_1", "label": "person", "color": None, "x_m": 3.0}
+    step: dict[str, Any] = {"step": {"object": "person"}}
+    glimpsed, watched = NOW_S - 0.5 - APART_S + 0.01, NOW_S - 0.5 - APART_S
+    for notes in (Notes(), Notes(stage=1, spot="here", turned=2)):
+        act = looking("follow", thing(**anna, first_s=glimpsed), notes=notes, **step)
+        assert isinstance(act, Gaze), "watched until that is sure, standing too"
+        assert act.watch
+        assert (act.notes, act.then) == (notes, notes)
+        assert isinstance(looking("follow", thing(**anna, first_s=watched), **step), Drive)
+    late = looking("follow", thing(**anna, first_s=glimpsed), spent_s=26.0, **step)
+    assert isinstance(late, Cannot), "not for ever"
+    gone = looking("follow", thing(**anna, first_s=glimpsed, seen_s=NOW_S - 2.0), **step)
+    assert isinstance(gone, Gaze)
+    assert gone.then == Notes(stage=1), "then it looks round"
+
+
+def test_a_thing_that_was_seen_for_a_moment_is_looked_at_again_before_the_way_to_it() -> None:
+    glimpsed = thing(first_s=NOW_S - 0.6)
+    gazed: dict[str, Any] = {"gazed_s": NOW_S - 1.0}
+    again = looking("go_to_object", glimpsed, **gazed)
+    assert isinstance(again, Gaze)
+    assert again.then is not None
+    assert again.then.tried == ("cup_1",)
+    near = looking("go_to_object", glimpsed, notes=again.then, **gazed)
+    assert isinstance(near.then, Notes)
+    assert near.then.at is not None, "it is there yet"
+    over = looking("go_to_object", thing(first_s=NOW_S - 3.0, seen_s=NOW_S - 2.9),
+                   notes=again.then, **gazed)  # fmt: skip
+    assert over.then.at is None, "it looks on"
+    passed = looking("go_to_object", replace(glimpsed, x_m=0.0, y_m=1.6))
+    assert isinstance(passed, Drive)
+    assert passed.way is Way.SPIN
+    assert isinstance(looking("go_to_object", thing(first_s=NOW_S - 3.0)).then, Notes)
+
+
+def test_what_was_not_seen_on_the_way_is_not_said_to_be_there() -> None:
+    at = (0.9, 0.0, 0.05)
+    notes = Notes(stage=FACE, at=at, label="cup", color="red")
+    assert not EYES.should_see(HERE, at), "it lies before the feet"
+    there = thing(x_m=0.9, z_m=0.05, seen_s=NOW_S - 9.0)
+    assert isinstance(looking("go_to_object", there, notes=notes), Done)
+    again = looking("go_to_object", notes=notes)
+    assert isinstance(again, (Drive, Gaze)), "it is looked for once more"
+    told = looking("go_to_object", notes=notes.but(again=1))
+    assert isinstance(told, Cannot)
+    assert told.reason == "moved"
