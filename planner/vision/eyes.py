@@ -13,42 +13,29 @@ import time
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from planner.vision.changes import Changes
+from planner.vision.attention import POLL_S, Attention
 from planner.vision.failure import REFUSALS, VisionFailure
 from planner.vision.handed import Handed
-from planner.vision.keeping import Keeper
+from planner.vision.known import Known
 from planner.vision.labels import canonical
-from planner.vision.memory import Remembered, aged, forget, recalled
 from planner.vision.pictures import Pictures
 from planner.vision.pointing import pixel, point_on_map
 from planner.vision.ports import PointRefused
 from planner.vision.project import View
-from planner.vision.records import Look, Sight
-from planner.vision.seeing import saw
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from planner.vision.means import Means
     from planner.vision.ports import Detector, Looked, Picture, Spot
-    from planner.vision.records import Thing
+    from planner.vision.records import Sight, Thing
 
 log = logging.getLogger(__name__)
 
-POLL_S, IDLE_POLL_S = 0.01, 0.03
-PASSING_HZ, STANDING_HZ = 2.0, 0.5
-"""Nobody asks, yet what is passed is remembered, and what comes before a robot that stands."""
-EARLY_S = 0.02
-"""A picture that comes so much before its time is taken: cameras and clocks jitter."""
-SHOWN_S = 3.0
-"""A page that asked for the picture is taken to look on for so long."""
 NO_MODEL = frozenset({"no_detector", *REFUSALS})
 """While one of these is why nothing is seen, no picture is looked at: a person must act."""
 UNUSABLE_AFTER = 5
 """Looks in a row that were skipped: a lens that is covered, a camera or a model that is broken."""
-REST_S = 1.0
-"""After a failure of the detector."""
-AGING_S = 0.5
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 10.0
 """Before eyes that ended by an error of ours are opened again; doubled until one sees."""
 
@@ -61,24 +48,17 @@ class Sightseer:
         camera = means.scenery.camera
         self._there = camera.kind != "none"
         self._pictures = Pictures(means.camera, camera.rate_hz)
-        self._memory = Remembered()
-        self._look: Look | None = None
         self._looked: Picture | None = None
         self._unusable = 0
         there = means.detector is not None and means.has_model
         self._down: str | None = None if there else "no_detector"
-        self._sight = Sight(blind=self._down if self._there else "no_camera")
-        self._listeners: list[Callable[[Sight], None]] = []
-        self._wanted: set[str] = set()
-        self._awaited = 0
+        blind = self._down if self._there else "no_camera"
+        self._known = Known(means.scenery, means.store, blind)
+        self._attention = Attention(means.rate_hz, camera.rate_hz)
         self._handed = Handed()
-        self._keeper = Keeper(means.store)
-        self._shown_s = self._began_s = self._aged_s = self._rest_until_s = float("-inf")
         self._thinking: asyncio.Task[None] | None = None
         self._task: asyncio.Task[None] | None = None
         self._pause_s = FIRST_PAUSE_S
-        self._idle_poll_s = min(IDLE_POLL_S, max(POLL_S, 0.5 / camera.rate_hz))
-        self._changes = Changes()
         self.counts: Counter[str] = Counter()
         """Looks, and what became of them."""
         self.lag_s = self.took_s = 0.0
@@ -89,17 +69,17 @@ class Sightseer:
     @property
     def sight(self) -> Sight:
         """Return the newest look and all that is remembered."""
-        return self._sight
+        return self._known.sight
 
     @property
     def version(self) -> int:
         """Return a number that rises when a thing comes, goes, or gets another colour or room."""
-        return self._changes.version
+        return self._known.version
 
     @property
     def changed_s(self) -> Mapping[str, float]:
         """Return when each thing was last seen or doubted."""
-        return self._changes.changed_s
+        return self._known.changed_s
 
     @property
     def classes(self) -> tuple[str, ...]:
@@ -136,27 +116,24 @@ class Sightseer:
 
     def listen(self, told: Callable[[Sight], None]) -> None:
         """Have something called after each look and when ``blind`` changes. It must be quick."""
-        self._listeners.append(told)
+        self._known.listen(told)
 
     def attend(self, who: str, wanted: bool) -> None:
         """Say that somebody needs eyes now, or no longer."""
-        (self._wanted.add if wanted else self._wanted.discard)(who)
+        self._attention.attend(who, wanted)
 
     async def show(self) -> Picture | None:
         """Return the newest picture to a page, which is then taken to look on."""
-        self._shown_s = self._clock()
+        self._attention.shown(self._clock())
         return await self.fresh()
 
     async def fresh(self) -> Picture | None:
         """Return the newest picture; where nobody wanted any so far, wait a moment for one."""
-        self._awaited += 1
-        try:
+        with self._attention.waiting():
             self._listen(self._clock())
             while not self._pictures.settled(self._clock()):  # noqa: ASYNC110  # a round tells
                 await asyncio.sleep(POLL_S)
             return self.picture
-        finally:
-            self._awaited -= 1
 
     async def spot(self, picture: Picture, x: float, y: float) -> Spot:
         """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
@@ -179,19 +156,17 @@ class Sightseer:
 
     def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]:
         """Forget one thing, or all; return what was forgotten."""
-        before = self._memory
-        self._memory = forget(before, thing_id)
-        left = {thing.id for thing in self._memory.things}
-        self._tell(self._look)
-        return tuple(thing for thing in before.things if thing.id not in left)
+        forgotten = self._known.forget(thing_id)
+        self._tell()
+        return forgotten
 
     # Life --------------------------------------------------------------------------------------
 
     async def start(self) -> None:
         """Take up what was remembered, and begin to look."""
-        self._memory = recalled(await self._keeper.load(self._clock()), self._clock())
-        self._tell(None)
-        self._keeper.took(self._sight.things, self.version)
+        await self._known.load(self._clock())
+        self._tell()
+        self._known.took()
         if self._there:
             self._open(0.0)
 
@@ -203,7 +178,7 @@ class Sightseer:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
         if running is not None:
-            await self._keeper.close(self._sight.things, self._clock())
+            await self._known.close(self._clock())
 
     def _open(self, after_s: float) -> None:
         self._task = asyncio.get_running_loop().create_task(self._run(after_s), name="eyes")
@@ -213,7 +188,7 @@ class Sightseer:
         await asyncio.sleep(after_s)
         while True:
             self.turn()
-            await asyncio.sleep(POLL_S if self._attended(self._clock()) else self._idle_poll_s)
+            await asyncio.sleep(self._attention.poll_s(self._clock()))
 
     def turn(self) -> None:
         """Do one round: take pictures in, judge them, begin a look where one is due."""
@@ -221,18 +196,17 @@ class Sightseer:
         self._listen(now_s)
         self._pictures.poll(now_s, busy=busy)
         self._handed.settle(self._means.poses, now_s)
-        self._age(now_s)
-        if (self._pictures.blind(now_s) or self._down) != self._sight.blind:
-            self._tell(self._look)
+        if self._known.age(now_s) or self._blind(now_s) != self.sight.blind:
+            self._tell()
         if not busy and self._due(now_s):
             picture = self._pictures.ready(now_s)
             if picture is not None and self._means.detector is not None:
-                self._began_s = now_s
+                self._attention.began(now_s)
                 self._thinking = asyncio.get_running_loop().create_task(
                     self._think(self._means.detector, picture), name="look"
                 )
                 self._thinking.add_done_callback(self._thought)
-        self._keeper.keep(self._sight.things, self.version, now_s)
+        self._known.keep(now_s)
 
     def _listen(self, now_s: float) -> None:
         """Listen to the camera while anybody wants pictures: a detector, a page, a question.
@@ -240,25 +214,10 @@ class Sightseer:
         While nobody asks, it is listened to for a glance at a time: until the next look begins.
         """
         glance = self._down not in NO_MODEL and self._due(now_s)
-        wanted = glance or self._awaited > 0 or self._attended(now_s)
-        self._pictures.listen(wanted and self._there, now_s)
-
-    def _age(self, now_s: float) -> None:
-        """Let go of what time alone takes."""
-        if now_s - self._aged_s >= AGING_S:
-            self._aged_s, before = now_s, self._memory
-            self._memory = aged(before, now_s)
-            if self._memory is not before:
-                self._tell(self._look)
+        self._pictures.listen(self._there and self._attention.listens(now_s, glance=glance), now_s)
 
     def _due(self, now_s: float) -> bool:
-        idle_hz = PASSING_HZ if self._means.poses.moving else STANDING_HZ
-        rate_hz = self._means.rate_hz if self._attended(now_s) else idle_hz
-        rate_hz = min(rate_hz, self._means.rate_hz)
-        return now_s >= self._rest_until_s and now_s - self._began_s >= 1.0 / rate_hz - EARLY_S
-
-    def _attended(self, now_s: float) -> bool:
-        return bool(self._wanted) or now_s - self._shown_s <= SHOWN_S
+        return self._attention.due(now_s, moving=self._means.poses.moving)
 
     # Looks -------------------------------------------------------------------------------------
 
@@ -290,27 +249,25 @@ class Sightseer:
             log.warning("eyes: %s", failure)
         self.counts[failure.code] += 1
         self._down = code
-        self._rest_until_s = self._clock() + REST_S
+        self._attention.rest(self._clock())
 
     def _saw(self, picture: Picture, result: Looked) -> None:
         stance = self._means.poses.at(picture.taken_s)
-        self._memory, look = saw(
-            self._means.scenery, self._memory, picture, result.detections, stance
-        )
+        self._known.take(picture, result, stance)
         self._looked = picture
         self.counts["looks"] += 1
         if result.depth_lost is not None:
             self._pictures.skipped[result.depth_lost] += 1
         self.counts["without_pose"] += stance is None
         self.took_s, self.lag_s = result.took_s, self._clock() - picture.taken_s
-        self._tell(look)
+        self._tell()
 
     def _thought(self, task: asyncio.Task[None]) -> None:
         """Free the place for the next look; say what no one foresaw."""
         self._thinking = None
         if not task.cancelled() and (error := task.exception()) is not None:
             self.counts["look_broken"] += 1
-            self._rest_until_s = self._clock() + REST_S
+            self._attention.rest(self._clock())
             log.error("a look failed", exc_info=error)
 
     def _ended(self, task: asyncio.Task[None]) -> None:
@@ -320,16 +277,12 @@ class Sightseer:
             self._open(self._pause_s)
             self._pause_s = min(2 * self._pause_s, LONGEST_PAUSE_S)
             self._down = self._down or "detector_down"  # until the next look
-            self._tell(self._look)
+            self._tell()
 
-    def _tell(self, look: Look | None) -> None:
-        """Make the new sight, and tell it."""
-        now_s, told_of = self._clock(), self._sight.things
-        things = self._memory.things
-        things = told_of if things == told_of else things
-        self._look = look
-        self._changes.note(told_of, things, now_s)
-        blind = (self._pictures.blind(now_s) or self._down) if self._there else "no_camera"
-        self._sight = Sight(look, things, blind)
-        for told in self._listeners:
-            told(self._sight)
+    def _blind(self, now_s: float) -> str | None:
+        """Return why nothing is seen now, or None."""
+        return (self._pictures.blind(now_s) or self._down) if self._there else "no_camera"
+
+    def _tell(self) -> None:
+        now_s = self._clock()
+        self._known.tell(self._blind(now_s), now_s)

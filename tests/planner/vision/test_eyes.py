@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 
 from planner.vision import Detection, PointRefused, Sight, VisionFailure
-from planner.vision.eyes import REST_S, Sightseer
+from planner.vision.attention import REST_S
+from planner.vision.eyes import Sightseer
 from planner.vision.pictures import FROZEN_AFTER, OLDEST_S
 from tests.planner.vision.scenes import box_of, image, view
 from tests.planner.vision.watching import MAP_ID, World

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from planner.vision import VisionFailure
-from planner.vision.eyes import PASSING_HZ, SHOWN_S, STANDING_HZ
+from planner.vision.attention import PASSING_HZ, SHOWN_S, STANDING_HZ
 from planner.vision.pictures import FROZEN_AFTER
 from tests.planner.vision.watching import World
 
