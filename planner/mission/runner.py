@@ -1,4 +1,4 @@
-"""Take goals and commands in and answer for them: the door that the API uses.
+"""Take goals and commands in and answer for them: the door that the API uses, with what it shows.
 
 Every call is judged against the book at once, journalled before it returns, and carried out by the
 loop. An order to stop is judged before anything else and waits for no brain and no disk.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from typing import Any
 
 from planner.brain.intents import Cancel as TakeBack
 from planner.brain.intents import Replace, intent_of, stays_put, stops
@@ -20,13 +19,12 @@ from planner.mission.accept import language_of
 from planner.mission.ahead import RouteAhead
 from planner.mission.asking import asks
 from planner.mission.effects import AskBrain
-from planner.mission.engine import Engine, Leg
+from planner.mission.engine import Engine
 from planner.mission.errors import (
     JournalDown,
     MissionError,
     NothingToResume,
     QueueFull,
-    UnknownGoal,
 )
 from planner.mission.events import (
     Cancel,
@@ -43,23 +41,22 @@ from planner.mission.events import (
 )
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Router
-from planner.mission.hub import Subscription
 from planner.mission.journal import MissionJournal
 from planner.mission.local import Local, current, to_resume
 from planner.mission.loop import Clocks, Loop
 from planner.mission.memory import Memory
 from planner.mission.records import MAX_OPEN, Book, Rules
 from planner.mission.repeats import Repeats, body_of
+from planner.mission.shown import Shown
 from planner.mission.table import refusal
 from planner.mission.thinking import thinker
-from planner.mission.view import goal_of
 from planner.plan import Goal, Language
 from planner.vision.ports import Eyes
 from planner.world import Site
 from wire import OpRequest, RobotDescription
 
 
-class Missions:
+class Missions(Shown):
     """Take goals, drive them, answer for them. See the package's door for the API."""
 
     def __init__(
@@ -78,11 +75,11 @@ class Missions:
         self.link, self.memory = link, site if isinstance(site, Memory) else Memory(site)
         self.memory.use(link, router)
         site = self.memory.site
-        self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
-        identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
+        planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
+        identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(Book(self.memory.facts), identity)
         self._clocks, self._robot = clocks or Clocks(), robot
-        self._loop = Loop(engine, link, journal, self._clocks)
+        super().__init__(Loop(engine, link, journal, self._clocks), planner_id)
         self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
         self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
         self._think = Local(
@@ -115,21 +112,6 @@ class Missions:
         """End everything; a running goal comes back paused in the next process."""
         await self._loop.close()
         await self._router.close()
-
-    @property
-    def failed(self) -> BaseException | None:
-        """Return what ended the mission loop, if something did: the process should end then."""
-        return self._loop.failed
-
-    @property
-    def journal_trouble(self) -> str | None:
-        """Return why the journal can't be written, or None."""
-        return self._loop.trouble
-
-    @property
-    def first_waypoint_s(self) -> tuple[float, ...]:
-        """Return the newest times from a goal's acceptance to its first waypoint [s]."""
-        return tuple(self._loop.accepted.seconds)
 
     # Goals --------------------------------------------------------------------------------------
 
@@ -194,22 +176,6 @@ class Missions:
             raise
         return self.goal(goal_id)
 
-    def goal(self, goal_id: str) -> Goal:
-        """Return a goal.
-
-        Raises:
-            UnknownGoal: there is none of that id at hand.
-        """
-        mission = self._book.missions.get(goal_id)
-        if mission is None:
-            raise UnknownGoal(goal_id, tuple(self._book.missions))
-        return goal_of(self._book, mission)
-
-    def goals(self, limit: int = 50) -> tuple[Goal, ...]:
-        """Return the newest goals, newest first."""
-        newest = sorted(self._book.missions.values(), key=lambda m: -m.order)[: max(0, limit)]
-        return tuple(goal_of(self._book, mission) for mission in newest)
-
     async def cancel(self, goal_id: str) -> Goal:
         """End a goal. Raises UnknownGoal, BadState."""
         return await self._command(Cancel(goal_id))
@@ -271,33 +237,7 @@ class Missions:
         self._loop.event(Stopped(source))
         return await saying
 
-    # Watching -----------------------------------------------------------------------------------
-
-    def path(self) -> Leg | None:
-        """Return the leg that is driven now, with its whole path."""
-        return self._loop.leg
-
-    def subscribe(self) -> Subscription:
-        """Iterate over (seq, event) from now on; take a ``snapshot`` after, and drop older seqs."""
-        return self._loop.hub.subscribe()
-
-    def snapshot(self) -> dict[str, Any]:
-        """Return where everything stands, with the seq of the newest event it contains."""
-        status = self._book.status
-        return {
-            "seq": self._loop.hub.seq,
-            "planner_id": self.planner_id,
-            "running": self._book.running,
-            "queue": list(self._book.queue),
-            "goals": [goal.model_dump(mode="json") for goal in self.goals()],
-            "status": status.model_dump(mode="json") if status is not None else None,
-        }
-
     # Inside -------------------------------------------------------------------------------------
-
-    @property
-    def _book(self) -> Book:
-        return self._loop.book
 
     async def _stop_goal(self, text: str, language: Language, source: str) -> Goal:
         result = await self.stop(source)
