@@ -123,17 +123,21 @@ class Sightseer:
         self._attention.attend(who, wanted)
 
     async def show(self) -> Picture | None:
-        """Return the newest picture to a page, which is then taken to look on."""
+        """Return the newest picture to a page, which is then taken to look on; no point of it."""
         self._attention.shown(self._clock())
-        return await self.fresh()
+        await self._first_picture()
+        return self._pictures.newest  # noted for nobody: a page fetches three a second
 
     async def fresh(self) -> Picture | None:
         """Return the newest picture; where nobody wanted any so far, wait a moment for one."""
+        await self._first_picture()
+        return self.picture
+
+    async def _first_picture(self) -> None:
         with self._attention.waiting():
             self._listen(self._clock())
             while not self._pictures.settled(self._clock()):  # noqa: ASYNC110  # a round tells
                 await asyncio.sleep(POLL_S)
-            return self.picture
 
     async def spot(self, picture: Picture, x: float, y: float) -> Spot:
         """Return what lies at a point of a picture (x right, y down, each 0 to 1000).

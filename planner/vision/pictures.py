@@ -7,6 +7,7 @@ is older and on our clock; no stamp makes it younger. Knows the wire's pictures;
 from __future__ import annotations
 
 from collections import Counter
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -60,8 +61,11 @@ class WireCamera:
             ear.close()
         if wanted:
             hear = self._session.image_subscriber
-            depth = hear(k.CAMERA_DEPTH)  # first: no picture comes without its depth
-            self._ears = hear(k.CAMERA_COLOR), depth
+            with ExitStack() as stack:
+                depth = hear(k.CAMERA_DEPTH)  # first: no picture comes without its depth
+                stack.callback(depth.close)
+                self._ears = hear(k.CAMERA_COLOR), depth
+                stack.pop_all()
 
     def color(self) -> Image | Rejected | None:
         return None if self._ears is None else self._ears[0].newest()

@@ -114,7 +114,11 @@ class ThingStore:
 def _private(path: str, flags: int) -> int:
     """Open a file that nobody else may read, one that was left there too."""
     descriptor = os.open(path, flags, PRIVATE)
-    os.fchmod(descriptor, PRIVATE)
+    try:
+        os.fchmod(descriptor, PRIVATE)
+    except OSError:  # another user's
+        os.close(descriptor)
+        raise
     return descriptor
 
 

@@ -14,6 +14,7 @@ import pytest
 from planner.vision import Detection, PointRefused, Sight, VisionFailure
 from planner.vision.attention import REST_S
 from planner.vision.eyes import Sightseer
+from planner.vision.handed import KEPT
 from planner.vision.pictures import FROZEN_AFTER, OLDEST_S
 from tests.planner.vision.scenes import box_of, image, view
 from tests.planner.vision.watching import MAP_ID, World
@@ -229,6 +230,21 @@ def test_a_pixel_leads_to_the_floor_by_its_own_picture(tmp_path: Path) -> None:
         world.detector.failure = VisionFailure("detector_down")
         with pytest.raises(PointRefused, match="point_no_depth"):
             await world.eyes.spot(picture, 500, 900)
+
+    play(story())
+
+
+def test_a_page_that_looks_on_takes_no_picture_from_who_thinks() -> None:
+    async def story() -> None:
+        world = World()
+        world.eyes.attend("test", True)
+        await world.film(0.6)
+        thought_upon = world.eyes.picture
+        assert thought_upon is not None
+        for _ in range(KEPT + 8):
+            await world.eyes.show()
+            await world.film(0.5)
+        assert (await world.eyes.spot(thought_upon, 500, 900)).z_m is not None
 
     play(story())
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
+import psutil
 import pytest
 
 from planner.vision import Thing
@@ -47,3 +48,17 @@ def test_nobody_else_may_read_what_was_seen(tmp_path: Path) -> None:
         there.chmod(0o644)
     assert ThingStore(path, MAP_ID).save((), 100.0)
     assert path.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_file_of_another_user_costs_no_descriptor(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(_descriptor: int, _mode: int) -> None:
+        raise PermissionError(1, "Operation not permitted")
+
+    monkeypatch.setattr("planner.vision.store.os.fchmod", refuse)
+    store, here = ThingStore(tmp_path / FILE, MAP_ID), psutil.Process()
+    assert not store.save((), 100.0)
+    before = here.num_fds()
+    assert not store.save((), 100.0)
+    assert here.num_fds() == before
