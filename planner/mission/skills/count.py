@@ -75,14 +75,19 @@ def _told(scene: Scene, wanted: Wanted) -> Done:
     notes, inside = scene.notes, within(scene)
     seen = confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
     number = len(apart(filter(inside, seen)))
-    what = by_neighbour(counted(number, wanted.label, wanted.color), wanted)
+    what = by_neighbour(_apart(counted(number, wanted.label, wanted.color)), wanted)
     if number == 0 and wanted.by is not None and not any(map(inside, _neighbours(scene, wanted))):
-        what = counted(0, wanted.by.label, wanted.by.color)
+        what = _apart(counted(0, wanted.by.label, wanted.by.color))
     place = room_name(scene.facts, scene.step.place)
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
     where = looked_in(scene.facts, notes.rooms, shut, spent(scene))
     said = Bilingual(
         en=f"I saw {what.en}" + (f" in the {place.en}." if place else f". {where.en}"),
-        zh=(f"在{place.zh}" if place else "") + f"看到 {what.zh}。" + ("" if place else where.zh),
+        zh=(f"在{place.zh}" if place else "") + f"看到{what.zh}。" + ("" if place else where.zh),
     )
     return Done({"count": number, "rooms": notes.rooms}, Code.COUNTED, said)
+
+
+def _apart(what: Bilingual) -> Bilingual:
+    """Part a number from the Chinese words before it, whatever they are."""
+    return Bilingual(en=what.en, zh=f" {what.zh}")

@@ -164,6 +164,12 @@ def test_the_table_is_the_first_one_that_is_come_by(
     assert done.figures == {"count": number, "rooms": ("hall", "kitchen")[:rooms]}
 
 
+def test_a_number_stands_apart_from_the_chinese_words_before_it() -> None:
+    said = [counted("bottles on the table", *things).said for things in (KITCHEN, ON_IT)]
+    told = [s.zh.partition("。")[0] for s in said if s]
+    assert told == ["在kitchen看到桌子上的 2 个瓶子", "看到 0 个桌子"]
+
+
 def test_a_table_to_which_there_is_no_way_is_told_of_as_such() -> None:
     done = counted("bottles on the table", *KITCHEN, shut=True)
     assert done.said is not None
