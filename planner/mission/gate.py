@@ -68,4 +68,4 @@ def _unknown_in(book: Book, language: Language, step: StepRecord) -> Bilingual |
     name = step.object or ""
     which = step.kind in UP_TO and picks_out(name, step.kind, language, eyes.classes)
     unknown = which or meant(name, language, eyes.classes) is None
-    return unknown_words(name, eyes.classes) if unknown else None
+    return unknown_words(name, eyes.classes, step.kind) if unknown else None

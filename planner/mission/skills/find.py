@@ -50,5 +50,5 @@ def not_found(scene: Scene, wanted: Wanted) -> Cannot:
 
 def unknown(scene: Scene) -> Cannot:
     """Say that these eyes don't know the thing, and what they know."""
-    said = unknown_words(scene.step.object or "", scene.eyes.classes)
+    said = unknown_words(scene.step.object or "", scene.eyes.classes, scene.step.kind)
     return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", said)

@@ -55,10 +55,20 @@ def unknown_name(name: str, classes: tuple[str, ...]) -> Bilingual:
     return message(Code.OBJECT_UNKNOWN, name=same(name), known=known_things(classes))
 
 
-def unknown_words(words: str, classes: tuple[str, ...]) -> Bilingual:
-    """Say that these eyes don't know a thing and what they know, or not which one is meant."""
+def unknown_words(words: str, classes: tuple[str, ...], kind: str = "") -> Bilingual:
+    """Say that these eyes don't know a thing and what they know, or not which one is meant.
+
+    What they can tell besides depends on the kind of step: somebody who walks has no neighbour.
+    """
     if not singles_out(words, classes):
         return unknown_name(words, classes)
+    if kind == "follow":
+        return Bilingual(
+            en=f"I can't tell by sight which one “{words}” is: I follow the nearest one in sight, "
+            "and can't pick out another, nor tell one by what is near.",
+            zh=f"我看不出“{words}”指的是哪一个：我只会跟随看得见的最近的一个，"
+            "不能挑出另一个，也不能靠旁边的东西来认。",
+        )
     return Bilingual(
         en=f"I can't tell by sight which one “{words}” is: I know kind, colour, and what a thing "
         "is on, under or near, where I know that, too.",

@@ -231,7 +231,10 @@ def test_what_only_one_of_a_kind_can_be_is_not_taken_for_any_of_it(
     if refused:
         assert mission.outcome is not None
         assert mission.outcome.code is Code.OBJECT_UNKNOWN
-        assert "which one" in mission.outcome.message.en
+        said, stands = mission.outcome.message, step.kind == "go_to_object"
+        assert "which one" in said.en
+        assert ("on, under or near" in said.en) is stands, "who walks has no neighbour"
+        assert ("上面、下面或旁边" in said.zh) is stands
         assert seeing.routes == []
 
 

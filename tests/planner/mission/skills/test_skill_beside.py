@@ -91,6 +91,14 @@ THERE, OTHER = at("bottle", 1.7, 0.8), at("bottle", 0.9, 0.1)
 GAZED: dict[str, Any] = {"gazed_s": NOW_S - 1.0, "spent_s": 5.0}
 
 
+def test_nobody_is_followed_by_a_neighbour_and_what_is_said_of_it_does_not_offer_one() -> None:
+    act = looking("follow", "person near the chair")
+    assert isinstance(act, Cannot)
+    assert act.said is not None
+    assert "nearest one in sight" in act.said.en
+    assert "最近的一个" in act.said.zh
+
+
 @pytest.mark.parametrize("words", ["bottle on the table", "桌子上的瓶子"])
 def test_only_what_stands_there_is_found_and_gone_to(words: str) -> None:
     assert parted("red cup") is None
