@@ -12,7 +12,7 @@ from planner.brain.offline.chinese_words import SEE, SPOT, THING, UNIT, WHAT, WH
 from planner.brain.offline.grammar import rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Reading, Rule, Steps
-from planner.brain.offline.things import by_neighbour
+from planner.brain.offline.things import by_neighbour, known
 from planner.plan import Code, Look, Step, Turn
 
 _AT = rf"(?:{loc('at')})?"
@@ -41,10 +41,12 @@ def _find_under(found: Match[str], reading: Reading) -> Meaning:
 
 
 def _find_all(found: Match[str], reading: Reading) -> Meaning:
-    """Find one thing after the other: "杯子和球"."""
+    """Find one thing after the other: "杯子和球"; in 暖和的毯子, 和平鸽 no word joins things."""
+    parts = re.split(r"和|以及|还有|与", found["what"])
+    several = all(known(part, reading.things) for part in parts)
     steps: tuple[Step, ...] = ()
     meaning: Meaning = Steps(())
-    for what in re.split(r"和|以及|还有|与", found["what"]):
+    for what in parts if several else [found["what"]]:
         meaning = find(what, None, reading)
         if not isinstance(meaning, Steps):
             return meaning

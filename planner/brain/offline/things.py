@@ -56,7 +56,7 @@ def up_to(phrase: str, reading: Reading) -> Steps | None:
         return Steps((GoToObject(object=named, place=place),), thing=named)
     found = _EN.fullmatch(phrase) or _ZH.fullmatch(phrase)
     what = found["what"].strip(" 的") if found else ""
-    if found is None or not _known(what, reading.things) or _ASIDE_ZH.match(what):
+    if found is None or not known(what, reading.things) or _ASIDE_ZH.match(what):
         return None
     ids = reading.marked.mention(found["at"]).ids if found["at"] else (None,)
     if len(ids) != 1:
@@ -71,7 +71,7 @@ def by_neighbour(what: str, how: str, by: str, reading: Reading) -> str | None:
     A neighbour may be a place of the site as well: "the cup on the desk".
     """
     near = reading.marked.restore(by)
-    if not _known(near, reading.things):
+    if not known(near, reading.things):
         return None
     thing = reading.marked.restore(what)
     joined = f"{thing} {how} the {near}" if how.isascii() else f"{near}{how}的{thing}"
@@ -83,8 +83,8 @@ def _only(mark: str, reading: Reading) -> str | None:
     return ids[0] if len(ids) == 1 else None
 
 
-def _known(what: str, things: frozenset[str]) -> bool:
-    """Tell whether a phrase ends in the name of something that eyes know."""
+def known(what: str, things: frozenset[str]) -> bool:
+    """Tell whether a phrase ends in the name of something that eyes know, as a word of its own."""
     if not what.isascii():
         names = [name for name in things if not name.isascii() and what.endswith(name)]
         return any(_BEFORE_ZH.fullmatch(what.removesuffix(name)) for name in names)

@@ -54,7 +54,6 @@ OTHERS = {
     "look behind you": "turn=180 look=look behind you",
     "到处找找我的手机": "find=手机",
     "去厨房找找看有没有杯子": "kitchen find=杯子@kitchen",
-    "找杯子和球": "find=杯子 find=球",
     "家里有几个箱子": "count=箱子",
     "search the whole house for my phone": "find=phone",
     "count all the boxes in the house": "count=boxes",

@@ -78,6 +78,31 @@ def test_a_thing_may_be_told_by_its_neighbour(text: str, step: Step, home: Vocab
     assert made.steps[-1] == step
 
 
+JOINED = {
+    "找杯子和球": ("杯子", "球"),
+    "到处找找红色的杯子与一个球": ("红色的杯子", "球"),
+    "找杯子以及毯子和球": ("杯子", "毯子", "球"),
+    "找暖和的毯子": ("暖和的毯子",),
+    "找和平鸽": ("和平鸽",),
+    "找杯子和和平鸽": ("杯子和和平鸽",),
+    "找杯子和暖和的毯子": ("杯子和暖和的毯子",),
+    "找红色和蓝色的球": ("红色和蓝色的球",),
+    "去厨房找杯子和球": ("杯子", "球"),
+    "去厨房找暖和的毯子": ("暖和的毯子",),
+}
+
+
+@pytest.mark.parametrize(("text", "sought"), JOINED.items(), ids=ascii)
+def test_only_things_that_eyes_know_are_sought_one_after_the_other(
+    text: str, sought: tuple[str, ...], home: Vocabulary
+) -> None:
+    known = frozenset({"cup", "杯子", "球", "毯子"})
+    made = plan(text, home, Context(runnable=EVERY_KIND, things=known))
+    assert isinstance(made, StepPlan), made
+    finds = [step for step in made.steps if isinstance(step, Find)]
+    assert tuple(step.object for step in finds) == sought
+
+
 @pytest.mark.parametrize(
     "text",
     [
