@@ -66,7 +66,7 @@ RULES: tuple[Rule, ...] = (
     rule(
         rf"(?:{SEE})?在?{_BY}{_NOW}(?:{WHETHER}(?P<what>{THING})|{WHAT}(?:东西|人)?){_ASKS}", _look
     ),
-    rule(rf"(?:{SEE})?在?{_BY}{_NOW}有(?P<what>{THING})[吗呢么嘛]", _look),
+    rule(rf"(?:{SEE})?在?{_BY}{_NOW}有(?P<what>{THING})[吗么嘛]", _look),
     rule(rf"在?{_BY}{_NOW}(?P<flat>有)(?P<what>{THING})", _look),
     rule(rf"(?P<what>{THING}){_NOW}在{_BY}(?:吗|么|没有)", _look),
     rule(rf"谁{_NOW}(?:正?[坐站躺睡])?在{_BY}{_ASKS}", _look),

@@ -20,6 +20,8 @@ _MUST = loc("at")
 _FIND = r"(?:找到|寻找|找找看?|找一找|找一下|找|搜索|搜寻|搜一下|定位|识别|寻)(?:一下|一个|个)?"
 _IS_THERE = rf"(?:{WHETHER}|[都还]?有)"
 _ASKS = r"(?:吗|呢|么|嘛|啊)?"
+_ASKING = re.compile(r"[吗谁啥哪几]|[什怎]么|么$|如何|多少|有没有|有无|是否|是不是")
+"""What makes a question of words that else only tell: "客厅的灯亮着" asks for nothing."""
 _AROUND = (
     r"(?:在?(?:你|您)?的?(?:这里|这儿|这边|那里|那儿|那边|附近|周围|四周|身边|旁边|边上|面前|眼前|"
     r"前面|前方)|(?:地上|地板上|地面上)|(?:这个?|这间)?(?:屋里|屋子里|房间里面?|房里))"
@@ -82,9 +84,10 @@ def _aside(found: Match[str], reading: Reading) -> Meaning:
 
 def _asked(found: Match[str], reading: Reading) -> Meaning | None:
     """Read a question about what is there; said flatly it is none: "厨房有杯子" only tells."""
-    groups = found.groupdict()
-    flat = groups.get("flat") is not None and not reading.marked.text.rstrip(" 。!").endswith("?")
-    return None if flat else _look(found, reading)
+    flat = found.groupdict().get("flat") is not None
+    said = reading.marked.text
+    asked = said.rstrip(" 。!").endswith("?") or "请问" in said or _ASKING.search(found[0])
+    return None if flat and not asked else _look(found, reading)
 
 
 def _sought(found: Match[str], reading: Reading) -> Meaning:
@@ -142,8 +145,9 @@ RULES: tuple[Rule, ...] = (
     rule(rf"{_FIND}{_MUST}(?:{WHETHER})?(?P<what>{THING})", _find),
     rule(rf"(?:把)?(?P<what>{THING})(?:给我)?找(?:出来|到)", _find),
     rule(
-        rf"(?:{SEE})?(?:{WHETHER}|是不是有|有){THING}在(?P<at>{SPOT})(?:里面?|上面?|那里|旁边)?{_ASKS}",
-        _look,
+        rf"(?:(?:{SEE})(?:{WHETHER}|是不是有|有)|{WHETHER}|(?P<flat>有)){THING}在(?P<at>{SPOT})"
+        rf"(?:里面?|上面?|那里|旁边)?{_ASKS}",
+        _asked,
     ),
     rule(
         rf"{_MUST}(?:的?人)?(?:是谁|都?有(?:些)?谁|现在)?(?:的?情况)?"
@@ -159,7 +163,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"(?:{SEE}){_MUST}(?:{WHAT}|{_IS_THERE}{THING}){_ASKS}", _look),
     rule(
-        rf"{_MUST}(?:(?:{SEE}){_IS_THERE}|{WHETHER}|[都还]?有(?={THING}[吗呢么])|[都还]?(?P<flat>有)"
+        rf"{_MUST}(?:(?:{SEE}){_IS_THERE}|{WHETHER}|[都还]?(?P<flat>有)"
         rf"(?!什么|啥|谁|哪些)){THING}{_ASKS}",
         _asked,
     ),
@@ -172,15 +176,15 @@ RULES: tuple[Rule, ...] = (
         _look,
     ),
     rule(rf"(?:(?:{SEE})(?:谁|什么)?(?:人)?|谁(?:正?[坐站躺睡待](?=在))?){_MUST}(?:[^,]*)", _look),
-    rule(rf"{_MUST}(?:{SEE})(?:[^,\ue000-\ue8ff]*)", _look),
+    rule(rf"{_MUST}(?:{SEE})(?P<flat>[到见])?(?:[^,\ue000-\ue8ff]*)", _asked),
     rule(
-        rf"{_MUST}(?:{WHAT}|(?:[^,\ue000-\ue8ff]{{1,4}}(?=[开亮关锁]着))?(?:是|在)?(?:什么|怎么样|干净|整洁|安全|空的?|开着|"
-        r"亮着))[^,\ue000-\ue8ff]*",
-        _look,
+        rf"{_MUST}(?:{WHAT}|(?:[^,\ue000-\ue8ff]{{1,4}}(?=[开亮关锁]着))?(?:是|在)?(?:什么|怎么样|"
+        r"(?P<flat>干净|整洁|安全|空的?|开着|亮着)))[^,\ue000-\ue8ff]*",
+        _asked,
     ),
     rule(
         rf"(?:{SEE})?(?:{_AROUND})?(?:{WHAT}[^,\ue000-\ue8ff]*|{WHETHER}{THING}{_ASKS}|"
-        rf"有{THING}[吗呢么]|(?P<flat>有){THING})",
+        rf"(?P<flat>有){THING})",
         _asked,
     ),
     rule(

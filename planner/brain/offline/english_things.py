@@ -8,7 +8,7 @@ from re import Match
 
 from planner.brain.offline.acts import count, find, look, offer_search, place_of
 from planner.brain.offline.english_words import PREP, THE, loc, sure_loc
-from planner.brain.offline.grammar import lacks, rule, where
+from planner.brain.offline.grammar import Build, lacks, rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Rule, Steps
 from planner.brain.offline.things import HOW_EN, by_neighbour
@@ -100,6 +100,16 @@ def _count(found: Match[str], reading: Reading) -> Meaning:
 
 def _look(found: Match[str], reading: Reading) -> Meaning:
     return look(found[0], where(found, "at"), reading)
+
+
+def _question(build: Build) -> Build:
+    """Return a builder for "someone in the kitchen?": without its mark it only tells."""
+
+    def asked(found: Match[str], reading: Reading) -> Meaning | None:
+        flat = found[0].startswith("some") and not reading.marked.text.rstrip(" .!").endswith("?")
+        return None if flat else build(found, reading)
+
+    return asked
 
 
 def _look_here(found: Match[str], reading: Reading) -> Meaning:
@@ -196,11 +206,11 @@ RULES: tuple[Rule, ...] = (
         rf"{_LOOK_VERB} (?:if|whether) (?P<what2>{_SOMEBODY}) is)(?: there)? {_HOME}",
         _sought,
     ),
-    rule(rf"(?:{_SOMEBODY}|any [a-z ]+?)(?: else)?{_MUST}", _look),
+    rule(rf"(?:{_SOMEBODY}|any [a-z ]+?)(?: else)?{_MUST}", _question(_look)),
     rule(
         rf"(?:{_SOMEBODY}|any [a-z ]+?(?= (?:around|here|there|in sight)))(?: else)?"
         r"(?: (?:around|about|here|there|in here|out there|in sight))?",
-        _look_here,
+        _question(_look_here),
     ),
     rule(
         rf"(?:look|search|hunt|check) {_SEARCHED} for (?P<what>{_THING})"

@@ -19,6 +19,17 @@ AT_A_PLACE = {
     "看一下厨房有什么东西": "kitchen",
     "厨房有杯子吗": "kitchen",
     "厨房有杯子？": "kitchen",
+    "有人在厨房吗": "kitchen",
+    "有人在厨房？": "kitchen",
+    "请问有人在厨房": "kitchen",
+    "有谁在厨房": "kitchen",
+    "有没有杯子在桌子上": "desk",
+    "看看有人在厨房": "kitchen",
+    "客厅灯亮着？": "living_room",
+    "客厅干净吗": "living_room",
+    "看看客厅灯亮着": "living_room",
+    "厨房看看有没有人": "kitchen",
+    "厨房看到有人吗": "kitchen",
     "看看有没有人在厨房": "kitchen",
     "客厅有没有人": "living_room",
     "客厅现在什么情况": "living_room",
@@ -34,6 +45,12 @@ AT_A_PLACE = {
     "see what's on the desk": "desk",
     "is anybody in the living room?": "living_room",
     "anyone in the kitchen?": "kitchen",
+    "anyone in the kitchen": "kitchen",
+    "someone in the kitchen?": "kitchen",
+    "is there someone in the kitchen": "kitchen",
+    "are there any cups on the desk": "desk",
+    "do you see someone in the kitchen": "kitchen",
+    "can you see the cup on the desk": "desk",
     "describe the kitchen": "kitchen",
 }
 HERE = (
@@ -64,7 +81,10 @@ OTHERS = {
 }
 SAID_FLATLY = (
     "厨房有杯子", "客厅有人", "there is a cup in the kitchen", "have breakfast in the kitchen",
-    "what is behind you", "what do you see on your left", "where is everyone", "他们在哪里",
+    "有人在厨房", "有杯子在桌子上。", "有这么多人在厨房", "客厅灯亮着", "客厅的灯还开着呢",
+    "电视开着", "客厅干净", "厨房看到有人", "厨房有人呢", "someone in the kitchen.",
+    "something on the desk", "someone here.", "what is behind you", "what do you see on your left",
+    "where is everyone", "他们在哪里",
 )  # fmt: skip
 WHEREABOUTS = {
     "where is the red cup?": "red cup",
