@@ -7,7 +7,13 @@ from __future__ import annotations
 
 import re
 
-from planner.brain.offline import chinese_beside, chinese_drive, chinese_people, chinese_things
+from planner.brain.offline import (
+    aside,
+    chinese_beside,
+    chinese_drive,
+    chinese_people,
+    chinese_things,
+)
 from planner.brain.offline.arm import lacks_arm
 from planner.brain.offline.chinese_words import GO, IN, VERB
 from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
@@ -74,7 +80,7 @@ CHINESE = Grammar(
     ),
     joint=re.compile(rf"((?:{GO})(?:{MARK}的)?{MARK}{IN}(?:去|来)?)(?={VERB})(?!(?:{_ARM}))"),
     clause_end=re.compile(
-        r"[,;.!?。、~\s]+(?!\d)|然后|接着|随后|紧接着|之后|以后|而后|并且|并|同时|顺便|(?<=回来)(?=告诉|报告|汇报|[跟向和给]我)|就(?=回来|"
+        r"[,;.!?。、~\s]+(?!\d)|然后|接着|随后|紧接着|之后|以后|而后|并且|并|同时|顺便|(?<=回来)(?=告诉|报告|汇报|[跟向和给]我)|(?<=转身|掉头|调头|[左右]转)(?=告诉我|看看|看一下)|就(?=回来|"
         r"回去|返回)"
         r"|再(?=[去到回走开前返看等说移驶进停找数巡告带跟问向往左右掉转])|(?<=[秒钟米度])后|"
         r"(?=最后|最终)"
@@ -90,6 +96,7 @@ CHINESE = Grammar(
         *chinese_people.GUIDE,
         *chinese_beside.RULES,
         rule(rf".*{_ARM}.*", lacks_arm),
+        *aside.CHINESE,
         *chinese_people.RULES,
         *chinese_things.RULES,
         *chinese_drive.RULES[-2:],

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from math import pi
 from re import Match
 
 from planner.brain.offline.acts import count, find, look, offer_search
@@ -13,7 +12,7 @@ from planner.brain.offline.grammar import rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Reading, Rule, Steps
 from planner.brain.offline.things import by_neighbour, known
-from planner.plan import Code, Look, Step, Turn
+from planner.plan import Code, Step
 
 _AT = rf"(?:{loc('at')})?"
 _MUST = loc("at")
@@ -74,12 +73,6 @@ def _reported(_found: Match[str], reading: Reading) -> Meaning | None:
 def _look_here(found: Match[str], reading: Reading) -> Meaning | None:
     """Look where nothing named a place; what is counted elsewhere is read by the next rules."""
     return None if reading.scene.place else _look(found, reading)
-
-
-def _aside(found: Match[str], reading: Reading) -> Meaning:
-    """Turn to the side that is to be looked at: the camera looks ahead."""
-    angle_rad = {"左": pi / 2, "右": -pi / 2}.get(found["side"] or found["side2"], pi)
-    return Steps((Turn(angle_rad=angle_rad), Look(question=found[0])), seen=True)
 
 
 def _asked(found: Match[str], reading: Reading) -> Meaning | None:
@@ -156,11 +149,6 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"拍一?张?{_MUST}照片?", _look),
     rule(r"[这那]?(?:个)?(?:东西)?是(?:什么|谁|啥)(?:东西)?", _look),
-    rule(
-        rf"(?:往|向|朝)(?P<side>左|右|后)(?:边|面|侧)?(?:{SEE})(?:{WHAT}[^,\ue000-\ue8ff]*)?"
-        rf"|(?:{SEE})(?:你|您)?(?:的)?(?P<side2>左|右|后|背后|身后)(?:边|面|侧)?(?:{WHAT}[^,\ue000-\ue8ff]*)?",
-        _aside,
-    ),
     rule(rf"(?:{SEE}){_MUST}(?:{WHAT}|{_IS_THERE}{THING}){_ASKS}", _look),
     rule(
         rf"{_MUST}(?:(?:{SEE}){_IS_THERE}|{WHETHER}|[都还]?(?P<flat>有)"

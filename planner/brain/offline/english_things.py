@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import re
-from math import pi
 from re import Match
 
 from planner.brain.offline.acts import count, find, look, offer_search, place_of
 from planner.brain.offline.english_words import PREP, THE, loc, sure_loc
-from planner.brain.offline.grammar import Build, lacks, rule, where
+from planner.brain.offline.grammar import Build, rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Rule, Steps
 from planner.brain.offline.things import HOW_EN, by_neighbour
-from planner.plan import Code, Look, Turn
 
 _TWORD = r"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/\u3400-\u9fff-]+"
 _THING = rf"(?:{THE})?(?:{_TWORD} )*?{_TWORD}"
@@ -126,12 +124,6 @@ def _seen_here(found: Match[str], reading: Reading) -> Meaning | None:
     return None if reading.scene.place else look(found[0], None, reading)
 
 
-def _aside(found: Match[str], reading: Reading) -> Meaning:
-    """Turn to the side that is to be looked at: the camera looks ahead."""
-    angle_rad = {"left": pi / 2, "right": -pi / 2}.get(found["side"] or "", pi)
-    return Steps((Turn(angle_rad=angle_rad), Look(question=found[0])), seen=True)
-
-
 def _sought(found: Match[str], reading: Reading) -> Meaning | None:
     what = found["what"] or found.groupdict().get("what2") or ""
     return None if what in _NOBODY else offer_search(what, found[0], reading)
@@ -163,10 +155,6 @@ RULES: tuple[Rule, ...] = (
         r"how many(?: there are| you (?:see|found))?|what is there|where (?:it|he|she|they) (?:is|"
         r"are)|it))?",
         _reported,
-    ),
-    rule(
-        r"what (?:is|do you see|can you see) (?:behind|(?:on|to) (?:your|the) (?:left|right)).*",
-        lacks(Code.NOT_UNDERSTOOD),
     ),
     rule(rf"(?:{_LOOK_VERB} )?how many {_COUNTED} {_SEEN_HERE}", _seen_here),
     rule(rf"count {_COUNTED} (?:(?:in )?here|in this room|around you|you see)", _seen_here),
@@ -216,11 +204,6 @@ RULES: tuple[Rule, ...] = (
         rf"(?:look|search|hunt|check) {_SEARCHED} for (?P<what>{_THING})"
         rf"|(?:find|look for) (?P<what2>{_THING}) (?:somewhere )?(?:in )?{_SEARCHED}",
         _find_anywhere,
-    ),
-    rule(
-        r"(?:have a |take a )?look (?:(?:to )?(?:the |your )?(?P<side>left|right)|behind(?: you)?)"
-        r"(?: (?:and|to) (?:tell me|see) what [a-z ]+)?",
-        _aside,
     ),
     rule(rf"describe (?P<at>{THE}{MARK})|tell (?:me|us) about (?P<at2>{THE}{MARK})", _describe),
     rule(rf"search {THE}?(?P<at>{MARK})(?P<at_there>)? for (?P<what>{_THING})", _find),

@@ -9,7 +9,7 @@ from re import Match, Pattern
 
 from planner.brain.offline.lexicon import MARK, Lexicon, Marked
 from planner.brain.offline.talk import Topic
-from planner.plan import Bilingual, Code, Find, Language, Step, Vocabulary
+from planner.plan import Bilingual, Code, Find, Language, Step, Turn, Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +65,7 @@ class Scene:
     seen: bool = False
     kind: str = ""  # of the last step
     met: str | None = None  # where somebody was met: "take them back"
+    turned_rad: float | None = None  # by the last turn, where nothing was driven since
 
     def after(self, meaning: Meaning) -> Scene:
         """Return the scene behind one more clause."""
@@ -88,7 +89,18 @@ class Scene:
             thing=meaning.thing or self.thing,
             seen=self.seen or meaning.seen,
             kind=meaning.steps[-1].kind if meaning.steps else self.kind,
+            turned_rad=_turned_rad(self.turned_rad, meaning.steps),
         )
+
+
+def _turned_rad(before_rad: float | None, steps: Sequence[Step]) -> float | None:
+    """Return the last turn [rad]; None where the robot has driven, or searched, since."""
+    for step in steps:
+        if isinstance(step, Turn):
+            before_rad = step.angle_rad
+        elif step.kind not in ("look", "say", "wait", "ask"):
+            before_rad = None
+    return before_rad
 
 
 @dataclass(frozen=True, slots=True)

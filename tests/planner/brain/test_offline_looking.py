@@ -86,6 +86,31 @@ SAID_FLATLY = (
     "something on the desk", "someone here.", "what is behind you", "what do you see on your left",
     "where is everyone", "他们在哪里",
 )  # fmt: skip
+NOT_AHEAD = (
+    "tell me what is behind you", "who's behind you?", "is there someone behind you",
+    "can you see anyone behind you", "describe what is behind you", "who is to the right",
+    "how many people are behind you", "tell me what you see on your left",
+    "is there a chair on your right?",
+    "go to the kitchen and tell me what is behind you", "turn left and tell me who is behind you",
+    "后面有什么", "告诉我后面有什么", "你背后是谁", "告诉我左边有没有人", "描述一下你后面有什么",
+    "你能看到后面有人吗", "看到谁在你后面", "数一数后面有几个人", "去厨房告诉我后面有什么",
+    "向左转，告诉我后面有什么",
+)  # fmt: skip
+LOOKED_AT_AFTER_A_TURN = {
+    "check what is behind you": "turn=180 look=check what is behind you",
+    "look at the chair on your right": "turn=-90 look=look at the chair on your right",
+    "look to the left and tell me what you see": "turn=90 look=look to the left",
+    "look back": "turn=180 look=look back",
+    "turn around and tell me what you see": "turn=180 look=tell me what you see",
+    "turn around and tell me who is behind you": "turn=180 look=tell me who is behind you",
+    "turn right. what is on your right?": "turn=-90 look=what is on your right",
+    "看看后面有没有人": "turn=180 look=看看后面有没有人",
+    "看看你右边的椅子": "turn=-90 look=看看你右边的椅子",
+    "往左边看看有什么": "turn=90 look=往左边看看有什么",
+    "转身告诉我你看到了什么": "turn=180 look=告诉我你看到了什么",
+    "转身，告诉我后面有什么": "turn=180 look=告诉我后面有什么",
+    "看看身后": "turn=180 look=看看身后",
+}
 WHEREABOUTS = {
     "where is the red cup?": "red cup",
     "do you know where the ball is": "ball",
@@ -123,6 +148,20 @@ def test_what_is_only_told_or_not_to_be_seen_moves_nothing(text: str, home: Voca
     made = plan(text, home, Context(runnable=EVERY_KIND))
     assert isinstance(made, Clarify)
     assert made.code is Code.NOT_UNDERSTOOD
+
+
+@pytest.mark.parametrize("text", NOT_AHEAD, ids=ascii)
+def test_what_is_ahead_is_no_answer_to_what_is_beside_or_behind(
+    text: str, understood: Callable[[str], str]
+) -> None:
+    assert understood(text) == "clarify not_understood"
+
+
+@pytest.mark.parametrize(("text", "steps"), LOOKED_AT_AFTER_A_TURN.items(), ids=ascii)
+def test_an_order_to_look_aside_or_to_turn_and_tell_turns(
+    text: str, steps: str, understood: Callable[[str], str]
+) -> None:
+    assert understood(text) == steps
 
 
 @pytest.mark.parametrize(("text", "what"), WHEREABOUTS.items(), ids=ascii)
