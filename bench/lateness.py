@@ -20,7 +20,7 @@ from bench.lab import until
 from bench.robot import Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from bench.lab import Lab
 
@@ -68,17 +68,41 @@ def bridge_late_us(lab: Lab, seconds: float, *, stress: bool) -> list[float]:
 
 def cyclictest_late_us(seconds: float, period_us: int) -> list[float]:
     """Run one thread at a rate; return every lateness, from its histogram."""
+    with cyclictest(seconds, period_us) as ended:
+        return ended()
+
+
+@contextmanager
+def cyclictest(seconds: float, period_us: int) -> Iterator[Callable[[], list[float]]]:
+    """Run it beside; what is yielded waits for its end. It ends with the context at the latest."""
     if shutil.which("cyclictest") is None:
-        return []
+        yield list
+        return
     loops = max(1, round(seconds * 1e6 / period_us))
     words = ["cyclictest", "-q", "-t1", f"-a{rt_cpu()}", f"-i{period_us}", f"-l{loops}"]
     words.append(f"-h{_BUCKETS_US}")
-    ranked = [*words, f"-p{PRIORITY}", "-m"]
-    done = subprocess.run(ranked, capture_output=True, text=True, check=False)
-    if done.returncode != 0:  # no right to that rank: the bridge has none either
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if may_take(PRIORITY):  # without a right to that rank the bridge has none either
+        words += [f"-p{PRIORITY}", "-m"]
+    quiet = subprocess.DEVNULL
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=quiet, text=True) as running:
+        try:
+            yield lambda: _counted(running.communicate()[0])
+        finally:
+            running.kill()
+
+
+def may_take(priority: int) -> bool:
+    """Tell whether a process of ours may have a real-time rank."""
+    words = ["chrt", "-f", str(priority), "true"]
+    return (
+        shutil.which("chrt") is not None
+        and subprocess.run(words, capture_output=True, check=False).returncode == 0
+    )
+
+
+def _counted(histogram: str) -> list[float]:
     samples: list[float] = []
-    for line in done.stdout.splitlines():
+    for line in histogram.splitlines():
         found = _BUCKET.match(line.strip())
         if found:
             samples += [float(found[1])] * int(found[2])

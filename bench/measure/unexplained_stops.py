@@ -14,13 +14,12 @@ import re
 import time
 import urllib.request
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 from bench.figures import NONE_SEEN_95, poisson_upper_95
-from bench.lateness import cyclictest_late_us, missed
+from bench.lateness import cyclictest, missed
 from bench.measure import page
 from bench.report import Row, row_of
 from bench.robot import CAMERA, EVERYTHING, SLOW, Robot
@@ -128,13 +127,11 @@ def _drive(lab: Lab) -> dict[str, Any]:
         ears = open_session(Party.JUDGE, load_robot(robot.settings.robot).id, home)
         stack.callback(ears.close)
         watch = Watch(ears.subscriber(STATUS), ears.subscriber(EVENT))
-        pool = stack.enter_context(ThreadPoolExecutor(1))
         stalls = Stalls()
-        with stalls:
+        with stalls, cyclictest(SLICE_S, PERIOD_US) as ended:
             looks, began_s, ticks = _looks(robot), time.monotonic(), _counted(robot)
-            beside = pool.submit(cyclictest_late_us, SLICE_S, PERIOD_US)
             goals = _tour(lab, robot, watch)
-            late_us = beside.result()
+            late_us = ended()
             looks_per_s = (_looks(robot) - looks) / (time.monotonic() - began_s)
             turned = [now - then for now, then in zip(_counted(robot), ticks, strict=True)]
         for stop in watch.stops:
