@@ -38,6 +38,7 @@ def main(command: list[str]) -> int:
     ours = signal.signal(signal.SIGINT, lambda *_: None)
     code = subprocess.Popen(command).wait()
     signal.signal(signal.SIGINT, ours)
+    code = code if code >= 0 else 128 - code  # as a shell says by what it was killed
     share = now().share_since(before)
     if code != FAILED or not share > TOO_MUCH:
         return code

@@ -20,8 +20,15 @@ LINE = "cpu  {busy} 0 0 0 0 0 0 {stolen} 0 0\ncpu0 1 1 1 1 1 1 1 1 0 0\n"
 
 @pytest.mark.parametrize(
     ("ends_with", "taken", "code"),
-    [(1, 5, 1), (1, 6, 75), (0, 90, 0), (2, 90, 2), (75, 0, 75)],
-    ids=["failed in its own time", "failed in stolen time", "passed", "refused", "passed on"],
+    [(1, 5, 1), (1, 6, 75), (0, 90, 0), (2, 90, 2), (75, 0, 75), (-9, 90, 137)],
+    ids=[
+        "failed in its own time",
+        "failed in stolen time",
+        "passed",
+        "refused",
+        "passed on",
+        "killed",
+    ],
 )
 def test_its_exit_status_stands_but_for_stolen_time(
     ends_with: int, taken: int, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -29,7 +36,8 @@ def test_its_exit_status_stands_but_for_stolen_time(
     stat = tmp_path / "stat"
     stat.write_text(LINE.format(busy=1000, stolen=500), "ascii")
     after = LINE.format(busy=1000 + 100 - taken, stolen=500 + taken)
-    script = f"open({str(stat)!r}, 'w').write({after!r}); raise SystemExit({ends_with})"
+    script = f"open({str(stat)!r}, 'w').write({after!r}); import os, sys; "
+    script += f"os.kill(os.getpid(), 9) if {ends_with} < 0 else sys.exit({ends_with})"
     monkeypatch.setattr(stolen, "STAT", stat)
     assert stolen.main([sys.executable, "-S", "-c", script]) == code
 
@@ -44,9 +52,9 @@ def test_where_nobody_tells_nothing_was_taken(
 
 def test_a_command_that_is_interrupted_ends_by_itself(repository: Path, tmp_path: Path) -> None:
     script = (
-        "import sys, time, pathlib\nprint('began', flush=True)\n"
-        "try:\n    time.sleep(30)\nexcept KeyboardInterrupt:\n    time.sleep(0.6)\n"
-        "    pathlib.Path(sys.argv[1]).touch()\n"
+        "import sys, time, pathlib\n"
+        "try:\n    print('began', flush=True)\n    time.sleep(30)\n"
+        "except KeyboardInterrupt:\n    time.sleep(0.6)\n    pathlib.Path(sys.argv[1]).touch()\n"
     )
     words = [sys.executable, "-m", "scripts.stolen", sys.executable, "-u", "-c", script]
     words.append(str(tmp_path / "x"))
