@@ -44,12 +44,14 @@ def nice(steps: int, *, apart: bool = False) -> None:
         apart: be a session of one's own, for who is started within one that stays where it is. A
             Ctrl-C at its terminal is heard no longer. On Linux alone.
     """
-    began = session_nice()
+    began, alone = session_nice(), os.getpriority(os.PRIO_PROCESS, 0)
     if apart and sys.platform == "linux":
         with suppress(PermissionError):  # it leads its group already, as a shell's job does
             os.setsid()
     with _going_on(f"nice {steps:+d} does not count in full"):
         os.nice(steps)
+        if began is None and session_nice() is not None:
+            began = alone  # what nobody gave a session yet is weighed among them by its own nice
         _move_session(began, steps)
 
 

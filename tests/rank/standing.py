@@ -14,12 +14,18 @@ class Stand(NamedTuple):
 
     nice: int
     session: int | None
-    """None where the kernel weighs none."""
+    """None where the kernel weighs none, and for what nobody gave a session since it booted."""
+
+    def leaving(self) -> Stand:
+        """Return how a session is weighed that just left this one's, before anybody weighs it."""
+        return self._replace(session=0 if weighs_sessions() else None)
 
     def behind(self, steps: int) -> Stand:
         """Return who stands so far behind this one, in a session that left this one's."""
-        session = None if self.session is None else min(self.session + steps, MOST)
-        return Stand(min(self.nice + steps, MOST), session)
+        if not weighs_sessions():
+            return Stand(min(self.nice + steps, MOST), None)
+        among = self.nice if self.session is None else self.session
+        return Stand(min(self.nice + steps, MOST), min(among + steps, MOST))
 
 
 def stand_of(pid: int) -> Stand:
@@ -28,6 +34,11 @@ def stand_of(pid: int) -> Stand:
     group = Path(f"/proc/{pid}/autogroup")
     words = group.read_text().split() if group.exists() else []
     return Stand(nice, int(words[-1]) if words else None)
+
+
+def weighs_sessions() -> bool:
+    """Say whether this kernel can weigh sessions against each other."""
+    return Path("/proc/self/autogroup").exists()
 
 
 def leads_its_session(pid: int) -> bool:

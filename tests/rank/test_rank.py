@@ -25,6 +25,10 @@ class Kernel:
         self.leader, self.leaves = leader, leaves
         self.asked: list[str] = []
         self.session: int | None = 0
+        self.begins_at: int | None = 0
+        """How it weighs a new session; None if it weighs none."""
+        self.alone = 0
+        """The process's own nice."""
         self.again = 0
         """How often it says EAGAIN."""
 
@@ -37,7 +41,10 @@ class Kernel:
     def setsid(self) -> None:
         if not self.leaves:
             raise PermissionError(errno.EPERM, "Operation not permitted")
-        self.leader, self.session = ME, 0
+        self.leader, self.session = ME, self.begins_at
+
+    def getpriority(self, _which: int, _pid: int) -> int:
+        return self.alone
 
     def nice(self, steps: int) -> int:
         self.asked.append(f"nice {steps:+d}")
@@ -58,7 +65,7 @@ class Kernel:
 @pytest.fixture
 def kernel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Kernel:
     made = Kernel(**getattr(request, "param", {}))
-    for name in ("getpid", "getsid", "setsid", "nice"):
+    for name in ("getpid", "getsid", "setsid", "getpriority", "nice"):
         monkeypatch.setattr(os, name, getattr(made, name))
     monkeypatch.setattr(time, "sleep", made.sleep)
     monkeypatch.setattr(rank, "_put", made.put)
@@ -115,10 +122,18 @@ def test_who_chose_his_nice_moves_his_session_alone(
 def test_a_kernel_that_weighs_no_sessions_is_asked_for_none(
     kernel: Kernel, caplog: pytest.LogCaptureFixture
 ) -> None:
-    kernel.session, kernel.leader = None, 1
+    kernel.session, kernel.begins_at, kernel.leader = None, None, 1
     nice(5)
-    assert kernel.asked == ["nice +5"]
+    nice(5, apart=True)
+    assert kernel.asked == ["nice +5"] * 2
     assert caplog.text == ""
+
+
+def test_what_was_given_no_session_yet_stands_behind_its_own_nice(kernel: Kernel) -> None:
+    """As what a container's first process starts: its session is the kernel's, and says nothing."""
+    kernel.session, kernel.leader, kernel.alone = None, 1, -3
+    nice(5, apart=True)
+    assert kernel.asked == ["nice +5", "session 2"]
 
 
 @pytest.mark.parametrize(("text", "expected"), [("/autogroup-25 nice -10\n", -10), ("", None)])
@@ -193,5 +208,4 @@ def test_a_real_child_stands_behind_in_both(repository: Path, apart: bool) -> No
         its = stand_of(child.pid)
         assert leads_its_session(child.pid)
         assert child.communicate()[1] == ""
-    began = ours if apart or ours.session is None else ours._replace(session=0)
-    assert its == began.behind(5)
+    assert its == (ours if apart else ours.leaving()).behind(5)
