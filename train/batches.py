@@ -51,7 +51,7 @@ class Feeder:
         seed, size = self._schedule.seed, self._schedule.batch
         order = np.random.default_rng([seed, epoch]).permutation(len(self._frames))
         done = step / self.steps
-        plain = done >= 1 - self._schedule.plain_share
+        plain = self.is_plain(step)
         wide, high = SMALL_PX if done < self._schedule.small_share else WHOLE
         seen = []
         for index in order[at * size : (at + 1) * size]:
@@ -61,6 +61,10 @@ class Feeder:
         for i, (picture, _) in enumerate(seen):
             np.multiply(picture, np.float32(1 / 255), out=pictures[i])
         return Batch(pictures, padded([things for _, things in seen]))
+
+    def is_plain(self, step: int) -> bool:
+        """Say whether a step is one of the last, which see frames as they were drawn."""
+        return step / self.steps >= 1 - self._schedule.plain_share
 
     def rate(self, step: int) -> float:
         """Return the learning rate of a step: a ramp, then a cosine."""

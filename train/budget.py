@@ -63,7 +63,11 @@ class Schedule:
     small_share: float = 0.55
     """Of the steps: the first see pictures of SMALL_PX, the same shapes for a third of the work."""
     plain_share: float = 0.2
-    """Of the steps: the last see frames as they were drawn, mirrored at most."""
+    """Of the steps: the last see frames as they were drawn, mirrored at most, in float32.
+
+    Those before compute in bfloat16, for half the time on some processors; weights, average and
+    losses are float32 throughout.
+    """
     batch: int = 16
     peak_rate: float = 2e-3
     """Learning rate [1/step] after the warm-up; a cosine leads it to 2 % of that."""

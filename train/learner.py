@@ -41,7 +41,9 @@ class Learner:
         for group in self._optimiser.param_groups:
             group["lr"] = self._feeder.rate(self.step)
         pictures = torch.from_numpy(batch.pictures).permute(0, 3, 1, 2)  # channels last, uncopied
-        logits, sides = self.net.train()(pictures)
+        short = not self._feeder.is_plain(self.step)
+        with torch.autocast("cpu", torch.bfloat16, enabled=short):
+            logits, sides = (said.float() for said in self.net.train()(pictures))
         grid = cells(pictures.shape[3], pictures.shape[2])
         scores, boxes = loss(logits, sides, grid, torch.from_numpy(batch.targets))
         self._optimiser.zero_grad(set_to_none=True)

@@ -98,7 +98,7 @@ def test_what_is_no_picture_of_ours_is_refused() -> None:
 
 def test_each_epoch_shows_every_frame_once() -> None:
     frames = [framed((index, *BOX, 1)) for index in range(5)]
-    feeder = Feeder(frames, Schedule(epochs=2, batch=2, small_share=0.5))
+    feeder = Feeder(frames, Schedule(epochs=2, batch=2, small_share=0.5, plain_share=0.25))
     assert (feeder.steps_an_epoch, feeder.steps) == (2, 4)
     assert feeder.batch(1).pictures.shape == (2, SMALL_PX[1], SMALL_PX[0], 3)
     batch = feeder.batch(2)
@@ -107,6 +107,7 @@ def test_each_epoch_shows_every_frame_once() -> None:
     assert np.array_equal(batch.pictures, feeder.batch(2).pictures)
     first = {int(row[0]) for step in (0, 1) for row in feeder.batch(step).targets[:, 0]}
     assert len(first) == 4
+    assert [feeder.is_plain(step) for step in range(4)] == [False, False, False, True]
     with pytest.raises(ValueError, match="do not fill a batch"):
         Feeder(frames, Schedule(batch=6))
 
