@@ -53,7 +53,10 @@ class Stop:
     ago_s: float
     """Before the end of the recording."""
     whole: bool
-    """The recording was closed; false: its writer was killed, or the power failed."""
+    """The recording was closed."""
+    growing: bool
+    """It is still being written. Neither whole nor growing: its writer was killed, or the power
+    failed."""
     before: Mode
     after: Mode
     cause: str
@@ -229,6 +232,7 @@ class _Story:
             at_unix_s=self._at_unix_s,
             ago_s=ago_s,
             whole=box.complete,
+            growing=box.growing,
             before=before.mode,
             after=after.mode,
             cause=next(self._causes(), "unknown"),

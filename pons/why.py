@@ -47,6 +47,7 @@ _GOES_ON = (
     "nothing: it goes on by itself once the evidence is gone",
     "无需操作：问题消失后机器人会自行继续",
 )
+_GROWING = ("it is still being written", "记录仍在进行")
 _CUT = (
     "its writer was killed or the power failed; read up to its last whole second",
     "记录进程被终止或断电；已读到最后一个完整片段",
@@ -90,7 +91,7 @@ def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
         yield "", f"and {len(stop.events) - _SHOWN} more"
     yield "record", str(stop.path)
     if not stop.whole:
-        yield from _both("", _CUT)
+        yield from _both("", _GROWING if stop.growing else _CUT)
 
 
 def _both(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:

@@ -1,11 +1,13 @@
 """Write one MCAP file so that it can be read up to its last flush, however its writer ends.
 
 Owns the file's bytes: a chunk is whole or, after a failed write, cut off again. A file that is
-closed carries an index; one that was not is read from its beginning (blackbox.reader).
+closed carries an index; one that was not is read from its beginning (blackbox.reader). While it is
+being written it is locked, so that a reader can tell that from a writer that was killed.
 """
 
 from __future__ import annotations
 
+import fcntl
 import os
 from contextlib import suppress
 from typing import IO, TYPE_CHECKING, cast
@@ -85,6 +87,8 @@ class _Sink:
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
         self._fd = os.open(path, flags, 0o640)
         self._at = 0
+        with suppress(OSError):  # a file system without locks: readers take it for cut short
+            fcntl.flock(self._fd, fcntl.LOCK_SH | fcntl.LOCK_NB)
 
     def write(self, data: bytes) -> int:
         left = memoryview(data)

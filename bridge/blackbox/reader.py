@@ -7,6 +7,7 @@ blackbox.file writes; layout: https://mcap.dev/spec.
 
 from __future__ import annotations
 
+import fcntl
 import os
 import struct
 import zlib
@@ -71,6 +72,8 @@ class BoxReader:
         self.chunks: list[Chunk] = []
         self.complete = False
         """The file was closed by its writer."""
+        self.growing = False
+        """Its writer was still at it when this was opened."""
         self._topic_of: dict[int, str] = {}
         try:
             self._file = path.open("rb")
@@ -113,6 +116,7 @@ class BoxReader:
 
     def _find(self) -> None:
         file = self._file
+        self.growing = _held(file)
         size = os.fstat(file.fileno()).st_size
         magic = file.read(len(MAGIC))
         if magic[:2] == _GZIP:
@@ -185,6 +189,18 @@ def _records(file: IO[bytes], size: int) -> Iterator[tuple[int, int, int]]:
         if opcode == _FOOTER:
             return
         at += length
+
+
+def _held(file: IO[bytes]) -> bool:
+    """Tell whether a process holds the lock that a writer takes (blackbox.file)."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False  # no locks here
+    fcntl.flock(file, fcntl.LOCK_UN)
+    return False
 
 
 def _text(data: bytes, at: int) -> tuple[str, int]:

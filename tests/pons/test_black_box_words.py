@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import fcntl
 import gzip
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -15,6 +18,14 @@ from tests.bridge.recorded import stream_of, written
 from tests.bridge.test_replay import taken
 
 SCREEN_LINES = 24
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Hold a file as its writer does."""
+    with path.open("rb") as file:
+        fcntl.flock(file, fcntl.LOCK_SH)
+        yield
 
 
 @pytest.fixture
@@ -34,7 +45,7 @@ def test_a_row_is_told_with_evidence_and_what_to_do(
     world = World(keep=True).driving((5.0, 0.0))
     world.lidar_silent = True
     world.run(7.0)
-    recorded(home, world, closed=False)
+    (path,) = recorded(home, world, closed=False)
     assert why.run(load()) == why.EXIT_TOLD
     said = capsys.readouterr().out
     assert len(said.splitlines()) <= SCREEN_LINES
@@ -45,6 +56,12 @@ def test_a_row_is_told_with_evidence_and_what_to_do(
     assert "to do     pons arm, then pons resume" in said
     assert "power failed" in said
     assert "断电" in said
+    with locked(path):
+        assert why.run(load()) == why.EXIT_TOLD
+    said = capsys.readouterr().out
+    assert "it is still being written" in said
+    assert "记录仍在进行" in said
+    assert "power failed" not in said
 
 
 def test_no_stop_and_no_recording_are_told_apart(

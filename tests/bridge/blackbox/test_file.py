@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import fcntl
 import resource
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -38,6 +40,42 @@ def test_a_closed_file_gives_everything_in_order(tmp_path: Path) -> None:
         assert box.complete
         assert [raw.sequence for raw in box.messages()] == list(range(300))
         assert {frozenset(chunk.topics) for chunk in box.chunks} == {frozenset({"/pons/inbox"})}
+
+
+def test_a_reader_tells_a_file_being_written_from_one_that_was_left(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    writing = filled(path)
+    for _ in range(2):  # who looks leaves no trace
+        with BoxReader(path) as box:
+            assert (box.complete, box.growing) == (False, True)
+    writing.abandon()
+    with BoxReader(path) as box:
+        assert (box.complete, box.growing) == (False, False)
+    whole = tmp_path / "b.mcap"
+    filled(whole).close()
+    with BoxReader(whole) as box:
+        assert (box.complete, box.growing) == (True, False)
+
+
+@pytest.mark.parametrize("broken", ["writer", "reader"])
+def test_without_locks_a_file_is_read_as_cut_short(
+    broken: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    path = tmp_path / "a.mcap"
+    with monkeypatch.context() as patched:
+        if broken == "writer":
+            patched.setattr(fcntl, "flock", refuse)
+        writing = filled(path)
+    with monkeypatch.context() as patched:
+        if broken == "reader":
+            patched.setattr(fcntl, "flock", refuse)
+        with BoxReader(path) as box:
+            assert (box.complete, box.growing) == (False, False)
+            assert len(list(box.messages())) == 300
+    writing.abandon()
 
 
 def test_a_file_cut_anywhere_gives_the_chunks_that_are_whole(tmp_path: Path) -> None:
