@@ -13,6 +13,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, Protocol
 
 from bench.report import Row
+from bench.sidebyside import taken
 from bench.store import Store
 from pons.http import PlannerDown, Refused
 from wire import Misconfigured
@@ -69,19 +70,43 @@ class Lab:
         """
         name = f"{self.name}.{what}"
         known = self.store.slices(name)
+        yield from (known[index] for index in range(count) if index in known)
+        for index in self._missing(what, count, known):
+            try:
+                data = take(index)
+            except TROUBLE as trouble:  # one slice lost is no reason to lose the others
+                self.lost.append(f"{what} {index + 1}: {line(trouble)}")
+                continue
+            self.store.append("slice", name, {"index": index, "data": data})
+            yield data
+
+    def side_by_side(self, what: str, count: int, take: Callable[[int], Any]) -> Iterator[Any]:
+        """Do as ``slices`` does, one slice a processor, yielded as they are done.
+
+        Args:
+            what: names the slices within this measurement.
+            count: how many are wanted.
+            take: a function of a module; it measures no time, for the others take some of it.
+        """
+        name = f"{self.name}.{what}"
+        known = self.store.slices(name)
+        yield from (known[index] for index in range(count) if index in known)
+        for done in taken(take, self._missing(what, count, known)):
+            if done.trouble is not None:
+                self.lost.append(f"{what} {done.index + 1}: {line(done.trouble)}")
+                continue
+            self.store.append("slice", name, {"index": done.index, "data": done.data})
+            yield done.data
+
+    def _missing(self, what: str, count: int, known: dict[int, Any]) -> Iterator[int]:
+        """Yield what nobody took yet, until the time is up."""
         for index in range(count):
             if index not in known:
                 if time.monotonic() >= self.end_s:
                     self.lost.append(f"{what} {index + 1} to {count}: the time was up")
                     return
                 self.say(f"{what} {index + 1}/{count}")
-                try:
-                    known[index] = take(index)
-                except TROUBLE as trouble:  # one slice lost is no reason to lose the others
-                    self.lost.append(f"{what} {index + 1}: {line(trouble)}")
-                    continue
-                self.store.append("slice", name, {"index": index, "data": known[index]})
-            yield known[index]
+                yield index
 
     @contextmanager
     def folder(self) -> Iterator[Path]:
@@ -103,6 +128,6 @@ def until(done: Callable[[], object], limit_s: float, what: str, pause_s: float 
         time.sleep(pause_s)
 
 
-def line(trouble: BaseException) -> str:
+def line(trouble: object) -> str:
     """Write what went wrong in one line."""
     return " | ".join(str(trouble).splitlines())[:300]
