@@ -22,7 +22,8 @@ OLDEST_S = 0.5
 """An older picture is not thought upon."""
 SILENT_S = 1.0
 FROZEN_AFTER = 5
-"""Pictures with new stamps, each the bytes of the one before: no sensor is so free of noise."""
+"""Pictures with new stamps, each the bytes of the one before: no sensor is so free of noise. After
+so many the camera is called frozen; none of them is thought upon."""
 SAME_CLOCK_S = 60.0
 """A stamp farther from our clock is of another host's: it tells nothing here."""
 DEPTH_WAIT_S = 0.05
@@ -187,17 +188,22 @@ class Pictures:
         self._first_s = now_s if self._first_s is None else self._first_s
         again = old is not None and old.data == color.data
         self._repeats = self._repeats + 1 if again else 0
-        stamp_age_s = now_s - header.stamp_s
-        on_our_clock = 0.0 <= stamp_age_s <= SAME_CLOCK_S
-        taken_s = header.stamp_s if on_our_clock else now_s
-        self._last = Picture(color, None, taken_s)
-        if now_s - taken_s <= OLDEST_S:
+        if again:
+            self._count_again(color, now_s)
+            return
+        self._last = Picture(color, None, _taken_s(color, now_s))
+        if now_s - self._last.taken_s <= OLDEST_S:
             self._fresh_s = now_s
+        self._heard.append(_Heard(self._last, now_s))
+
+    def _count_again(self, color: Image, now_s: float) -> None:
+        """Pass over a picture that shows what the one before did: of then, whatever its stamp."""
+        self.skipped["frozen"] += 1
+        if now_s - _taken_s(color, now_s) <= OLDEST_S:
+            self._fresh_s = now_s  # it is frozen, not silent
         if self._repeats >= FROZEN_AFTER:
-            self.skipped["frozen"] += 1 + len(self._heard)
+            self.skipped["frozen"] += len(self._heard)
             self._heard = []
-        else:
-            self._heard.append(_Heard(self._last, now_s))
 
     def _pass(self, reason: str, now_s: float) -> None:
         """Pass over what could have been handed out; what waits for its depth may still be."""
@@ -224,3 +230,9 @@ class Pictures:
         else:
             speaks = now_s - self._depth[1] <= DEPTH_GONE_S
         return heard.heard_s + (DEPTH_WAIT_S if speaks else 0.0)
+
+
+def _taken_s(color: Image, now_s: float) -> float:
+    """Return when a picture was taken: now, if its stamp is of another clock or the future."""
+    stamp_s = color.header.stamp_s
+    return stamp_s if 0.0 <= now_s - stamp_s <= SAME_CLOCK_S else now_s

@@ -15,7 +15,7 @@ from planner.vision import Detection, PointRefused, Sight, VisionFailure
 from planner.vision.attention import REST_S
 from planner.vision.eyes import Sightseer
 from planner.vision.handed import KEPT
-from planner.vision.pictures import FROZEN_AFTER, OLDEST_S
+from planner.vision.pictures import OLDEST_S
 from tests.planner.vision.scenes import box_of, image, view
 from tests.planner.vision.watching import MAP_ID, World
 from wire import Localization, Pose2, Rejected
@@ -87,7 +87,7 @@ def test_pictures_are_judged_before_they_are_thought_upon(
         assert (reason is None) == (len(world.detector.looks) > 20)
         if reason is not None:
             assert world.eyes.skipped[reason] > 20
-            assert len(world.detector.looks) <= FROZEN_AFTER
+            assert len(world.detector.looks) <= 1, "what is shown again is of then"
             await world.film(0.5)
             assert world.eyes.sight.blind is None  # and it sees again
 
