@@ -46,7 +46,10 @@ class DrawnFinder:
             things=sim.things.elsewhere,
         )
         shot = self._camera.take(scene, header.stamp_s)
-        return self._detector.look(shot.color, shot.depth).detections if shot is not None else ()
+        if shot is None:
+            return ()
+        size = (header.width, header.height)
+        return self._detector.look(shot.color, shot.depth, size, header.focal_px).detections
 
 
 class Counting:

@@ -14,7 +14,7 @@ import urllib.request
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import partial
-from math import hypot, pi
+from math import hypot, inf, pi
 from random import Random
 from typing import TYPE_CHECKING, Any, cast
 
@@ -56,7 +56,7 @@ SITE = CHECKOUT / "sites" / "home"
 SPOTS, AROUND = 8, 8
 LOOK_S = 0.5
 GHOST_M = 1.0
-"""A thing so far from everything of its class is none."""
+"""A thing so far from everything of its class is called none; the error counts all the same."""
 WATCH_S, READY_S = 20.0, 30.0
 LOOKS = 'pons_eyes_looks{what="looks"}'
 GOAL_P50_M, GOAL_P95_M, GOAL_LAG_MS = 0.10, 0.35, 150.0
@@ -73,8 +73,11 @@ class Tour:
     large: list[float]
     """Errors of single looks: things and people, furniture."""
     kept: list[float]
-    """Errors of what is remembered at the end."""
+    """Errors of what is remembered at the end, where the home holds one of that class."""
     ghosts: int
+    """Of the remembered, those farther than ``GHOST_M`` from every one of their class."""
+    unplaced: int
+    """Of the looks' boxes, those that came to no place."""
     twice: int
     """Things that stand still and are remembered as two; a person may have come again."""
 
@@ -144,7 +147,7 @@ class Lookout:
         return min(
             ((hypot(x_m - at[0], y_m - at[1]), number)
              for number, (class_id, at) in enumerate(self.truths) if class_id == label),
-            default=(float("inf"), -1),
+            default=(inf, -1),
         )  # fmt: skip
 
 
@@ -177,11 +180,13 @@ def _rows(name: str, tours: list[Tour]) -> list[Row]:
     kept = [error for tour in tours for error in tour.kept]
     small = [error for tour in tours for error in tour.small]
     large = [error for tour in tours for error in tour.large]
-    note = f"{sum(t.ghosts for t in tours)} ghosts, {sum(t.twice for t in tours)} told twice"
+    ghosts, twice = sum(t.ghosts for t in tours), sum(t.twice for t in tours)
+    note = f"{ghosts} ghosts among them, {twice} told twice"
+    unplaced = f"{sum(t.unplaced for t in tours)} boxes of all came to no place"
     return [
         row_of(f"{name}: remembered", "m", goal, kept, f"{_p95(kept)}; {note}"),
         row_of(f"{name}: one look, small", "m", "", small, f"{_p95(small)}; things and people"),
-        row_of(f"{name}: one look, large", "m", "", large, f"{_p95(large)}; cut off or not"),
+        row_of(f"{name}: one look, large", "m", "", large, f"{_p95(large)}; {unplaced}"),
     ]
 
 
@@ -195,6 +200,7 @@ def _tour(lookout: Lookout, see: See, number: int) -> Tour:
     scenery, memory = Scenery(lookout.site, lookout.camera), Remembered()
     small: list[float] = []
     large: list[float] = []
+    unplaced = 0
     for spot in range(SPOTS):
         base = lookout.drawn(random)
         for turn in range(AROUND):
@@ -204,16 +210,20 @@ def _tour(lookout: Lookout, see: See, number: int) -> Tour:
             view = View(header, lookout.camera, Stance(pose))
             for one in seen:
                 at = place(view, one)
-                away_m = GHOST_M if at is None else lookout.away_m(one.label, at.x_m, at.y_m)[0]
-                if away_m < GHOST_M:
+                if at is None:
+                    unplaced += 1
+                    continue
+                away_m = lookout.away_m(one.label, at.x_m, at.y_m)[0]
+                if away_m < inf:
                     (large if kind_of(one.label).reach_m >= LARGE_M else small).append(away_m)
             picture = Picture(Image(header, b"-"), None, header.stamp_s)
             memory, _ = saw(scenery, memory, picture, seen, Stance(pose))
     nearest = [lookout.away_m(t.label, t.x_m, t.y_m) for t in memory.things]
-    kept = [away_m for away_m, _ in nearest if away_m < GHOST_M]
+    kept = [away_m for away_m, _ in nearest if away_m < inf]
+    ghosts = sum(away_m >= GHOST_M for away_m, _ in nearest)
     walks = {n for n, (class_id, _) in enumerate(lookout.truths) if kind_of(class_id).mobile}
     told = [n for away_m, n in nearest if away_m < GHOST_M and n not in walks]
-    return Tour(small, large, kept, len(nearest) - len(kept), len(told) - len(set(told)))
+    return Tour(small, large, kept, ghosts, unplaced, twice=len(told) - len(set(told)))
 
 
 def _as_camera(frame: Frame) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:

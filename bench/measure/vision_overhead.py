@@ -1,8 +1,9 @@
 """Measure what a look costs beside the bare model: the same model, threads and frames, by turns.
 
 Raw is ``session.run`` on an input that lies ready in the cache. A look is all that Pons does: fit
-the picture in, run, read the output, suppress, name colours; a second row unpacks the JPEG too. Not
-in either: depth, and the pipe between the processes, which has a row of its own.
+the picture in, run, read the output, suppress, name colours; a second row unpacks the JPEG too, a
+third is what the planner asks for: with the depth picture unpacked and read in each box. The pipe
+between the processes has a row of its own.
 """
 
 from __future__ import annotations
@@ -39,7 +40,9 @@ THREADS = 1
 GOAL = "<= 5 %"
 GOAL_MEMORY = "<= 180"
 LOOKS = 60
-WAYS = ("raw", "look", "jpeg", "opencv")
+WAYS = ("raw", "look", "jpeg", "whole", "opencv")
+FOCAL_PX = 277.0
+"""Of a camera that sees 60 degrees across 320 px."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,16 @@ class Subject:
     labels: Path | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """Hold one picture as the camera sends it."""
+
+    color: bytes
+    """JPEG."""
+    depth: bytes
+    """16-bit PNG [mm]."""
+
+
 def measure(lab: Lab) -> list[Row]:
     """Measure each model that is there."""
     rows: list[Row] = []
@@ -59,7 +72,7 @@ def measure(lab: Lab) -> list[Row]:
             rows += _measured(lab, subject)
         else:
             note = f"no {subject.model.name} here"
-            rows.append(Row(subject.name, "", GOAL, value="none", note=note, valid=False))
+            rows.append(Row(subject.name, "", GOAL, value="not measured", note=note))
     return rows
 
 
@@ -91,6 +104,7 @@ def _time_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
     for way, inside in (
         ("look", f"fit in, run, read, suppress, colours; {told}"),
         ("jpeg", f"the same and unpacking the JPEG; {told}"),
+        ("whole", f"the same and depth, unpacked and read in each box; {told}"),
     ):
         over = [100 * (one / bare - 1) for one, bare in zip(data[way], raw, strict=True)]
         rows.append(row_of(f"{subject.name}: {way} over raw", "%", GOAL, over, inside, valid=valid))
@@ -120,8 +134,8 @@ def _rounds(subject: Subject, count: int) -> dict[str, Any]:
     from planner.vision.detect import Detector, Wanted, unpack_color
 
     detector = Detector(Wanted(subject.model, subject.labels, provider="cpu", threads=THREADS))
-    jpegs = frames(subject)
-    pictures: list[Any] = [unpack_color(jpeg) for jpeg in jpegs]
+    shown = frames(subject)
+    pictures: list[Any] = [unpack_color(one.color) for one in shown]
     inputs = [detector.prepare(picture).copy() for picture in pictures]
     buffer = detector.prepare(pictures[0])
     session, feeds = detector.model.session, detector.feeds(buffer)
@@ -134,10 +148,14 @@ def _rounds(subject: Subject, count: int) -> dict[str, Any]:
         network.setInput(inputs[number])
         network.forward(network.getUnconnectedOutLayersNames())
 
+    def whole(one: Shown) -> None:
+        detector.look(one.color, one.depth, SIZE, FOCAL_PX)
+
     ways: dict[str, tuple[Callable[[int], Any], Callable[[int], Any]]] = {
         "raw": (ready, lambda _: session.run(feeds)),
         "look": (_nothing, lambda number: detector.find(pictures[number])),
-        "jpeg": (_nothing, lambda number: detector.look(jpegs[number])),
+        "jpeg": (_nothing, lambda number: detector.look(shown[number].color)),
+        "whole": (_nothing, lambda number: whole(shown[number])),
     }
     if network is not None:
         ways["opencv"] = (_nothing, opencv)
@@ -178,37 +196,44 @@ def _opencv(model: Path) -> tuple[Any, str]:
         return None, f"it can't read the model: {' '.join(str(error).split())[-80:]}"
 
 
-def frames(subject: Subject) -> Sequence[bytes]:
+def frames(subject: Subject) -> Sequence[Shown]:
     """Return pictures that hold what the model knows: photographs for a stranger's, else drawn."""
     photographs = [] if subject.labels is None else sorted((OUTSIDE / "images").glob("*.jpg"))
     return _photographed(photographs[:FRAMES]) if len(photographs) >= FRAMES else drawn_frames()
 
 
-def _photographed(paths: Sequence[Path]) -> list[bytes]:
+def _photographed(paths: Sequence[Path]) -> list[Shown]:
+    """Return photographs with the depth of a floor that rises to 5 m, as noisy as a camera's."""
     import cv2
+    import numpy as np
 
+    rng, (wide, high) = np.random.default_rng(SEED), SIZE
+    floor_mm = np.linspace(5_000.0, 1_000.0, high)[:, None]
     made = []
     for path in paths:
         picture: Any = cv2.imread(str(path))
         small = cv2.resize(picture, SIZE, interpolation=cv2.INTER_AREA)
-        made.append(cv2.imencode(".jpg", small)[1].tobytes())
+        depth = (floor_mm + rng.normal(0.0, 10.0, (high, wide))).astype(np.uint16)
+        raw = [cv2.IMWRITE_PNG_COMPRESSION, 0]  # as the simulated camera sends it
+        packed = cv2.imencode(".jpg", small)[1], cv2.imencode(".png", depth, raw)[1]
+        made.append(Shown(*(data.tobytes() for data in packed)))
     return made
 
 
-def drawn_frames() -> list[bytes]:
+def drawn_frames() -> list[Shown]:
     """Return what the simulated camera sends from places where a thing is in sight."""
     import numpy as np
 
     from bench.measure.object_position import Lookout
-    from sim.camera.pictures import jpeg
+    from sim.camera.pictures import depth_png, jpeg
 
     lookout, random, rng = Lookout(), Random(SEED), np.random.default_rng(SEED)
-    made: list[bytes] = []
+    made: list[Shown] = []
     while len(made) < FRAMES:
         pose = lookout.drawn(random)
         frame = lookout.shoot(pose, rng)
         if lookout.true_boxes(frame, pose):
-            made.append(jpeg(frame))
+            made.append(Shown(jpeg(frame), depth_png(frame)))
     return made
 
 
@@ -220,17 +245,18 @@ def _worker(subject: Subject) -> dict[str, Any]:
     return asyncio.run(_asked(VisionWorker(settings), frames(subject)))
 
 
-async def _asked(worker: VisionWorker, jpegs: Sequence[bytes]) -> dict[str, Any]:
+async def _asked(worker: VisionWorker, shown: Sequence[Shown]) -> dict[str, Any]:
     header = ImageHeader(
         boot_id="bench", seq=1, stamp_s=0.0, width=SIZE[0], height=SIZE[1],
-        focal_px=SIZE[0], center_x_px=SIZE[0] / 2, center_y_px=SIZE[1] / 2,
+        focal_px=FOCAL_PX, center_x_px=SIZE[0] / 2, center_y_px=SIZE[1] / 2,
     )  # fmt: skip
     pipe_ms, used_mb = [], []
     await worker.start()
     try:
         for number in range(LOOKS):
             began_s = time.perf_counter()
-            result = await worker.look(Image(header, jpegs[number % len(jpegs)]), None)
+            one = shown[number % len(shown)]
+            result = await worker.look(Image(header, one.color), Image(header, one.depth))
             pipe_ms.append((time.perf_counter() - began_s - result.took_s) * 1e3)
             if number % 10 == 9 and worker.pid is not None:
                 used_mb.append(rss_mb(worker.pid))

@@ -17,8 +17,8 @@ SUBJECT = Subject("default", DEFAULT_MODEL)
 def test_looks_that_find_nothing_stop_early_and_count_for_nothing(
     found: float, valid: bool
 ) -> None:
-    data: dict[str, Any] = {"raw": [10.0], "look": [10.2], "jpeg": [10.4], "opencv": [],
-                            "refused": "", "detections": found}  # fmt: skip
+    data: dict[str, Any] = {"raw": [10.0], "look": [10.2], "jpeg": [10.4], "whole": [11.0],
+                            "opencv": [], "refused": "", "detections": found}  # fmt: skip
     rows = {row.what: row for row in _time_rows(SUBJECT, data)}
     look = rows["default: look over raw"]
     assert look.figures is not None
@@ -26,13 +26,17 @@ def test_looks_that_find_nothing_stop_early_and_count_for_nothing(
     assert look.valid == valid
     assert f"{found:.1f} detections a frame" in look.note
     assert rows["default: jpeg over raw"].valid == valid
+    whole = rows["default: whole over raw"]
+    assert whole.figures is not None
+    assert whole.figures.p50 == pytest.approx(10.0)
     assert rows["default: raw session.run"].valid
 
 
 def test_frames_are_drawn_as_the_camera_sends_them() -> None:
     made = drawn_frames()
     assert len(made) == len(set(made)) == FRAMES
-    for jpeg in made:
-        header = read_header(jpeg)
-        assert header is not None
-        assert (header.kind, header.width, header.height) == ("jpeg", *SIZE)
+    for shown in made:
+        for kind, data in (("jpeg", shown.color), ("png", shown.depth)):
+            header = read_header(data)
+            assert header is not None
+            assert (header.kind, header.width, header.height) == (kind, *SIZE)
