@@ -8,7 +8,7 @@ a value that somebody wrote wrongly.
 from __future__ import annotations
 
 import tomllib
-from math import pi
+from math import hypot, pi
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import BaseModel, Field, ValidationError, model_validator
@@ -18,7 +18,13 @@ from wire.errors import Misconfigured
 from wire.fingerprint import fingerprint
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
+
+HIDDEN_BEYOND_M = 0.05
+"""What comes so near the robot's disc stops it (the bridge's margin); a test holds both equal."""
+PEAK_TIMES = 10.0
+"""Motors stall at most at about ten times what they bear for ever: a peak beyond bounds nothing."""
 
 RobotId = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,31}$")]
 
@@ -82,10 +88,15 @@ class DriveConfig(Record):
 
     @model_validator(mode="after")
     def _peak_is_more(self) -> DriveConfig:
-        if not self.continuous_current_a < self.peak_current_a:
+        lasting_a, peak_a = self.continuous_current_a, self.peak_current_a
+        if not lasting_a < peak_a:
             raise ValueError(
-                f"drive.continuous_current_a {self.continuous_current_a} must be less than "
-                f"peak_current_a {self.peak_current_a}"
+                f"drive.continuous_current_a {lasting_a} must be less than peak_current_a {peak_a}"
+            )
+        if not peak_a <= PEAK_TIMES * lasting_a:
+            raise ValueError(
+                f"drive.peak_current_a {peak_a} must be at most {PEAK_TIMES:g} times "
+                f"continuous_current_a {lasting_a}: a peak that no motor reaches guards none"
             )
         return self
 
@@ -102,6 +113,7 @@ class LidarConfig(Record):
     y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
     yaw_rad: float = Field(default=0.0, ge=-pi, le=pi)
     range_min_m: float = Field(default=0.12, ge=0.0, le=1.0)
+    """What is nearer counts as being so far, which must still stop the robot: see ``_misfits``."""
     range_max_m: float = Field(default=8.0, ge=1.0, le=100.0)
     scan_s: float = Field(default=0.1, ge=0.01, le=0.2)
     """Period of a scan; LIDAR_STALE allows 0.25 s, so a slower lidar could never be fresh."""
@@ -197,10 +209,40 @@ class RobotDescription(Record):
             )
         return self
 
+    @model_validator(mode="after")
+    def _parts_fit(self) -> RobotDescription:
+        wrong = "; ".join(_misfits(self.base, self.lidar))
+        if wrong:
+            raise ValueError(wrong)
+        return self
+
     @property
     def hash(self) -> str:
         """Return the fingerprint that status publishes and hello must match."""
         return fingerprint(self.model_dump_json().encode())
+
+
+def _misfits(base: Base, lidar: LidarConfig) -> Iterator[str]:
+    """Yield what does not fit into the disc that is kept clear of obstacles [m]."""
+    half_m, offset_m = base.wheel_separation_m / 2, hypot(lidar.x_m, lidar.y_m)
+    stops_m = base.radius_m + HIDDEN_BEYOND_M
+    if not base.radius_m >= half_m:
+        yield (
+            f"base.radius_m {base.radius_m} must be at least {half_m:g}, half of "
+            "wheel_separation_m: the disc holds the whole robot, wheels too"
+        )
+    if not offset_m <= base.radius_m:
+        yield (
+            f"lidar.x_m {lidar.x_m} and y_m {lidar.y_m} lie {offset_m:.3g} m from the middle, "
+            f"outside base.radius_m {base.radius_m}: the disc holds the whole robot, its lidar too"
+        )
+    elif not offset_m + lidar.range_min_m <= stops_m:
+        yield (
+            f"lidar.range_min_m {lidar.range_min_m} must be at most {stops_m - offset_m:.3g}: what "
+            "is nearer counts as being so far away, and further than base.radius_m "
+            f"{base.radius_m} + {HIDDEN_BEYOND_M} - {offset_m:.3g} (lidar from the middle) it "
+            "never stops the robot"
+        )
 
 
 def load_robot(path: Path) -> RobotDescription:

@@ -203,7 +203,7 @@ def test_the_lidar_measures_known_walls(driver: Driver) -> None:
 
 def test_beyond_its_range_nothing_comes_back_and_close_is_told_as_it_is(repository: Path) -> None:
     description = RobotDescription.model_validate(
-        {"lidar": {"range_max_m": 1.5, "range_min_m": 0.5}}
+        {"lidar": {"range_max_m": 1.5, "range_min_m": 0.35}}
     )
     robot = SimRobot(repository / "sites" / "two_room", description, start=MIDDLE)
     robot.place_obstacle(1.5, 1.9 + 0.30 + 0.27)  # its near side 0.32 m from the lidar

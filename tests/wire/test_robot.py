@@ -46,6 +46,18 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
         ("[drive]\nkind = 'warp'", "robot_toml_invalid", "drive.kind"),
         ("[drive]\nvirtual = true", "robot_toml_invalid", "unknown key 'drive.virtual'"),
         ("[lidar]\nscan_s = 1.0", "robot_toml_invalid", "lidar.scan_s"),
+        ("[lidar]\nrange_min_m = 1.0", "robot_toml_invalid",
+         "lidar.range_min_m 1.0 must be at most 0.35: "),
+        ("[lidar]\nx_m = -0.18\ny_m = 0.24", "robot_toml_invalid",
+         "lidar.range_min_m 0.12 must be at most 0.05: "),
+        ("[lidar]\ny_m = 0.31", "robot_toml_invalid", "outside base.radius_m 0.3: "),
+        ("[base]\nradius_m = 0.24", "robot_toml_invalid",
+         "base.radius_m 0.24 must be at least 0.25, "),
+        ("[base]\nradius_m = 0.1\n[lidar]\nrange_min_m = 0.2", "robot_toml_invalid",
+         "lidar.range_min_m 0.2 must be at most 0.15: "),
+        ("[drive]\npeak_current_a = 15.0", "robot_toml_invalid", "must be less than"),
+        ("[drive]\npeak_current_a = 150.1", "robot_toml_invalid",
+         "drive.peak_current_a 150.1 must be at most 10 times"),
         ("id = 'r1/../x'", "robot_toml_invalid", "id"),
         ("[limits", "robot_toml_syntax", "robot.toml"),
     ],
@@ -57,6 +69,19 @@ def test_what_is_unknown_or_unsafe_refuses(
         load_robot(written(tmp_path, text))
     assert refused.value.code == code
     assert named in refused.value.detail
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[lidar]\nrange_min_m = 0.35",
+        "[lidar]\nx_m = 0.3\nrange_min_m = 0.05",
+        "[base]\nradius_m = 0.25",
+        "[drive]\npeak_current_a = 150.0",
+    ],
+)
+def test_what_just_fits_is_taken(tmp_path: Path, text: str) -> None:
+    load_robot(written(tmp_path, text))
 
 
 def test_every_fault_is_named_at_once(tmp_path: Path) -> None:

@@ -124,6 +124,15 @@ def test_it_stands_at_the_margin_and_says_so() -> None:
     assert pose.y_m == 0.0
 
 
+@pytest.mark.parametrize("lidar_x_m", [-0.2, 0.0, 0.2, 0.3])
+def test_what_is_too_near_to_measure_stops_the_robot(lidar_x_m: float) -> None:
+    blind_m = RADIUS + 0.05 - abs(lidar_x_m)  # the most that robot.toml takes
+    most = {"lidar": {"x_m": lidar_x_m, "range_min_m": blind_m - 1e-12}}
+    robot = RobotDescription.model_validate(most)
+    picture = ScanPicture.from_scan(scan_of([0.01] + [7.0] * 359), IDENTITY, robot.lidar)
+    assert obstacle_gate(picture, IDENTITY, Twist2(0.5, 0.0), STILL, 0.1, robot).scale < 1e-6
+
+
 def test_from_a_wall_one_may_back_away_and_turn_away() -> None:
     wall = [(1.0, 0.0)]
     at_wall = Twist2(0.5, 0.0)

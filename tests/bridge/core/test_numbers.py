@@ -114,6 +114,11 @@ def test_numbers_are_the_ones_decided(module: str) -> None:
     assert {name: getattr(found, name) for name in NUMBERS[module]} == NUMBERS[module]
 
 
+def test_robot_toml_hides_no_more_of_a_lidar_than_the_gate_keeps_clear() -> None:
+    freespace = import_module("bridge.core.freespace")
+    assert import_module("wire.robot").HIDDEN_BEYOND_M == freespace.MARGIN_M
+
+
 def test_rates_are_the_wires() -> None:
     flood = import_module("bridge.core.flood")
     assert flood.RATES_HZ == {
