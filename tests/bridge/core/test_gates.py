@@ -129,7 +129,8 @@ def test_what_is_too_near_to_measure_stops_the_robot(lidar_x_m: float) -> None:
     blind_m = RADIUS + 0.05 - abs(lidar_x_m)  # the most that robot.toml takes
     most = {"lidar": {"x_m": lidar_x_m, "range_min_m": blind_m - 1e-12}}
     robot = RobotDescription.model_validate(most)
-    picture = ScanPicture.from_scan(scan_of([0.01] + [7.0] * 359), IDENTITY, robot.lidar)
+    near_m = RADIUS + 0.01 - lidar_x_m
+    picture = ScanPicture.from_scan(scan_of([near_m] + [7.0] * 359), IDENTITY, robot.lidar)
     assert obstacle_gate(picture, IDENTITY, Twist2(0.5, 0.0), STILL, 0.1, robot).scale < 1e-6
 
 
