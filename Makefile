@@ -41,6 +41,7 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 WHOLE := tests/e2e/test_model.py
 OWN := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py \
   tests/deploy/test_separate_starts.py
+SEEN := tests/e2e/test_finds_at_home.py
 ALONE := tests/e2e/test_conformance.py
 STORIES = $(filter-out $(WHOLE) $(OWN) $(ALONE) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
@@ -52,7 +53,7 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
 	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py $(OWN) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m e2e tests/web tests/e2e/test_model.py $(ARGS)
+	  ++ scripts/stories.sh -n 0 -m e2e tests/web tests/e2e/test_model.py $(SEEN) $(ARGS)
 	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a flood takes what a second robot needs
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
