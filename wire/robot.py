@@ -184,6 +184,7 @@ class Inputs(Record):
     estop_link: bool = False
     """A stop button's node speaks on op/estop_link; silence then counts as pressed."""
     imu: bool = True
+    """False: nothing shows wheels that slip, and row YAW_DISAGREE stays up (at most 0.3 m/s)."""
 
 
 class RobotDescription(Record):

@@ -161,10 +161,11 @@ def _no_progress(tick: Tick) -> str | None:
 
 
 def yaw(tick: Tick, dirty: Dirty) -> None:
-    """Judge whether wheels and gyro tell the same turn. Where no gyro is wired there is none."""
-    if not tick.config.robot.inputs.imu:
-        return
+    """Judge whether wheels and gyro tell the same turn. Where no gyro is wired nobody can tell."""
     s = tick.s
+    if not tick.config.robot.inputs.imu:
+        dirty.append(("YAW_DISAGREE.0", "no gyro"))  # no parameter switches a row off
+        return
     imu, received_s = s.pose.imu, s.pose.imu_received_s
     if imu is None or received_s is None:
         evidence = "the gyro has said nothing"

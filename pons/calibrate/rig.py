@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from pons.calibrate.reference import SCANS, Look
 from pons.calibrate.refusals import CalibrationRefused, RunLost
 from pons.calibrate.track import Track
-from wire import DriveCommand, DriveState, Mode, Scan, SimTruth, Status, Velocity
+from wire import DriveCommand, DriveState, Mode, RowReport, Scan, SimTruth, Status, Velocity
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, SCAN, SIM_TRUTH, STATUS, TELEOP
 
 if TYPE_CHECKING:
@@ -36,6 +36,8 @@ TURNS_S, TURNS_RAD = 0.5, 0.02
 DRIVE_ROWS = {
     "ENC_STALE", "DRIVER_NACK", "DRIVE_REBOOT", "RUNAWAY", "STUCK", "YAW_DISAGREE", "OVERCURRENT",
 }  # fmt: skip
+NO_GYRO = "no gyro"
+"""What YAW_DISAGREE says for ever of a robot without one: no fault, and no run is lost by it."""
 WAY_GATES = {"obstacle", "contact", "fence"}
 
 
@@ -215,7 +217,7 @@ class Rig:
 
     def _quiet(self) -> bool:
         status = self.status
-        return status is not None and not any(row.row in DRIVE_ROWS for row in status.rows)
+        return status is not None and not any(_ails(row) for row in status.rows)
 
     def stands(self) -> bool:
         """Tell whether the wheels stand, as far as the bridge measures."""
@@ -254,9 +256,9 @@ class Rig:
         if status.mode is Mode.ESTOPPED:
             raise CalibrationRefused("estopped")
         rows = {row.row: row.evidence for row in status.rows}
-        names = [name for name in rows if name in DRIVE_ROWS]
-        if names:
-            raise RunLost("encoder_fault", f"{names[0]}: {rows[names[0]]}")
+        for row in status.rows:
+            if _ails(row):
+                raise RunLost("encoder_fault", f"{row.row}: {row.evidence}")
         if status.mode is Mode.FAULT:
             raise CalibrationRefused("fault", ", ".join(rows))
         if status.mode is Mode.DISARMED:
@@ -274,3 +276,8 @@ class Rig:
 
     def _for(self, seconds: float) -> None:
         self._until(lambda: False, seconds)
+
+
+def _ails(row: RowReport) -> bool:
+    """Tell whether a row says that the drive ails."""
+    return row.row in DRIVE_ROWS and row.evidence != NO_GYRO

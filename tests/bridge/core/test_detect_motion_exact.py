@@ -298,5 +298,5 @@ def test_wheels_and_gyro_agree_on_a_turn(
         update={"inputs": ROBOT.inputs.model_copy(update={"imu": False})}
     )
     tick.config = replace(tick.config, robot=without)
-    tick.s.watch.yaw_s = 0.5
-    assert rows_of(tick, "yaw") == []
+    tick.s.watch.yaw_s = 0.0
+    assert rows_of(tick, "yaw") == ["YAW_DISAGREE.0"]

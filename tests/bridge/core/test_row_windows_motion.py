@@ -155,11 +155,15 @@ class TestYaw:
         world.run(0.8)
         assert raised(world, "YAW_DISAGREE.0")
 
-    def test_a_robot_without_a_gyro_is_not_judged(self) -> None:
+    @pytest.mark.parametrize("silent", [True, False])
+    def test_a_robot_without_a_gyro_is_slow_for_ever(self, silent: bool) -> None:
         robot = RobotDescription.model_validate({"inputs": {"imu": False}})
-        world = World(core=config(robot), gyro_silent=True).driving((5.0, 0.0))
-        world.run(1.0)
-        assert not raised(world, "YAW_DISAGREE.0")
+        world = World(core=config(robot), gyro_silent=silent).driving((5.0, 0.0))
+        world.run(3.0)
+        assert raised(world, "YAW_DISAGREE.0")
+        assert world.state.rows["YAW_DISAGREE.0"].evidence == "no gyro"
+        assert world.state.motion.cap == pytest.approx(0.3 / 0.5)
+        assert world.is_in(Mode.ACTIVE)
 
 
 class TestSight:

@@ -9,7 +9,7 @@ import pytest
 
 from pons.calibrate.rig import PASSES_S, PERIOD_S, QUIET_S, Rig
 from tests.wire.examples import EXAMPLES, STATUS
-from wire import DriveState, Mode, Scan
+from wire import Action, DriveState, Mode, RowReport, Scan
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,6 +27,7 @@ class Bridge:
 
     modes: Sequence[tuple[float, Mode]]
     now_s: float = 0.0
+    rows: tuple[RowReport, ...] = ()
 
     def wait(self) -> None:
         self.now_s += PERIOD_S
@@ -48,7 +49,7 @@ class _Ear:
 
     def newest(self) -> Any:
         mode = [mode for from_s, mode in self.bridge.modes if self.bridge.now_s >= from_s][-1]
-        return STATUS.model_copy(update={"mode": mode, "rows": ()})
+        return STATUS.model_copy(update={"mode": mode, "rows": self.bridge.rows})
 
     def drain(self) -> Any:
         return _Drained((EXAMPLES[self.kind],) if self.kind in {DriveState, Scan} else ())
@@ -59,8 +60,8 @@ class _Drained:
     items: tuple[Record, ...]
 
 
-def rig(*modes: tuple[float, Mode]) -> Rig:
-    bridge = Bridge(modes)
+def rig(*modes: tuple[float, Mode], rows: tuple[RowReport, ...] = ()) -> Rig:
+    bridge = Bridge(modes, rows=rows)
     session = cast("Session", bridge)
     return Rig(session, session, lambda: bridge.now_s, bridge.wait)
 
@@ -94,3 +95,13 @@ def test_a_person_is_waited_for_unless_a_stop_is_pressed(
     hand = rig(*then)
     assert hand.settle(PATIENCE_S) is settles
     assert within_s - 0.1 <= hand.now_s <= within_s + QUIET_S
+
+
+@pytest.mark.parametrize(("evidence", "waits_s"), [("no gyro", 0.1), ("0.40 rad/s apart", QUIET_S)])
+def test_a_robot_without_a_gyro_is_not_waited_for(evidence: str, waits_s: float) -> None:
+    row = RowReport(
+        row="YAW_DISAGREE", action=Action.CAP, for_s=9.0, evidence=evidence, binding=True
+    )
+    hand = rig((0.0, Mode.HOLD), rows=(row,))
+    assert hand.settle(PATIENCE_S)
+    assert hand.now_s == pytest.approx(waits_s, abs=0.15)
