@@ -88,8 +88,13 @@ def _shut(asked: Twist2, passed: Twist2) -> bool:
 def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
     """Scale a motion so that it stops clear of the fence; a hand on the stick may cross, slowly."""
     fence, here = tick.config.fence, tick.robot_in_map
-    if fence is None or here is None:
-        return twist  # without a pose waypoints hold by POSE_LOST, and the stick is capped by it
+    if fence is None:
+        return twist
+    if here is None:  # where the fence is cannot be told: no row is trusted to have held already
+        if tick.s.mode is Mode.TELEOP:
+            return twist  # POSE_LOST caps it at the speed at which a hand may cross
+        tick.s.motion.bound_by = "pose_lost"
+        return STILL
     robot = tick.config.robot
     learnt = tick.s.learnt
     lag_s = robot.drive.lag_s + learnt.lag_more_s

@@ -116,8 +116,9 @@ ROWS: tuple[Row, ...] = (
          _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2)),
     _row("SPEED_ZONE", "the robot is inside a speed zone of the fence",
          _do("at once", _CAP, "WX", clean_s=0.0, cap_zone=True)),
-    _row("POSE_LOST", "localization older than 300 ms, poor, or of another odom_id",
-         _do("at once", _HOLD2, "W"), _do("at once", _CAP, "T", cap_mps=0.2)),
+    _row("POSE_LOST", "localization older than 300 ms, poor, or of another odom_id; an external "
+         "brain is held too, because without a pose no fence and no zone can hold it",
+         _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2)),
     _row("POSE_JUMP", "the robot displaced over 0.1 m or 5 degrees between two localizations; "
          "route and grant anew",
          _do("once", _HOLD2, "W", _GRANT)),

@@ -32,7 +32,7 @@ TABLE: dict[str, tuple[str, str, float | None]] = {
     "NO_RANGE.0": ("HOLD2", "WX", None),
     "NO_RANGE.1": ("CAP", "T", 0.4),
     "SPEED_ZONE.0": ("CAP", "WX", 0.6),
-    "POSE_LOST.0": ("HOLD2", "W", None),
+    "POSE_LOST.0": ("HOLD2", "WX", None),
     "POSE_LOST.1": ("CAP", "T", 0.4),
     "POSE_JUMP.0": ("HOLD2", "W", None),
     "STUCK.0": ("HOLD2", "WTX", None),

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from tests.bridge.core.fake_planner import FakePlanner
+from bridge.core.fence import build_fence
+from tests.bridge.core.fake_planner import MAP_ID, FakePlanner
 from tests.bridge.core.scripted import World
 from wire import Action, Mode, Velocity
 
@@ -109,3 +110,34 @@ def test_stop_outranks_it() -> None:
     assert world.state.stopping.action is Action.HOLD2
     drive_for(world, 2.0)
     assert world.is_in(Mode.HOLD), "held until a person resumes"
+
+
+def fenced_world(edge_m: float = 1.5) -> World:
+    """Let an external brain own a robot in the middle of a square."""
+    world = external_world()
+    square = ((-edge_m, -edge_m), (edge_m, -edge_m), (edge_m, edge_m), (-edge_m, edge_m))
+    world.core = replace(world.core, fence=build_fence(MAP_ID, (square,)))
+    return world
+
+
+def test_without_a_pose_it_is_held_as_waypoints_are() -> None:
+    world = fenced_world()
+    drive_for(world, 1.0)
+    assert world.is_in(Mode.ACTIVE)
+    world.localization_silent = True
+    drive_for(world, 6.0)
+    assert "POSE_LOST.0" in world.rows()
+    assert world.is_in(Mode.HOLD)
+    assert world.here.x_m < 0.7, "it would have been outside by now"
+    world.localization_silent = False
+    drive_for(world, 2.0)
+    assert world.is_in(Mode.ACTIVE), "and goes on by itself"
+
+
+def test_with_no_fence_to_keep_it_needs_a_pose_all_the_same() -> None:
+    world = external_world()
+    world.core = replace(world.core, fence=None)
+    drive_for(world, 1.0)
+    world.localization_silent = True
+    drive_for(world, 2.0)
+    assert world.is_in(Mode.HOLD)

@@ -41,6 +41,7 @@ def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: boo
     state = tick.s.drive.newest
     assert state is not None
     tick.s.drive.newest = state.model_copy(update=drive)
+    tick.robot_in_map = Pose2(0.0, 0.0, 0.0)
     tick.s.motion.bound_by, tick.s.motion.free_m, tick.room_m = "robot", 9.0, 9.0
     tick.s.gate = Gate(shut_since_s=1.0)
     return tick
@@ -229,6 +230,20 @@ def test_the_fence_counts_what_was_learnt_of_the_brakes(
     assert tick.s.motion.bound_by == ("robot" if v_mps < 0.0 else "fence")
     tick.config = replace(tick.config, fence=None)
     assert _inside_fence(tick, twist) is twist
+
+
+@table("start", ["active", "active_external", "teleop"])
+def test_where_the_fence_is_cannot_be_told_without_a_pose_so_a_hand_alone_passes(
+    start: str,
+) -> None:
+    """No row is up here: the gate asks none."""
+    tick = tick_of(reached(start))
+    tick.robot_in_map, tick.s.motion.bound_by = None, "robot"
+    passes = start == "teleop"
+    assert _inside_fence(tick, AHEAD) == (AHEAD if passes else STILL)
+    assert tick.s.motion.bound_by == ("robot" if passes else "pose_lost")
+    tick.config = replace(tick.config, fence=None)
+    assert _inside_fence(tick, AHEAD) is AHEAD
 
 
 @table("start", ["active", "active_external", "teleop"])
