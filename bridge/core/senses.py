@@ -44,7 +44,7 @@ def sense(tick: Tick) -> None:
     if inbox.imu is not None:
         pose = s.pose  # every tick: a replace would take three times as long
         s.pose = PoseMemory(
-            pose.localization, pose.received_s, pose.jumped_s, inbox.imu, tick.now_s
+            pose.localization, pose.received_s, pose.jumped_s, inbox.imu, tick.now_s, pose.good
         )
     if inbox.estop_link is not None:
         s.buttons = replace(
@@ -154,14 +154,17 @@ def _hear_localization(tick: Tick, new: Localization) -> None:
     if new.odom_id != tick.config.boot or new.map_id != tick.config.map_id:
         tick.drop("localization_foreign")
         return
-    last = s.pose.localization
+    last = s.pose.good
     s.pose = replace(s.pose, localization=new, received_s=tick.now_s)
-    if last is not None and new.quality >= POOR_QUALITY:
+    if not new.quality >= POOR_QUALITY:
+        return
+    s.pose = replace(s.pose, good=new)
+    if last is not None:
         _judge_jump(tick, last, new)
 
 
 def _judge_jump(tick: Tick, last: Localization, new: Localization) -> None:
-    """See whether the update itself displaced the robot in ``map``: T_new p against T_old p."""
+    """See whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p."""
     s = tick.s
     here = s.odometry.base_in_odom
     before, after = compose(last.odom_in_map, here), compose(new.odom_in_map, here)

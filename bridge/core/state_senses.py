@@ -51,6 +51,8 @@ class PoseMemory:
     jumped_s: float | None = None
     imu: Imu | None = None
     imu_received_s: float | None = None
+    good: Localization | None = None
+    """The newest that was good: what a jump is measured from."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,7 +69,7 @@ NOBODY: dict[str, object] = dict.fromkeys(
         (LidarMemory(), {"newest": None, "received_s": None, "picture": None, "equal": 0,
                          "equal_from_m": 0.0, "baseline_scans": 0, "baseline_returns": 0.0}),
         (PoseMemory(), {"localization": None, "received_s": None, "jumped_s": None, "imu": None,
-                        "imu_received_s": None}),
+                        "imu_received_s": None, "good": None}),
         (ButtonMemory(), {"link_pressed": False, "link_received_s": None, "pressed_s": None,
                           "ordered": False}),
         (LoopMemory(), {"late_at_s": (), "capped_s": None, "gaps_at_s": (), "missed": 0,

@@ -273,7 +273,7 @@ def test_a_place_in_another_odom_or_map_is_none(change: dict[str, str], heard: b
     before, new = tick.s.pose, placed(**change)
     senses._hear_localization(tick, new)
     assert tick.s.pose == (
-        replace(before, localization=new, received_s=NOW_S) if heard else before
+        replace(before, localization=new, received_s=NOW_S, good=new) if heard else before
     )  # fmt: skip
     assert tick.reasons == ([] if heard else ["localization_foreign"])
 
@@ -305,7 +305,8 @@ def test_a_jump_takes_the_grant_and_the_way_and_is_told(
 ) -> None:
     tick = at()
     last = None if old is None else placed(odom_in_map=old)
-    tick.s.pose = replace(tick.s.pose, localization=last, jumped_s=1.0)
+    poor = placed(odom_in_map=Pose2(9.0, 9.0, 1.0), quality=0.4)
+    tick.s.pose = replace(tick.s.pose, localization=poor, good=last, jumped_s=1.0)
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=here)
     granted, leg = tick.s.grants, tick.s.leg
     assert None not in (granted.mission, leg.horizon, leg.path)

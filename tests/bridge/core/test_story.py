@@ -9,7 +9,7 @@ import pytest
 from bridge.core import Inbox
 from tests.bridge.core.fake_planner import FakeDrive, FakePlanner
 from tests.bridge.core.scripted import World
-from wire import HeldReason, Mode, Pose2, Waypoints
+from wire import IDENTITY, HeldReason, Mode, Pose2, Waypoints
 
 
 def codes(world: World) -> list[str]:
@@ -262,6 +262,25 @@ def test_a_jump_of_the_pose_needs_a_grant_that_knows_of_it() -> None:
     assert "POSE_JUMP.0" in world.rows()
     world.until(Mode.ACTIVE, 3.0)
     assert "POSE_JUMP.0" not in world.rows()
+
+
+def test_a_jump_behind_a_poor_pose_is_a_jump() -> None:
+    world = World().driving((4.0, 0.0))
+    world.quality, world.odom_in_map = 0.2, Pose2(0.4, 0.0, 0.0)  # carried, say
+    world.run(0.2)
+    assert "POSE_JUMP.0" not in world.rows()
+    world.quality = 1.0
+    world.run(0.1)
+    assert "POSE_JUMP.0" in world.rows()
+
+
+def test_a_poor_pose_between_two_equal_ones_is_no_jump() -> None:
+    world = World().driving((4.0, 0.0))
+    world.quality, world.odom_in_map = 0.2, Pose2(0.4, 0.0, 0.0)
+    world.run(0.2)
+    world.quality, world.odom_in_map = 1.0, IDENTITY
+    world.run(0.7)
+    assert not {"POSE_JUMP.0", "POSE_LOST.0"} & world.rows()
 
 
 def test_teleop_takes_over_only_after_released_and_neutral() -> None:
