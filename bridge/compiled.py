@@ -28,7 +28,7 @@ GROUP = "bridge_core"
 """One shared library holds all compiled modules, so that calls between them are plain C calls."""
 FLAGS = ("-O2", "-g0", "-ffp-contract=off")
 """A fused multiply-add rounds once where Python rounds twice: the two cores would differ."""
-INTERPRETED = frozenset({"__init__", "codec", "docs", "hazards", "row_words"})
+INTERPRETED = frozenset({"__init__", "codec", "docs", "fault_words", "hazards", "row_words"})
 """Words, and what no tick runs."""
 COMPLETE = "complete"
 """Written last: without it a folder is no compiled core."""

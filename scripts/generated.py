@@ -31,6 +31,7 @@ GENERATORS = (
     Generator("bridge.core.docs", "docs/safety.md"),
     Generator("sim.site", "sites/"),
     Generator("planner.openapi", "openapi.json"),
+    Generator("scripts.page_words", "web/src/i18n/"),
 )
 
 

@@ -1,0 +1,55 @@
+"""Print the bridge's words for the page, web/src/i18n/rows.json and codes.json, from its tables.
+
+``python -m scripts.page_words`` writes them, with ``--check`` it tells by its exit status whether
+they are true. The page cannot import the tables, and a sentence kept twice would come apart.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bridge.core.fault_words import SENTENCES, WANTS
+from bridge.core.row_words import WORDS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+FOLDER = Path(__file__).resolve().parents[1] / "web" / "src" / "i18n"
+ROWS, CODES = FOLDER / "rows.json", FOLDER / "codes.json"
+
+
+def rows_json() -> str:
+    """Return each row's sentence."""
+    return _text(_both(WORDS))
+
+
+def codes_json() -> str:
+    """Return what is said of each code that is no row."""
+    return _text({"sentences": _both(SENTENCES), "wants": _both(WANTS)})
+
+
+def _both(table: Mapping[str, tuple[str, str]]) -> dict[str, dict[str, str]]:
+    return {code: {"en": en, "zh": zh} for code, (en, zh) in table.items()}
+
+
+def _text(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False, indent=2) + "\n"
+
+
+def main(arguments: list[str]) -> int:
+    """Write or check both; 1 where one is stale."""
+    stale = 0
+    for path, text in ((ROWS, rows_json()), (CODES, codes_json())):
+        if arguments != ["--check"]:
+            path.write_text(text, "utf-8")
+        elif not (path.exists() and path.read_text("utf-8") == text):
+            print(f"{path} is not what the tables say; run python -m scripts.page_words")
+            stale = 1
+    return stale
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
