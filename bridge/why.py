@@ -1,9 +1,9 @@
 """Find the last stop in the recordings and say what stopped the robot.
 
 Looks through the newest recordings' events for the last time that ACTIVE, TELEOP or HOLD was left
-for a mode that drives nobody, runs that segment again through the core, and gathers what was up and
-what it led to. Needs no running bridge; knows the recorder's reading door and the core; prints
-nothing.
+for a mode that drives nobody, or that a self test ended in FAULT, runs that segment again through
+the core, and gathers what was up and what it led to. Needs no running bridge; knows the recorder's
+reading door and the core; prints nothing.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ __all__ = ["BadRecording", "Stop", "last_stop"]
 
 _READY = {"ACTIVE", "TELEOP", "HOLD"}
 _STOPPED = {"STOPPING", "ESTOPPED", "FAULT", "DISARMED"}
+_UNPROVEN = ["SELFTEST", "FAULT"]
 _EVENT, _BOOT = "/pons/event", "/pons/boot"
 AFTER_TICKS = 1000
 """How far the aftermath is followed: ten seconds."""
@@ -73,6 +74,8 @@ class Stop:
     """How far it went until then."""
     ended: Mode
     held: Held | None
+    fault: str | None
+    """Why it ended in FAULT, where it did: not always what stopped it."""
     events: tuple[tuple[float, str, str], ...]
     """What the bridge said from then on: seconds after the stop began, code, detail."""
 
@@ -125,6 +128,8 @@ def _is_stop(data: bytes) -> bool:
     if event["code"] != "mode":
         return False
     words = str(event["detail"]).split(" ", 2)
+    if words[:2] == _UNPROVEN:
+        return True  # it never was ready, and a person wants to know why
     return words[0] in _READY and words[1:2] != [] and words[1] in _STOPPED
 
 
@@ -243,6 +248,7 @@ class _Story:
             way_m=self._way_m,
             ended=now.mode,
             held=now.held,
+            fault=now.fault,
             events=tuple(self._events),
         )
 

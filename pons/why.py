@@ -9,6 +9,7 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
+from bridge.core.fault_words import GATES, SENTENCES
 from bridge.core.row_words import WORDS
 from bridge.why import BadRecording, last_stop
 from wire import Mode
@@ -22,14 +23,6 @@ if TYPE_CHECKING:
 EXIT_TOLD, EXIT_NO_STOP, EXIT_BAD = 0, 1, 2
 _SHOWN = 8
 
-_ORDERS = {
-    "stop": ("Somebody said stop.", "有人下达了停止指令。"),
-    "estop": ("A protective stop was ordered or pressed.", "触发了保护性停止。"),
-    "disarm": ("Somebody disarmed the robot.", "有人解除了使能。"),
-    "obstacle": ("Something stands in the way.", "前方有障碍物。"),
-    "stop_too_slow": ("The robot braked more slowly than planned.", "制动慢于计划。"),
-    "stop_too_long": ("The stop took longer than planned.", "停车用时超过计划。"),
-}
 _TO_DO = {
     Mode.FAULT: (
         "mend what the evidence names; then pons reset, pons arm, pons resume",
@@ -46,6 +39,10 @@ _WENT_ON = ("nothing: it went on by itself", "无需操作：机器人已自行�
 _GOES_ON = (
     "nothing: it goes on by itself once the evidence is gone",
     "无需操作：问题消失后机器人会自行继续",
+)
+_CLEAR_THE_WAY = (
+    "as said above; it goes on by itself once its way is free",
+    "按上述说明处理；道路畅通后机器人会自行继续",
 )
 _GROWING = ("it is still being written", "记录仍在进行")
 _CUT = (
@@ -74,14 +71,14 @@ def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
     when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(stop.at_unix_s))
     yield "when", f"{when}, {stop.ago_s:.1f} s before the record ends"
     yield "stop", f"{stop.before.value} -> {stop.after.value}, by {stop.cause}"
-    words = WORDS.get(stop.cause.upper()) or _ORDERS.get(stop.cause)
-    if words is not None:
-        yield from _both("why", words)
+    yield from _words("why", stop.cause)
     if stop.ordered_by is not None:
         yield "who", stop.ordered_by
     for stage, evidence in stop.rows:
         yield "evidence", f"{stage.name} ({stage.action.value}): {evidence}"
     yield "motion", _motion(stop)
+    if stop.fault is not None and stop.fault != stop.cause:
+        yield from _words("fault", stop.fault)
     held = f", held: {stop.held.reason.value} {stop.held.id}" if stop.held is not None else ""
     yield "then", f"{stop.ended.value}{held}"
     yield from _both("to do", _to_do(stop))
@@ -92,6 +89,13 @@ def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
     yield "record", str(stop.path)
     if not stop.whole:
         yield from _both("", _GROWING if stop.growing else _CUT)
+
+
+def _words(name: str, code: str) -> Iterator[tuple[str, str]]:
+    """Yield the sentence of a row, an order, a gate or a fault."""
+    words = WORDS.get(code.upper()) or SENTENCES.get(code)
+    if words is not None:
+        yield from _both(name, words)
 
 
 def _both(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:
@@ -112,4 +116,6 @@ def _to_do(stop: Stop) -> tuple[str, str]:
         return _TO_DO[stop.ended]
     if stop.held is not None:
         return _RESUME
-    return _WENT_ON if stop.ended in {Mode.ACTIVE, Mode.TELEOP} else _GOES_ON
+    if stop.ended in {Mode.ACTIVE, Mode.TELEOP}:
+        return _WENT_ON
+    return _CLEAR_THE_WAY if stop.cause in GATES else _GOES_ON

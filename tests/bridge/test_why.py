@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from bridge.why import BadRecording, last_stop
-from tests.bridge.core.scripted import World
+from tests.bridge.core.scripted import FakeDrive, World
 from tests.bridge.recorded import stream_of, written
 from tests.bridge.test_replay import taken
 from wire import HeldReason, Mode
@@ -136,3 +136,24 @@ def test_what_is_no_recording_is_refused(tmp_path: Path) -> None:
     (tmp_path / "x.mcap").write_bytes(b"no container at all")
     with pytest.raises(BadRecording, match="recording_not_mcap"):
         last_stop(tmp_path)
+
+
+def test_a_self_test_that_faults_is_told(tmp_path: Path) -> None:
+    world = World(keep=True, drive=FakeDrive(never_times_out=True))
+    world.until(Mode.FAULT, 5.0)
+    world.run(0.5)
+    stop = last_stop(kept(tmp_path, world).parent)
+    assert stop is not None
+    assert (stop.before, stop.after, stop.ended) == (Mode.SELFTEST, Mode.FAULT, Mode.FAULT)
+    assert (stop.cause, stop.fault) == ("drive_no_timeout", "drive_no_timeout")
+
+
+def test_a_stop_that_fails_is_told_with_its_order_and_its_fault(tmp_path: Path) -> None:
+    world = World(keep=True).driving((5.0, 0.0))
+    world.drive.runs_on = True
+    world.stop()
+    world.run(2.0)
+    stop = last_stop(kept(tmp_path, world).parent)
+    assert stop is not None
+    assert (stop.cause, stop.ended) == ("stop", Mode.FAULT)
+    assert stop.fault in {"stop_too_slow", "stop_too_long", "runaway"}

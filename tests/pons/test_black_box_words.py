@@ -6,18 +6,41 @@ import fcntl
 import gzip
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from bridge.why import Stop
 from pons import replay, why
 from pons.__main__ import main
 from pons.settings import load
-from tests.bridge.core.scripted import World
+from tests.bridge.core.scripted import FakeDrive, World
 from tests.bridge.recorded import stream_of, written
 from tests.bridge.test_replay import taken
+from wire import Mode
 
 SCREEN_LINES = 24
+SHUT = Stop(
+    path=Path("x.mcap"),
+    at_unix_s=1_700_000_000.0,
+    ago_s=1.0,
+    whole=True,
+    growing=False,
+    before=Mode.ACTIVE,
+    after=Mode.STOPPING,
+    cause="obstacle",
+    ordered_by=None,
+    rows=(),
+    speed_mps=0.0,
+    stood_s=0.2,
+    way_m=0.0,
+    ended=Mode.HOLD,
+    held=None,
+    fault=None,
+    events=(),
+)
+"""A stop before a gate that shut the way."""
 
 
 @contextmanager
@@ -62,6 +85,48 @@ def test_a_row_is_told_with_evidence_and_what_to_do(
     assert "it is still being written" in said
     assert "记录仍在进行" in said
     assert "power failed" not in said
+
+
+def test_a_self_test_and_a_stop_that_fault_are_told_in_sentences(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    unproven = World(keep=True, drive=FakeDrive(never_times_out=True))
+    unproven.until(Mode.FAULT, 5.0)
+    recorded(home, unproven)
+    assert why.run(load()) == why.EXIT_TOLD
+    said = capsys.readouterr().out
+    assert "SELFTEST -> FAULT, by drive_no_timeout" in said
+    assert "the drive's own time-out" in said.lower()
+    assert "驱动没有超时停止" in said
+    assert "fault     " not in said, "it is what stopped it: told once"
+
+    pushed = World(keep=True).driving((5.0, 0.0))
+    pushed.drive.runs_on = True
+    pushed.stop()
+    pushed.run(2.0)
+    recorded(home, pushed)
+    assert why.run(load()) == why.EXIT_TOLD
+    said = capsys.readouterr().out
+    assert "Somebody said stop." in said
+    assert "fault     The robot braked more slowly than planned" in said
+    assert "制动慢于计划" in said
+
+
+@pytest.mark.parametrize(
+    ("gate", "en", "zh"),
+    [
+        ("obstacle", "Something stands in the way", "前方有障碍物"),
+        ("fence", "too near the fence", "离围栏太近"),
+        ("contact", "bumper", "防撞条"),
+    ],
+)
+def test_each_gate_is_told_by_its_own_name_with_what_to_do(gate: str, en: str, zh: str) -> None:
+    said = dict(why._lines(replace(SHUT, cause=gate)))
+    assert en in said["why"]
+    told = [text for _, text in why._lines(replace(SHUT, cause=gate))]
+    assert any(zh in text for text in told)
+    assert "nothing" not in said["to do"], "a fence does not go away by itself"
+    assert "as said above" in said["to do"]
 
 
 def test_no_stop_and_no_recording_are_told_apart(
