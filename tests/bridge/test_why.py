@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from bridge.why import BadRecording, last_stop
-from tests.bridge.core.scripted import FakeDrive, World
+from tests.bridge.core.fake_planner import FakeDrive
+from tests.bridge.core.scripted import World
 from tests.bridge.recorded import stream_of, written
 from tests.bridge.test_replay import taken
 from wire import HeldReason, Mode

@@ -15,7 +15,8 @@ from bridge.why import Stop
 from pons import replay, why
 from pons.__main__ import main
 from pons.settings import load
-from tests.bridge.core.scripted import FakeDrive, World
+from tests.bridge.core.fake_planner import FakeDrive
+from tests.bridge.core.scripted import World
 from tests.bridge.recorded import stream_of, written
 from tests.bridge.test_replay import taken
 from wire import Mode
