@@ -4,7 +4,8 @@ Pure, and needs the standard library alone, so that `pons stop` and the API can 
 A sentence stops the robot where its whole first clause says so, never a part of a clause: "bus
 stop", "don't stop" and "stop at the kitchen" are other sentences. "cancel", "abort" and "pause"
 standing alone count as stops: whoever says them wants the motion to end, and a stop does that.
-"wait" does not: it is a step of a plan.
+"wait" does not: it is a step of a plan. "stop looking", "don't follow me" and their like (quits.py)
+stop a robot that searches, counts or follows.
 Misspellings: letters held down ("stooop") and the swaps that are no words ("sotp", "stpo") stop;
 other words ("shop", "step", "stopped") do not.
 """
@@ -13,6 +14,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
+
+from planner.brain import quits
 
 _READ = 400  # characters looked at; what a stop says, it says first
 
@@ -30,12 +33,14 @@ _EN_PHRASE = (
     r"|what you are doing))?"
     r"|come to a (?:stop|halt)|(?:emergency|protective) stop|e ?stop"
     r"|(?:hold|stand|stay|keep) still|stay (?:put|where you are)|hold it|do not move(?: any ?more)?"
-    r"|abort|cancel|pause|(?:abort|cancel|pause) (?:it|that|everything|the (?:goal|mission|task))"
+    r"|abort|cancel|pause|(?:quit|give up)(?: (?:it|that|this))?|give it up"
+    r"|(?:abort|cancel|pause) (?:it|that|everything|the (?:goal|mission|task))"
 )
 _EN = re.compile(
     rf"(?:(?:{_EN_POLITE}) )*(?:{_EN_PHRASE})(?: (?:{_EN_PHRASE}|{_EN_POLITE}))*"
     r"(?: (?:and|then|but|because)\b.*)?"
 )
+_EN_QUITS = re.compile(rf"(?:(?:{_EN_POLITE}) )*(?:{quits.ENGLISH})")
 _EN_ONLY_POLITE = re.compile(rf"(?:{_EN_POLITE}|quick)(?: (?:{_EN_POLITE}))*")
 
 _ZH_POLITE = (
@@ -58,11 +63,12 @@ _ZH_PHRASE = (
 _ZH = re.compile(
     rf"(?:{_ZH_POLITE})*(?:{_ZH_PHRASE})(?:{_ZH_PHRASE}|{_ZH_AFTER})*(?:(?:然后|接着|之后).*)?"
 )
+_ZH_QUITS = re.compile(rf"(?:{_ZH_POLITE})*(?:{quits.CHINESE})")
 _ZH_ONLY_POLITE = re.compile(rf"(?:{_ZH_POLITE}|不要|不|别)(?:{_ZH_POLITE})*")
 
 _TRADITIONAL = str.maketrans(
-    "別動車請馬給緊機來趕駛進暫這著剎煩託準許終當導險",
-    "别动车请马给紧机来赶驶进暂这着刹烦托准许终当导险",
+    "別動車請馬給緊機來趕駛進暫這著剎煩託準許終當導險尋數隨蹤檢視邏轉繼續點計統觀結對繞領帶",
+    "别动车请马给紧机来赶驶进暂这着刹烦托准许终当导险寻数随踪检视逻转继续点计统观结对绕领带",
 )
 _DONT = re.compile(r"\bdon'?t\b")
 _LETS = re.compile(r"\blet'?s\b")
@@ -82,12 +88,16 @@ def is_stop(text: str) -> bool:
         if _CJK.search(clause):
             compact = "".join(clause.split())
             if not _ZH_ONLY_POLITE.fullmatch(compact):
-                return _ZH.fullmatch(compact) is not None
+                return _one_of(_ZH, _ZH_QUITS, clause=compact)
         else:
             words = " ".join(_GAP.sub(" ", clause).split()) if clause.isascii() else clause
             if words and not _EN_ONLY_POLITE.fullmatch(words):
-                return _EN.fullmatch(words) is not None
+                return _one_of(_EN, _EN_QUITS, clause=words)
     return False
+
+
+def _one_of(*patterns: re.Pattern[str], clause: str) -> bool:
+    return any(pattern.fullmatch(clause) for pattern in patterns)
 
 
 def _plain(text: str) -> str:

@@ -21,9 +21,20 @@ ASKING = re.compile(r"(?!)")
 POLITE = re.compile(rf"(?:{_POLITE}|(?:can|could|would|will) you)(?![\w'])")
 THANKS = re.compile(rf"(?:^| )(?:{_POLITE}|for me|right now|again)$")
 
-_TASK = r"(?:goal|mission|task|job|order|trip|drive|driving|plan|route|way|request|errand|command)"
+_TASK = (
+    r"(?:goal|mission|task|job|order|trip|drive|driving|plan|route|way|request|errand|command"
+    r"|search|hunt|count|patrol|tour)"
+)
 _THE_TASK = rf"(?:(?:the|this|that|my|your|our) )?(?:(?:current|running|last|latest) )?{_TASK}"
 _BRIEF = r"(?:(?:a|one|just a) )?(?:moment|sec|bit)"
+
+_WORK = r"(?:go|look|search|hunt|seek|find|count|track|follow|patrol|check)"
+_IT = (
+    r"(?: (?:for|at|in|to|after|with))?"
+    r"(?: (?:it|that|this|there|them|him|her|me|us)| (?:the|an?|any|my|your|this|that) [a-z]+)?"
+)
+"""What was looked for, in so few words that no second order hides in them."""
+_MORE = r"(?:any ?more|any longer|after all)"
 
 RESUME = re.compile(
     r"(?:continue|resume|proceed|carry on|go on|keep going|unpause)"
@@ -45,7 +56,10 @@ CANCEL = re.compile(
     rf"|forget (?:about )?{_THE_TASK}"
     r"|never ?mind(?: (?:it|that|about (?:it|that)))?|scratch that|scrap that|don't bother"
     r"|no need(?: (?:any ?more|for (?:it|that)))?|i changed my mind"
-    r"|(?:don't|do not) go(?: there)?(?: (?:any ?more|after all))?"
+    rf"|(?:don't|do not) go(?: there)?(?: {_MORE})?"
+    rf"|(?:don't|do not) go (?:in)?to (?:the |my |our )?[a-z]+(?: [a-z]+)? {_MORE}"
+    r"|(?:(?:there(?:'s| is) )?no need|(?:you )?(?:(?:don't|do not) (?:need|have)|need not"
+    rf"|needn't))(?: to)? {_WORK}{_IT}(?: {_MORE})?"
 )
 TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
 """What may stand before the order that comes in place of the current one."""

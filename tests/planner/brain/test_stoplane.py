@@ -98,7 +98,68 @@ STOPS = [
     ),
 ]
 
+QUITS = [
+    *("stop looking", "stop searching", "stop counting", "stop patrolling", "stooop looking"),
+    *(
+        "stop looking for the cup",
+        "stop looking for the red cup in the kitchen",
+        "stop tracking him",
+    ),
+    *("quit looking", "quit searching", "quit following me", "please quit following me", "quit"),
+    *("give up", "give up looking", "give up the search", "cease searching", "quit it"),
+    *("cancel the search", "stop the search", "end the search", "call off the search"),
+    *("cancel the count", "abort your patrol", "no more searching", "enough looking for it"),
+    *("could you stop looking for the cup please", "you can stop looking now"),
+    *("stop looking and come back", "stop looking until I say so", "stop running after me"),
+    *("stop going to the kitchen", "stop driving to the kitchen", "stop turning left"),
+    *("stop coming after me", "stop going in circles", "stop moving towards me"),
+    # denied: behind it nothing is left to a brain
+    *("don't follow me", "Don’t follow me any more!", "dont follow me", "never follow me again"),
+    *("don't look for it any more", "do not search any more", "don't look for the cup"),
+    *(
+        "please don't count",
+        "you shouldn't follow me",
+        "you must not follow me",
+        "don't follow him",
+    ),
+    *("I don't want you to follow me", "don't follow me if I go out", "no longer follow me"),
+    *("don't look for the cup, find the ball", "don't come after me", "don't keep searching"),
+    # Chinese
+    *("别找了", "不要找了", "停止寻找", "停止搜索", "别跟着我", "别跟着我了", "别跟了", "别数了"),
+    *("不要跟着我了", "不要再找了", "别再跟着我", "不要跟我了", "先别找", "别看了", "别转了"),
+    *(
+        "停止寻找杯子",
+        "别找杯子了",
+        "不要再数椅子了",
+        "停止对杯子的搜索",
+        "取消搜索任务",
+        "暂停搜索",
+    ),
+    *("结束寻找", "放弃搜索", "中止跟随", "停止跟着我", "停下别找了", "别找了好吗", "别巡逻了"),
+    *("我不要你跟着我", "别跟得太近", "小车别跟着我了谢谢", "先别找，等我一下", "别找杯子，找球"),
+    *("別跟著我", "不要再尋找了", "停止搜尋", "別數了", "停止跟隨"),
+]
+"""A robot that searches, counts or follows is told to quit."""
+
 GOES_ON = [
+    # quitting that is asked about, denied, or told for another time or place
+    *("find the ball, don't look for the cup", "go to the kitchen and don't look for the cup"),
+    *("stop looking when you see the cup", "stop following me when I reach the kitchen"),
+    *("why did you stop looking", "did you stop looking?", "don't stop following me", "search"),
+    *("do not stop looking", "never stop searching", "don't forget to find the cup", "the search"),
+    *("stop waiting", "don't wait", "stop driving so fast", "stop looking after the baby"),
+    *("keep looking", "resume the search", "the search engine", "you should find the cup"),
+    *("找球，别找杯子", "去厨房，别找杯子", "停止搜索了吗", "停止跟随了没有", "为什么停止搜索"),
+    *(
+        "不要停止寻找",
+        "别停止跟着我",
+        "不停地找",
+        "别跟丢了",
+        "别数错了",
+        "别忘了找杯子",
+        "别跟他说",
+    ),
+    *("停止键在哪里", "取消数据上传", "别的杯子", "找杯子", "继续搜索", "搜索"),
     # the word inside another clause
     *("bus stop", "go to the bus stop", "the bus stop", "don't stop", "do not stop", "Don’t stop!"),
     *("dont stop", "never stop", "please don't stop", "no, don't stop", "stop at the kitchen"),
@@ -160,7 +221,7 @@ GOES_ON = [
 ]
 
 
-@pytest.mark.parametrize("text", STOPS)
+@pytest.mark.parametrize("text", [*STOPS, *QUITS])
 def test_stops(text: str) -> None:
     assert is_stop(text)
 
@@ -171,7 +232,8 @@ def test_goes_on(text: str) -> None:
 
 
 def test_the_tables_hold_no_sentence_twice() -> None:
-    assert len(set(STOPS) | set(GOES_ON)) == len(STOPS) + len(GOES_ON) >= 80
+    tables = [*STOPS, *QUITS, *GOES_ON]
+    assert len(set(tables)) == len(tables) >= 80
 
 
 @given(st.text(max_size=200))
@@ -192,11 +254,46 @@ def test_a_word_before_that_is_no_courtesy_makes_it_another_sentence(
 
 @pytest.mark.parametrize(
     "piece",
-    ["stop ", "please ", "停", "快停", "麻烦你", "you can ", "stop it ", "can you ", "好了", "s"],
+    [
+        *(
+            "stop ",
+            "please ",
+            "停",
+            "快停",
+            "麻烦你",
+            "you can ",
+            "stop it ",
+            "can you ",
+            "好了",
+            "s",
+        ),
+        *(
+            "stop looking ",
+            "never ",
+            "no more ",
+            "the ",
+            "别找",
+            "停止",
+            "别再",
+            "停下",
+            "我不要你",
+        ),
+    ],
 )
 def test_endless_repetition_is_answered(piece: str) -> None:
     """A repeated courtesy must not make the pattern backtrack (the time-out would catch it)."""
     assert is_stop(piece * 25_000 + "x") in {True, False}
+
+
+def test_a_long_object_is_answered() -> None:
+    """Nor may a repeated part of what is quitted."""
+    for begun, piece in (
+        ("停止", "对"),
+        ("别", "找错"),
+        ("stop the ", "my "),
+        ("stop looking", " a if"),
+    ):
+        assert is_stop(begun + piece * 380 + "x") in {True, False}
 
 
 def test_importing_the_stop_lane_brings_in_neither_pydantic_nor_numpy() -> None:
