@@ -2,14 +2,16 @@
 
 Hello, grants, heartbeats, horizons, a stick through the page, restarts, silence, floods, stops; all
 in schema, most of it plausible, drawn by seed. It holds no operator's key: proofs that it makes are
-wrong. A person beside it resumes and arms again, or nothing would ever move.
+wrong. A person beside it resumes and arms again, or nothing would ever move. As an external brain
+it says velocities where a planner says horizons, and localization falls silent now and then, for
+its velocities go on without a pose.
 """
 
 from __future__ import annotations
 
 from math import cos, pi, sin
 from random import Random
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Literal, cast
 
 from wire import (
     PROTOCOL,
@@ -37,11 +39,19 @@ if TYPE_CHECKING:
     from wire import Mode
     from wire.keys import Key
 
+    Kind = Literal["planner", "external"]
+
 MOODS = (
     "straight", "straight", "walls", "walls", "curves", "curves", "back", "stick", "wild", "silent",
     "nothing",
 )  # fmt: skip
 LAME = {"wild", "silent", "nothing"}
+_PUSHES: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
+    "curves": ((0.5, 0.3), (0.4, 0.4, -0.4)),
+    "back": ((-0.5, -0.3), (0.0,)),
+    "wild": ((5.0, 0.5, -5.0), (10.0, 0.0, -10.0)),
+}
+"""Speeds [m/s] and turns [rad/s] of an external brain; in other moods it goes straight on."""
 _ASKS: dict[str, tuple[tuple[OpKind, ...], float]] = {
     "DISARMED": (("arm",), 0.5),
     "ESTOPPED": (("reset",), 3.0),
@@ -52,15 +62,16 @@ _ASKS: dict[str, tuple[tuple[OpKind, ...], float]] = {
 class HostilePlanner:
     """Say a tick's worth of harm."""
 
-    def __init__(self, world: Together, seed: int) -> None:
+    def __init__(self, world: Together, seed: int, kind: Kind = "planner") -> None:
         world.kill_planner()
         self._world = world
+        self.kind: Kind = kind
         self.random = Random(f"hostile {seed}")
         self._port = world.bus.port(Party.PLANNER)
         self._ears = self._port.subscriber(keys.STATUS)
         said = (
-            keys.HELLO, keys.GRANT, keys.HEARTBEAT, keys.WAYPOINTS, keys.TELEOP, keys.STOP,
-            keys.ARM, keys.RESUME,
+            keys.HELLO, keys.GRANT, keys.HEARTBEAT, keys.WAYPOINTS, keys.TELEOP, keys.EXTERNAL,
+            keys.STOP, keys.ARM, keys.RESUME,
         )  # fmt: skip
         self._mouths = {key.path: self._port.publisher(cast("Key[Record]", key)) for key in said}
         self.status: Status | None = None
@@ -100,6 +111,9 @@ class HostilePlanner:
         if self.mood == "stick":
             if tick % 5 == 0:
                 self._stick(self.status)
+        elif self.kind == "external":
+            if tick % r.choice((5, 5, 5, 2)) == 0:
+                self._velocity(self.status)
         elif tick % r.choice((10, 10, 10, 2)) == 0:
             self._horizon(self.status)
 
@@ -110,6 +124,8 @@ class HostilePlanner:
     def _whim(self, status: Status) -> None:
         """Now and then: restart, another mission, a forged proof, a stop, something said before."""
         r, what = self.random, self.random.random()
+        if self.kind == "external":
+            self._world.silence_localization(silent=r.random() < 0.4)
         if what < 0.1:
             self._begin()
         elif what < 0.25:
@@ -131,7 +147,7 @@ class HostilePlanner:
         if owner is None or owner.planner_id != self.id:
             hello = Hello(
                 planner_id=self.id,
-                kind="planner",
+                kind=self.kind,
                 seen=status.seq,
                 protocol=PROTOCOL,
                 robot_hash=status.robot_hash,
@@ -168,6 +184,22 @@ class HostilePlanner:
             dead_man=held,
         )
         self._say("cmd/teleop", velocity)
+
+    def _velocity(self, status: Status) -> None:
+        """Push on, whether there is a pose or not, as fast as the wire lets anybody say."""
+        r = self.random
+        self.seq += 1
+        speeds, turns = _PUSHES.get(self.mood, ((0.5, 0.3), (0.0,)))
+        velocity = Velocity(
+            source_id=self.id,
+            epoch=status.epoch,
+            seq=self.seq,
+            seen=status.seq,
+            v_mps=r.choice(speeds),
+            w_radps=r.choice(turns),
+            dead_man=self.mood != "nothing",
+        )
+        self._say("cmd/external", velocity)
 
     def _horizon(self, status: Status) -> None:
         here = status.base_in_map
