@@ -97,7 +97,7 @@ def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox
     drive = DriveState(
         boot_id=_NAME, seq=count, stamp_s=now_s, echo_boot=config.boot, echo_seq=echo_seq,
         enabled=False, timed_out=False, left_rad=0.0, right_rad=0.0, left_radps=0.0,
-        right_radps=0.0,
+        right_radps=0.0, estop_pressed=False, bumper_front=False, bumper_rear=False, cliff=False,
     )  # fmt: skip
     imu = Imu(
         boot_id=_NAME, seq=count, stamp_s=now_s, yaw_rate_radps=0.0, accel_x_mps2=0.0,

@@ -31,10 +31,13 @@ class DriveState(Record):
     right_radps: WheelSpeed
     current_a: Annotated[float, Field(ge=-1_000.0, le=1_000.0)] | None = None
     battery: Ratio | None = None
-    estop_pressed: bool = False
-    bumper_front: bool = False
-    bumper_rear: bool = False
-    cliff: bool = False
+    estop_pressed: bool | None = None
+    """Null, in this and the next three: not told, or not readable. It counts as pressed, and a self
+    test waits until all are told: what has no such input says false."""
+    bumper_front: bool | None = None
+    bumper_rear: bool | None = None
+    cliff: bool | None = None
+    """In front: the floor ends."""
 
 
 class DriveCommand(Record):

@@ -1,7 +1,8 @@
 """Let nothing of a motion pass that goes on into what a bumper feels or a cliff sensor misses.
 
 By direction: what leads away passes slowly, and so does a turn in place, which sweeps nothing but
-the disc itself. Bumpers sit front and rear, the cliff sensor in front. Knows no modes and no rows.
+the disc itself. Bumpers sit front and rear, the cliff sensor in front; one that is not told counts
+as pressed. Knows no modes and no rows.
 """
 
 from __future__ import annotations
@@ -21,15 +22,15 @@ def touched(state: DriveState | None, v_mps: float) -> str | None:
     if state is None:
         return None
     if v_mps > 0.0:
-        if state.bumper_front:
+        if state.bumper_front is not False:
             return "bumper_front"
-        return "cliff" if state.cliff else None
-    return "bumper_rear" if v_mps < 0.0 and state.bumper_rear else None
+        return "cliff" if state.cliff is not False else None
+    return "bumper_rear" if v_mps < 0.0 and state.bumper_rear is not False else None
 
 
 def contact_gate(state: DriveState | None, twist: Twist2) -> Twist2:
     """Return what passes of a motion while the newest drive state shows a contact or a cliff."""
-    if state is None or not (state.bumper_front or state.bumper_rear or state.cliff):
+    if state is None or state.bumper_front is state.bumper_rear is state.cliff is False:
         return twist
     if touched(state, twist.v_mps) is not None:
         return Twist2(0.0, min(max(twist.w_radps, -CREEP_RADPS), CREEP_RADPS))

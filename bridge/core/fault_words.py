@@ -80,6 +80,8 @@ WANTS: dict[str, tuple[str, str]] = {
     "drive": ("the drive", "驱动"),
     "drive_echo": ("the drive's answer", "驱动应答"),
     "drive_timeout": ("the drive's own dead-man test", "驱动超时测试"),
+    "stop_input": ("the drive to tell its stop input", "驱动报告停止输入"),
+    "contact_inputs": ("the drive to tell bumpers and cliff sensor", "驱动报告碰撞和悬崖传感器"),
     "encoders_still": ("still wheels", "车轮静止"),
     "lidar": ("the lidar", "激光雷达"),
     "lidar_baseline": ("enough lidar scans", "足够的激光雷达数据"),

@@ -60,12 +60,24 @@ def waits_for(tick: Tick) -> Iterator[str]:
         yield "drive_timeout"
     if not tick.still_for(STILL_S):
         yield "encoders_still"
+    yield from _untold(tick)
     if s.lidar.received_s is None or not tick.now_s - s.lidar.received_s <= FRESH_S:
         yield "lidar"
     if s.lidar.baseline_scans < BASELINE_SCANS:
         yield "lidar_baseline"
     if tick.config.robot.inputs.estop_link and s.buttons.link_received_s is None:
         yield "estop_link"
+
+
+def _untold(tick: Tick) -> Iterator[str]:
+    """Yield a code for inputs of the drive that nobody can read: they count as pressed."""
+    state = tick.s.drive.newest
+    if state is None:
+        return  # the drive itself is waited for
+    if state.estop_pressed is None:
+        yield "stop_input"
+    if state.bumper_front is None or state.bumper_rear is None or state.cliff is None:
+        yield "contact_inputs"
 
 
 def _reports(tick: Tick) -> bool:

@@ -74,6 +74,10 @@ class FakeRobot(threading.Thread):
                 right_rad=0.0,
                 left_radps=0.0,
                 right_radps=0.0,
+                estop_pressed=False,
+                bumper_front=False,
+                bumper_rear=False,
+                cliff=False,
             )
         )
         self._imu.put(

@@ -174,6 +174,7 @@ _MESSAGES: tuple[Record, ...] = (
         right_rad=11.0,
         left_radps=1.0,
         right_radps=1.5,
+        estop_pressed=False,
         **STAMP,
     ),
     Scan(

@@ -44,7 +44,7 @@ class FakeDrive:
     enabled: bool = False
     angles: tuple[float, float] = (0.0, 0.0)
     speeds: tuple[float, float] = (0.0, 0.0)
-    estop_pressed: bool = False
+    estop_pressed: bool | None = False
     battery: float | None = None
     current_a: float | None = None
     pressed: tuple[str, ...] = ()

@@ -234,6 +234,9 @@ class Hostile:
             left_radps=self._say(sent, 0.0, 1_000.0, -1_000.0),
             right_radps=self._say(sent, 0.0, 1_000.0, -1_000.0),
             estop_pressed=self.random.random() < 0.1 * (1.0 - self.calm),
+            bumper_front=self._say(False, True, None),
+            bumper_rear=self._say(False, True, None),
+            cliff=self._say(False, True, None),
         )
 
     def _localization(self) -> Localization:

@@ -13,7 +13,7 @@ from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import config
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
-from wire import IDENTITY, RobotDescription
+from wire import IDENTITY, Mode, RobotDescription
 
 NOW_S = 10.0
 
@@ -67,6 +67,7 @@ def test_why_nothing_is_recorded(says: str, lack: tuple[str, str]) -> None:
 
 SILENT, DOWN = "the stop button's link is silent", "the stop button's link says pressed"
 INPUT = "the drive's stop input is pressed"
+UNTOLD = "the drive does not tell its stop input"
 
 
 @table(
@@ -81,10 +82,12 @@ INPUT = "the drive's stop input is pressed"
         (False, True, False, None, INPUT),
         (False, False, True, NOW_S, None),
         (False, False, False, 0.0, None),
+        (False, None, False, NOW_S, UNTOLD),
+        (True, None, True, NOW_S, UNTOLD),
     ],
 )
 def test_a_stop_input_is_pressed_or_its_link_silent(
-    linked: bool, on_drive: bool, down: bool, heard_s: float | None, told: str | None
+    linked: bool, on_drive: bool | None, down: bool, heard_s: float | None, told: str | None
 ) -> None:
     tick = at("estopped")
     tick.config = config(RobotDescription.model_validate({"inputs": {"estop_link": linked}}))
@@ -93,3 +96,16 @@ def test_a_stop_input_is_pressed_or_its_link_silent(
     tick.s.buttons = ButtonMemory(link_pressed=down, link_received_s=heard_s)
     assert pressed(tick) == told
     assert list(reset_lacks(tick)) == ([] if told is None else [("estop_pressed", told)])
+
+
+@table(
+    ("mode", "told"), [(mode, None if mode in {"BOOT", "SELFTEST"} else UNTOLD) for mode in Mode]
+)
+def test_an_input_never_told_is_waited_for_and_one_no_longer_told_is_pressed(
+    mode: Mode, told: str | None
+) -> None:
+    tick = at("hold")
+    assert tick.s.drive.newest is not None
+    tick.s.mode = mode
+    tick.s.drive.newest = tick.s.drive.newest.model_copy(update={"estop_pressed": None})
+    assert pressed(tick) == told

@@ -18,6 +18,14 @@ def state(*pressed: str) -> DriveState:
     return FakeDrive().tick(0.0).model_copy(update=dict.fromkeys(pressed, True))
 
 
+@pytest.mark.parametrize("unsaid", ["bumper_front", "bumper_rear", "cliff"])
+@pytest.mark.parametrize("v_mps", [-0.4, 0.0, 0.4])
+def test_an_input_that_is_not_told_counts_as_pressed(unsaid: str, v_mps: float) -> None:
+    silent, felt = state().model_copy(update={unsaid: None}), state(unsaid)
+    assert touched(silent, v_mps) == touched(felt, v_mps)
+    assert contact_gate(silent, Twist2(v_mps, 1.0)) == contact_gate(felt, Twist2(v_mps, 1.0))
+
+
 @given(speeds, speeds)
 def test_untouched_everything_passes(v: float, w: float) -> None:
     assert contact_gate(state(), Twist2(v, w)) == Twist2(v, w)

@@ -37,8 +37,8 @@ def codes_in(module: object, *functions: str) -> set[str]:
 
 
 def test_what_a_self_test_waits_for_or_faults_has_words() -> None:
-    waits = codes_in(selftest, "waits_for")
-    assert {"drive", "lidar", "estop_link"} < waits
+    waits = codes_in(selftest, "waits_for", "_untold")
+    assert {"drive", "lidar", "estop_link", "stop_input"} < waits
     assert waits <= set(WANTS)
     wrong = codes_in(selftest, "_wrong")
     assert {"drive_no_timeout", "drive_moves_on", "encoders_moving"} < wrong

@@ -6,6 +6,7 @@ import pytest
 
 from bridge.core import Inbox
 from bridge.core.rows import ROWS, STAGES
+from tests.bridge.core.fake_planner import FakeDrive
 from tests.bridge.core.scripted import World, config
 from tests.bridge.core.windows import raised, silent_for, until_age
 from wire import Action, EstopLink, Mode, RobotDescription
@@ -231,6 +232,24 @@ def test_the_drives_stop_input_latches_until_reset() -> None:
     assert world.is_in(Mode.DISARMED)
     world.run(3.0)
     assert world.is_in(Mode.DISARMED)
+
+
+def test_a_stop_input_that_is_no_longer_told_counts_as_pressed() -> None:
+    world = World().driving()
+    world.drive.estop_pressed = None
+    world.tick()
+    assert world.is_in(Mode.ESTOPPED)
+    assert raised(world, "ESTOP.0")
+
+
+def test_a_drive_that_never_tells_its_stop_input_is_never_armed() -> None:
+    world = World(drive=FakeDrive(estop_pressed=None))
+    world.run(3.0)
+    assert world.is_in(Mode.SELFTEST)
+    assert world.status is not None
+    assert world.status.waiting_for == ("stop_input",)
+    world.drive.estop_pressed = False
+    world.until(Mode.DISARMED, 0.1)
 
 
 def test_an_estop_message_needs_no_proof() -> None:

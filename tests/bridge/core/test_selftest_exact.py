@@ -69,6 +69,27 @@ def test_it_waits_for_each_thing_by_name(
 
 
 @table(
+    ("unsaid", "waits"),
+    [
+        ({"estop_pressed"}, ["stop_input"]),
+        ({"bumper_front"}, ["contact_inputs"]),
+        ({"bumper_rear"}, ["contact_inputs"]),
+        ({"cliff"}, ["contact_inputs"]),
+        ({"estop_pressed", "cliff"}, ["stop_input", "contact_inputs"]),
+    ],
+)
+def test_it_waits_for_inputs_that_the_drive_does_not_tell(
+    unsaid: set[str], waits: list[str]
+) -> None:
+    tick = proving()
+    assert tick.s.drive.newest is not None
+    tick.s.drive.newest = tick.s.drive.newest.model_copy(update=dict.fromkeys(unsaid))
+    assert list(waits_for(tick)) == waits
+    run(tick)
+    assert tick.s.mode is Mode.SELFTEST
+
+
+@table(
     ("linked", "heard_s", "waits"),
     [(True, None, ["estop_link"]), (True, 3.0, []), (False, None, []), (False, 3.0, [])],
 )
