@@ -27,7 +27,10 @@ REFUSALS = MappingProxyType(
             "the model leaves the size of its input open",
             "模型没有固定输入尺寸",
         ),
-        "model_layout_unknown": ("the model's outputs are of no known layout", "模型输出格式未知"),
+        "model_layout_unknown": (
+            "the layout of the model's outputs can't be told",
+            "无法判断模型输出的格式",
+        ),
         "model_decoder_wrong": ("the decoder set does not fit the model", "指定的解码器与模型不符"),
         "model_names_missing": ("the model does not name its classes", "模型没有类别名称"),
         "model_names_malformed": ("the class names can't be read", "无法读取类别名称"),

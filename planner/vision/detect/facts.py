@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 Shape = tuple[int, ...]
 
 
@@ -24,6 +27,10 @@ class Facts:
     """Of the input [px]."""
     largest: float = 0.0
     """Of the first output's numbers in the trial, by size."""
+    trial: NDArray[np.float32] | None = None
+    """The first output of the trial; None where nobody kept it, or where it holds no numbers."""
+    promised: tuple[int | str | None, ...] = ()
+    """The first output's shape as the file has it; a size that is left open is no number."""
 
     @property
     def first(self) -> Shape:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.vision.detect.decoders import Choice, choose
 from planner.vision.detect.facts import Facts, Shape
@@ -82,6 +83,8 @@ def _facts(wanted: Wanted, session: Session, taken: Input, beside: dict[str, Arr
         width=taken.width,
         height=taken.height,
         largest=_largest(outputs[0]),
+        trial=_numbers(outputs[0]),
+        promised=session.outputs[0].shape,
     )
 
 
@@ -90,6 +93,13 @@ def _largest(found: object) -> float:
     if isinstance(found, np.ndarray) and found.dtype.kind == "f" and found.size:
         return float(np.abs(found).max())
     return float("nan")
+
+
+def _numbers(found: object) -> NDArray[np.float32] | None:
+    """Return an output of numbers as single precision; None where it is another."""
+    if isinstance(found, np.ndarray) and found.dtype.kind == "f" and found.size:
+        return np.asarray(found, np.float32)
+    return None
 
 
 def _shape(found: object) -> Shape:

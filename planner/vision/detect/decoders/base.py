@@ -50,6 +50,11 @@ def finite_rows(rows: Floats) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(rows).all(axis=1))
 
 
+def integral(classes: Floats) -> NDArray[np.bool_]:
+    """Tell which numbers can be a class's."""
+    return np.asarray((classes >= 0.0) & (classes == np.rint(classes)))
+
+
 def by_objectness(rows: Floats, min_score: float) -> tuple[Floats, Floats, NDArray[np.intp]]:
     """Read rows of box, objectness and one score a class.
 

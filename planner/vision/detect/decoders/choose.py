@@ -5,10 +5,12 @@ Refuses rather than guesses: boxes read in a wrong layout would be ghosts on the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from planner.vision.detect.decoders.base import UNTOLD, Decoder
 from planner.vision.detect.decoders.end_to_end import EndToEnd
+from planner.vision.detect.decoders.evidence import check_suppressed, has_objectness, in_doubt
 from planner.vision.detect.decoders.rfdetr import RfDetr
 from planner.vision.detect.decoders.rtdetr import RtDetr
 from planner.vision.detect.decoders.rtdetr_rows import RtDetrRows
@@ -49,6 +51,8 @@ def choose(facts: Facts, wanted: str | None = None) -> Choice:
             ``model_names_missing`` or ``model_names_wrong``.
     """
     kind, why = _set(facts, wanted) or _by_metadata(facts) or _by_names(facts) or _by_shape(facts)
+    if kind is EndToEnd:
+        check_suppressed(facts)
     return Choice(kind(facts), why, _classes(kind, facts))
 
 
@@ -78,10 +82,27 @@ def _by_metadata(facts: Facts) -> tuple[Kind, str] | None:
         return RtDetrRows, "metadata: described as RT-DETR"
     if not facts.names:
         return None
-    fitting = [kind for kind in BY_CLASSES if kind.classes_of(facts) == len(facts.names)]
+    fitting = [kind for kind in _told(BY_CLASSES, facts) if _fits(kind, facts)]
     if len(fitting) != 1:
         return None
     return fitting[0], f"{facts.names_from}: {len(facts.names)} names; output {facts.shown()}"
+
+
+def _told(kinds: Sequence[Kind], facts: Facts) -> list[Kind]:
+    """Return the kinds of that shape; of a grid's two readings the one that the trial tells."""
+    fitting = [kind for kind in kinds if kind.classes_of(facts) is not None]
+    if not in_doubt(facts):
+        return fitting
+    objectness = has_objectness(facts)
+    if objectness is None:
+        either = " or ".join(f"{kind.NAME} ({kind.classes_of(facts)} classes)" for kind in fitting)
+        text = f"{facts.shown()} may be {either}, names alone don't tell: set [vision] decoder"
+        raise VisionFailure("model_layout_unknown", text)
+    return [kind for kind in fitting if objectness is (kind is not YoloV8)]
+
+
+def _fits(kind: Kind, facts: Facts) -> bool:
+    return kind.classes_of(facts) == len(facts.names)
 
 
 def _suppresses(facts: Facts) -> bool:
@@ -103,8 +124,9 @@ def _by_names(facts: Facts) -> tuple[Kind, str] | None:
 
 
 def _by_shape(facts: Facts) -> tuple[Kind, str]:
-    for kind in BY_SHAPE:
-        if kind.classes_of(facts) is not None:
+    for kind in _told(BY_SHAPE, facts):
+        # One row for each picture is a classifier's: what suppresses has as many as it finds.
+        if kind is not EndToEnd or facts.promised[:-1] != (1,):
             return kind, f"shape: {facts.shown()}"
     if all(len(shape) < 3 for shape in facts.outputs.values()):
         raise VisionFailure("model_not_detector", f"outputs: {facts.shown()}")
@@ -125,5 +147,8 @@ def _classes(kind: Kind, facts: Facts) -> tuple[str, ...]:
     if count is None or count == UNTOLD:
         return names
     if not count - kind.SPARE <= len(names) <= count:
-        raise VisionFailure("model_names_wrong", f"{count} classes, {len(names)} names")
+        rivals = [other.NAME for other in BY_CLASSES if other is not kind and _fits(other, facts)]
+        unless = f"; if it is a {rivals[0]}, set that as [vision] decoder" if rivals else ""
+        text = f"as {kind.NAME} it has {count} classes, {len(names)} names{unless}"
+        raise VisionFailure("model_names_wrong", text)
     return names + ("",) * (count - len(names))

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.vision.detect.decoders.base import GRIDS, UNTOLD, finite_rows
+from planner.vision.detect.decoders.base import GRIDS, UNTOLD, finite_rows, integral
 from planner.vision.detect.facts import Facts
 from planner.vision.detect.found import Found
 from planner.vision.detect.prepare import Recipe
@@ -42,7 +42,7 @@ class EndToEnd:
     def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
         rows = np.asarray(outputs[0], np.float32).reshape(-1, 6)
         rows = rows[finite_rows(rows)]
-        rows = rows[rows[:, 4] >= min_score]
+        rows = rows[(rows[:, 4] >= min_score) & integral(rows[:, 5])]
         # Far outside any count of classes either way, and inside what an integer can hold.
         classes = np.clip(rows[:, 5], -1.0, 1e6).astype(np.intp)
         return Found(rows[:, :4], rows[:, 4], classes)

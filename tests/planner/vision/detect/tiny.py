@@ -19,6 +19,8 @@ NAMES = ("person", "cup")
 OPSET, IR_VERSION = 17, 8
 ULTRALYTICS = {"names": "{0: 'person', 1: 'cup'}", "stride": "32", "task": "detect"}
 QUERIES = 10
+BESIDE_OBJECTNESS = 0.15
+"""What a real YOLOX typically scores its likeliest class by where nothing is."""
 
 
 @dataclass(frozen=True)
@@ -140,9 +142,9 @@ def yolox(seen: Sequence[Seen]) -> dict[str, Array]:
 
 
 def yolox_decoded(seen: Sequence[Seen]) -> dict[str, Array]:
-    """Return the grid as it is once decoded; every cell has its box."""
+    """Return the grid as it is once decoded; every cell has its box, and talks of its classes."""
     out = np.zeros((1, CELLS, 5 + len(NAMES)), np.float32)
-    out[0, :, :4] = (SIDE - 8, SIDE - 8, 9, 9)
+    out[0, :, :4], out[0, :, 5:] = (SIDE - 8, SIDE - 8, 9, 9), BESIDE_OBJECTNESS
     for row, it in enumerate(seen):
         out[0, row, :4] = centred(it.box)
         out[0, row, 4] = it.score

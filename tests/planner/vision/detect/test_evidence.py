@@ -1,0 +1,107 @@
+"""Hold the number of names to what the trial tells: one too many makes no other layout of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from planner.vision.detect import Detector, Wanted
+from planner.vision.detect.decoders import choose
+from planner.vision.detect.decoders.evidence import has_objectness
+from planner.vision.detect.decoders.yolox import grid
+from planner.vision.detect.facts import Facts
+from planner.vision.detect.model_file import GREY
+from planner.vision.failure import VisionFailure
+from planner.vision.worker import DEFAULT_MODEL
+from tests.planner.vision.detect import tiny
+from tests.planner.vision.detect.tiny import Array
+
+SIDE, COLUMNS = 64, 9
+TASK = {"task": "detect"}
+
+
+def facts(
+    names: int, score: float, reach: float = 60.0, metadata: Mapping[str, str] | None = None
+) -> Facts:
+    """Return what is known of a row a cell of nine columns: four classes, or five."""
+    trial = np.full((1, tiny.CELLS, COLUMNS), score, np.float32)
+    trial[0, :, :4] = reach
+    known = tuple(f"thing_{number}" for number in range(names))
+    return Facts({"out": trial.shape}, metadata or {}, known, "labels", SIDE, SIDE, reach, trial)
+
+
+TOLD = [
+    ("yolox", 4, 0.0, 3.0, {}),
+    ("yolox", 4, 0.0, 3.0, TASK),  # the numbers are no pixels, whatever is said
+    ("yolox_decoded", 4, 0.15, 60.0, {}),
+    ("yolov8", 5, 1e-5, 60.0, {}),
+    ("yolov8", 5, 0.15, 60.0, TASK),
+    ("yolov8", 5, 0.0, 60.0, TASK),
+    ("yolov8", 5, 0.0, 0.0, TASK),
+]
+
+
+@pytest.mark.parametrize(("name", "count", "score", "reach", "metadata"), TOLD)
+def test_the_trial_tells_the_layout_and_the_names_must_fit_it(
+    name: str, count: int, score: float, reach: float, metadata: Mapping[str, str]
+) -> None:
+    told = choose(facts(count, score, reach, metadata)).decoder.NAME
+    assert told == name
+    for wrong in {3, 4, 5, 6} - {count}:
+        with pytest.raises(VisionFailure, match="model_names_wrong") as caught:
+            choose(facts(wrong, score, reach, metadata))
+        assert caught.value.detail.startswith(f"as {name} it has {count} classes, {wrong} names")
+        assert ("[vision] decoder" in caught.value.detail) == (wrong in {4, 5})
+
+
+@pytest.mark.parametrize("score", [0.0, 0.02, np.nan])
+@pytest.mark.parametrize("names", [4, 5])
+def test_where_nothing_tells_the_owner_must(score: float, names: int) -> None:
+    silent = facts(names, score)
+    for known in (silent, replace(silent, trial=None)):
+        with pytest.raises(VisionFailure, match="model_layout_unknown") as caught:
+            choose(known)
+        assert "yolov8 (5 classes) or yolox_decoded (4 classes)" in caught.value.detail
+    said = {4: "yolox_decoded", 5: "yolov8"}[names]
+    told = choose(silent, said).decoder.NAME
+    assert told == said
+
+
+def test_a_trial_without_numbers_leaves_names_alone_and_is_refused() -> None:
+    with pytest.raises(VisionFailure, match="model_layout_unknown"):
+        choose(facts(5, np.nan, np.nan))
+
+
+def test_models_of_others_and_our_own_tell_if_they_have_an_objectness(shared_data: Path) -> None:
+    path, labels = shared_data / "models" / "yolox_nano.onnx", shared_data / "models"
+    yolox = Detector(Wanted(path, labels / "coco_classes.txt"))
+    own = Detector(Wanted(DEFAULT_MODEL))
+    raw, columns = (
+        looking.model.session.run({looking.model.input.name: grey})[0]
+        for looking, grey in ((yolox, grey_of(yolox)), (own, grey_of(own)))
+    )
+    decoded = np.array(raw, np.float32)
+    corners, strides = grid(416, 416, (8, 16, 32))
+    decoded[0, :, :2] = (decoded[0, :, :2] + corners) * strides
+    decoded[0, :, 2:4] = np.exp(decoded[0, :, 2:4]) * strides
+    turned = np.array(columns, np.float32).transpose(0, 2, 1)
+    for trial, expected in ((decoded, True), (turned, False)):
+        assert has_objectness(replace(facts(4, 0.0), trial=trial)) is expected
+
+
+def grey_of(looking: Detector) -> Array:
+    return np.full((1, 3, looking.about.height, looking.about.width), GREY, np.float32)
+
+
+def test_one_name_too_many_is_refused_for_a_model_of_others(
+    shared_data: Path, tmp_path: Path
+) -> None:
+    path, labels = shared_data / "models" / "yolox_nano.onnx", tmp_path / "names.txt"
+    for count in (79, 81):
+        labels.write_text("\n".join(f"thing {number}" for number in range(count)))
+        with pytest.raises(VisionFailure, match="model_names_wrong"):
+            Detector(Wanted(path, labels))
