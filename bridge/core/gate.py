@@ -15,7 +15,7 @@ from bridge.core.braking import reaction_s
 from bridge.core.contactgate import contact_gate, touched
 from bridge.core.fencegate import fence_scale
 from bridge.core.freespace import free_length
-from bridge.core.kinematics import scaled
+from bridge.core.kinematics import saturate, scaled
 from bridge.core.learnt import in_force
 from bridge.core.obstaclegate import FREE_M, look_m, obstacle_gate
 from bridge.core.state import Gate
@@ -129,7 +129,7 @@ def look(tick: Tick, twist: Twist2) -> FreeLength | None:
 
 
 def reconsider(tick: Tick, asked: Twist2) -> None:
-    """Judge a blocked robot once per scan, on the arc that the follower would ask."""
+    """Judge a blocked robot once per scan, on the arc that its owner asks, by all three gates."""
     gate, scan = tick.s.gate, tick.s.lidar.newest
     if not gate.blocked or scan is None or scan.seq == gate.judged_scan:
         return
@@ -138,6 +138,9 @@ def reconsider(tick: Tick, asked: Twist2) -> None:
     free = look(tick, asked) if asked != STILL else None
     clear = free is not None and free.s_m >= FREE_M
     clear = clear and touched(tick.s.drive.newest, asked.v_mps) is None
+    robot = tick.config.robot
+    wish = saturate(asked, robot.base, robot.limits)
+    clear = clear and not _shut(wish, _inside_fence(tick, wish))
     count = gate.free_scans + 1 if clear else 0
     if count >= FREE_SCANS:
         tick.s.gate = Gate()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core import (
     drive_out,
+    external,
     fenceop,
     flood,
     gate,
@@ -144,7 +145,11 @@ def _move(tick: Tick) -> None:
 
 
 def _reconsider(tick: Tick) -> None:
-    """Judge a blocked way on what the follower would ask now."""
+    """Judge a blocked way on what its owner asks now: a velocity still fresh, or the follower."""
+    owner = tick.s.ownership.owner
+    if owner is not None and owner.kind == "external":
+        gate.reconsider(tick, external.wanted(tick) if external.calls(tick) else STILL)
+        return
     kept = tick.s.motion.follow
     asked, _ = drive_out.followed(tick)
     tick.s.motion.follow = kept  # blocked it stands: nothing has been followed

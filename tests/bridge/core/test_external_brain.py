@@ -31,7 +31,9 @@ def external_world() -> World:
     return world
 
 
-def say(world: World, v_mps: float, *, held: bool = True, seq: int | None = None) -> None:
+def say(
+    world: World, v_mps: float, w_radps: float = 0.0, *, held: bool = True, seq: int | None = None
+) -> None:
     status = world.status
     assert status is not None
     world.ids += 1
@@ -41,15 +43,15 @@ def say(world: World, v_mps: float, *, held: bool = True, seq: int | None = None
         seq=world.ids if seq is None else seq,
         seen=status.seq,
         v_mps=v_mps,
-        w_radps=0.0,
+        w_radps=w_radps,
         dead_man=held,
     )
     world.extra = replace(world.extra, external=(velocity,))
 
 
-def drive_for(world: World, seconds: float, v_mps: float = 0.3) -> None:
+def drive_for(world: World, seconds: float, v_mps: float = 0.3, w_radps: float = 0.0) -> None:
     for _ in range(round(seconds / 0.05)):
-        say(world, v_mps)
+        say(world, v_mps, w_radps)
         world.run(0.05)
 
 
@@ -140,4 +142,59 @@ def test_with_no_fence_to_keep_it_needs_a_pose_all_the_same() -> None:
     drive_for(world, 1.0)
     world.localization_silent = True
     drive_for(world, 2.0)
+    assert world.is_in(Mode.HOLD)
+
+
+def blocked_world(by: str = "obstacle") -> World:
+    """Let an external brain push at something until the bridge calls its way blocked."""
+    world = fenced_world() if by == "fence" else external_world()
+    if by == "obstacle":
+        world.obstacle_m = (1.5, 0.0, 0.3)
+    drive_for(world, 7.0)
+    assert world.state.gate.blocked
+    assert world.is_in(Mode.HOLD)
+    return world
+
+
+@pytest.mark.parametrize("by", ["obstacle", "fence"])
+@pytest.mark.parametrize("away", [(-0.2, 0.0), (0.0, 0.5)])
+def test_blocked_it_may_turn_or_back_away(by: str, away: tuple[float, float]) -> None:
+    world = blocked_world(by)
+    before = world.here
+    drive_for(world, 2.0, *away)
+    assert world.is_in(Mode.ACTIVE)
+    assert not world.state.gate.blocked
+    assert before.x_m - world.here.x_m > 0.1 or world.here.yaw_rad > 0.1
+
+
+def test_blocked_it_goes_on_when_the_way_is_free_again() -> None:
+    world = blocked_world()
+    world.obstacle_m = None
+    drive_for(world, 0.4)
+    assert world.state.gate.blocked, "five scans take half a second"
+    drive_for(world, 1.0)
+    assert world.is_in(Mode.ACTIVE)
+
+
+@pytest.mark.parametrize("by", ["obstacle", "fence"])
+def test_blocked_it_stays_so_while_it_pushes_on(by: str) -> None:
+    world = blocked_world(by)
+    seen = len(world.events)
+    drive_for(world, 3.0, 9.0)
+    assert world.state.gate.blocked
+    assert world.is_in(Mode.HOLD)
+    assert [event.code for event in world.events[seen:]] == []
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_blocked_it_stays_so_on_what_is_old_or_let_go_of(held: bool) -> None:
+    world = blocked_world()
+    say(world, -0.2, held=held)
+    world.run(0.1)
+    world.obstacle_m = None
+    for _ in range(40):
+        if not held:
+            say(world, -0.2, held=False)
+        world.run(0.05)
+    assert world.state.gate.blocked
     assert world.is_in(Mode.HOLD)

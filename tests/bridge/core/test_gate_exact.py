@@ -179,6 +179,19 @@ def test_free_scans_are_counted_on_what_would_be_asked(
     assert tick.s.gate.free_scans == after, "the same scan counts once"
 
 
+@table(("edge_m", "free"), [(0.18, 4), (0.151, 0)])
+def test_a_scan_is_free_where_the_fence_leaves_of_the_wish_what_is_a_speed(
+    edge_m: float, free: int
+) -> None:
+    """More than the robot can do is no wish: of 9 m/s nothing would be left in either case."""
+    tick = driving(start="hold")
+    square = ((-5.0, -5.0), (edge_m, -5.0), (edge_m, 5.0), (-5.0, 5.0))
+    tick.config = replace(tick.config, fence=build_fence(MAP_ID, (square,)))
+    tick.s.gate = Gate(blocked=True, free_scans=3)
+    reconsider(tick, Twist2(9.0, 0.0))
+    assert tick.s.gate.free_scans == free
+
+
 def test_five_free_scans_end_a_block() -> None:
     tick = driving(start="hold")
     tick.s.gate = Gate(blocked=True, free_scans=4)
