@@ -52,6 +52,17 @@ describe("decode", () => {
       { seq: 1, kind: "robot", robot: { ...robot, status: { ...status, mode: 3 } } },
     ],
     [
+      "an answer without a verdict",
+      {
+        seq: 1,
+        kind: "robot",
+        robot: {
+          ...robot,
+          status: { ...status, answers: [{ id: "a", kind: "arm", code: "ok", accepted: "yes" }] },
+        },
+      },
+    ],
+    [
       "a goal without a text",
       { seq: 1, kind: "goal", change: { goal: { ...goal("a"), text: null } } },
     ],

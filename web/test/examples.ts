@@ -18,6 +18,7 @@ export const status: Status = {
   measured: still,
   limits: { v_mps: 0.5, w_radps: 1, by: "robot", free_m: null, margin_m: null },
   rows: [],
+  answers: [],
   waiting_for: [],
   blocked: false,
   operator_metres: 500,

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import codes from "../src/i18n/codes.json";
 import { en } from "../src/i18n/en";
 import rows from "../src/i18n/rows.json";
 import { zh } from "../src/i18n/zh";
@@ -17,7 +18,7 @@ describe("catalogues", () => {
   });
 
   it("are in their language", () => {
-    const same = new Set(["error.other", "event.mode", "meter.of"]);
+    const same = new Set(["error.other", "event.mode", "event.mode_why", "meter.of"]);
     const chinese = Object.entries(zh).filter(([key]) => !same.has(key));
     for (const [key, sentence] of chinese) {
       const bare = sentence.replace(/\{\w+\}/g, "");
@@ -32,8 +33,8 @@ describe("catalogues", () => {
     expect(all).not.toMatch(/emergency stop|certified|safety-rated|紧急停止|急停/i);
   });
 
-  it("say every row in both languages", () => {
-    for (const words of Object.values(rows)) {
+  it("say every row and every other code of the bridge in both languages", () => {
+    for (const words of [rows, codes.sentences, codes.wants].flatMap((all) => Object.values(all))) {
       expect(words.en).not.toBe("");
       expect(words.zh).toMatch(/[\u4e00-\u9fff]/);
     }

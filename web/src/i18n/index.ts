@@ -1,6 +1,7 @@
 /** Say everything in the person's language. The only door to the catalogues. */
 import { effect, signal } from "@preact/signals";
 import type { Bilingual, Language } from "../wire/types";
+import codes from "./codes.json";
 import { en, type Key } from "./en";
 import rows from "./rows.json";
 import { zh } from "./zh";
@@ -39,10 +40,27 @@ export function word(family: string, code: string): string {
 
 export const say = (words: Bilingual): string => words[language.value];
 
+type Words = Readonly<Record<string, Bilingual>>;
+const ROWS: Words = rows;
+const SENTENCES: Words = codes.sentences;
+const WANTS: Words = codes.wants;
+
 /** Return the bridge's own sentence for a row. */
 export function rowWords(row: string): string {
-  const known = (rows as Record<string, Bilingual>)[row];
+  const known = ROWS[row];
   return known ? say(known) : row;
+}
+
+/** Return the sentence of a stop's cause, a fault or a refusal, which may be a row; null: none. */
+export function causeWords(code: string): string | null {
+  const known = ROWS[code.toUpperCase()] ?? SENTENCES[code];
+  return known ? say(known) : null;
+}
+
+/** Name what is waited for, to stand in a list; null: it has no name there. */
+export function wantWords(code: string): string | null {
+  const known = WANTS[code];
+  return known ? say(known) : null;
 }
 
 export type { Key };

@@ -1,5 +1,5 @@
 /** Say an entry of the log in a sentence; what has none keeps its code. */
-import { rowWords, t, word } from "../i18n";
+import { causeWords, rowWords, t, word } from "../i18n";
 import type { LogEntry } from "../state/model";
 
 export type Told = { readonly text: string; readonly fine: string };
@@ -21,8 +21,18 @@ function fromBridge(code: string, detail: string): Told {
       return { text: t("event.row_down", { what: rowWords(row) }), fine: detail };
     case "mode": {
       const names = { from: word("mode", first), to: word("mode", second) };
-      return { text: t("event.mode", names), fine: detail.split(" ").slice(2).join(" ") };
+      const fine = detail.split(" ").slice(2).join(" ");
+      const why = causeWords(fine);
+      const text = why ? t("event.mode_why", { ...names, why }) : t("event.mode", names);
+      return { text, fine };
     }
+    case "stop_failed":
+      return { text: causeWords(first) ?? t("event.stop_failed"), fine: detail };
+    case "hello_refused":
+      return {
+        text: [t("event.hello_refused"), causeWords(second) ?? ""].join(" ").trim(),
+        fine: detail,
+      };
     case "held":
       return { text: word("held", first), fine: "" };
     default: {

@@ -1,5 +1,5 @@
 /** Say one step, and why a goal or step is as it is, in the person's language. */
-import { rowWords, say, t, word } from "../i18n";
+import { causeWords, rowWords, say, t, word } from "../i18n";
 import { places } from "../state/store";
 import type { Spot, Step } from "../wire/types";
 import { fixed } from "./format";
@@ -28,7 +28,8 @@ const FAULT = /^fault\((\w+)\)$/;
 export function reasonWords(reason: string | null): string {
   if (!reason) return "";
   const row = FAULT.exec(reason)?.[1];
-  return row ? rowWords(row) : word("reason", reason);
+  if (!row) return word("reason", reason);
+  return causeWords(row) ?? word("reason", row.toLowerCase()); // HELD and FAULT are no rows
 }
 
 export function spotWords(spot: Spot | null): string {

@@ -1,6 +1,6 @@
 /** Do what a person asks for, and tell how it went. Components call these and nothing below them. */
 import { signal } from "@preact/signals";
-import { say, t, word } from "../i18n";
+import { causeWords, say, t, wantWords, word } from "../i18n";
 import {
   type Act,
   ApiError,
@@ -34,6 +34,10 @@ export function explain(error: unknown): string {
   if (error.words) return say(error.words);
   const known = word("error", error.code);
   if (known !== error.code) return known;
+  const want = wantWords(error.code);
+  if (want) return t("notice.waiting", { what: want });
+  const cause = causeWords(error.code);
+  if (cause) return cause;
   return t("error.other", { code: error.code, detail: error.detail });
 }
 

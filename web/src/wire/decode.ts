@@ -42,6 +42,11 @@ const row = (value: unknown): boolean =>
   text(value.evidence) &&
   finite(value.for_s);
 
+const verdict = (value: unknown): boolean =>
+  bag(value) &&
+  [value.id, value.kind, value.code].every(text) &&
+  typeof value.accepted === "boolean";
+
 function isStatus(value: unknown): value is Status {
   if (!bag(value)) return false;
   const { limits, ticks, drive, held, owner } = value;
@@ -57,6 +62,7 @@ function isStatus(value: unknown): value is Status {
     text(limits.by) &&
     finiteOrNull(limits.free_m) &&
     all(value.rows, row) &&
+    all(value.answers, verdict) &&
     all(value.waiting_for, text) &&
     bag(drive) &&
     text(drive.kind) &&

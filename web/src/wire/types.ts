@@ -30,6 +30,14 @@ export type Ticks = {
   readonly dropped: number;
 };
 
+/** The bridge's verdict on one request, or on a hello or a grant. */
+export type Answer = {
+  readonly id: string;
+  readonly kind: string;
+  readonly accepted: boolean;
+  readonly code: string;
+};
+
 /** The bridge's word, as wire/status.py has it. */
 export type Status = {
   readonly robot: string;
@@ -46,6 +54,7 @@ export type Status = {
   readonly measured: Twist;
   readonly limits: Limits;
   readonly rows: readonly Row[];
+  readonly answers: readonly Answer[];
   readonly waiting_for: readonly string[];
   readonly blocked: boolean;
   readonly operator_metres: number;
