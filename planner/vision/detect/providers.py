@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from planner.vision.failure import VisionFailure
 
@@ -42,14 +43,19 @@ class Providers:
         short = SHORT.get(first, first)
         if first == self.names[0]:
             return short, self.why
-        text = f"{SHORT[self.names[0]]} was offered but did not start; {short} runs"
+        failed = takewhile(lambda name: name != first, self.names)
+        listed = ", ".join(SHORT[name] for name in failed)
+        text = f"{listed} was offered but did not start; {short} runs"
         if self.wanted is not None:
             raise VisionFailure("provider_unavailable", text)
         return short, text
 
 
 def choose(offered: Sequence[str], wanted: str | None = None) -> Providers:
-    """Return the providers to ask for; CPU stands behind each, for what the other can't do.
+    """Return the providers to ask for: each stands behind the ones that did not start, CPU last.
+
+    An onnxruntime for CUDA offers TensorRT too, whether or not that is installed. Where the owner
+    set one, CPU alone stands behind it, for what it can't do.
 
     Raises:
         VisionFailure: ``provider_unavailable`` where the owner set one that is not offered.
@@ -59,11 +65,11 @@ def choose(offered: Sequence[str], wanted: str | None = None) -> Providers:
     if wanted is not None:
         if ORDER.get(wanted) not in known:
             raise VisionFailure("provider_unavailable", f"{wanted}; offered here: {listed}")
-        return Providers(_with_cpu(ORDER[wanted]), "set by the owner", wanted)
+        return Providers(_with_cpu((ORDER[wanted],)), "set by the owner", wanted)
     if not known:
         raise VisionFailure("provider_unavailable", f"offered: {', '.join(offered) or 'none'}")
-    return Providers(_with_cpu(known[0]), f"first of: {listed}")
+    return Providers(_with_cpu(known), f"first of: {listed}")
 
 
-def _with_cpu(name: str) -> tuple[str, ...]:
-    return (name,) if name == CPU else (name, CPU)
+def _with_cpu(names: tuple[str, ...]) -> tuple[str, ...]:
+    return (*(name for name in names if name != CPU), CPU)

@@ -1,13 +1,19 @@
-"""Choose providers by what onnxruntime offers; only the choice can be tried without the devices."""
+"""Choose providers by what onnxruntime offers and what starts; devices are stood for."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 import onnxruntime as ort
 import pytest
 
+from planner.vision.detect import Detector, Wanted
 from planner.vision.detect.providers import CPU, ORDER, choose
 from planner.vision.detect.session import options
 from planner.vision.failure import VisionFailure
+from tests.planner.vision.detect import tiny
 
 TRT, CUDA, VINO, CORE = (ORDER[name] for name in ("tensorrt", "cuda", "openvino", "coreml"))
 AZURE = "AzureExecutionProvider"
@@ -17,7 +23,8 @@ AZURE = "AzureExecutionProvider"
     ("offered", "wanted", "names", "why"),
     [
         ((AZURE, CPU), None, (CPU,), "first of: cpu"),
-        ((CPU, CUDA, TRT), None, (TRT, CPU), "first of: tensorrt, cuda, cpu"),
+        ((CPU, CUDA, TRT), None, (TRT, CUDA, CPU), "first of: tensorrt, cuda, cpu"),
+        ((CORE, TRT, VINO), None, (TRT, VINO, CORE, CPU), "first of: tensorrt, openvino, coreml"),
         ((CUDA, CPU), None, (CUDA, CPU), "first of: cuda, cpu"),
         ((CPU, VINO), None, (VINO, CPU), "first of: openvino, cpu"),
         ((CORE, CPU), None, (CORE, CPU), "first of: coreml, cpu"),
@@ -47,6 +54,44 @@ def test_what_was_offered_but_did_not_start_is_said_and_refused_where_it_was_set
     )
     with pytest.raises(VisionFailure, match="cuda was offered but did not start"):
         choose((CUDA, CPU), "cuda").told((CPU,))
+
+
+class Devices:
+    """Stand for an onnxruntime that offers more than works here; thinks on the processor."""
+
+    def __init__(self, patch: pytest.MonkeyPatch, offered: Sequence[str], work: Sequence[str]):
+        """Take the library's place."""
+        self.asked: list[str] = []
+        self._works, self._opens = work, ort.InferenceSession
+        patch.setattr(ort, "get_available_providers", lambda: list(offered))
+        patch.setattr(ort, "InferenceSession", self._open)
+
+    def _open(self, path: str, sess_options: object, providers: list[str]) -> Any:
+        self.asked = providers
+        opened = self._opens(path, sess_options=sess_options, providers=[CPU])
+        opened.get_providers = lambda: [name for name in providers if name in self._works]
+        return opened
+
+
+@pytest.mark.parametrize(
+    ("work", "runs", "why"),
+    [
+        ((TRT, CUDA, CPU), "tensorrt", "first of: tensorrt, cuda, cpu"),
+        ((CUDA, CPU), "cuda", "tensorrt was offered but did not start; cuda runs"),
+        ((CPU,), "cpu", "tensorrt, cuda was offered but did not start; cpu runs"),
+    ],
+)
+def test_what_runs_is_the_fastest_that_starts(
+    work: tuple[str, ...], runs: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tiny.model(tmp_path / "m.onnx", tiny.yolov8([]), metadata=tiny.ULTRALYTICS)
+    devices = Devices(monkeypatch, (CPU, CUDA, TRT), work)
+    about = Detector(Wanted(path)).about
+    assert devices.asked == [TRT, CUDA, CPU]
+    assert (about.provider, about.provider_why) == (runs, why)
+    if runs != "tensorrt":
+        with pytest.raises(VisionFailure, match="provider_unavailable"):
+            Detector(Wanted(path, provider="tensorrt"))
 
 
 def test_sessions_leave_the_processor_to_others() -> None:
