@@ -90,7 +90,7 @@ def robot_lines(robot: Json) -> list[str]:
     pose = status.get("base_in_map")
     where = f"x {pose['x_m']:.2f} y {pose['y_m']:.2f} yaw {pose['yaw_rad']:.2f}" if pose else "?"
     owner = (status.get("owner") or {}).get("planner_id", "nobody")
-    held = f", held ({status['held']['reason']})" if status.get("held") else ""
+    held = f", held ({_held(status['held'])})" if status.get("held") else ""
     limits = status["limits"]
     lines = [
         f"bridge: {status['mode']}{held}, epoch {status['epoch']}, owner {owner}",
@@ -104,12 +104,38 @@ def robot_lines(robot: Json) -> list[str]:
     ]
     if limits["by"] == "weak_brakes":
         lines.append(WEAK_BRAKES)
-    if status["waiting_for"]:
-        lines.append(f"waiting for: {', '.join(status['waiting_for'])}")
-    lines += [
-        f"refused {answer['kind']} of {answer['id']}: {answer['code']}: {answer['detail']}"
+    lines += _trouble(status)
+    lines += [f"row {row['row']} {row['action']}: {row['evidence']}" for row in status["rows"]]
+    return lines
+
+
+def _held(held: Json) -> str:
+    """Name who holds the robot; a fault by its cause."""
+    reason = str(held["reason"])
+    return f"fault: {held['id']}" if reason == "fault" else reason
+
+
+def _trouble(status: Json) -> list[str]:
+    """Say what the robot waits for, what it is held by and whom it refused, and what to do."""
+    codes, held = status["waiting_for"], status.get("held") or {}
+    refused = [
+        answer
         for answer in status["answers"]
         if answer["kind"] in {"hello", "grant"} and not answer["accepted"]
     ]
-    lines += [f"row {row['row']} {row['action']}: {row['evidence']}" for row in status["rows"]]
+    by_fault = held.get("reason") == "fault"
+    if not (codes or refused or by_fault):
+        return []
+    from pons.codewords import told, wanted  # late: what a healthy robot says needs no tables
+
+    faulty = status["mode"] == "FAULT"
+    lines = [f"{'fault' if faulty else 'waiting for'}: {', '.join(codes)}"] if codes else []
+    for code in codes:
+        lines += told(code) if faulty else wanted(code)
+    if by_fault and held["id"] not in codes:
+        lines += told(held["id"])
+    for answer in refused:
+        who = f"refused {answer['kind']} of {answer['id']}"
+        lines.append(f"{who}: {answer['code']}: {answer['detail']}")
+        lines += told(answer["code"])
     return lines

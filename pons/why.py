@@ -9,9 +9,9 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from bridge.core.fault_words import GATES, SENTENCES
-from bridge.core.row_words import WORDS
+from bridge.core.fault_words import GATES
 from bridge.why import BadRecording, last_stop
+from pons.codewords import sentence
 from wire import Mode
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
 
 def _words(name: str, code: str) -> Iterator[tuple[str, str]]:
     """Yield the sentence of a row, an order, a gate or a fault."""
-    words = WORDS.get(code.upper()) or SENTENCES.get(code)
+    words = sentence(code)
     if words is not None:
         yield from _both(name, words)
 

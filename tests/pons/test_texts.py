@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+
 from pons.goals import language_of
 from pons.texts import figures, goal_line, message, robot_lines, step_line
+from tests.wire.examples import STATUS
 
 OUTCOME = {
     "code": "arrived",
@@ -60,6 +63,47 @@ def test_steps_and_goals_say_why() -> None:
 
 def test_a_silent_bridge_is_said() -> None:
     assert robot_lines({"status": None}) == ["bridge: no status heard"]
+
+
+def shown(**change: object) -> str:
+    said = STATUS.model_dump(mode="json") | change
+    return "\n".join(robot_lines({"status": said, "room": None}))
+
+
+def test_what_is_waited_for_is_named_in_both_languages() -> None:
+    said = shown(mode="SELFTEST", waiting_for=["drive_echo", "enc_stale", "brand_new"])
+    assert "waiting for: drive_echo, enc_stale, brand_new" in said
+    assert "the drive's answer / 驱动应答" in said
+    assert "The drive reports nothing; the robot stops. / 驱动没有反馈，机器人停车。" in said
+
+
+def test_a_fault_is_told_in_both_languages_with_what_to_do() -> None:
+    held = {"reason": "fault", "id": "drive_no_timeout"}
+    said = shown(mode="FAULT", held=held, waiting_for=["drive_no_timeout"])
+    assert "fault: drive_no_timeout" in said
+    assert "waiting for" not in said
+    assert said.count("did not time out") == 1
+    assert "驱动没有超时停止" in said
+
+
+def test_what_holds_a_robot_is_told_where_no_row_says_it() -> None:
+    held = {"reason": "fault", "id": "fence"}
+    said = shown(mode="HOLD", held=held, waiting_for=[])
+    assert "held (fault: fence)" in said
+    assert "too near the fence" in said
+    assert "离围栏太近" in said
+    stopped = shown(mode="HOLD", held={"reason": "stop", "id": "s1"}, waiting_for=[])
+    assert "held (stop)" in stopped
+
+
+@pytest.mark.parametrize("code", ["robot_mismatch", "fence_mismatch", "map_mismatch"])
+def test_a_refused_planner_is_told_in_both_languages_with_what_to_do(code: str) -> None:
+    answer = {"id": "p2", "kind": "hello", "accepted": False, "code": code, "detail": "came a"}
+    said = shown(owner=None, waiting_for=[], answers=[answer])
+    assert f"refused hello of p2: {code}: came a" in said
+    assert "`pons up`" in said
+    assert "重新启动" in said
+    assert "重新启动" not in shown(answers=[answer | {"accepted": True}])
 
 
 def test_a_turn_asks_for_no_place() -> None:
