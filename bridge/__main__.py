@@ -42,6 +42,7 @@ from bridge.warmup import warm_up
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
+from wire.site_map import read_map_id
 
 if TYPE_CHECKING:
     from bridge.drive import Drive
@@ -67,7 +68,9 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m bridge", description=__doc__)
-    parser.add_argument("--site", type=Path, required=True, help="folder with a fence.json")
+    parser.add_argument(
+        "--site", type=Path, required=True, help="folder with fence.json and map.yaml"
+    )
     parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     return parser.parse_args(arguments)
@@ -98,7 +101,7 @@ def _serve(options: argparse.Namespace) -> int:
 
 
 def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
-    """Read the site's fence and what is known of the brakes; mint this run's name."""
+    """Read the site's fence and map and what is known of the brakes; mint this run's name."""
     learnt, trouble = load_learnt(path_of(home, robot), robot)
     fence, fence_hash = load_fence(site / "fence.json")
     return CoreConfig(
@@ -106,7 +109,7 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
         robot_hash=robot.hash,
         fence=fence,
         fence_hash=fence_hash,
-        map_id=fence.map_id,
+        map_id=read_map_id(site),  # the self test faults a fence drawn on another
         boot=secrets.token_hex(6),
         learnt=learnt,
         braking_trouble=trouble,

@@ -22,8 +22,7 @@ def load_fence(path: Path) -> tuple[Fence, str]:
     """Read fence.json; return the fence and the hash that hello must match.
 
     Raises:
-        Misconfigured: the file is missing, malformed, or has an outline without area or one that
-            crosses itself.
+        Misconfigured: the file is missing, or wrong as for :func:`parse_fence`.
     """
     try:
         data = path.read_bytes()
@@ -36,18 +35,25 @@ def parse_fence(data: bytes, name: str = NAME) -> Fence:
     """Make a fence of the file's bytes.
 
     Raises:
-        Misconfigured: malformed, or with an outline without area or one that crosses itself.
+        Misconfigured: malformed, with an outline without area or one that crosses itself, or with
+            keep-outs that leave nothing.
     """
     record = read_record(data, name)
     zones = tuple(Zone(zone.polygon, zone.max_speed_mps) for zone in record.speed_zones)
-    return build_fence(record.map_id, record.allowed, record.keep_outs, zones)
+    fence = build_fence(record.map_id, record.allowed, record.keep_outs, zones)
+    if not fence.boundary:  # whatever is allowed somewhere ends somewhere
+        text = (
+            f"{len(record.keep_outs)} keep_outs cover all that is allowed: the robot may be nowhere"
+        )
+        raise Misconfigured("fence_empty", f"{name}: {text}")
+    return fence
 
 
 def read_record(data: bytes, name: str = NAME) -> FenceFile:
     """Return what the file's bytes say, its outlines checked.
 
     Raises:
-        Misconfigured: as for :func:`parse_fence`.
+        Misconfigured: malformed, or with an outline without area or one that crosses itself.
     """
     try:
         record = FenceFile.model_validate_json(data, strict=False)

@@ -12,12 +12,14 @@ from pathlib import Path
 
 import pytest
 
-from bridge.__main__ import main
+from bridge.__main__ import _config, main
 from bridge.blackbox.reader import BoxReader
+from bridge.core import Inbox, initial, step
 from bridge.replay import replay
+from bridge.warmup import warm_up
 from tests.bridge.fake_robot import FakeRobot
 from tests.bridge.ground import ROOT, SITE, until
-from wire import VIRTUAL_KEY, Mode, OpRequest, Status, sign
+from wire import VIRTUAL_KEY, Mode, OpRequest, RobotDescription, Status, sign
 from wire.keys import ARM, STATUS, Party
 from wire.session import Subscriber, open_session
 
@@ -174,6 +176,38 @@ def test_a_wrong_fence_refuses_to_start(
     words = command(tmp_path)
     words[words.index(str(SITE))] = str(tmp_path)
     assert code in refused(words)
+
+
+@pytest.fixture
+def other_site(tmp_path: Path) -> Path:
+    """Return a site whose map is not the one that its fence was drawn on."""
+    site = tmp_path / "site"
+    site.mkdir()
+    for name in ("map.yaml", "map.pgm", "fence.json"):
+        (site / name).write_bytes((SITE / name).read_bytes())
+    (site / "map.pgm").write_bytes((SITE / "map.pgm").read_bytes() + b" ")
+    return site
+
+
+def test_a_fence_of_another_map_is_never_armed(tmp_path: Path, other_site: Path) -> None:
+    right, wrong = (_config(RobotDescription(), site, tmp_path) for site in (SITE, other_site))
+    assert right.fence is not None
+    assert wrong.fence is not None
+    assert right.map_id == right.fence.map_id == wrong.fence.map_id != wrong.map_id
+    warm_up(wrong, 0.0)  # before its self test says so it begins as any other
+    state = initial(wrong, 0.0)
+    for number in range(1, 3):
+        state = step(wrong, state, Inbox(), number * 0.01).state
+    assert (state.mode, state.fault) == (Mode.FAULT, "fence_of_another_map")
+
+
+def test_a_site_without_its_map_refuses_to_start(
+    tmp_path: Path, other_site: Path, refused: Callable[[list[str]], str]
+) -> None:
+    (other_site / "map.yaml").unlink()
+    words = command(tmp_path)
+    words[words.index(str(SITE))] = str(other_site)
+    assert "map_missing" in refused(words)
 
 
 def test_a_home_too_deep_for_a_socket_refuses_to_start(

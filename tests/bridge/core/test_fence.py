@@ -148,12 +148,23 @@ def test_a_file_becomes_a_fence_and_its_hash(tmp_path: Path) -> None:
         (_text(allowed=[[[0, 0], [1, 1], [2, 2]]]), "fence_degenerate"),
         (_text(allowed=[[[0, 0], [1e9, 0], [0, 1]]]), "fence_invalid"),
         (_text(map_id="x"), "fence_invalid"),
+        (_text(keep_outs=[[[-1, -1], [7, -1], [7, 5], [-1, 5]]]), "fence_empty"),
+        (_text(keep_outs=[[[0, 0], [6, 0], [6, 4], [0, 4]]]), "fence_empty"),
+        (
+            _text(keep_outs=[[[0, 0], [3, 0], [3, 4], [0, 4]], [[3, 0], [6, 0], [6, 4], [3, 4]]]),
+            "fence_empty",
+        ),
     ],
 )
 def test_a_wrong_file_is_refused(data: bytes, code: str) -> None:
     with pytest.raises(Misconfigured) as caught:
         parse_fence(data)
     assert caught.value.code == code
+
+
+def test_a_fence_that_leaves_a_strip_is_none_that_leaves_nothing() -> None:
+    strip = parse_fence(_text(keep_outs=[[[0, 0], [5.9, 0], [5.9, 4], [0, 4]]]))
+    assert strip.allows(5.95, 2.0)
 
 
 def test_a_missing_file_is_refused(tmp_path: Path) -> None:

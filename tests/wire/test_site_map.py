@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from localization import read_map_id
 from wire import Misconfigured, map_id
+from wire.site_map import read_map_id
 
 
 def test_it_is_the_wires_map_id(repository: Path) -> None:
