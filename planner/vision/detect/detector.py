@@ -72,6 +72,20 @@ class Detector:
             focal_px: the camera's, where it is known: how large a thing shows bounds how near.
         """
         began_s = time.monotonic()
+        try:
+            return self._looked(color, depth, said, focal_px, began_s)
+        except RUN_ERRORS:
+            return _skipped("detector_failed", began_s)
+
+    def _looked(
+        self,
+        color: bytes,
+        depth: bytes | None,
+        said: tuple[int, int] | None,
+        focal_px: float | None,
+        began_s: float,
+    ) -> LookResult:
+        """Look as above, or end in ``RUN_ERRORS``."""
         picture = unpack_color(color, said)
         if isinstance(picture, str):
             return _skipped(picture, began_s)
@@ -82,10 +96,7 @@ class Detector:
         lost = far if isinstance(far, str) else None
         if lost is not None and lost != EMPTY:
             return _skipped(lost, began_s)
-        try:
-            detections = self.find(picture, None if isinstance(far, str) else far, focal_px)
-        except RUN_ERRORS:
-            return _skipped("detector_failed", began_s)
+        detections = self.find(picture, None if isinstance(far, str) else far, focal_px)
         took_s = time.monotonic() - began_s
         return LookResult(detections, width, height, took_s, depth_lost=lost)
 

@@ -14,6 +14,8 @@ PNG_HEAD_BYTES = 33
 PNG_END = b"IEND\xaeB`\x82"
 PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 2, 6: 4}
 """By colour type; a palette unpacks to three."""
+PALETTE, PALETTE_BITS = 3, 8
+"""A palette's colours have eight bits a channel, however few its pixels take to choose one."""
 START, END, SCAN = 0xD8, 0xD9, 0xDA
 FRAMES = frozenset(range(0xC0, 0xD0)) - {0xC4, 0xC8, 0xCC}
 """Markers of a frame's header; the three others are tables and an extension."""
@@ -51,7 +53,8 @@ def _png(data: bytes) -> PictureHeader | None:
     channels = PNG_CHANNELS.get(data[25])
     if channels is None:
         return None
-    return PictureHeader("png", width, height, channels, data[24], data.rfind(PNG_END) > 0)
+    bits = PALETTE_BITS if data[25] == PALETTE else data[24]
+    return PictureHeader("png", width, height, channels, bits, data.rfind(PNG_END) > 0)
 
 
 def _jpeg(data: bytes) -> PictureHeader | None:

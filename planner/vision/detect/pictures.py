@@ -39,10 +39,12 @@ def color_trouble(header: PictureHeader | None, said: tuple[int, int] | None) ->
         return "picture_empty"
     if not _fits(header):
         return "picture_too_large"
-    if header.bits != 8:
+    if header.bits > 8:
         return "picture_deep"
     if header.channels < 3:
         return "picture_one_channel"
+    if header.bits != 8:
+        return "picture_undecodable"  # no format has colour in fewer
     if not header.whole:
         return "picture_truncated"
     if said is not None and said != (header.width, header.height):

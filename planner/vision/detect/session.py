@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import onnxruntime as ort
 from numpy.typing import NDArray
@@ -26,13 +27,18 @@ RUN_ERRORS: tuple[type[Exception], ...] = (
     RuntimeError,
     ValueError,
     TypeError,
+    LookupError,
+    ArithmeticError,
+    MemoryError,
+    cv2.error,
     *(
         kind
         for kind in vars(onnxruntime_pybind11_state).values()
         if isinstance(kind, type) and issubclass(kind, Exception)
     ),
 )
-"""What a session may end in: the library's own errors have no base of their own."""
+"""What a run, or the reading of an odd output or picture, may end in: neither library's own errors
+have a base of their own. That costs one picture, never the process."""
 QUIET = 3
 """Errors alone: warnings of a stranger's graph tell its owner nothing."""
 MAX_WORDS = 240

@@ -57,6 +57,9 @@ BAD_COLOR = [
     (encoded(".png", COLOR[:, :, 0]), "picture_one_channel"),
     (encoded(".png", COLOR.astype(np.uint16) * 200), "picture_deep"),
     (DEEP, "picture_deep"),
+    (png(64, 48, 4, 0), "picture_one_channel"),
+    (png(64, 48, 4, 2), "picture_undecodable"),
+    (JPEG.replace(b"\xff\xc0\0\x11\x08", b"\xff\xc0\0\x11\x04"), "picture_undecodable"),
     (JPEG[: len(JPEG) // 2], "picture_truncated"),
     (PNG[:-12], "picture_truncated"),
     (png(64, 48), "picture_undecodable"),
@@ -113,6 +116,36 @@ def test_a_model_that_fails_on_a_picture_skips_it(detector: Detector) -> None:
         assert detector.look(JPEG).skipped == "detector_failed"
         patch.setattr(detector.model.session, "run", lambda _: [np.zeros((1, 3, 3), np.float32)])
         assert detector.look(JPEG).skipped == "detector_failed"
+
+
+@pytest.mark.parametrize(
+    "error", [cv2.error("no memory"), MemoryError(), IndexError(), KeyError(), OverflowError()]
+)
+@pytest.mark.parametrize("place", ["unpack_color", "dark", "in_picture", "look_inside"])
+def test_whatever_fails_on_a_picture_costs_that_picture_alone(
+    place: str, error: Exception, detector: Detector
+) -> None:
+    def fail(*_: object) -> None:
+        raise error
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(f"planner.vision.detect.detector.{place}", fail)
+        assert detector.look(JPEG, DEEP).skipped == "detector_failed"
+    assert detector.look(JPEG, DEEP).skipped is None
+
+
+@pytest.mark.parametrize("bits", [1, 2, 4, 8])
+def test_a_picture_of_a_palette_is_seen_however_few_bits_choose(
+    bits: int, detector: Detector
+) -> None:
+    size, body = struct.pack(">IIBBBBB", 64, 48, bits, 3, 0, 0, 0), bytes(1 + 64 * bits // 8) * 48
+    parts = ((b"IHDR", size), (b"PLTE", b"\x20\x80\xf0" * 2**bits), (b"IDAT", zlib.compress(body)))
+    chunks = (
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in (*parts, (b"IEND", b""))
+    )
+    result = detector.look(b"\x89PNG\r\n\x1a\n" + b"".join(chunks), None, (64, 48))
+    assert [(it.label, it.color) for it in result.detections] == [("cup", "blue")]
 
 
 @given(at=st.integers(0, len(JPEG) - 1), byte=st.integers(0, 255), length=st.integers(0, len(JPEG)))
