@@ -57,6 +57,15 @@ def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
         yield recorder_lack(tick.inbox)
 
 
+def strayed(tick: Tick) -> bool:
+    """Tell whether the robot is known to stand where its fence allows nobody.
+
+    It is said, and keeps nobody from arming: a stick that is to bring it back needs torque.
+    """
+    fence, here = tick.config.fence, tick.robot_in_map
+    return fence is not None and here is not None and not fence.allows(here.x_m, here.y_m)
+
+
 def recorder_lack(inbox: Inbox) -> tuple[str, str]:
     """Return code and sentence of why this run is not being recorded."""
     code, _, detail = inbox.recorder_says.partition(": ")

@@ -88,6 +88,7 @@ WANTS: dict[str, tuple[str, str]] = {
     "lidar_stale": ("a lidar scan", "激光雷达数据"),
     "estop_link": ("the stop button's link", "停止按钮连接"),
     "fence_changing": ("the new fence", "新围栏生效"),
+    "fence_excludes_robot": ("the robot to be inside its fence", "机器人回到围栏内"),
     "not_standing": ("the robot to stand still", "机器人静止"),
     "stick_not_neutral": ("the joystick to be let go", "松开手柄"),
     "recorder_down": ("the recorder", "记录器"),

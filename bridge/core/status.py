@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from bridge.core.arming import arm_lacks, recorder_lack
+from bridge.core.arming import arm_lacks, recorder_lack, strayed
 from bridge.core.latch import binds, sources, worst
 from bridge.core.legs import residual
 from bridge.core.limiter import stopping_m
@@ -149,13 +149,16 @@ def _waiting(tick: Tick) -> tuple[str, ...]:
     s = tick.s
     if s.mode is Mode.SELFTEST:
         return tuple(waits_for(tick))
-    if s.mode is Mode.DISARMED:
-        return tuple(dict.fromkeys(code for code, _ in arm_lacks(tick)))
     if s.mode is Mode.FAULT and s.fault is not None:
         return (s.fault,)
-    if s.mode in POWERED and not s.loop.recorder_ok:
-        return (recorder_lack(tick.inbox)[0],)  # it drives on; the next arming would be refused
-    return ()
+    outside = ("fence_excludes_robot",) if strayed(tick) else ()
+    if s.mode is Mode.DISARMED:
+        return (*outside, *dict.fromkeys(code for code, _ in arm_lacks(tick)))
+    if s.mode not in POWERED:
+        return ()
+    if not s.loop.recorder_ok:  # it drives on; the next arming would be refused
+        return (*outside, recorder_lack(tick.inbox)[0])
+    return outside
 
 
 def _drive(tick: Tick) -> DriveReport:

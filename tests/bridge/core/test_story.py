@@ -7,8 +7,9 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import Inbox
-from tests.bridge.core.fake_planner import FakeDrive, FakePlanner
-from tests.bridge.core.scripted import World
+from bridge.core.fence import build_fence
+from tests.bridge.core.fake_planner import MAP_ID, FakeDrive, FakePlanner
+from tests.bridge.core.scripted import World, config
 from wire import IDENTITY, HeldReason, Mode, Pose2, Waypoints
 
 
@@ -359,3 +360,32 @@ def test_a_turn_that_passes_beside_a_closed_way_is_no_way() -> None:
     assert world.is_in(Mode.HOLD)
     assert world.state.gate.blocked
     assert world.state.waits_since_s is not None
+
+
+@pytest.mark.parametrize("away_m", [0.01, 0.5, 3.0])
+def test_a_robot_outside_its_fence_is_said_and_a_stick_brings_it_in(away_m: float) -> None:
+    outline = ((away_m, -1.0), (5.0, -1.0), (5.0, 1.0), (away_m, 1.0))
+    world = World(core=replace(config(), fence=build_fence(MAP_ID, (outline,))), planner=None)
+    world.ready()
+    assert world.status is not None
+    assert world.status.waiting_for == ("fence_excludes_robot",)
+    world.arm()
+    world.run(0.2)
+    assert world.status.waiting_for == ("fence_excludes_robot",)
+    assert world.is_in(Mode.HOLD), "a stick needs torque"
+    world.teleop(held=False)
+    world.tick()
+    for _ in range(round(2.0 * 100 + away_m / 0.15 * 100)):
+        world.teleop(0.3, held=True)
+        world.tick()
+        assert world.sent.v_mps <= 0.2 or world.here.x_m > away_m
+    assert world.here.x_m > away_m
+    assert not world.status.waiting_for
+
+
+def test_a_robot_that_does_not_know_where_it_is_is_not_said_to_be_outside() -> None:
+    outline = ((3.0, -1.0), (5.0, -1.0), (5.0, 1.0), (3.0, 1.0))
+    core = replace(config(), fence=build_fence(MAP_ID, (outline,)))
+    world = World(core=core, localization_silent=True).ready()
+    assert world.status is not None
+    assert world.status.waiting_for == ()
