@@ -14,12 +14,25 @@ from pydantic import ValidationError
 from planner.brain.offline.lexicon import MARK, NAME
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Steps
 from planner.brain.offline.places import go_to
-from planner.plan import Bilingual, Code, Count, Find, Follow, GoTo, Language, Look, Say, Step
+from planner.plan import (
+    MAX_STEPS,
+    Bilingual,
+    Code,
+    Count,
+    Find,
+    Follow,
+    GoTo,
+    Language,
+    Look,
+    Say,
+    Step,
+)
 
 WHERE_IS = Bilingual(en="where is {name}? Name the place.", zh="{name}在哪里？请说出地点。")
 WHERE_TO = Bilingual(en="where to?", zh="要去哪里？")
 HOW_LONG = Bilingual(en="how long? For example: ten seconds.", zh="等多久？例如：十秒。")
 WHO = Bilingual(en="who or what is meant?", zh="指的是谁或什么？")
+WHERE_LOOK = Bilingual(en="in which places? Name them.", zh="看哪些地方？请说出地点。")
 SEARCH = Bilingual(en="shall I go and look for it?", zh="要我去找吗？")
 WHERE_ARE_YOU = Bilingual(en="where are you? Name the place.", zh="您在哪里？请说出地点。")
 
@@ -36,10 +49,12 @@ _ARTICLE = re.compile(
     r"|^(?:这个|那个|一个|一下|一只|一位|一些|所有的?|我的|咱们?的)"
 )
 _AT_HAND = re.compile(
-    r" (?:(?:right |just )?in front of (?:you|me)|ahead(?: of you)?|before you|"
+    r" (?:in (?:all (?:of )?(?:the )?|every |each )rooms?"
+    r"|(?:right |just )?in front of (?:you|me)|ahead(?: of you)?|before you|"
     r"(?:that |which |who )?you (?:see|saw|found|have seen)|"
     r"(?:somewhere |anywhere )?in (?:the|this) (?:whole |entire )?(?:house|home|flat))$"
     r"|^(?:你|您)?(?:前面|面前|眼前|前方)的?(?=.)|^(?:家里|家中|屋里)(?:所有)?的?(?=.)"
+    r"|^(?:所有|全部|每个|各个)的?房间(?:里面?)?的(?=.)"
 )
 """What says no more of a thing than that the robot is to see it, in the home that it is in."""
 _TITLE = 80
@@ -160,6 +175,17 @@ def look(question: str, where: str | None, reading: Reading) -> Meaning:
     somebody = spoken("person", "人", reading) if _WHO_IS_THERE.search(question) else None
     steps = (*arrive(place, reading), Look(question=asked, place=place))
     return Steps(steps, person=somebody, seen=True)
+
+
+def look_everywhere(question: str, reading: Reading) -> Meaning:
+    """Go to every room and answer a question by looking round in it."""
+    rooms = [entry.id for entry in reading.vocabulary.entries if entry.kind == "room"]
+    asked = reading.marked.restore(question)[:500]
+    looks = ((GoTo(place=room), Look(question=asked, place=room)) for room in rooms)
+    steps = tuple(step for look_there in looks for step in look_there)
+    if not 0 < len(steps) <= MAX_STEPS:
+        return missing(WHERE_LOOK, question, reading)
+    return Steps(steps, seen=True)
 
 
 def offer_search(words: str, part: str, reading: Reading) -> Meaning:

@@ -15,7 +15,7 @@ from planner.brain.offline import (
     chinese_things,
 )
 from planner.brain.offline.arm import lacks_arm
-from planner.brain.offline.chinese_words import GO, IN, VERB
+from planner.brain.offline.chinese_words import ALL_ROOMS, GO, IN, VERB
 from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
 from planner.brain.offline.lexicon import MARK
 from planner.plan import Code
@@ -78,7 +78,10 @@ CHINESE = Grammar(
         (Code.AMBIGUOUS, re.compile(r"或者|或|还是|要么|任意|随便|\bor\b")),
         (Code.OUT_OF_SCOPE, re.compile(_SCOPE)),
     ),
-    joint=re.compile(rf"((?:{GO})(?:{MARK}的)?{MARK}{IN}(?:去|来)?)(?={VERB})(?!(?:{_ARM}))"),
+    joint=re.compile(
+        rf"((?:{GO})(?:{MARK}的)?{MARK}(?:(?:和|与|及|以及|、){MARK})*{IN}(?:去|来)?(?={VERB})"
+        rf"|{ALL_ROOMS}(?:去|来)?(?={VERB}|有没有|是否有|有(?:几|多少)))(?!(?:{_ARM}))"
+    ),
     clause_end=re.compile(
         r"[,;.!?。、~\s]+(?!\d)|然后|接着|随后|紧接着|之后|以后|而后|并且|并|同时|顺便|(?<=回来)(?=告诉|报告|汇报|[跟向和给]我)|(?<=转身|掉头|调头|[左右]转)(?=告诉我|看看|看一下)|就(?=回来|"
         r"回去|返回)"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from re import Match
 
 from planner.brain.offline.acts import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
-from planner.brain.offline.chinese_words import GO
+from planner.brain.offline.chinese_words import ALL_ROOMS, GO
 from planner.brain.offline.grammar import (
     QUOTE,
     about,
@@ -23,7 +23,15 @@ from planner.brain.offline.grammar import (
 )
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Reading, Rule, Steps
-from planner.brain.offline.motion import move, patrol, patrol_all, turn, turn_and_move, wander
+from planner.brain.offline.motion import (
+    in_all,
+    move,
+    patrol,
+    patrol_all,
+    turn,
+    turn_and_move,
+    wander,
+)
 from planner.brain.offline.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
 from planner.brain.offline.talk import Topic
 from planner.plan import Code, Say
@@ -138,10 +146,11 @@ RULES: tuple[Rule, ...] = (
         patrol,
     ),
     rule(
-        r"(?:去)?(?:巡逻|巡检|巡视|巡查|检查|看看|走遍)(?:一下|一遍)?(?:所有|全部|每个|各个|"
-        r"整个)(?:的)?(?:房间|屋子|家|房子|地方)|全屋巡逻|巡逻全屋",
+        rf"(?:去)?(?:巡逻|巡检|巡视|巡查|检查|看看|走遍|逛遍|去到|走到|去|到)(?:一下|一遍)?{ALL_ROOMS}"
+        r"|全屋巡逻|巡逻全屋",
         patrol_all,
     ),
+    rule(rf"在?{ALL_ROOMS}", in_all),
     rule(
         r"(?:巡逻|巡检|巡视|巡查|到处走走|随处走走|转转|转一转|逛逛|遛遛|溜达)[^\ue000-\ue7ff]*",
         wander,

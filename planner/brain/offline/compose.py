@@ -22,6 +22,7 @@ from planner.plan import (
     Clarify,
     Code,
     ComeBack,
+    Count,
     Find,
     GoTo,
     Language,
@@ -128,7 +129,8 @@ def _checked(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
             zh=f"{len(steps)} 步，最多 {MAX_STEPS} 步",
         )
         return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=why))
-    first = next((step for step in steps if step.kind in DRIVES), None)
+    drives = (step for step in steps if step.kind in DRIVES or isinstance(step, Count))
+    first = next(drives, None)
     if isinstance(first, ComeBack):  # back from where? nothing was driven before it
         home = (setting.button((ReturnHome(),)),)
         return _ask(Problem(Code.AMBIGUOUS, text), home, setting)
@@ -149,7 +151,8 @@ def _explain(
         # Of two places the order was not understood either.
         certain = len(offered) == 1 and _drives(offered)
         return _ask(worst, (setting.button(offered),) if certain else (), setting)
-    stead = [worst.instead] if worst.instead else [(GoTo(place=p),) for p in worst.places]
+    stead = worst.choices or ((worst.instead,) if worst.instead else ())
+    stead = stead or tuple((GoTo(place=place),) for place in worst.places)
     choices = stead if alone else ()
     options = tuple(setting.button(_steps_of(meanings, worst, steps)) for steps in choices)
     return _ask(worst, options, setting)

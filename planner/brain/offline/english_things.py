@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from re import Match
 
-from planner.brain.offline.acts import count, find, look, offer_search, place_of
+from planner.brain.offline.acts import count, find, look, look_everywhere, offer_search, place_of
 from planner.brain.offline.english_words import PREP, THE, loc, sure_loc
 from planner.brain.offline.grammar import Build, rule, where
 from planner.brain.offline.lexicon import MARK
@@ -53,8 +53,10 @@ _SEEN_HERE = (
     r"are there)(?: (?:right )?now)?"
 )
 """How many of it the robot sees where it stands: for a bare question it drives nowhere."""
+_ALL_ROOMS = r"(?:all (?:of )?(?:the |our |my )?|every (?:single )?|each )rooms?"
 _SEARCHED = (
-    r"(?:everywhere|all over|(?:in |through )?(?:the|this) (?:whole |entire )?(?:house|home|flat))"
+    r"(?:everywhere|all over|(?:in(?:to)? |through )?(?:(?:the|this) (?:whole |entire )?"
+    rf"(?:house|home|flat)|{_ALL_ROOMS}))"
 )
 _HOME = r"(?:(?:at )?home|(?:in|around|at) (?:the |this )?(?:house|flat|apartment|building))"
 _NOBODY = frozenset(
@@ -98,6 +100,10 @@ def _count(found: Match[str], reading: Reading) -> Meaning:
 
 def _look(found: Match[str], reading: Reading) -> Meaning:
     return look(found[0], where(found, "at"), reading)
+
+
+def _look_everywhere(found: Match[str], reading: Reading) -> Meaning:
+    return look_everywhere(found[0], reading)
 
 
 def _question(build: Build) -> Build:
@@ -202,8 +208,13 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(
         rf"(?:look|search|hunt|check) {_SEARCHED} for (?P<what>{_THING})"
-        rf"|(?:find|look for) (?P<what2>{_THING}) (?:somewhere )?(?:in )?{_SEARCHED}",
+        rf"|(?:find|look for|search for|locate) (?P<what2>{_THING}) (?:somewhere )?"
+        rf"(?:in )?{_SEARCHED}",
         _find_anywhere,
+    ),
+    rule(
+        rf"(?:(?:have |take )a )?(?:look|peek|glance)(?: around)? (?:in|into|inside) {_ALL_ROOMS}",
+        _look_everywhere,
     ),
     rule(rf"describe (?P<at>{THE}{MARK})|tell (?:me|us) about (?P<at2>{THE}{MARK})", _describe),
     rule(rf"search {THE}?(?P<at>{MARK})(?P<at_there>)? for (?P<what>{_THING})", _find),

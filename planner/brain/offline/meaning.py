@@ -41,6 +41,7 @@ class Problem:
     name: str = ""  # the unknown name
     what: Bilingual | None = None  # what is missing
     instead: tuple[Step, ...] = ()  # offered in its stead: it was asked about, not ordered
+    choices: tuple[tuple[Step, ...], ...] = ()  # offered in its stead, one of them
 
 
 Meaning = Steps | About | Problem

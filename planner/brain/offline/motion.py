@@ -85,6 +85,11 @@ def patrol_all(found: Match[str], reading: Reading) -> Meaning:
     return Steps((Patrol(places=rooms[:20]),))
 
 
+def in_all(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read "in every room" as the round, where it opens an order and more follows."""
+    return patrol_all(found, reading) if reading.opens else None
+
+
 def wander(found: Match[str], reading: Reading) -> Meaning:
     """Ask where to, where somebody wants the robot to roam or patrol no place at all."""
     return missing(WHERE, found[0], reading)

@@ -10,10 +10,12 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime
+from itertools import chain
 
 from planner.brain.offline.chinese import CHINESE
 from planner.brain.offline.chinese_drive import TALK as ZH_TALK
 from planner.brain.offline.compose import Setting, compose, unsafe, veto
+from planner.brain.offline.each import Heard, at_each
 from planner.brain.offline.english import ENGLISH
 from planner.brain.offline.english_drive import TALK
 from planner.brain.offline.grammar import Grammar
@@ -123,7 +125,8 @@ def _within(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
     """Turn steps that this robot can't do into the problem that it lacks the means."""
     if isinstance(meaning, Problem):
         can = tuple(step for step in meaning.before if step.kind in runnable)
-        if all(step.kind in runnable for step in meaning.instead):
+        offered = chain(meaning.instead, *meaning.choices)
+        if all(step.kind in runnable for step in offered):
             return replace(meaning, before=can)
         return Problem(blind, meaning.part, before=can)
     lacks = (
@@ -192,10 +195,11 @@ def _lost(meanings: Sequence[Meaning]) -> bool:
 
 
 def _read(grammar: Grammar, text: str, reading: Reading) -> list[Meaning]:
-    meanings: list[Meaning] = []
+    heard: list[Heard] = []
     scene = Scene()
     for clause in grammar.clauses(text):
-        meaning = grammar.read(clause, reading.at(clause, scene))
-        meanings.append(meaning)
+        here = reading.at(clause, scene)
+        meaning = grammar.read(clause, here)
+        heard.append(Heard(clause, meaning, here))
         scene = scene.after(meaning)
-    return meanings
+    return list(at_each(heard, grammar.read))
