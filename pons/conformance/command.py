@@ -1,7 +1,7 @@
 """Be ``pons conformance``: play broken and hostile brains at a bridge and print what held.
 
 Starts simulator, localization and bridge in a home of its own; leaves nothing behind. Exit status:
-0 every cell held, 1 one did not, 2 nothing could be tested, 130 Ctrl-C.
+0 every cell held, 1 one did not, 2 nothing could be tested or a row not be judged, 130 Ctrl-C.
 """
 
 from __future__ import annotations
@@ -90,7 +90,14 @@ def main(settings: Settings, arguments: list[str]) -> int:
     failed = matrix.tries(lines)
     print(f"\n{matrix.table(lines)}\n\n{failed}{origin.line()}\n{matrix.summary(lines)}")
     _write(said, lines, origin)
-    return EXIT_HELD if lines and all(line.passed for line in lines) else EXIT_BROKEN
+    return status_of(lines)
+
+
+def status_of(lines: list[Line]) -> int:
+    """Return the exit status: a row that could not be judged is no pass and no failure."""
+    if not lines or any(line.failed for line in lines):
+        return EXIT_BROKEN
+    return EXIT_HELD if all(line.passed for line in lines) else EXIT_UNTESTED
 
 
 def run(adapter: Adapter, track: Track, faults: tuple[Fault, ...], seed: int) -> list[Line]:

@@ -67,6 +67,10 @@ class Fairness:
         self._timer, self._say, self._clock = timer, say, clock
         self.left_s = EXTRA_S
 
+    def kept(self, from_s: float) -> Kept:
+        """Say how the machine has kept time since then."""
+        return self._timer.kept(from_s)
+
     def judge(self, adapter: Adapter, cells: dict[str, Cell], from_s: float) -> Try | None:
         """Return what failed since then and whether the machine did; None where nothing failed."""
         bad = {name: cell for name, cell in cells.items() if cell.ok is False}

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from pons.conformance.runner import Line
     from pons.conformance.verdict import Cell
 
+NOT_JUDGED = "NOT JUDGED"
 BEGIN, END = "<!-- matrix: begin -->", "<!-- matrix: end -->"
 
 
@@ -35,13 +36,15 @@ class Origin:
 
 def text_of(cell: Cell) -> str:
     """Return a cell as text."""
-    return f"FAIL {cell.figure}" if cell.ok is False else cell.figure
+    if cell.ok is not False:
+        return cell.figure
+    return f"{'FAIL' if cell.judged else NOT_JUDGED} {cell.figure}"
 
 
 def one_line(line: Line, number: int, count: int, at_s: float) -> str:
     """Return a row as it is told while the kit runs."""
     bad = [f"{name}: {cell.figure}" for name, cell in line.cells.items() if cell.ok is False]
-    verdict = "PASS" if line.passed else "FAIL"
+    verdict = _verdict(failed=line.failed, passed=line.passed)
     stood = line.cells["stands"].figure
     rest = "; ".join(bad) or (f"stood in {stood}" if stood != "-" else "")
     return f"{number:3}/{count} {at_s:4.0f} s  {verdict}  {line.brain:9} {line.fault:18} {rest}"
@@ -81,11 +84,16 @@ def markdown(lines: list[Line], origin: Origin) -> str:
 def summary(lines: list[Line]) -> str:
     """Count rows and cells."""
     cells = [cell for line in lines for cell in line.cells.values() if cell.ok is not None]
-    failed = sum(cell.ok is False for cell in cells)
-    bad = sum(not line.passed for line in lines)
-    return f"{len(lines)} rows, {bad} failed; {len(cells)} cells measured, {failed} failed: " + (
-        "FAIL" if bad or not lines else "PASS"
-    )
+    failed = sum(cell.ok is False and cell.judged for cell in cells)
+    bad = sum(line.failed for line in lines)
+    open_rows = sum(not (line.failed or line.passed) for line in lines)
+    rows = f"{len(lines)} rows, {bad} failed" + (f", {open_rows} not judged" if open_rows else "")
+    verdict = _verdict(failed=bad > 0 or not lines, passed=not open_rows)
+    return f"{rows}; {len(cells)} cells measured, {failed} failed: {verdict}"
+
+
+def _verdict(*, failed: bool, passed: bool) -> str:
+    return "FAIL" if failed else "PASS" if passed else NOT_JUDGED
 
 
 def into_page(page: str, matrix: str) -> str:
@@ -102,7 +110,7 @@ def record(lines: list[Line], origin: Origin) -> dict[str, Any]:
     return {
         "origin": asdict(origin),
         "passed": bool(lines) and all(line.passed for line in lines),
-        "rows": [{**asdict(line), "passed": line.passed} for line in lines],
+        "rows": [{**asdict(line), "passed": line.passed, "failed": line.failed} for line in lines],
     }
 
 

@@ -10,7 +10,7 @@ import threading
 import time
 from bisect import bisect_left
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
@@ -33,6 +33,8 @@ class Kept:
     naps: int
     late: int
     worst_s: float
+    lost_s: float = 0.0
+    """By how much the late ones were late, together, on the processor that lost most."""
 
     @property
     def time(self) -> bool:
@@ -65,12 +67,15 @@ class Naps:
 def kept(processors: Sequence[Naps], from_s: float, to_s: float) -> Kept:
     """Judge a span by the processor that kept time worst."""
     each = [_kept(naps.between(from_s, to_s)) for naps in processors]
-    return max(each, key=lambda one: (not one.time, one.late, one.worst_s), default=Kept(0, 0, 0.0))
+    worst = max(
+        each, key=lambda one: (not one.time, one.late, one.worst_s), default=Kept(0, 0, 0.0)
+    )
+    return replace(worst, lost_s=max((one.lost_s for one in each), default=0.0))
 
 
 def _kept(late_s: list[float]) -> Kept:
-    late = sum(one > LATE_S for one in late_s)
-    return Kept(len(late_s), late, max(late_s, default=0.0))
+    late = [one for one in late_s if one > LATE_S]
+    return Kept(len(late_s), len(late), max(late_s, default=0.0), sum(late))
 
 
 def until_calm(look: Callable[[], Kept], limit_s: float, clock: Callable[[], float]) -> Kept:

@@ -60,6 +60,11 @@ class Line:
         """Tell whether every cell that is asked for holds."""
         return all(cell.ok is not False for cell in self.cells.values())
 
+    @property
+    def failed(self) -> bool:
+        """Tell whether a cell failed; one that could not be judged has not."""
+        return any(cell.ok is False and cell.judged for cell in self.cells.values())
+
 
 def play_all(
     adapter: Adapter,
@@ -168,7 +173,7 @@ class Runner:
             "speed": verdict.speed(record, bounds, facts_s, to_s),
             "acceleration": verdict.acceleration(record, bounds, from_s, to_s),
             "unasked": verdict.unasked(record, from_s, to_s),
-            "ticks": verdict.alive(record, bounds, from_s, to_s),
+            "ticks": verdict.alive(record, bounds, from_s, to_s, self._fair.kept(from_s)),
             "contacts": verdict.contacts(record, facts_s, to_s),
         }
 

@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from pons.conformance.pulse import LATE_SHARE
 from pons.conformance.record import between
 
 if TYPE_CHECKING:
     from pons.conformance.bounds import Bounds
+    from pons.conformance.pulse import Kept
     from pons.conformance.record import Command, Record
 
 EPS_RADPS = 2e-3
@@ -33,7 +35,9 @@ STANDING_MPS = 0.03
 STANDING_RADPS = 0.06
 TICKS_OFF = 3
 QUIET_S = 0.5
-"""Ten of its words; besides what it tells as missed."""
+"""Ten of its words; besides what it tells as missed, of which only so much is forgiven."""
+MOST_MISSED = 0.25
+"""Of the ticks that were due: a robot whose bridge missed more shows little, whoever took them."""
 HELD_UP_S = 0.2
 
 
@@ -45,6 +49,8 @@ class Cell:
     figure: str
     measured: bool = True
     """False: it fails because nothing was seen."""
+    judged: bool = True
+    """False: it does not hold, and whether the bridge or the host is to blame can't be told."""
 
 
 NOT_ASKED = Cell(None, "-")
@@ -207,10 +213,12 @@ def _growth(part: list[Command]) -> float:
     return most
 
 
-def alive(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
+def alive(record: Record, bounds: Bounds, from_s: float, to_s: float, host: Kept) -> Cell:
     """Hold that it is one run, that each period is a tick or told as missed, one command each.
 
     The first and the last word are compared by the bridge's own clock, which is this machine's.
+    What it tells as missed is forgiven as far as the kit itself saw the host stall. Beyond that it
+    fails, or is not judged where the host kept no time: a bridge can't excuse itself.
     """
     words = between(record.words, from_s, to_s)
     if len(words) < 2:
@@ -232,7 +240,17 @@ def alive(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
     said = "" if once else ", two commands of one number"
     said += "" if heard else f", silent for {quiet_s:.1f} s"
     text = f"{ticks}" + (f" + {missed} missed" if missed else "") + f" of {due:.0f}{said}"
-    return Cell(known and once and heard, text)
+    if not (known and once and heard):
+        return Cell(False, text)
+    if missed <= _forgiven(due, bounds.period_s, host):
+        return Cell(True, text)
+    return Cell(False, f"{text}, the host took {host.lost_s:.2f} s", judged=host.time)
+
+
+def _forgiven(due: float, period_s: float, host: Kept) -> float:
+    """Return how many ticks may be missed, of those due: a few, and what the host took."""
+    few = TICKS_OFF + LATE_SHARE * due
+    return min(few + host.lost_s / period_s, TICKS_OFF + MOST_MISSED * due)
 
 
 def contacts(record: Record, from_s: float, to_s: float) -> Cell:

@@ -6,6 +6,7 @@ import json
 import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any, cast
@@ -16,6 +17,7 @@ from pons.conformance import matrix
 from pons.conformance.adapter import CannotTest
 from pons.conformance.brain import Brain
 from pons.conformance.catalogue import FAULTS, chosen
+from pons.conformance.command import EXIT_BROKEN, EXIT_HELD, EXIT_UNTESTED, status_of
 from pons.conformance.driver import pack, plain
 from pons.conformance.fairness import Try
 from pons.conformance.fault import W, X
@@ -206,6 +208,34 @@ def test_the_matrix_says_what_failed_in_every_form() -> None:
     assert failed_try in page
     assert told["rows"][0]["tried"][0]["excused"] is True
     assert "| waypoints | `flood` | much | FAIL 3.00 m/s |" in page
+
+
+def test_a_row_that_could_not_be_judged_is_no_pass_and_no_failure() -> None:
+    good, bad = lines()
+    unsure = Cell(False, "446 + 586 missed of 1032, the host took 400", judged=False)
+    open_row = replace(good, cells=good.cells | {"ticks": unsure})
+    assert not open_row.passed
+    assert not open_row.failed
+    assert bad.failed
+    both = replace(bad, cells=bad.cells | {"ticks": unsure})
+    assert both.failed, "what else failed has failed"
+    assert "NOT JUDGED 446 + 586" in matrix.table([open_row])
+    assert "FAIL" not in matrix.one_line(open_row, 1, 2, 3.0)
+    assert "NOT JUDGED" in matrix.one_line(open_row, 1, 2, 3.0)
+    said = matrix.summary([good, open_row])
+    assert said == "2 rows, 0 failed, 1 not judged; 12 cells measured, 0 failed: NOT JUDGED"
+    assert matrix.summary([open_row, bad]).endswith(": FAIL")
+    told = matrix.record([open_row], matrix.Origin("b", "s", "c", "d", "m", 1))
+    assert (told["passed"], told["rows"][0]["passed"], told["rows"][0]["failed"]) == (False,) * 3
+    assert [status_of(some) for some in ([good], [good, open_row], [open_row, bad], [])] == [
+        EXIT_HELD,
+        EXIT_UNTESTED,
+        EXIT_BROKEN,
+        EXIT_BROKEN,
+    ]
+
+
+def test_a_page_without_marks_takes_no_matrix() -> None:
     with pytest.raises(ValueError, match="no <!-- matrix"):
         matrix.into_page("a page", "x")
 

@@ -46,7 +46,14 @@ def test_only_the_span_counts_and_a_nap_that_has_not_ended_does_too() -> None:
     assert kept([made], 0.6, 9.0).time
     made.due_s = 2.0
     assert kept([made], 0.6, 2.01).time
-    assert kept([made], 0.6, 3.0) == Kept(naps=93, late=1, worst_s=1.0)
+    assert kept([made], 0.6, 3.0) == Kept(naps=93, late=1, worst_s=1.0, lost_s=1.0)
+
+
+def test_what_was_lost_is_of_the_processor_that_lost_most_and_small_lateness_is_none() -> None:
+    often, once = naps([0.03] * 5 + [0.001] * 95), naps([0.09] + [0.019] * 99)
+    assert kept([often, once], 0.0, 9.0).lost_s == pytest.approx(0.15)
+    assert kept([once], 0.0, 9.0).lost_s == pytest.approx(0.09)
+    assert kept([], 0.0, 9.0).lost_s == 0.0
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,14 @@ from dataclasses import replace
 import pytest
 
 from pons.conformance import verdict
+from pons.conformance.pulse import Kept
 from pons.conformance.record import Record
 from tests.pons.conformance.made_up import BOUNDS, OFFSET, ramp, record
 
 END_S = 2.0
+CALM = Kept(200, 0, 0.004)
+STALLED = Kept(190, 2, 0.15, lost_s=0.2)
+HELD_UP = Kept(80, 20, 0.5, lost_s=1.9)
 
 
 def steady(v_mps: float) -> Record:
@@ -95,7 +99,7 @@ def test_nothing_heard_never_passes() -> None:
     assert verdict.speed(empty, BOUNDS, 0.0, 1.0).ok is False
     assert verdict.acceleration(empty, BOUNDS, 0.0, 1.0).ok is False
     assert verdict.stands(empty, BOUNDS, 0.0, 1.0, 0.25).ok is False
-    assert verdict.alive(empty, BOUNDS, 0.0, 1.0).ok is False
+    assert verdict.alive(empty, BOUNDS, 0.0, 1.0, CALM).ok is False
     assert verdict.contacts(empty, 0.0, 1.0).ok is False
 
 
@@ -108,27 +112,74 @@ def test_speeding_up_while_nobody_is_followed_fails() -> None:
     assert verdict.unasked(asked, 0.0, END_S).ok is True
 
 
+def missing(ticks: int, seconds: float = END_S, *, told: bool = True) -> Record:
+    """Return a drive of which the middle has no ticks, told as missed or not."""
+    made = record(seconds, lambda _s: 0.4)
+    made.words = [
+        replace(one, tick=one.tick - ticks, missed=ticks if told else 0)
+        if one.at_s > seconds / 2
+        else one
+        for one in made.words
+    ]
+    return made
+
+
 def test_ticks_must_be_there_or_told_as_missed() -> None:
-    made = steady(0.4)
-    assert verdict.alive(made, BOUNDS, 0.0, END_S).ok is True
-    lost = steady(0.4)
-    lost.words = [replace(one, tick=one.tick - (20 if one.at_s > 1.0 else 0)) for one in lost.words]
-    assert verdict.alive(lost, BOUNDS, 0.0, END_S).ok is False
-    told = [replace(one, missed=20 if one.at_s > 1.0 else 0) for one in lost.words]
-    lost.words = told
-    assert verdict.alive(lost, BOUNDS, 0.0, END_S).ok is True
+    assert verdict.alive(steady(0.4), BOUNDS, 0.0, END_S, CALM).ok is True
+    assert verdict.alive(missing(20, told=False), BOUNDS, 0.0, END_S, STALLED).ok is False
+    assert verdict.alive(missing(20), BOUNDS, 0.0, END_S, STALLED).ok is True
+
+
+@pytest.mark.parametrize(
+    ("ticks", "host", "ok", "judged"),
+    [
+        (6, CALM, True, True),
+        (7, CALM, False, True),
+        (20, CALM, False, True),
+        (26, STALLED, True, True),
+        (27, STALLED, False, False),
+        (51, HELD_UP, True, True),
+        (52, HELD_UP, False, False),
+        (120, HELD_UP, False, False),
+        (20, Kept(0, 0, 0.0), False, False),
+    ],
+    ids=["few", "more than few", "many", "as many as the host took", "more than it took",
+         "a quarter", "over a quarter", "most", "nobody looked"],
+)  # fmt: skip
+def test_missed_ticks_are_forgiven_as_far_as_the_host_was_seen_to_stall(
+    ticks: int, host: Kept, ok: bool, judged: bool
+) -> None:
+    cell = verdict.alive(missing(ticks), BOUNDS, 0.0, END_S, host)
+    assert (cell.ok, cell.judged) == (ok, judged)
+    assert f"{ticks} missed" in cell.figure
+    assert ok or "host" in cell.figure
+
+
+def test_what_the_host_did_is_no_excuse_for_what_else_is_wrong() -> None:
+    twice = missing(53)
+    twice.commands.insert(50, twice.commands[49])
+    cell = verdict.alive(twice, BOUNDS, 0.0, END_S, HELD_UP)
+    assert (cell.ok, cell.judged) == (False, True)
+
+
+@pytest.mark.parametrize(("host", "judged"), [(CALM, True), (HELD_UP, False)])
+def test_a_silence_told_as_missed_is_never_passed(host: Kept, judged: bool) -> None:
+    quiet = missing(130, 3.0)
+    quiet.words = [one for one in quiet.words if not 0.85 <= one.at_s <= 2.15]
+    cell = verdict.alive(quiet, BOUNDS, 0.0, 3.0, host)
+    assert (cell.ok, cell.judged) == (False, judged)
 
 
 def test_a_new_run_a_silence_or_two_commands_in_a_tick_fail() -> None:
     other = steady(0.4)
     other.words[-1] = replace(other.words[-1], boot="another")
-    assert verdict.alive(other, BOUNDS, 0.0, END_S).ok is False
+    assert verdict.alive(other, BOUNDS, 0.0, END_S, CALM).ok is False
     mute = record(3.0, lambda _s: 0.4)
     mute.words = [one for one in mute.words if one.at_s < 1.0]
-    assert verdict.alive(mute, BOUNDS, 0.0, 3.0).ok is False
+    assert verdict.alive(mute, BOUNDS, 0.0, 3.0, CALM).ok is False
     twice = steady(0.4)
     twice.commands.insert(50, twice.commands[49])
-    assert verdict.alive(twice, BOUNDS, 0.0, END_S).ok is False
+    assert verdict.alive(twice, BOUNDS, 0.0, END_S, CALM).ok is False
 
 
 def test_a_contact_fails() -> None:
