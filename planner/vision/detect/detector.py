@@ -17,7 +17,8 @@ from planner.vision.detect.model_file import Model, Wanted, open_model
 from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
 from planner.vision.detect.pictures import Depth, Picture, unpack_color, unpack_depth
 from planner.vision.detect.prepare import Floats, Preparer
-from planner.vision.detect.session import RUN_ERRORS, Array
+from planner.vision.detect.session import RUN_ERRORS, Array, last_words, senseless
+from planner.vision.failure import VisionFailure
 from planner.vision.kinds import kind_of
 from planner.vision.labels import canonical
 from planner.vision.records import Detection
@@ -44,7 +45,11 @@ class Detector:
         self._preparer = Preparer(self._decoder.RECIPE, taken.width, taken.height)
         self._feeds = self.feeds(self._preparer.buffer)
         session = self.model.session
-        session.fix(self._feeds, session.run(self._feeds))
+        try:
+            session.fix(self._feeds, session.run(self._feeds))
+        except RUN_ERRORS as error:
+            text = f"it failed on its second picture: {last_words(error)}"
+            raise VisionFailure("model_broken", text) from None
         self.about = About(
             model=self.model.name,
             decoder=self._decoder.NAME,
@@ -114,6 +119,9 @@ class Detector:
         """Return the boxes in an unpacked picture, in its pixels, the surest first."""
         _, placed = self._preparer.prepare(picture)
         outputs = self.model.session.run(self._feeds)
+        if senseless(outputs):
+            # To be told of as a failure: an empty picture would be a thing's absence.
+            raise ArithmeticError("no number came out that is finite")
         found = self._decoder.decode(outputs, self.min_score)
         found = believed(found, self.min_score, len(self._classes))
         found = in_picture(found, placed, picture.shape[1], picture.shape[0])

@@ -6,6 +6,7 @@ shapes that come out count where those in the file are left open.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,7 +17,15 @@ from planner.vision.detect.decoders import Choice, choose
 from planner.vision.detect.facts import Facts, Shape
 from planner.vision.detect.names import names_in, names_of
 from planner.vision.detect.onnx_file import OnnxFile, examine
-from planner.vision.detect.session import RUN_ERRORS, Array, Session, last_words
+from planner.vision.detect.session import (
+    FRACTIONS,
+    RUN_ERRORS,
+    Array,
+    Session,
+    kind_of,
+    last_words,
+    senseless,
+)
 from planner.vision.detect.size import Input, find_input
 from planner.vision.failure import VisionFailure
 
@@ -61,19 +70,36 @@ def open_model(wanted: Wanted) -> Model:
     if taken.sizes is not None:
         # The input's own size: boxes then come in input pixels, as from every other family.
         beside[taken.sizes] = np.array([[taken.width, taken.height]], np.int64)
-    facts = _facts(wanted, session, taken, beside)
-    choice = choose(facts, wanted.decoder)
+    outputs = _tried(session, taken, beside)
+    choice = choose(_facts(wanted, session, taken, outputs), wanted.decoder)
+    try:
+        choice.decoder.decode(outputs, GREY)
+    except RUN_ERRORS as error:
+        text = f"as {choice.decoder.NAME}: {last_words(error)}"
+        raise VisionFailure("model_layout_unknown", text) from None
     return Model(wanted.path.name, file, session, taken, choice, beside)
 
 
-def _facts(wanted: Wanted, session: Session, taken: Input, beside: dict[str, Array]) -> Facts:
-    labels = wanted.labels
+def _tried(session: Session, taken: Input, beside: dict[str, Array]) -> Sequence[Array]:
+    """Return what comes out for a grey picture; refuse where that can't be boxes of any layout."""
     grey = np.full((1, 3, taken.height, taken.width), GREY, np.float32)
     try:
         outputs = session.run({taken.name: grey, **beside})
     except RUN_ERRORS as error:
         text = f"it failed on a trial picture: {last_words(error)}"
         raise VisionFailure("model_broken", text) from None
+    if not any(kind_of(found) == FRACTIONS for found in outputs):
+        shown = "; ".join(slot.shown() for slot in session.outputs)
+        raise VisionFailure(
+            "model_not_detector", f"no output holds fractions, as scores are: {shown}"
+        )
+    if senseless(outputs):
+        raise VisionFailure("model_broken", "on a trial picture no number came out that is finite")
+    return outputs
+
+
+def _facts(wanted: Wanted, session: Session, taken: Input, outputs: Sequence[Array]) -> Facts:
+    labels = wanted.labels
     names = [slot.name for slot in session.outputs]
     return Facts(
         outputs={name: _shape(found) for name, found in zip(names, outputs, strict=True)},

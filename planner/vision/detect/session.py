@@ -42,6 +42,9 @@ have a base of their own. That costs one picture, never the process."""
 QUIET = 3
 """Errors alone: warnings of a stranger's graph tell its owner nothing."""
 MAX_WORDS = 240
+SAMPLES = 1000
+FRACTIONS, NUMBERS = "f", frozenset("fiub")
+"""Letters of numpy's kinds."""
 _NEWEST = re.compile(r"till opset (\d+)")
 """How onnxruntime says which operators it knows, after much else."""
 
@@ -107,7 +110,9 @@ class Session:
         model promises the shapes that came out of a trial.
         """
         promised = [slot.shape for slot in self.outputs]
-        if self.provider != "cpu" or promised != [found.shape for found in outputs]:
+        if self.provider != "cpu" or not all(kind_of(found) in NUMBERS for found in outputs):
+            return
+        if promised != [found.shape for found in outputs]:
             return
         binding = self._session.io_binding()
         self._results = [np.empty_like(found) for found in outputs]
@@ -129,6 +134,18 @@ def options(threads: int) -> Any:
     made.add_session_config_entry("session.inter_op.allow_spinning", "0")
     made.log_severity_level = QUIET
     return made
+
+
+def kind_of(found: object) -> str:
+    """Return numpy's letter for what an output holds; none for a list, which some graphs give."""
+    return found.dtype.kind if isinstance(found, np.ndarray) else ""
+
+
+def senseless(outputs: Sequence[Array]) -> bool:
+    """Tell whether an output of fractions has some and none is finite, by a sample of them."""
+    fractions = (found for found in outputs if kind_of(found) == FRACTIONS)
+    samples = (it.reshape(-1)[:: max(1, it.size // SAMPLES)] for it in fractions if it.size)
+    return any(not np.isfinite(sample).any() for sample in samples)
 
 
 def _memory(array: Array) -> tuple[str, int, type[np.generic], tuple[int, ...], int]:

@@ -10,12 +10,17 @@ from dataclasses import dataclass
 
 from planner.vision.detect.decoders.base import UNTOLD, Decoder
 from planner.vision.detect.decoders.end_to_end import EndToEnd
-from planner.vision.detect.decoders.evidence import check_suppressed, has_objectness, in_doubt
+from planner.vision.detect.decoders.evidence import (
+    check_scores,
+    check_suppressed,
+    has_objectness,
+    in_doubt,
+)
 from planner.vision.detect.decoders.rfdetr import RfDetr
 from planner.vision.detect.decoders.rtdetr import RtDetr
 from planner.vision.detect.decoders.rtdetr_rows import RtDetrRows
 from planner.vision.detect.decoders.yolov5 import YoloV5
-from planner.vision.detect.decoders.yolov8 import YoloV8
+from planner.vision.detect.decoders.yolov8 import YoloV8, turned
 from planner.vision.detect.decoders.yolox import YoloX
 from planner.vision.detect.decoders.yolox_decoded import YoloXDecoded
 from planner.vision.detect.facts import Facts
@@ -51,9 +56,12 @@ def choose(facts: Facts, wanted: str | None = None) -> Choice:
             ``model_names_missing`` or ``model_names_wrong``.
     """
     kind, why = _set(facts, wanted) or _by_metadata(facts) or _by_names(facts) or _by_shape(facts)
+    classes = _classes(kind, facts)
     if kind is EndToEnd:
         check_suppressed(facts)
-    return Choice(kind(facts), why, _classes(kind, facts))
+    elif kind not in BY_NAMES:
+        check_scores(facts, kind.NAME, in_rows=kind is not YoloV8 or turned(facts))
+    return Choice(kind(facts), why, classes)
 
 
 def _set(facts: Facts, wanted: str | None) -> tuple[Kind, str] | None:

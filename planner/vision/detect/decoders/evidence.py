@@ -22,6 +22,7 @@ on things alone and talk everywhere (a YOLOX: 0.15); without one they are silent
 (Pons's own YOLOv8: 0.0000003)."""
 SAYING = 0.05
 """The least `min_score`: a row that scores less never becomes a box."""
+NEARLY_ZERO = -0.001
 FILLED = -1.0
 """What some exporters write into rows that hold nothing; others write zeros."""
 
@@ -52,6 +53,27 @@ def _by_scores(trial: Floats | None) -> bool | None:
     if typical >= LOUD:
         return True
     return False if 0.0 < typical <= QUIET else None
+
+
+def check_scores(facts: Facts, name: str, *, in_rows: bool) -> None:
+    """Refuse a grid or queries whose scores can't be some in the trial.
+
+    Args:
+        facts: of the model.
+        name: of the decoder it is to be read with.
+        in_rows: a row, not a column, holds one box and then its scores.
+
+    Raises:
+        VisionFailure: ``model_layout_unknown``.
+    """
+    if facts.trial is None:
+        return
+    scores = facts.trial[0, :, 4:] if in_rows else facts.trial[0, 4:]
+    scores = scores[np.isfinite(scores)]
+    low, high = float(scores.min(initial=0.0)), float(scores.max(initial=0.0))
+    if not (low >= NEARLY_ZERO and high <= HIGHEST_SCORE):
+        text = f"as {name} its scores in a trial are from {low:.3g} to {high:.3g}, not 0 to 1"
+        raise VisionFailure("model_layout_unknown", text)
 
 
 def check_suppressed(facts: Facts) -> None:

@@ -13,7 +13,7 @@ from planner.vision.detect import Detector, Wanted
 from planner.vision.detect.decoders import choose
 from planner.vision.detect.decoders.evidence import has_objectness
 from planner.vision.detect.decoders.yolox import grid
-from planner.vision.detect.facts import Facts
+from planner.vision.detect.facts import Facts, Shape
 from planner.vision.detect.model_file import GREY
 from planner.vision.failure import VisionFailure
 from planner.vision.worker import DEFAULT_MODEL
@@ -74,6 +74,38 @@ def test_where_nothing_tells_the_owner_must(score: float, names: int) -> None:
 def test_a_trial_without_numbers_leaves_names_alone_and_is_refused() -> None:
     with pytest.raises(VisionFailure, match="model_layout_unknown"):
         choose(facts(5, np.nan, np.nan))
+
+
+V5, RT = 3 * tiny.CELLS, 10
+SCORED = [
+    ("yolov8", (1, 6, tiny.CELLS), (0, slice(4, None)), {}),
+    ("yolov8", (1, 6, 40), (0, slice(4, None)), {}),  # a grid of strides of its own
+    ("yolov8", (1, tiny.CELLS, 6), (0, slice(None), slice(4, None)), TASK),
+    ("yolov8", (1, tiny.CELLS, 5), (0, slice(None), slice(4, None)), {}),
+    ("yolov5", (1, V5, 7), (0, slice(None), slice(4, None)), {}),
+    ("yolox", (1, tiny.CELLS, 7), (0, slice(None), slice(4, None)), {}),
+    ("rtdetr_rows", (1, RT, 6), (0, slice(None), slice(4, None)), {"description": "RT-DETR"}),
+]
+
+
+@pytest.mark.parametrize(("name", "shape", "scores", "metadata"), SCORED)
+def test_what_scores_beyond_zero_to_one_is_of_another_layout(
+    name: str, shape: Shape, scores: tuple[int | slice, ...], metadata: Mapping[str, str]
+) -> None:
+    reach = 3.0 if name == "yolox" else 60.0
+    trial = np.full(shape, reach, np.float32)
+    trial[scores] = 0.5
+    names = ("thing", "other")[: 1 if shape[-1] == 5 else 2]
+    known = Facts({"out": shape}, metadata, names, "labels", SIDE, SIDE, reach, trial)
+    for fine in (0.0, 1.0, np.nan, np.inf):
+        trial[scores][0] = fine
+        told = choose(known).decoder.NAME
+        assert told == name
+    for wrong in (-0.1, 1.1, 60.0):
+        trial[scores][0] = wrong
+        with pytest.raises(VisionFailure, match="model_layout_unknown") as caught:
+            choose(known)
+        assert f"as {name} its scores in a trial are from" in caught.value.detail
 
 
 def test_models_of_others_and_our_own_tell_if_they_have_an_objectness(shared_data: Path) -> None:

@@ -13,6 +13,7 @@ from onnx import TensorProto, helper
 
 from planner.vision.detect import Detector, Wanted
 from planner.vision.detect.onnx_file import examine
+from planner.vision.detect.session import Session
 from planner.vision.failure import REFUSALS, VisionFailure
 from tests.planner.vision.detect import tiny
 
@@ -64,6 +65,19 @@ def shaped(*shape: int | str, **more: object) -> Callable[[Path], Path]:
     return lambda path: tiny.model(path, GOOD, shape, tiny.ULTRALYTICS | {"imgsz": ""}, **more)
 
 
+def putting_out(output: tiny.Array) -> Callable[[Path], Path]:
+    return lambda path: tiny.model(path, {"output0": output}, metadata=tiny.ULTRALYTICS)
+
+
+def a_list(path: Path) -> Path:
+    """Put out a list of tensors, as converters of other learners' models do."""
+    picture = helper.make_tensor_value_info("images", TensorProto.FLOAT, (1, 3, 64, 64))
+    several = helper.make_tensor_sequence_value_info("all", TensorProto.FLOAT, None)
+    node = helper.make_node("SequenceConstruct", ["images"], ["all"])
+    return tiny.write(path, helper.make_graph([node], "list", [picture], [several]), {})
+
+
+WORDS = {"labels": np.full((1, tiny.QUERIES), "cup", object)}
 BESIDE = helper.make_tensor_value_info("scale_factor", TensorProto.FLOAT, (1, 2))
 REFUSED = [
     (lambda path: path, "model_missing", "m.onnx"),
@@ -91,6 +105,14 @@ REFUSED = [
      "2 classes, 1 names"),
     (lambda path: tiny.model(path, {"probabilities": np.zeros((1, 9), np.float32)}),
      "model_not_detector", "probabilities 1x9"),
+    (putting_out(GOOD["output0"].astype(np.int64)), "model_not_detector", "no output holds fract"),
+    (a_list, "model_not_detector", "no output holds fractions"),
+    (putting_out(np.full((1, 10, 6), "cup", object)), "model_not_detector", "tensor(string)"),
+    (putting_out(np.full_like(GOOD["output0"], np.nan)), "model_broken", "no number came out"),
+    (putting_out(np.full_like(GOOD["output0"], np.inf)), "model_broken", "no number came out"),
+    (lambda path: tiny.model(path, tiny.rtdetr([]) | WORDS, metadata=tiny.ULTRALYTICS,
+                             beside=(tiny.sizes(),)),
+     "model_layout_unknown", "as rtdetr: could not convert string"),
 ]  # fmt: skip
 
 
@@ -131,6 +153,22 @@ def test_labels_take_the_place_of_the_names_in_the_file(tmp_path: Path) -> None:
             labels.write_bytes(content)
         with pytest.raises(VisionFailure, match=code):
             Detector(Wanted(tmp_path / "m.onnx", labels))
+
+
+def test_words_beside_the_boxes_are_left_aside(tmp_path: Path) -> None:
+    outputs = tiny.yolov5([]) | WORDS
+    path = tiny.model(tmp_path / "m.onnx", outputs, metadata={"names": "['person', 'cup']"})
+    assert Detector(Wanted(path)).look(tiny.jpeg(64, 64)).skipped is None
+
+
+def test_a_model_that_fails_the_second_time_is_refused(tmp_path: Path) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("out of memory")
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Session, "fix", fail)
+        with pytest.raises(VisionFailure, match=r"model_broken: .*second picture: out of memory"):
+            Detector(Wanted(good(tmp_path / "m.onnx")))
 
 
 @pytest.fixture(scope="module")

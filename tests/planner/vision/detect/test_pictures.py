@@ -118,6 +118,18 @@ def test_a_model_that_fails_on_a_picture_skips_it(detector: Detector) -> None:
         assert detector.look(JPEG).skipped == "detector_failed"
 
 
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_a_model_without_a_finite_number_failed_and_did_not_see_an_empty_room(
+    bad: float, detector: Detector
+) -> None:
+    out = np.full((1, 6, tiny.CELLS), bad, np.float32)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(detector.model.session, "run", lambda _: [out])
+        assert detector.look(JPEG).skipped == "detector_failed"
+        out[0, :, ::2] = 0.0
+        assert detector.look(JPEG).skipped is None
+
+
 @pytest.mark.parametrize(
     "error", [cv2.error("no memory"), MemoryError(), IndexError(), KeyError(), OverflowError()]
 )
