@@ -40,7 +40,7 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 # beside them starve them, nice or not: each robot is a session of its own to the scheduler.
 WHOLE := tests/e2e/test_model.py
 OWN := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py \
-  tests/deploy/test_separate_starts.py
+  tests/e2e/test_robot_changed.py tests/deploy/test_separate_starts.py
 SEEN := tests/e2e/test_finds_at_home.py
 ALONE := tests/e2e/test_conformance.py
 STORIES = $(filter-out $(WHOLE) $(OWN) $(ALONE) tests/web/%,\
