@@ -85,6 +85,7 @@ WANTS: dict[str, tuple[str, str]] = {
     "encoders_still": ("still wheels", "车轮静止"),
     "lidar": ("the lidar", "激光雷达"),
     "lidar_baseline": ("enough lidar scans", "足够的激光雷达数据"),
+    "lidar_blind": ("the lidar to see something", "激光雷达看到物体"),
     "lidar_stale": ("a lidar scan", "激光雷达数据"),
     "estop_link": ("the stop button's link", "停止按钮连接"),
     "fence_changing": ("the new fence", "新围栏生效"),

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.modes import Fact
-from bridge.core.senses import BASELINE_SCANS
+from bridge.core.senses import BASELINE_SCANS, sees
 from bridge.core.transition import go
 from wire import Mode
 
@@ -64,7 +64,8 @@ def waits_for(tick: Tick) -> Iterator[str]:
     if s.lidar.received_s is None or not tick.now_s - s.lidar.received_s <= FRESH_S:
         yield "lidar"
     if s.lidar.baseline_scans < BASELINE_SCANS:
-        yield "lidar_baseline"
+        covered = s.lidar.picture is not None and not sees(s.lidar.picture)
+        yield "lidar_blind" if covered else "lidar_baseline"
     if tick.config.robot.inputs.estop_link and s.buttons.link_received_s is None:
         yield "estop_link"
 

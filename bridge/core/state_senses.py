@@ -38,7 +38,7 @@ class LidarMemory:
     """Odometer reading when the first of them came."""
     baseline_scans: int = 0
     baseline_returns: float = 0.0
-    """Mean number of returns in the first 20 scans."""
+    """Mean number of returns in the first 20 scans that saw something."""
 
 
 @value

@@ -52,7 +52,7 @@ NUMBERS: dict[str, dict[str, float]] = {
     "pursuit": {"REACHED_M": 0.1, "REACHED_RAD": 0.1},
     "selftest": {"FRESH_S": 0.25, "STILL_S": 0.5, "MOVING_S": 1.0, "PATIENCE_S": 0.3},
     "senses": {"POOR_QUALITY": 0.5, "POSE_OLD_S": 0.3, "JUMP_M": 0.1, "JUMP_RAD": radians(5),
-               "BASELINE_SCANS": 20},
+               "BASELINE_SCANS": 20, "SEES_SHARE": 0.1},
     "state_orders": {"MAX_MISSIONS": 64},
     "stick": {"CAUSAL_S": 0.4, "RECEIPT_S": 0.25, "NEUTRAL_MPS": 0.02, "NEUTRAL_RADPS": 0.05},
     "stopcurve": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},

@@ -40,6 +40,11 @@ def proving(phase: str = DONE, **change: Any) -> Tick:
             setattr(s.drive, name, change[name])
     scans = change.get("baseline_scans", 20)
     s.lidar = replace(s.lidar, received_s=change.get("scan_s", NOW_S), baseline_scans=scans)
+    if "sees" in change:
+        picture = s.lidar.picture
+        assert picture is not None
+        blind = replace(picture, returns=0) if change["sees"] is False else None
+        s.lidar = replace(s.lidar, picture=blind)
     return tick
 
 
@@ -60,6 +65,9 @@ def proving(phase: str = DONE, **change: Any) -> Tick:
         (DONE, {"scan_s": None}, ["lidar"]),
         (DONE, {"baseline_scans": 19}, ["lidar_baseline"]),
         (DONE, {"baseline_scans": 21}, []),
+        (DONE, {"baseline_scans": 19, "sees": False}, ["lidar_blind"]),
+        (DONE, {"baseline_scans": 19, "sees": None}, ["lidar_baseline"]),
+        (DONE, {"baseline_scans": 20, "sees": False}, []),
     ],
 )
 def test_it_waits_for_each_thing_by_name(

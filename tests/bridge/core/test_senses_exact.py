@@ -8,6 +8,7 @@ from typing import Any
 
 from bridge.core import Inbox, senses
 from bridge.core.epoch import shelved
+from bridge.core.scanpicture import ScanPicture
 from bridge.core.state_senses import LidarMemory
 from bridge.core.tick import Tick
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
@@ -194,6 +195,24 @@ def test_what_is_normal_is_the_mean_of_the_first_20_scans(
     tick.s.lidar = LidarMemory(baseline_scans=had, baseline_returns=mean)
     senses._hear_scan(tick, scan)
     assert (tick.s.lidar.baseline_scans, tick.s.lidar.baseline_returns) == (scans, after)
+
+
+@table(
+    ("share", "beams", "teaches"),
+    [(0.1, 360, True), (0.1 - 1 / 360, 360, False), (0.0, 360, False), (0.0, 0, False)],
+)
+def test_a_covered_lidar_teaches_nothing_of_what_is_normal(
+    share: float, beams: int, teaches: bool
+) -> None:
+    tick = at()
+    returned = round(share * beams)
+    ranges = (2.0,) * returned + (None,) * (beams - returned)
+    scan = scan_of(tick).model_copy(update={"ranges_m": ranges})
+    tick.s.lidar = LidarMemory(baseline_scans=3, baseline_returns=300.0)
+    assert senses.sees(ScanPicture.from_scan(scan, IDENTITY, tick.config.robot.lidar)) is teaches
+    senses._hear_scan(tick, scan)
+    assert tick.s.lidar.baseline_scans == (4 if teaches else 3)
+    assert tick.s.lidar.baseline_returns == (300.0 - 66.0 if teaches else 300.0)
 
 
 # Place, gyro, recorder --------------------------------------------------------------------------
