@@ -15,6 +15,7 @@ HEAT_S = 2.0
 """So long a motor bears its peak current, as heat, before it must rest."""
 LOW, EMPTY, UP = 0.20, 0.10, 0.05
 CHARGE_S = 2.0
+_ROWS = frozenset({"BATTERY.0", "BATTERY.1"})
 
 
 def current(tick: Tick, dirty: Dirty) -> None:
@@ -37,7 +38,10 @@ def current(tick: Tick, dirty: Dirty) -> None:
 def battery(tick: Tick, dirty: Dirty) -> None:
     """Judge the charge; a row that is up stays until the charge is well above its limit again."""
     state, watch, rows = tick.s.drive.newest, tick.s.watch, tick.s.rows
-    if state is None or state.battery is None:
+    if state is None:
+        return
+    if state.battery is None:  # no news is no charge: what is up stays as it was
+        dirty.extend((name, up.evidence) for name, up in rows.items() if name in _ROWS)
         return
     charge, dt_s = state.battery, tick.dt_s
     if charge >= LOW + UP and watch.low_s == watch.empty_s == 0.0:

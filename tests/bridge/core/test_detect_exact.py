@@ -161,7 +161,11 @@ def test_a_peak_of_current_counts_for_100_ms_and_heat_adds_up() -> None:
         (0.15 - EPS, 0.01, 0.01, ("BATTERY.1",), ["BATTERY.1"]),
         (0.15 + EPS, 0.01, 0.01, ("BATTERY.1",), []),
         (0.9, 0.0, 0.0, ("BATTERY.0",), []),
-        (None, 2.0, 2.0, ("BATTERY.0",), []),
+        # a gauge that falls silent lifts nothing and raises nothing
+        (None, 0.0, 0.0, ("BATTERY.0",), ["BATTERY.0"]),
+        (None, 0.0, 0.0, ("BATTERY.0", "BATTERY.1"), ["BATTERY.0", "BATTERY.1"]),
+        (None, 2.0, 2.0, (), []),
+        (None, 2.0, 2.0, ("STUCK.0",), []),
     ],
 )
 def test_a_battery_is_low_after_two_seconds_until_well_above(
@@ -176,6 +180,9 @@ def test_a_battery_is_low_after_two_seconds_until_well_above(
     dirty: Dirty = []
     detect_power.battery(tick, dirty)
     assert [name for name, _ in dirty] == rows
+    if charge is None:
+        assert {evidence for _, evidence in dirty} <= {"old"}
+        assert (tick.s.watch.low_s, tick.s.watch.empty_s) == (low_s, empty_s)
 
 
 @table(

@@ -183,6 +183,16 @@ class TestSight:
         assert world.is_in(Mode.DISARMED)
         assert raised(world, "LIDAR_BLIND.1")
 
+    def test_one_covered_at_the_start_is_waited_for_and_teaches_nothing(self) -> None:
+        world = World(lidar_blind=True)
+        world.run(4.0)
+        assert world.is_in(Mode.SELFTEST)
+        assert world.status is not None
+        assert world.status.waiting_for == ("lidar_blind",)
+        world.lidar_blind = False
+        world.until(Mode.DISARMED, 2.2)
+        assert world.state.lidar.baseline_returns > 60
+
     def test_one_that_sees_again_is_trusted_after_2_s(self) -> None:
         world = World().driving((5.0, 0.0))
         world.lidar_blind = True
@@ -224,6 +234,15 @@ class TestPower:
         world.run(2.6)
         assert raised(world, "BATTERY.1")
         world.until(Mode.DISARMED, 2.0)
+
+    def test_a_gauge_that_falls_silent_lifts_no_cap(self) -> None:
+        world = World().driving((5.0, 0.0))
+        world.drive.battery = 0.15
+        world.run(2.1)
+        world.drive.battery = None
+        world.run(8.0)
+        assert raised(world, "BATTERY.0")
+        assert world.state.motion.cap == pytest.approx(0.3 / 0.5)
 
     def test_a_sag_that_comes_and_goes_adds_up(self) -> None:
         world = World().driving((5.0, 0.0))
