@@ -71,14 +71,16 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--site", type=Path, required=True, help="folder with fence.json and map.yaml"
     )
-    parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
+    parser.add_argument(
+        "--robot", type=Path, help="robot.toml (default: the built-in robot, said in the log)"
+    )
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     return parser.parse_args(arguments)
 
 
 def _serve(options: argparse.Namespace) -> int:
     asked = _Asked()  # first: a signal during the slow part of the start must end it cleanly too
-    robot = load_robot(options.robot) if options.robot else RobotDescription()
+    robot = _robot(options.robot)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     config = _config(robot, options.site, home)
     key = load_operator_key(home, virtual=robot.drive.virtual)
@@ -98,6 +100,12 @@ def _serve(options: argparse.Namespace) -> int:
             keeper.close()
             desk.close()
             recorder.close()
+
+
+def _robot(path: Path | None) -> RobotDescription:
+    """Load the robot and say which: nobody is to drive by defaults unawares."""
+    log.info("robot: %s", path.absolute() if path else "the built-in default: no --robot was given")
+    return load_robot(path) if path else RobotDescription()
 
 
 def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
