@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 from bridge.begin import CORE  # first: it chooses which core the others import
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
-from bridge.drive import SimDrive
+from bridge.drive import SimDrive, braked
 from bridge.fence_desk import FenceDesk, Ground
 from bridge.fence_file import load_fence
 from bridge.link import Link
@@ -125,7 +125,7 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
 
 
 def _drive(session: Session, robot: RobotDescription, boot: str) -> Drive:
-    return {"sim": SimDrive}[robot.drive.kind](session, boot)
+    return braked({"sim": SimDrive}[robot.drive.kind](session, boot))
 
 
 def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> int:

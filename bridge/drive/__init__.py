@@ -1,6 +1,6 @@
 """Turn wheel commands into motion and wheels into readings. One file per kind of drive."""
 
-from bridge.drive.base import Braking, Drive
+from bridge.drive.base import Braking, Drive, braked
 from bridge.drive.sim import SimDrive
 
-__all__ = ["Braking", "Drive", "SimDrive"]
+__all__ = ["Braking", "Drive", "SimDrive", "braked"]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Literal, Protocol
 
-from wire import DriveCommand, DriveState, Rejected
+from wire import DriveCommand, DriveState, Misconfigured, Rejected
 
 Braking = Literal["brake", "coast"]
-"""What the wheels do without torque: short or brake, or roll on. Decides what CUT0 is worth."""
+"""What the wheels do without torque: short or brake, or roll on. Decides what CUT0 is worth; who
+coasts is refused by :func:`braked`."""
 
 
 class Drive(Protocol):
@@ -26,3 +27,22 @@ class Drive(Protocol):
 
     def halt(self) -> None:
         """Zero both wheels and take the torque away. Never raises: all else may have failed."""
+
+
+def braked(drive: Drive) -> Drive:
+    """Return the drive, whose wheels brake without torque.
+
+    Every stop but HOLD2 ends without torque. On wheels that roll on, that is safe only with torque
+    kept at standstill until a person acts, which this bridge does not do.
+
+    Raises:
+        Misconfigured: ``drive_coasts``.
+    """
+    if drive.braking != "brake":
+        raise Misconfigured(
+            "drive_coasts",
+            f"drive {drive.kind!r} declares braking {drive.braking!r}; expected 'brake': a stop "
+            "takes the torque away, and wheels that roll on then would not stand. Short the motors "
+            "or fit a brake",
+        )
+    return drive
