@@ -82,7 +82,7 @@ def decide(tick: Tick) -> None:
     selftest.run(tick)
     action, why, reset_needed = latch.worst(tick)
     if s.gate.blocked and s.mode is Mode.ACTIVE and not SEVERITY[action] >= _HOLD2:
-        action, why = Action.HOLD2, "obstacle"
+        action, why = Action.HOLD2, s.gate.by
     must_stop = SEVERITY[action] >= _HOLD2
     if must_stop and s.mode in _FOLLOWS:
         go(tick, action, why, reset_needed=reset_needed)
@@ -107,7 +107,7 @@ def _tire(tick: Tick, *, must_stop: bool) -> None:
     elif s.waits_since_s is None:
         s.waits_since_s = tick.now_s
     elif tick.now_s - s.waits_since_s >= (REVOKED_S if must_stop else REVOKED_BLOCKED_S):
-        why = latch.worst(tick)[1] if must_stop else "obstacle"
+        why = latch.worst(tick)[1] if must_stop else s.gate.by
         tick.say("mission_revoked", f"{s.grants.mission} {why}")
         s.grants = shelved(s.grants)
         s.waits_since_s = None

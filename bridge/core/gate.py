@@ -43,11 +43,11 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
     motion, picture = s.motion, s.lidar.picture
     motion.free_m = tick.room_m = None
     if twist == STILL:
-        _note(tick, shut=False)
+        _note(tick, "")
         return twist
     if picture is None:
         motion.bound_by = "no_scan"
-        _note(tick, shut=True)
+        _note(tick, "obstacle")
         return STILL
     way = obstacle_gate(
         picture,
@@ -66,12 +66,20 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
     if not way.known and fastest > UNKNOWN_MPS:
         motion.bound_by = "unseen"
         passed = scaled(passed, UNKNOWN_MPS / fastest)
-    passed = _inside_fence(tick, passed)
-    felt = contact_gate(s.drive.newest, passed)
-    if felt != passed:
-        motion.bound_by, passed = "contact", felt
-    _note(tick, shut=_shut(twist, passed))
-    return passed
+    inside = _inside_fence(tick, passed)
+    felt = contact_gate(s.drive.newest, inside)
+    if felt != inside:
+        motion.bound_by = "contact"
+    _note(tick, _shut_by(twist, passed, inside, felt))
+    return felt
+
+
+def _shut_by(asked: Twist2, seen: Twist2, inside: Twist2, felt: Twist2) -> str:
+    """Name the first gate that leaves nothing of the way asked for; "" where some passes."""
+    for name, passed in (("obstacle", seen), ("fence", inside), ("contact", felt)):
+        if _shut(asked, passed):
+            return name
+    return ""
 
 
 def _shut(asked: Twist2, passed: Twist2) -> bool:
@@ -149,18 +157,18 @@ def reconsider(tick: Tick, asked: Twist2) -> None:
         tick.s.gate = replace(gate, free_scans=count, judged_scan=scan.seq)
 
 
-def _note(tick: Tick, *, shut: bool) -> None:
+def _note(tick: Tick, shut_by: str) -> None:
     """Call it blocked after 0.5 s; a robot that turns away meanwhile is given the time anew.
 
     The follower's wish sways with the pose's noise, so a turn to and fro is no turning away.
     """
     s = tick.s
     gate, yaw_rad = s.gate, s.odometry.base_in_odom.yaw_rad
-    if not shut:
+    if not shut_by:
         if gate.shut_since_s is not None:
             s.gate = replace(gate, shut_since_s=None)
     elif gate.shut_since_s is None or abs(wrap(yaw_rad - gate.shut_yaw_rad)) >= TURNED_RAD:
         s.gate = replace(gate, shut_since_s=tick.now_s, shut_yaw_rad=yaw_rad)
     elif s.mode is Mode.ACTIVE and not gate.blocked and tick.now_s - gate.shut_since_s >= SHUT_S:
-        s.gate = Gate(blocked=True)
-        tick.say("blocked", f"the way is not free, asked {s.motion.asked.v_mps:.2f} m/s")
+        s.gate = Gate(blocked=True, by=shut_by)
+        tick.say("blocked", f"by {shut_by}, asked {s.motion.asked.v_mps:.2f} m/s")

@@ -68,13 +68,15 @@ class SelfTest:
 
 @dataclass(frozen=True, slots=True)
 class Gate:
-    """Remember the obstacle gate."""
+    """Remember how the gates for obstacle, fence and contact shut the way."""
 
     shut_since_s: float | None = None
     """Since when the way asked for is shut and the robot has not turned away from it."""
     shut_yaw_rad: float = 0.0
     """Heading in ``odom`` at that time."""
     blocked: bool = False
+    by: str = "obstacle"
+    """Which gate left nothing of the way when it was called blocked: obstacle, fence, contact."""
     free_scans: int = 0
     judged_scan: int = -1
 

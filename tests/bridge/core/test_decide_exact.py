@@ -18,11 +18,13 @@ from wire import Action, HeldReason, Mode
 EPS_S = 1e-6
 
 
-def waiting(start: str, since_s: float | None, *, blocked: bool, must_stop: bool) -> Tick:
+def waiting(
+    start: str, since_s: float | None, *, blocked: bool, must_stop: bool, by: str = "obstacle"
+) -> Tick:
     """Let a mission have waited for so long when a tick begins; call what tires of it."""
     tick = tick_of(reached(start))
     tick.s.waits_since_s = None if since_s is None else tick.now_s - since_s
-    tick.s.gate = Gate(blocked=blocked, free_scans=2)
+    tick.s.gate = Gate(blocked=blocked, by=by, free_scans=2)
     if must_stop:
         tick.s.rows = {"LIDAR_STALE.0": RowUp(tick.now_s, tick.now_s, "by hand")}
     _tire(tick, must_stop=must_stop)
@@ -60,12 +62,14 @@ def test_a_mission_waits_while_it_stands_granted_before_trouble(
         (30.0, False, True, "lidar_stale"),
         (30.0, True, True, "lidar_stale"),
         (300.0, True, False, "obstacle"),
+        (300.0, True, False, "fence"),
     ],
 )
 def test_a_mission_that_waited_too_long_is_revoked_and_its_rest_kept(
     since_s: float, blocked: bool, must_stop: bool, why: str
 ) -> None:
-    tick = waiting("hold_granted", since_s + EPS_S, blocked=blocked, must_stop=must_stop)
+    gate = "obstacle" if must_stop else why
+    tick = waiting("hold_granted", since_s + EPS_S, blocked=blocked, must_stop=must_stop, by=gate)
     assert tick.s.waits_since_s is None
     assert tick.s.grants.mission is None
     assert [left.mission for left in tick.s.grants.book] == ["m1"]
@@ -91,20 +95,21 @@ def test_a_horizon_grown_old_is_forgotten_where_the_robot_stands(
 
 
 @table(
-    ("rows", "blocked", "mode", "why"),
+    ("rows", "gate", "mode", "why"),
     [
-        ((), False, Mode.ACTIVE, ""),
-        ((), True, Mode.STOPPING, "obstacle"),
-        (("LOOP_LATE.0",), True, Mode.STOPPING, "obstacle"),
-        (("LIDAR_STALE.0",), False, Mode.STOPPING, "lidar_stale"),
-        (("LIDAR_STALE.0",), True, Mode.STOPPING, "lidar_stale"),
+        ((), Gate(), Mode.ACTIVE, ""),
+        ((), Gate(blocked=True), Mode.STOPPING, "obstacle"),
+        ((), Gate(blocked=True, by="fence"), Mode.STOPPING, "fence"),
+        (("LOOP_LATE.0",), Gate(blocked=True, by="contact"), Mode.STOPPING, "contact"),
+        (("LIDAR_STALE.0",), Gate(), Mode.STOPPING, "lidar_stale"),
+        (("LIDAR_STALE.0",), Gate(blocked=True), Mode.STOPPING, "lidar_stale"),
     ],
 )
 def test_a_blocked_way_holds_unless_something_worse_does(
-    rows: tuple[str, ...], blocked: bool, mode: Mode, why: str
+    rows: tuple[str, ...], gate: Gate, mode: Mode, why: str
 ) -> None:
     tick = tick_of(reached("active"))
-    tick.s.gate = Gate(blocked=blocked)
+    tick.s.gate = gate
     tick.s.rows = {name: RowUp(tick.now_s, tick.now_s, "by hand") for name in rows}
     decide(tick)
     assert tick.s.mode is mode

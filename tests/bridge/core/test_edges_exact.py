@@ -144,14 +144,14 @@ def slow(tick: Tick) -> object:
 def shut(tick: Tick) -> object:
     yaw_rad = tick.s.odometry.base_in_odom.yaw_rad
     tick.s.gate = Gate(shut_since_s=0.0, shut_yaw_rad=yaw_rad)
-    gate._note(tick, shut=True)
+    gate._note(tick, "obstacle")
     return tick.s.gate.blocked
 
 
 def turned_away(tick: Tick) -> object:
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=Pose2(0.0, 0.0, 0.05))
     tick.s.gate = Gate(shut_since_s=0.0, shut_yaw_rad=0.0)
-    gate._note(tick, shut=True)
+    gate._note(tick, "obstacle")
     return tick.s.gate.shut_since_s
 
 

@@ -150,10 +150,21 @@ def blocked_world(by: str = "obstacle") -> World:
     world = fenced_world() if by == "fence" else external_world()
     if by == "obstacle":
         world.obstacle_m = (1.5, 0.0, 0.3)
+    elif by == "contact":
+        world.drive.pressed = ("bumper_front",)
     drive_for(world, 7.0)
     assert world.state.gate.blocked
     assert world.is_in(Mode.HOLD)
     return world
+
+
+@pytest.mark.parametrize("by", ["obstacle", "fence", "contact"])
+def test_blocked_the_gate_that_shut_the_way_is_named(by: str) -> None:
+    world = blocked_world(by)
+    (blocked,) = [event.detail for event in world.events if event.code == "blocked"]
+    assert blocked.startswith(f"by {by}, ")
+    stops = [e.detail for e in world.events if e.code == "mode" and "STOPPING" in e.detail]
+    assert stops == [f"ACTIVE STOPPING {by}", f"STOPPING HOLD {by}"]
 
 
 @pytest.mark.parametrize("by", ["obstacle", "fence"])

@@ -11,7 +11,7 @@ from bridge.core.braking import reaction_s
 from bridge.core.contactgate import contact_gate
 from bridge.core.fence import build_fence
 from bridge.core.fencegate import fence_scale
-from bridge.core.gate import _inside_fence, _note, look, reconsider, scan_age_s, through
+from bridge.core.gate import _inside_fence, _note, _shut_by, look, reconsider, scan_age_s, through
 from bridge.core.kinematics import scaled
 from bridge.core.obstaclegate import look_m
 from bridge.core.scanpicture import ScanPicture
@@ -114,6 +114,22 @@ def test_a_pressed_bumper_shuts() -> None:
 
 
 @table(
+    ("seen", "inside", "felt", "gate"),
+    [
+        (AHEAD, AHEAD, AHEAD, ""),
+        (AHEAD, AHEAD, STILL, "contact"),
+        (AHEAD, STILL, STILL, "fence"),
+        (STILL, STILL, STILL, "obstacle"),
+        (Twist2(0.0, 0.3), Twist2(0.0, 0.3), Twist2(0.0, 0.2), "obstacle"),
+    ],
+)
+def test_the_first_gate_that_leaves_no_way_has_shut_it(
+    seen: Twist2, inside: Twist2, felt: Twist2, gate: str
+) -> None:
+    assert _shut_by(AHEAD, seen, inside, felt) == gate
+
+
+@table(
     ("shut", "start", "before", "turned_rad", "after"),
     [
         (False, "active", Gate(shut_since_s=1.0, free_scans=2), 0.0, Gate(None, free_scans=2)),
@@ -123,7 +139,7 @@ def test_a_pressed_bumper_shuts() -> None:
         (True, "active", Gate(-0.3), 0.05 + EPS, Gate(0.0)),
         (True, "active", Gate(-0.3), -0.05 - EPS, Gate(0.0)),
         (True, "active", Gate(-0.5 + EPS), 0.0, Gate(-0.5 + EPS)),
-        (True, "active", Gate(-0.5 - EPS), 0.0, Gate(blocked=True)),
+        (True, "active", Gate(-0.5 - EPS), 0.0, Gate(blocked=True, by="fence")),
         (True, "teleop", Gate(-0.6), 0.0, Gate(-0.6)),
         (True, "active", Gate(-0.6, blocked=True), 0.0, Gate(-0.6, blocked=True)),
     ],
@@ -142,7 +158,7 @@ def test_shut_for_half_a_second_without_turning_away_is_blocked(
         return replace(gate, shut_since_s=tick.now_s + since_s, shut_yaw_rad=heading_rad)
 
     tick.s.gate = dated(before, yaw_rad - turned_rad)
-    _note(tick, shut=shut)
+    _note(tick, "fence" if shut else "")
     fresh = after.shut_since_s == 0.0
     assert tick.s.gate == dated(after, yaw_rad if fresh else yaw_rad - turned_rad)
     blocked = after.blocked and not before.blocked
