@@ -96,6 +96,13 @@ describe("the log", () => {
     expect(told(mode("HOLD TELEOP teleop stop")).text).toBe("Ready → Steered by hand");
   });
 
+  it("says which gate shut the way", () => {
+    const blocked = (text: string): string => told({ ...mode(text), code: "blocked" }).text;
+    expect(blocked("by fence, asked 0.40 m/s")).toMatch(/too near the fence/);
+    expect(blocked("the way is not free, asked 0.40 m/s")).toBe("The way is blocked.");
+    expect(blocked("by brand_new, asked 0.40 m/s")).toBe("The way is blocked.");
+  });
+
   it("says why a planner was refused and a stop failed", () => {
     const entry = (code: string, text: string): LogEntry => ({ ...mode(text), code });
     const hello = told(entry("hello_refused", "p2 fence_mismatch came a, expected b"));

@@ -26,6 +26,8 @@ function fromBridge(code: string, detail: string): Told {
       const text = why ? t("event.mode_why", { ...names, why }) : t("event.mode", names);
       return { text, fine };
     }
+    case "blocked": // by fence, asked 0.40 m/s
+      return { text: causeWords(second.replace(",", "")) ?? t("event.blocked"), fine: detail };
     case "stop_failed":
       return { text: causeWords(first) ?? t("event.stop_failed"), fine: detail };
     case "hello_refused":
