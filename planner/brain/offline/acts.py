@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from planner.brain.offline.lexicon import MARK, NAME
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Steps
 from planner.brain.offline.places import go_to
+from planner.brain.offline.several import ONE_AT_A_TIME, several
 from planner.plan import (
     MAX_STEPS,
     Bilingual,
@@ -152,7 +153,18 @@ def find(words: str, where: str | None, reading: Reading) -> Meaning:
         thing = label_of(words, reading)
     if not thing:
         return missing(WHO, words, reading)
+    if several(words) is not None:
+        return one_at_a_time(words, place, reading)
     return Steps((*arrive(place, reading), Find(object=thing, place=place)), thing=thing, seen=True)
+
+
+def one_at_a_time(words: str, place: str | None, reading: Reading) -> Meaning:
+    """Offer to count what can't be found, or driven up to, all at once."""
+    label = label_of(several(words) or words, reading)
+    if not label:
+        return missing(WHO, words, reading)
+    counted = (*arrive(place, reading), Count(object=label, place=place))
+    return replace(missing(ONE_AT_A_TIME, words, reading), places=(), instead=counted)
 
 
 def count(words: str, where: str | None, reading: Reading) -> Meaning:

@@ -10,6 +10,7 @@ from planner.brain.offline.english_words import PERSON, WORD, loc
 from planner.brain.offline.grammar import where
 from planner.brain.offline.lexicon import MARK, NAME
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Steps
+from planner.brain.offline.several import several
 from planner.plan import Code, Find, GoTo, Step
 
 _THE = r"(?:(?:the|a|an|my|our|your|some|any|this|that|one|two|three) )?"
@@ -134,7 +135,7 @@ def _only_there(src: str | None, reading: Reading) -> tuple[Step, ...]:
 
 def _look_for(words: str, src: str | None, reading: Reading) -> tuple[Step, ...]:
     place = place_of(src, reading) if src else None
-    label = label_of(words, reading)
+    label = label_of(several(words) or words, reading)
     if isinstance(place, Problem) or not label or re.search(rf"{MARK}|\d", words):
         return ()
     there = (GoTo(place=place),) if place else ()

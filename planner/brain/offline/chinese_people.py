@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from re import Match
 
-from planner.brain.offline.acts import follow, guide, label_of, meet
+from planner.brain.offline.acts import follow, guide, label_of, meet, one_at_a_time, place_of
 from planner.brain.offline.chinese_words import GO, IN, PERSON, SPOT, loc
 from planner.brain.offline.grammar import QUOTE, lacks, rule, where
-from planner.brain.offline.meaning import About, Meaning, Reading, Rule, Steps
+from planner.brain.offline.meaning import About, Meaning, Problem, Reading, Rule, Steps
+from planner.brain.offline.several import several
 from planner.brain.offline.talk import Topic, told, topic_of
 from planner.plan import Ask, Code
 
@@ -23,7 +24,11 @@ _GUIDE = r"(?:带着?|领着?|引导|引领|陪同?|陪着|护送|送|指引)"
 
 
 def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
-    return meet(found["who"], where(found, "at2") or where(found, "at"), reading)
+    at = where(found, "at2") or where(found, "at")
+    if "找" in found[0] and several(found["who"]) is not None:
+        place = place_of(at, reading)
+        return place if isinstance(place, Problem) else one_at_a_time(found["who"], place, reading)
+    return meet(found["who"], at, reading)
 
 
 def _greet(found: Match[str], reading: Reading) -> Meaning:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from re import Match
 
 from planner.brain.offline.acts import (
@@ -10,13 +11,16 @@ from planner.brain.offline.acts import (
     label_of,
     look,
     meet,
+    one_at_a_time,
+    place_of,
     saying,
     spoken,
 )
 from planner.brain.offline.english_words import DESCRIPTION, PERSON, THE, loc
 from planner.brain.offline.grammar import QUOTE, ahead, lacks, rule, where
 from planner.brain.offline.lexicon import MARK
-from planner.brain.offline.meaning import About, Meaning, Reading, Rule, Steps
+from planner.brain.offline.meaning import About, Meaning, Problem, Reading, Rule, Steps
+from planner.brain.offline.several import several
 from planner.brain.offline.talk import Topic, told, topic_of
 from planner.plan import Ask, Code, Decide, Say
 
@@ -27,6 +31,7 @@ _FIND = (
     r"move to|drive to|check (?:up )?on|"
     r"come to|join|call on|go and see)"
 )
+_SEEKS = re.compile(r"(?:find|locate|look for|search for|seek|spot|pinpoint)\b")
 _GREET = (
     r"(?:greet|welcome|say (?:hello|hi|good (?:morning|evening|afternoon|night)|welcome|"
     r"goodbye|bye) to|wish)"
@@ -48,6 +53,9 @@ _TO = rf"(?: (?:(?:back )?(?:to|into|towards?|up to) (?P<to>{THE}[^,]+?)|(?P<bac
 
 
 def _meet(found: Match[str], reading: Reading) -> Meaning:
+    if _SEEKS.match(found[0]) and several(found["who"]) is not None:
+        place = place_of(where(found, "at"), reading)
+        return place if isinstance(place, Problem) else one_at_a_time(found["who"], place, reading)
     return meet(found["who"], where(found, "at"), reading)
 
 

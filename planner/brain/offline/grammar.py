@@ -13,7 +13,7 @@ from re import Match, Pattern
 
 from pydantic import ValidationError
 
-from planner.brain.offline.acts import look
+from planner.brain.offline.acts import look, one_at_a_time
 from planner.brain.offline.meaning import (
     About,
     Clause,
@@ -26,7 +26,7 @@ from planner.brain.offline.meaning import (
 from planner.brain.offline.numbers import seconds
 from planner.brain.offline.places import go_to
 from planner.brain.offline.talk import Topic, topic_of
-from planner.brain.offline.things import up_to
+from planner.brain.offline.things import several_of, up_to
 from planner.plan import Code, ComeBack, GoTo, Patrol, ReturnHome, Say, Wait
 
 FIRST_QUOTE = 0xF800
@@ -100,6 +100,9 @@ def drive_to(found: Match[str], reading: Reading) -> Meaning:
     meaning = go_to(found["place"], reading)
     if isinstance(meaning, Steps):
         return meaning
+    many = several_of(found["place"], reading)
+    if many is not None:
+        return one_at_a_time(many[0], many[1], reading)
     return up_to(found["place"], reading) or meaning
 
 

@@ -12,6 +12,7 @@ import re
 
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Reading, Steps
+from planner.brain.offline.several import several
 from planner.plan import GoToObject
 
 _THE = r"(?:(?:the|a|an|my|our|your|this|that) )?"
@@ -63,6 +64,19 @@ def up_to(phrase: str, reading: Reading) -> Steps | None:
         return None
     label = reading.marked.restore(what)
     return Steps((GoToObject(object=label, place=ids[0]),), thing=label)
+
+
+def several_of(phrase: str, reading: Reading) -> tuple[str, str | None] | None:
+    """Return the words for several things that eyes know, and where they are; None for others."""
+    phrase = phrase.strip(" \"'")
+    found = _EN.fullmatch(phrase) or _ZH.fullmatch(phrase)
+    what = found["what"].strip(" 的") if found else ""
+    plain = several(what) or ""
+    if found is None or not (
+        known(plain, reading.things) or known(plain.removesuffix("s"), reading.things)
+    ):
+        return None
+    return what, _only(found["at"], reading) if found["at"] else None
 
 
 def by_neighbour(what: str, how: str, by: str, reading: Reading) -> str | None:
