@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -154,7 +154,12 @@ def foreground(
 
 
 def depth_at(depth: Depth, u_px: float, v_px: float) -> float | None:
-    """Return what was measured around a pixel [m]; wider around it where it is a hole."""
+    """Return what was measured around a pixel [m]; wider around it where it is a hole.
+
+    None where nothing was, and for a pixel whose place is not finite: who points may be a model.
+    """
+    if not (isfinite(u_px) and isfinite(v_px)):
+        return None
     height, width = depth.shape
     column, row = min(max(0, int(u_px)), width - 1), min(max(0, int(v_px)), height - 1)
     for radius in AROUND_PX:

@@ -85,12 +85,13 @@ class Session:
             self._session: Any = ort.InferenceSession(
                 str(path), sess_options=options(threads), providers=list(chosen.names)
             )
+            # Names that are no UTF-8 are read here, and no earlier.
+            self.inputs = tuple(map(_slot, self._session.get_inputs()))
+            self.outputs = tuple(map(_slot, self._session.get_outputs()))
+            self.metadata: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
         except RUN_ERRORS as error:
             raise _refusal(path, file, error) from None
         self.provider, self.provider_why = chosen.told(self._session.get_providers())
-        self.inputs = tuple(map(_slot, self._session.get_inputs()))
-        self.outputs = tuple(map(_slot, self._session.get_outputs()))
-        self.metadata: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
         self._fixed: Mapping[str, Array] | None = None
         self._binding: Any = None
         self._results: list[Array] = []

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from planner.vision.colors_pixels import IDS, exposure, prevailing
-from planner.vision.detect.inner import inner, look_inside
+from planner.vision.detect.inner import depth_at, inner, look_inside
 from planner.vision.detect.pictures import Depth, Picture
 
 WALL_MM = 4000
@@ -106,3 +106,19 @@ def test_a_dim_picture_is_brightened_before_colours_count() -> None:
         assert prevailing(picture[30:50, 30:50].reshape(-1, 3), gain) == "brown"
     assert prevailing(dim[:20].reshape(-1, 3)) == "gray"
     assert prevailing(dim[30:50, 30:50].reshape(-1, 3)) == "black"
+
+
+@pytest.mark.parametrize(
+    ("place", "expected"),
+    [
+        ((40.0, 40.0), 4.0),
+        ((-9.0, 1e300), 4.0),
+        ((np.nan, 40.0), None),
+        ((40.0, np.nan), None),
+        ((np.inf, -np.inf), None),
+    ],
+)
+def test_who_points_nowhere_gets_no_depth(
+    place: tuple[float, float], expected: float | None
+) -> None:
+    assert depth_at(scene()[1], *place) == expected

@@ -50,6 +50,11 @@ def with_a_broken_middle(path: Path) -> Path:
     return path
 
 
+def with_names_that_are_no_text(path: Path) -> Path:
+    path.write_bytes(good(path).read_bytes().replace(b"'person'", b"'\xff\xff\xff\xff\xff\xff'"))
+    return path
+
+
 def bare_nms(path: Path) -> Path:
     """Be the graph that some exporters write beside the detector: boxes in, choice out."""
     inputs = [
@@ -87,6 +92,7 @@ REFUSED = [
     (written(b"PK\x03\x04" + bytes(200)), "model_not_onnx", "m.onnx"),
     (without_its_end, "model_truncated", "its fields go on"),
     (with_a_broken_middle, "model_broken", "m.onnx"),
+    (with_names_that_are_no_text, "model_broken", "can't decode byte 0xff"),
     (bare_nms, "model_not_detector", "boxes [1, 100, 4]"),
     (shaped(1, 3, 64, 64, opset=999), "model_too_new", "which knows operators to "),
     (shaped(1, 3, 64, 64, ir=99), "model_too_new", "format 99"),
