@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from bridge.core.ages import sensor_age_s
 from bridge.core.braking import reaction_s
 from bridge.core.contactgate import contact_gate, touched
-from bridge.core.fencegate import fence_scale
+from bridge.core.fencegate import FENCE_MARGIN_M, fence_scale
 from bridge.core.freespace import free_length
 from bridge.core.kinematics import saturate, scaled
 from bridge.core.learnt import in_force
@@ -103,6 +103,7 @@ def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
             return twist  # POSE_LOST caps it at the speed at which a hand may cross
         tick.s.motion.bound_by = "pose_lost"
         return STILL
+    _tell_crossing(tick, fence.margin_m(here.x_m, here.y_m))
     robot = tick.config.robot
     learnt = tick.s.learnt
     lag_s = robot.drive.lag_s + learnt.lag_more_s
@@ -115,6 +116,19 @@ def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
     if tick.s.mode is Mode.TELEOP:
         scale = max(scale, min(1.0, TELEOP_FENCE_MPS / max(abs(twist.v_mps), 1e-9)))
     return scaled(twist, scale)
+
+
+def _tell_crossing(tick: Tick, margin_m: float) -> None:
+    """Say once that a hand moves the robot outside the fence.
+
+    Said anew only once it has been inside by the margin: the pose's noise is far smaller.
+    """
+    watch = tick.s.watch
+    if watch.outside:
+        watch.outside = not margin_m >= FENCE_MARGIN_M
+    elif tick.s.mode is Mode.TELEOP and not margin_m >= 0.0:
+        watch.outside = True
+        tick.say("fence_crossed", "a hand on the stick moves the robot outside the fence")
 
 
 def scan_age_s(tick: Tick) -> float:

@@ -41,6 +41,8 @@ class Watch:
     empty_s: float = 0.0
     zone_mps: float | None = None
     """Speed of the slowest zone that the robot is in."""
+    outside: bool = False
+    """A hand took the robot out of the fence, and it has not been well inside since."""
 
 
 @value

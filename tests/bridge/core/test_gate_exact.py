@@ -292,6 +292,36 @@ def test_further_outside_than_the_fence_is_known_a_hand_alone_moves_it(
 
 
 @table(
+    ("start", "margins_m", "said"),
+    [
+        ("teleop", (0.3, 0.05, 1e-9), 0),
+        ("teleop", (0.3, 0.05, -1e-3), 1),
+        ("teleop", (-1e-3, 0.02, -0.02, 0.14, -0.3, -1.0), 1),  # noise, and a hand to and fro
+        ("teleop", (-1e-3, 0.16, -1e-3, 0.0, -1e-3), 2),
+        ("active", (-1e-3, -0.02), 0),
+    ],
+)
+def test_a_hand_that_crosses_the_fence_is_told_of_once_a_crossing(
+    start: str, margins_m: tuple[float, ...], said: int
+) -> None:
+    tick = tick_of(reached(start))
+    fence = build_fence(MAP_ID, (((-5.0, -5.0), (1.5, -5.0), (1.5, 5.0), (-5.0, 5.0)),))
+    tick.config = replace(tick.config, fence=fence)
+    for margin_m in margins_m:
+        tick.robot_in_map = Pose2(1.5 - margin_m, 0.0, 0.0)
+        _inside_fence(tick, AHEAD)
+    assert [code for code, _ in tick.events] == ["fence_crossed"] * said
+
+
+def test_what_a_hand_took_out_and_a_planner_brought_in_may_be_taken_out_anew() -> None:
+    tick = tick_of(reached("active"))
+    tick.s.watch.outside = True
+    tick.robot_in_map = Pose2(0.0, 0.0, 0.0)
+    _inside_fence(tick, AHEAD)
+    assert not tick.s.watch.outside
+
+
+@table(
     ("asked", "passed"),
     [
         (Twist2(-0.05, 0.1), Twist2(-0.05, 0.1)),
