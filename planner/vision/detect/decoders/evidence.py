@@ -48,11 +48,13 @@ def has_objectness(facts: Facts) -> bool | None:
 def _by_scores(trial: Floats | None) -> bool | None:
     if trial is None:
         return None
-    rows = trial[0][finite_rows(trial[0])]
-    typical = float(np.median(rows[:, 5:].max(axis=1))) if len(rows) else 0.0
-    if typical >= LOUD:
+    scores = trial[0][finite_rows(trial[0]), 4:]
+    if not len(scores):
+        return None
+    if np.median(scores[:, 1:].max(axis=1)) >= LOUD:
         return True
-    return False if 0.0 < typical <= QUIET else None
+    # The first column too: in a YOLOv6 it is one everywhere, and no class.
+    return False if 0.0 < np.median(scores.max(axis=1)) <= QUIET else None
 
 
 def check_scores(facts: Facts, name: str, *, in_rows: bool) -> None:

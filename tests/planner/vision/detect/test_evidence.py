@@ -71,6 +71,14 @@ def test_where_nothing_tells_the_owner_must(score: float, names: int) -> None:
     assert told == said
 
 
+def test_an_objectness_that_is_one_everywhere_is_no_class() -> None:
+    known = facts(5, 1e-5)
+    assert known.trial is not None
+    known.trial[0, :, 4] = 1.0
+    with pytest.raises(VisionFailure, match="model_layout_unknown"):
+        choose(known)
+
+
 def test_a_trial_without_numbers_leaves_names_alone_and_is_refused() -> None:
     with pytest.raises(VisionFailure, match="model_layout_unknown"):
         choose(facts(5, np.nan, np.nan))
