@@ -53,7 +53,8 @@ class Stopping:
     resumes: bool
     """False where a person asked for it."""
     reset_needed: bool = False
-    slow_since_s: float | None = None
+    slow_s: float = 0.0
+    """How full the window is in which it is measured to be too slow."""
 
 
 @dataclass(frozen=True, slots=True)

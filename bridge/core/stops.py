@@ -14,6 +14,7 @@ from bridge.core.detect_senses import ENC_LONG_S
 from bridge.core.modes import Fact
 from bridge.core.stopcurve import too_long, too_slow
 from bridge.core.transition import go
+from bridge.core.window import filled
 from wire import STILL, Action, Mode
 
 if TYPE_CHECKING:
@@ -73,13 +74,12 @@ def _failure(tick: Tick) -> str | None:
         return None
     robot = tick.config.robot
     lag_s, elapsed_s = robot.drive.lag_s, tick.now_s - stop.since_s
-    if too_slow(stop.plan, s.odometry.measured, elapsed_s, lag_s, robot.base):
-        if stop.slow_since_s is None:
-            s.stopping = replace(stop, slow_since_s=tick.now_s)
-        elif tick.now_s - stop.slow_since_s >= SLOW_S:
+    slow = too_slow(stop.plan, s.odometry.measured, elapsed_s, lag_s, robot.base)
+    if slow or stop.slow_s > 0.0:
+        stop = replace(stop, slow_s=filled(stop.slow_s, tick.dt_s, SLOW_S, dirty=slow))
+        s.stopping = stop
+        if slow and stop.slow_s >= SLOW_S:
             return "stop_too_slow"
-    elif stop.slow_since_s is not None:
-        s.stopping = replace(stop, slow_since_s=None)
     if not tick.still_for(0.0) and too_long(stop.plan, elapsed_s, lag_s):
         return "stop_too_long"
     return None

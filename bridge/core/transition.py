@@ -71,7 +71,7 @@ def escalate(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> Non
         reset_needed=stop.reset_needed or reset_needed,
         since_s=tick.now_s if faster else stop.since_s,
         plan=_plan(tick, action) if faster else stop.plan,
-        slow_since_s=None if faster else stop.slow_since_s,
+        slow_s=0.0 if faster else stop.slow_s,
     )
     tick.say("stop_escalated", f"{action.value} {why}")
 

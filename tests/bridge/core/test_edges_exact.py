@@ -136,7 +136,7 @@ def measured(tick: Tick) -> object:
 
 def slow(tick: Tick) -> object:
     tick.s.drive.still_since_s = None
-    tick.s.stopping = stop_of(-1.0, slow_since_s=0.0)
+    tick.s.stopping = stop_of(-1.0, slow_s=0.14)
     tick.s.odometry = replace(tick.s.odometry, measured=reached("active").state.odometry.measured)
     return stops._failure(tick)
 

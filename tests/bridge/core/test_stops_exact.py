@@ -113,19 +113,34 @@ def rolling(speed_mps: float, elapsed_s: float, **more: object) -> Tick:
     return tick
 
 
-def test_too_slow_counts_after_150_ms_and_is_forgotten_at_once() -> None:
+@table(
+    ("speed_mps", "before_s", "after_s", "failure"),
+    [
+        (0.5, 0.0, 0.01, None),
+        (0.5, 0.14 - EPS, 0.15 - EPS, None),
+        (0.5, 0.14 + EPS, 0.15, "stop_too_slow"),
+        (0.05, 0.15, 0.1475, None),  # drains four times as slowly
+        (0.05, 0.0, 0.0, None),
+    ],
+)
+def test_too_slow_counts_after_150_ms_and_is_not_forgotten_at_once(
+    speed_mps: float, before_s: float, after_s: float, failure: str | None
+) -> None:
+    tick = rolling(speed_mps, 0.8, slow_s=before_s)
+    assert tick.dt_s == 0.01
+    assert stops._failure(tick) == failure
+    assert tick.s.stopping is not None
+    assert tick.s.stopping.slow_s == pytest.approx(after_s, abs=EPS / 10)
+
+
+def test_one_reading_in_two_that_is_slow_enough_hides_no_stop_that_is_not() -> None:
+    """Wheels that read by turns 0.5 m/s and nothing, 8/3 of the time."""
+    failures = []
     tick = rolling(0.5, 0.8)
-    assert stops._failure(tick) is None
-    assert tick.s.stopping is not None
-    assert tick.s.stopping.slow_since_s == tick.now_s
-    for slow_s, failure in ((0.15 - EPS, None), (0.15 + EPS, "stop_too_slow")):
-        tick = rolling(0.5, 0.8)
-        tick.s.stopping = stop_of(tick.now_s - 0.8, slow_since_s=tick.now_s - slow_s)
-        assert stops._failure(tick) == failure
-    tick = rolling(0.05, 0.8, slow_since_s=1.0)
-    assert stops._failure(tick) is None
-    assert tick.s.stopping is not None
-    assert tick.s.stopping.slow_since_s is None
+    for index in range(41):
+        tick.s.odometry = replace(tick.s.odometry, measured=Twist2(0.5 * (index % 2 == 0), 0.0))
+        failures.append(stops._failure(tick))
+    assert [index for index, failure in enumerate(failures) if failure] == [38, 40]
 
 
 @table(("start", "mode"), [("stopping_by_row", Mode.FAULT), ("estopped", None)])

@@ -74,9 +74,7 @@ def test_only_the_hardest_stop_has_the_hardest_ramp() -> None:
 def stopping(action: Action, *, reset_needed: bool = False) -> Tick:
     tick = later("stopping_by_row")
     assert tick.s.stopping is not None
-    tick.s.stopping = replace(
-        tick.s.stopping, action=action, slow_since_s=1.0, reset_needed=reset_needed
-    )
+    tick.s.stopping = replace(tick.s.stopping, action=action, slow_s=0.1, reset_needed=reset_needed)
     return tick
 
 
@@ -105,7 +103,7 @@ def test_a_stop_grows_harder_and_only_a_harder_ramp_is_planned_anew(
         source=before.source,
         resumes=False,
         reset_needed=any(needed),
-        slow_since_s=None if faster else 1.0,
+        slow_s=0.0 if faster else 0.1,
     )
     assert tick.events == [("stop_escalated", f"{came.value} worse")]
 
