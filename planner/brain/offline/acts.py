@@ -59,6 +59,8 @@ _AT_HAND = re.compile(
 )
 """What says no more of a thing than that the robot is to see it, in the home that it is in."""
 _TITLE = 80
+_DONE = re.compile(r"了|完$|[过吗]$|没有?$")
+"""What no thing's name holds: "找到杯子了吗" and "数完了" tell or ask of what was done."""
 
 
 def place_of(phrase: str | None, reading: Reading) -> str | Problem | None:
@@ -153,6 +155,8 @@ def find(words: str, where: str | None, reading: Reading) -> Meaning:
         thing = label_of(words, reading)
     if not thing:
         return missing(WHO, words, reading)
+    if _DONE.search(thing):
+        return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())
     if several(words) is not None:
         return one_at_a_time(words, place, reading)
     return Steps((*arrive(place, reading), Find(object=thing, place=place)), thing=thing, seen=True)
@@ -174,6 +178,8 @@ def count(words: str, where: str | None, reading: Reading) -> Meaning:
         return place
     if not label:
         return missing(WHO, words, reading)
+    if _DONE.search(label):
+        return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())
     steps = (*arrive(place, reading), Count(object=label, place=place))
     return Steps(steps, thing=label, seen=True)
 

@@ -13,6 +13,7 @@ from planner.brain.offline import (
     chinese_drive,
     chinese_people,
     chinese_things,
+    past,
 )
 from planner.brain.offline.arm import lacks_arm
 from planner.brain.offline.chinese_words import ALL_ROOMS, GO, IN, VERB
@@ -97,6 +98,7 @@ CHINESE = Grammar(
     rules=(
         *chinese_drive.RULES[:-2],
         *chinese_people.GUIDE,
+        *past.CHINESE,
         *chinese_beside.RULES,
         rule(rf".*{_ARM}.*", lacks_arm),
         *aside.CHINESE,

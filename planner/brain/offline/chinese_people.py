@@ -130,7 +130,7 @@ RULES: tuple[Rule, ...] = (
         _follow,
     ),
     rule(
-        rf"{_AT}{_FIND}{_AT2}(?:{_WHETHER})?{_WHO}(?:在家?|在不在|在没在|了)?",
+        rf"{_AT}{_FIND}{_AT2}(?:{_WHETHER})?{_WHO}(?:在家?|在不在|在没在)?",
         _meet_somewhere,
     ),
     rule(

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from planner.brain.offline import aside, english_drive, english_people, english_things
+from planner.brain.offline import aside, english_drive, english_people, english_things, past
 from planner.brain.offline.arm import lacks_arm
 from planner.brain.offline.english_words import PERSON
 from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
@@ -111,6 +111,7 @@ ENGLISH = Grammar(
     ),
     rules=(
         *english_drive.TALK,
+        *past.ENGLISH,
         *aside.ENGLISH,
         *english_people.RULES,
         *english_drive.RULES,
