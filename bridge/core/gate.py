@@ -20,6 +20,7 @@ from bridge.core.learnt import in_force
 from bridge.core.obstaclegate import FREE_M, look_m, obstacle_gate
 from bridge.core.state import Gate
 from bridge.core.tick import STANDING_MPS, STANDING_RADPS
+from bridge.core.window import filled
 from wire import STILL, Mode, Twist2, wrap
 
 if TYPE_CHECKING:
@@ -174,15 +175,23 @@ def reconsider(tick: Tick, asked: Twist2) -> None:
 def _note(tick: Tick, shut_by: str) -> None:
     """Call it blocked after 0.5 s; a robot that turns away meanwhile is given the time anew.
 
-    The follower's wish sways with the pose's noise, so a turn to and fro is no turning away.
+    The follower's wish sways with the pose's noise, so a turn to and fro is no turning away, and a
+    tick in which something passes does not open a way.
     """
     s = tick.s
-    gate, yaw_rad = s.gate, s.odometry.base_in_odom.yaw_rad
-    if not shut_by:
-        if gate.shut_since_s is not None:
-            s.gate = replace(gate, shut_since_s=None)
-    elif gate.shut_since_s is None or abs(wrap(yaw_rad - gate.shut_yaw_rad)) >= TURNED_RAD:
-        s.gate = replace(gate, shut_since_s=tick.now_s, shut_yaw_rad=yaw_rad)
-    elif s.mode is Mode.ACTIVE and not gate.blocked and tick.now_s - gate.shut_since_s >= SHUT_S:
-        s.gate = Gate(blocked=True, by=shut_by)
+    gate, yaw_rad, shut = s.gate, s.odometry.base_in_odom.yaw_rad, bool(shut_by)
+    if gate.shut_s == 0.0 and gate.shut_since_s is None and not shut:
+        return
+    turned = abs(wrap(yaw_rad - gate.shut_yaw_rad)) >= TURNED_RAD
+    begins = gate.shut_s == 0.0 or (shut and turned)
+    since_s = gate.shut_since_s if gate.shut_since_s is not None else tick.now_s
+    gate = replace(
+        gate,
+        shut_since_s=since_s if shut else None,
+        shut_s=filled(0.0 if begins else gate.shut_s, tick.dt_s, SHUT_S, dirty=shut),
+        shut_yaw_rad=yaw_rad if begins else gate.shut_yaw_rad,
+    )
+    if shut and s.mode is Mode.ACTIVE and not gate.blocked and gate.shut_s >= SHUT_S:
+        gate = Gate(blocked=True, by=shut_by)
         tick.say("blocked", f"by {shut_by}, asked {s.motion.asked.v_mps:.2f} m/s")
+    s.gate = gate

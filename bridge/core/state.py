@@ -72,9 +72,11 @@ class Gate:
     """Remember how the gates for obstacle, fence and contact shut the way."""
 
     shut_since_s: float | None = None
-    """Since when the way asked for is shut and the robot has not turned away from it."""
+    """Since when the way asked for is shut, without a gap; None while it is not."""
+    shut_s: float = 0.0
+    """How full the window is in which it is shut and the robot has not turned away from it."""
     shut_yaw_rad: float = 0.0
-    """Heading in ``odom`` at that time."""
+    """Heading in ``odom`` when that window began to fill."""
     blocked: bool = False
     by: str = "obstacle"
     """Which gate left nothing of the way when it was called blocked: obstacle, fence, contact."""

@@ -143,16 +143,16 @@ def slow(tick: Tick) -> object:
 
 def shut(tick: Tick) -> object:
     yaw_rad = tick.s.odometry.base_in_odom.yaw_rad
-    tick.s.gate = Gate(shut_since_s=0.0, shut_yaw_rad=yaw_rad)
+    tick.s.gate = Gate(shut_s=0.49, shut_yaw_rad=yaw_rad)
     gate._note(tick, "obstacle")
     return tick.s.gate.blocked
 
 
 def turned_away(tick: Tick) -> object:
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=Pose2(0.0, 0.0, 0.05))
-    tick.s.gate = Gate(shut_since_s=0.0, shut_yaw_rad=0.0)
+    tick.s.gate = Gate(shut_s=0.3, shut_yaw_rad=0.0)
     gate._note(tick, "obstacle")
-    return tick.s.gate.shut_since_s
+    return tick.s.gate.shut_s
 
 
 def late(count: int, within: str) -> Judge:
@@ -200,7 +200,7 @@ CASES: tuple[tuple[str, float, Judge, object], ...] = (
     ("stopping_by_row", 0.25, measured, True),
     ("stopping_by_row", 0.15, slow, "stop_too_slow"),
     ("active", 0.5, shut, True),
-    ("active", 0.2, turned_away, 0.2),
+    ("active", 0.2, turned_away, 0.01),
     ("active", 1.0, late(4, "late_at_s"), ["LOOP_LATE.0"]),
     ("active", 10.0, late(2, "gaps_at_s"), ["LOOP_LATE.1", "LOOP_LATE.2"]),
     ("hold_granted", 30.0, waits(True), None),

@@ -132,16 +132,21 @@ def test_the_first_gate_that_leaves_no_way_has_shut_it(
 @table(
     ("shut", "start", "before", "turned_rad", "after"),
     [
-        (False, "active", Gate(shut_since_s=1.0, free_scans=2), 0.0, Gate(None, free_scans=2)),
+        (False, "active", Gate(-0.1, 0.2, free_scans=2), 0.0, Gate(None, 0.1975, free_scans=2)),
+        (False, "active", Gate(None, 0.001), 0.0, Gate()),
         (False, "active", Gate(), 0.0, Gate()),
-        (True, "active", Gate(), 0.3, Gate(0.0)),
-        (True, "active", Gate(-0.3), 0.05 - EPS, Gate(-0.3)),
-        (True, "active", Gate(-0.3), 0.05 + EPS, Gate(0.0)),
-        (True, "active", Gate(-0.3), -0.05 - EPS, Gate(0.0)),
-        (True, "active", Gate(-0.5 + EPS), 0.0, Gate(-0.5 + EPS)),
-        (True, "active", Gate(-0.5 - EPS), 0.0, Gate(blocked=True, by="fence")),
-        (True, "teleop", Gate(-0.6), 0.0, Gate(-0.6)),
-        (True, "active", Gate(-0.6, blocked=True), 0.0, Gate(-0.6, blocked=True)),
+        (False, "active", Gate(-0.1, 0.0), 0.0, Gate()),
+        (False, "active", Gate(None, 0.2), 0.3, Gate(None, 0.1975)),
+        (True, "active", Gate(), 0.3, Gate(0.0, 0.01)),
+        (True, "active", Gate(-0.3, 0.3), 0.05 - EPS, Gate(-0.3, 0.31)),
+        (True, "active", Gate(-0.3, 0.3), 0.05 + EPS, Gate(-0.3, 0.01)),
+        (True, "active", Gate(-0.3, 0.3), -0.05 - EPS, Gate(-0.3, 0.01)),
+        (True, "active", Gate(None, 0.3), 0.0, Gate(0.0, 0.31)),
+        (True, "active", Gate(-0.5, 0.49 - EPS), 0.0, Gate(-0.5, 0.5 - EPS)),
+        (True, "active", Gate(None, 0.49 + EPS), 0.0, Gate(blocked=True, by="fence")),
+        (False, "active", Gate(-0.5, 0.5), 0.0, Gate(None, 0.4975)),
+        (True, "teleop", Gate(-0.6, 0.5), 0.0, Gate(-0.6, 0.5)),
+        (True, "active", Gate(-0.6, 0.5, blocked=True), 0.0, Gate(-0.6, 0.5, blocked=True)),
     ],
 )
 def test_shut_for_half_a_second_without_turning_away_is_blocked(
@@ -152,17 +157,33 @@ def test_shut_for_half_a_second_without_turning_away_is_blocked(
     yaw_rad = tick.s.odometry.base_in_odom.yaw_rad
 
     def dated(gate: Gate, heading_rad: float) -> Gate:
-        since_s = gate.shut_since_s
-        if since_s is None:
-            return gate
-        return replace(gate, shut_since_s=tick.now_s + since_s, shut_yaw_rad=heading_rad)
+        since_s = None if gate.shut_since_s is None else tick.now_s + gate.shut_since_s
+        return replace(gate, shut_since_s=since_s, shut_yaw_rad=heading_rad)
 
     tick.s.gate = dated(before, yaw_rad - turned_rad)
     _note(tick, "fence" if shut else "")
-    fresh = after.shut_since_s == 0.0
-    assert tick.s.gate == dated(after, yaw_rad if fresh else yaw_rad - turned_rad)
+    began = after.shut_s == 0.01
+    expected = dated(after, yaw_rad if began else yaw_rad - turned_rad)
     blocked = after.blocked and not before.blocked
+    if blocked:
+        expected = after
+    got = tick.s.gate
+    assert replace(got, shut_s=0.0) == replace(expected, shut_s=0.0)
+    assert got.shut_s == pytest.approx(expected.shut_s, abs=EPS / 10)
     assert [code for code, _ in tick.events] == ["blocked"] * blocked
+
+
+def test_a_tick_now_and_then_in_which_something_passes_opens_no_way() -> None:
+    tick = driving()
+    tick.s.gate = Gate()
+    for index in range(200):
+        _note(tick, "obstacle" if index % 2 else "")
+    assert [code for code, _ in tick.events] == ["blocked"]
+    tick = driving()
+    tick.s.gate = Gate()
+    for index in range(2000):
+        _note(tick, "" if index % 6 else "obstacle")
+    assert tick.events == [], "one tick in six passes for none"
 
 
 @table(

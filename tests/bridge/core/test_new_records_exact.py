@@ -48,8 +48,8 @@ NOBODY: dict[str, object] = dict.fromkeys(
     ("new", "says"),
     [
         (SelfTest(), {"phase": "echo", "since_s": 0.0, "passed": False}),
-        (Gate(), {"shut_since_s": None, "shut_yaw_rad": 0.0, "blocked": False, "by": "obstacle",
-                  "free_scans": 0, "judged_scan": -1}),
+        (Gate(), {"shut_since_s": None, "shut_s": 0.0, "shut_yaw_rad": 0.0, "blocked": False,
+                  "by": "obstacle", "free_scans": 0, "judged_scan": -1}),
         (Voice(), {"status_seq": 0, "ring": (), "event_seq": 0, "odom_seq": 0, "dropped": 0,
                    "status_s": None, "pending": False}),
         (Learnt(), LEARNT),
