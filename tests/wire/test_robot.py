@@ -45,6 +45,8 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
         ("[drive]\ntimeout_s = 10.0", "robot_toml_invalid", "drive.timeout_s"),
         ("[drive]\nkind = 'warp'", "robot_toml_invalid", "drive.kind"),
         ("[drive]\nvirtual = true", "robot_toml_invalid", "unknown key 'drive.virtual'"),
+        ("[camera]\ndepth_min_m = 1.0\ndepth_max_m = 1.0", "robot_toml_invalid",
+         "camera.depth_min_m 1.0 must be less than"),
         ("[lidar]\nscan_s = 1.0", "robot_toml_invalid", "lidar.scan_s"),
         ("[lidar]\nrange_min_m = 1.0", "robot_toml_invalid",
          "lidar.range_min_m 1.0 must be at most 0.35: "),

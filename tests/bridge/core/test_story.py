@@ -7,10 +7,9 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import Inbox
-from bridge.core.fence import build_fence
-from tests.bridge.core.fake_planner import MAP_ID, FakeDrive, FakePlanner
-from tests.bridge.core.scripted import World, config
-from wire import IDENTITY, HeldReason, Mode, Pose2, Waypoints
+from tests.bridge.core.fake_planner import FakeDrive, FakePlanner
+from tests.bridge.core.scripted import World
+from wire import HeldReason, Mode, Pose2, Waypoints
 
 
 def codes(world: World) -> list[str]:
@@ -265,25 +264,6 @@ def test_a_jump_of_the_pose_needs_a_grant_that_knows_of_it() -> None:
     assert "POSE_JUMP.0" not in world.rows()
 
 
-def test_a_jump_behind_a_poor_pose_is_a_jump() -> None:
-    world = World().driving((4.0, 0.0))
-    world.quality, world.odom_in_map = 0.2, Pose2(0.4, 0.0, 0.0)  # carried, say
-    world.run(0.2)
-    assert "POSE_JUMP.0" not in world.rows()
-    world.quality = 1.0
-    world.run(0.1)
-    assert "POSE_JUMP.0" in world.rows()
-
-
-def test_a_poor_pose_between_two_equal_ones_is_no_jump() -> None:
-    world = World().driving((4.0, 0.0))
-    world.quality, world.odom_in_map = 0.2, Pose2(0.4, 0.0, 0.0)
-    world.run(0.2)
-    world.quality, world.odom_in_map = 1.0, IDENTITY
-    world.run(0.7)
-    assert not {"POSE_JUMP.0", "POSE_LOST.0"} & world.rows()
-
-
 def test_teleop_takes_over_only_after_released_and_neutral() -> None:
     world = World().driving()
     world.teleop(0.3, held=True)
@@ -360,32 +340,3 @@ def test_a_turn_that_passes_beside_a_closed_way_is_no_way() -> None:
     assert world.is_in(Mode.HOLD)
     assert world.state.gate.blocked
     assert world.state.waits_since_s is not None
-
-
-@pytest.mark.parametrize("away_m", [0.01, 0.5, 3.0])
-def test_a_robot_outside_its_fence_is_said_and_a_stick_brings_it_in(away_m: float) -> None:
-    outline = ((away_m, -1.0), (5.0, -1.0), (5.0, 1.0), (away_m, 1.0))
-    world = World(core=replace(config(), fence=build_fence(MAP_ID, (outline,))), planner=None)
-    world.ready()
-    assert world.status is not None
-    assert world.status.waiting_for == ("fence_excludes_robot",)
-    world.arm()
-    world.run(0.2)
-    assert world.status.waiting_for == ("fence_excludes_robot",)
-    assert world.is_in(Mode.HOLD), "a stick needs torque"
-    world.teleop(held=False)
-    world.tick()
-    for _ in range(round(2.0 * 100 + away_m / 0.15 * 100)):
-        world.teleop(0.3, held=True)
-        world.tick()
-        assert world.sent.v_mps <= 0.2 or world.here.x_m > away_m
-    assert world.here.x_m > away_m
-    assert not world.status.waiting_for
-
-
-def test_a_robot_that_does_not_know_where_it_is_is_not_said_to_be_outside() -> None:
-    outline = ((3.0, -1.0), (5.0, -1.0), (5.0, 1.0), (3.0, 1.0))
-    core = replace(config(), fence=build_fence(MAP_ID, (outline,)))
-    world = World(core=core, localization_silent=True).ready()
-    assert world.status is not None
-    assert world.status.waiting_for == ()
