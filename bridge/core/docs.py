@@ -65,10 +65,15 @@ _GATES = """\
 ## Gates
 
 The gates for obstacles, fence and contact work on the command, by direction: they scale it, down to
-zero towards the trouble, and let pass slowly what loses no clearance. Shut for 0.5 s while
-waypoints move the robot, a gate shows `blocked` and holds; 0.3 m free in five scans end it. A hand
-on the stick may cross the fence at 0.2 m/s; each crossing is an event, `fence_crossed`. Bumpers shut the way that they face, the cliff sensor
-the way ahead; away from them at most 0.1 m/s and 0.3 rad/s pass.
+zero towards the trouble, and let pass slowly what loses no clearance. Shut for 0.5 s while a
+planner's waypoints or an external brain's velocities move the robot (a tick in which something
+passes gives back a quarter of a tick), a gate shows `blocked` and holds; what ends it is five scans
+in a row in which the way that is asked for then is free for 0.3 m, of bumpers and of the fence.
+Where there is a fence and no pose, nothing but a hand on the stick passes.
+
+A hand on the stick may cross the fence at 0.2 m/s; each crossing is an event, `fence_crossed`.
+Bumpers shut the way that they face, the cliff sensor the way ahead; away from them at most 0.1 m/s
+and 0.3 rad/s pass.
 
 A status gives free length and margin as far as the bridge looks: as a rule the path in which the
 robot stands still from its fastest, 0.37 m by default, since nothing further off can change what

@@ -1,8 +1,8 @@
 """Let through of a command what lidar, fence and bumpers leave of it, by direction.
 
 The gate scales, down to nothing towards the trouble; what loses no clearance passes slowly. Shut
-for 0.5 s while waypoints move the robot it is ``blocked``: a HOLD2 that ends when the arc the
-follower would ask has been free for 0.3 m in five scans.
+for 0.5 s while waypoints or external velocities move the robot it is ``blocked``: a HOLD2 that ends
+when the arc that the follower or the external brain asks for has been free in five scans.
 """
 
 from __future__ import annotations

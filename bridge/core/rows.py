@@ -85,12 +85,14 @@ _FAST1, _CUT0 = Action.FAST1, Action.CUT0
 _REARM, _RESET, _GRANT = Clears.ON_REARM, Clears.ON_RESET, Clears.ON_GRANT
 
 ROWS: tuple[Row, ...] = (
-    _row("BRAIN_LATE", "the newest status that the owner has shown to have seen was sent",
+    _row("BRAIN_LATE", "the newest status that the owner has shown to have seen was sent; an "
+         "external brain's too, because its velocity leads on as blindly as a horizon",
          _do("over 150 ms ago", _CAP, "WX", cap_factor=0.5)),
-    _row("BRAIN_LOST", "likewise; the epoch changes and the ownership is freed",
+    _row("BRAIN_LOST", "that newest status was sent; the epoch changes and the ownership is freed",
          _do("over 300 ms ago", _HOLD2, "WX", _GRANT)),
-    _row("BRAIN_GONE", "likewise, if a grant was given since arming and nobody steers by hand; it "
-         "binds in HOLD without a grant too, because the loss has already taken that",
+    _row("BRAIN_GONE", "that newest status was sent, if a grant was given since arming and nobody "
+         "steers by hand; it binds in HOLD without a grant too, because the loss has already taken "
+         "that",
          _do("over 5 s ago", _STOP1, ALL, _REARM)),
     _row("BRAIN_STALE", "the status that the owner's mission loop last used was sent",
          _do("over 1 s ago", _HOLD2, "W")),
@@ -114,7 +116,8 @@ ROWS: tuple[Row, ...] = (
          _do("5 s", _STOP1, "WTX", _REARM)),
     _row("NO_RANGE", "no obstacle source is configured or alive",
          _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2)),
-    _row("SPEED_ZONE", "the robot is inside a speed zone of the fence",
+    _row("SPEED_ZONE", "the robot is inside a speed zone of the fence; outside there is no speed "
+         "to cap to, so it ends at once",
          _do("at once", _CAP, "WX", clean_s=0.0, cap_zone=True)),
     _row("POSE_LOST", "localization older than 300 ms, poor, or of another odom_id; an external "
          "brain is held too, because without a pose no fence and no zone can hold it",
@@ -122,7 +125,8 @@ ROWS: tuple[Row, ...] = (
     _row("POSE_JUMP", "the robot displaced over 0.1 m or 5 degrees between two localizations; "
          "route and grant anew",
          _do("once", _HOLD2, "W", _GRANT)),
-    _row("STUCK", "told to move and measured still, or one wheel is, or an open leg makes no way",
+    _row("STUCK", "told to move and measured still, or one wheel is, or an open leg makes no way; "
+         "seen in one tick, so that its 2 s are all of the hold; a stop takes 0.9 s",
          _do("1 s; 5 s without progress; the grant is taken", _HOLD2, "WTX", clean_s=2.0),
          _do("3 in 5 min", _STOP1, "WTX", _REARM)),
     _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s, or of other sign",
