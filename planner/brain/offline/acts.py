@@ -61,6 +61,11 @@ _AT_HAND = re.compile(
 _TITLE = 80
 _DONE = re.compile(r"了|完$|[过吗]$|没有?$")
 """What no thing's name holds: "找到杯子了吗" and "数完了" tell or ask of what was done."""
+ASIDE = re.compile(
+    r"\b(?:behind (?:you|me|us)|(?:on|to|at|by) (?:your|my|the) (?:left|right)"
+    r"|(?:left|right) of (?:you|me))\b|^[你您我]?的?(?:[身背]后|后[面边方]|[左右]手?[边侧面])的"
+)
+"""A side of the robot: eyes look ahead, and a map has no sides."""
 
 
 def place_of(phrase: str | None, reading: Reading) -> str | Problem | None:
@@ -155,7 +160,7 @@ def find(words: str, where: str | None, reading: Reading) -> Meaning:
         thing = label_of(words, reading)
     if not thing:
         return missing(WHO, words, reading)
-    if _DONE.search(thing):
+    if _DONE.search(thing) or ASIDE.search(thing):
         return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())
     if several(words) is not None:
         return one_at_a_time(words, place, reading)

@@ -16,7 +16,7 @@ from planner.brain.offline import (
     past,
 )
 from planner.brain.offline.arm import lacks_arm
-from planner.brain.offline.chinese_words import ALL_ROOMS, GO, IN, VERB
+from planner.brain.offline.chinese_words import ALL_ROOMS, GO, IN, SEE, VERB
 from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
 from planner.brain.offline.lexicon import MARK
 from planner.plan import Code
@@ -100,7 +100,7 @@ CHINESE = Grammar(
         *chinese_people.GUIDE,
         *past.CHINESE,
         *chinese_beside.RULES,
-        rule(rf".*{_ARM}.*", lacks_arm),
+        rule(rf"(?!(?:{SEE}).*[着了]没有?$).*{_ARM}.*", lacks_arm),  # 看看门关了没 closes no door
         *aside.CHINESE,
         *chinese_people.RULES,
         *chinese_things.RULES,

@@ -8,7 +8,7 @@ from re import Match
 
 from planner.brain.offline.acts import count, find, look, offer_search
 from planner.brain.offline.chinese_words import SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
-from planner.brain.offline.grammar import rule, where
+from planner.brain.offline.grammar import ahead, rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Reading, Rule, Steps
 from planner.brain.offline.things import by_neighbour, known
@@ -21,6 +21,7 @@ _IS_THERE = rf"(?:{WHETHER}|[都还]?有)"
 _ASKS = r"(?:吗|呢|么|嘛|啊)?"
 _ASKING = re.compile(r"[吗谁啥哪几]|[什怎]么|么$|如何|多少|有没有|有无|是否|是不是")
 """What makes a question of words that else only tell: "客厅的灯亮着" asks for nothing."""
+_AND_MANY = re.compile(rf"(?:和|与|跟|以及|还有)有?(?:几|多少){UNIT}")
 _AROUND = (
     r"(?:在?(?:你|您)?的?(?:这里|这儿|这边|那里|那儿|那边|附近|周围|四周|身边|旁边|边上|面前|眼前|"
     r"前面|前方)|(?:地上|地板上|地面上)|(?:这个?|这间)?(?:屋里|屋子里|房间里面?|房里))"
@@ -56,8 +57,17 @@ def _find_all(found: Match[str], reading: Reading) -> Meaning:
 
 
 def _count(found: Match[str], reading: Reading) -> Meaning:
-    groups = found.groupdict()
-    return count(found["what"], groups.get("at2") or where(found, "at"), reading)
+    """Count one kind after the other: "几个人和几把椅子"."""
+    place = found.groupdict().get("at2") or where(found, "at")
+    steps: tuple[Step, ...] = ()
+    meaning: Meaning = Steps(())
+    for what in _AND_MANY.split(found["what"]):
+        meaning = count(what, place, reading)
+        if not isinstance(meaning, Steps):
+            return meaning
+        steps += meaning.steps
+        reading = ahead(reading, meaning)
+    return replace(meaning, steps=steps) if isinstance(meaning, Steps) else meaning
 
 
 def _look(found: Match[str], reading: Reading) -> Meaning:
@@ -102,13 +112,13 @@ RULES: tuple[Rule, ...] = (
         _look_here,
     ),
     rule(
-        rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT})(?:里面?|上面?|"
-        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
+        rf"(?:{SEE}|数一数|数一下|数数|数)?(?:家里|全家|屋子里|整个屋子)的?(?:一共|总共)?有?(?:几|多少){UNIT}"
+        rf"(?P<what>{THING})",
         _count,
     ),
     rule(
-        rf"(?:{SEE}|数一数|数一下|数数|数)?(?:家里|全家|屋子里|整个屋子)(?:一共|总共)?有?(?:几|多少){UNIT}"
-        rf"(?P<what>{THING})",
+        rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT})(?:里面?|上面?|"
+        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),
     rule(

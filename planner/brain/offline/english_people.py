@@ -22,15 +22,17 @@ from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import About, Meaning, Problem, Reading, Rule, Steps
 from planner.brain.offline.several import several
 from planner.brain.offline.talk import Topic, told, topic_of
-from planner.plan import Ask, Code, Decide, Say
+from planner.brain.offline.things import known
+from planner.plan import Ask, Code, Decide, GoToObject, Say
 
 _FIND = (
-    r"(?:find|locate|look for|search for|seek|spot|pinpoint|identify|meet(?: with)?|face|contact|"
+    r"(?:find|locate|look for|search for|seek|spot|pinpoint|identify|meet(?: with)?|contact|"
     r"see|"
-    r"visit|approach|get acquainted with|get to know|talk to|speak (?:to|with)|go (?:up )?to|"
-    r"move to|drive to|check (?:up )?on|"
-    r"come to|join|call on|go and see)"
+    r"visit|get acquainted with|get to know|talk to|speak (?:to|with)|"
+    r"check (?:up )?on|"
+    r"join|call on|go and see)"
 )
+_GO_UP = r"(?:(?:go|walk|come|drive|move) (?:up |over )?to|approach|face)"
 _SEEKS = re.compile(r"(?:find|locate|look for|search for|seek|spot|pinpoint)\b")
 _GREET = (
     r"(?:greet|welcome|say (?:hello|hi|good (?:morning|evening|afternoon|night)|welcome|"
@@ -57,6 +59,17 @@ def _meet(found: Match[str], reading: Reading) -> Meaning:
         place = place_of(where(found, "at"), reading)
         return place if isinstance(place, Problem) else one_at_a_time(found["who"], place, reading)
     return meet(found["who"], where(found, "at"), reading)
+
+
+def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
+    """Drive up to somebody whom eyes know for a person; who is only named is met."""
+    who, place = found["who"], place_of(where(found, "at"), reading)
+    if isinstance(place, Problem) or not known(who, reading.things):
+        return _meet(found, reading)
+    if several(who) is not None:
+        return one_at_a_time(who, place, reading)
+    person = label_of(who, reading)
+    return Steps((GoToObject(object=person, place=place),), person=person)
 
 
 def _greet(found: Match[str], reading: Reading) -> Meaning:
@@ -182,6 +195,7 @@ RULES: tuple[Rule, ...] = (
         _guide,
     ),
     rule(rf"{_FIND} {_WHO}{_AT}", _meet),
+    rule(rf"{_GO_UP} {_WHO}{_AT}", _go_up_to),
     rule(
         r"(?:describe|tell (?:me|us) (?:about|how(?! many))|report (?:about|"
         rf"on)) (?P<what>{DESCRIPTION}){_AT}"

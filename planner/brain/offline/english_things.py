@@ -7,10 +7,11 @@ from re import Match
 
 from planner.brain.offline.acts import count, find, look, look_everywhere, offer_search, place_of
 from planner.brain.offline.english_words import PREP, THE, loc, sure_loc
-from planner.brain.offline.grammar import Build, rule, where
+from planner.brain.offline.grammar import Build, lacks, rule, where
 from planner.brain.offline.lexicon import MARK
 from planner.brain.offline.meaning import Meaning, Problem, Reading, Rule, Steps
 from planner.brain.offline.things import HOW_EN, by_neighbour
+from planner.plan import Code
 
 _TWORD = r"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/\u3400-\u9fff-]+"
 _THING = rf"(?:{THE})?(?:{_TWORD} )*?{_TWORD}"
@@ -162,6 +163,7 @@ RULES: tuple[Rule, ...] = (
         r"are)|it))?",
         _reported,
     ),
+    rule(r"look (?:up|down|out|away|after)(?:wards?)?\b.*", lacks(Code.NOT_UNDERSTOOD)),
     rule(rf"(?:{_LOOK_VERB} )?how many {_COUNTED} {_SEEN_HERE}", _seen_here),
     rule(rf"count {_COUNTED} (?:(?:in )?here|in this room|around you|you see)", _seen_here),
     rule(

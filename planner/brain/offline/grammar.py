@@ -13,7 +13,7 @@ from re import Match, Pattern
 
 from pydantic import ValidationError
 
-from planner.brain.offline.acts import look, one_at_a_time
+from planner.brain.offline.acts import ASIDE, look, one_at_a_time
 from planner.brain.offline.meaning import (
     About,
     Clause,
@@ -100,6 +100,8 @@ def drive_to(found: Match[str], reading: Reading) -> Meaning:
     meaning = go_to(found["place"], reading)
     if isinstance(meaning, Steps):
         return meaning
+    if ASIDE.search(found["place"]):
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     many = several_of(found["place"], reading)
     if many is not None:
         return one_at_a_time(many[0], many[1], reading)

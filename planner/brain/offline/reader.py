@@ -168,8 +168,8 @@ _WHETHER = re.compile(
 _A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
 """看看她在不在: to be looked at, no negation."""
 
-_DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?着)没有?(?=[,。;!?]|$)")
-"""看看电视开着没有: likewise."""
+_DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?[着了])没有?(?=[,。;!?]|$)")
+"""看看电视开着没有, 看看门关了没: likewise."""
 
 
 def asks_whether(text: str) -> str:

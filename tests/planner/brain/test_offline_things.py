@@ -11,6 +11,7 @@ from planner.plan import (
     Code,
     Count,
     Find,
+    GoTo,
     GoToObject,
     Look,
     Step,
@@ -120,3 +121,34 @@ def test_what_is_no_thing_or_asks_for_more_than_that_is_read_as_before(
     known = frozenset({"chair", "cup", "球", "椅子", "书", "沙发", "床", "书桌"})
     sees = Context(runnable=EVERY_KIND, things=known)
     assert plan(text, home, sees) == plan(text, home, WHOLE)
+
+
+UP_TO_SOMEBODY = {
+    "go to the person": ("person", None),
+    "face the person": ("person", None),
+    "approach the person in the kitchen": ("person", "kitchen"),
+    "走到人面前": ("人", None),
+    "去厨房的人那里": ("人", "kitchen"),
+}
+
+
+@pytest.mark.parametrize(("text", "thing"), UP_TO_SOMEBODY.items(), ids=ascii)
+def test_somebody_is_driven_up_to_alike_in_both_languages(
+    text: str, thing: tuple[str, str | None], home: Vocabulary
+) -> None:
+    sees = Context(runnable=EVERY_KIND, things=frozenset({"person", "人"}))
+    label, place = thing
+    assert plan(text, home, sees) == StepPlan(steps=(GoToObject(object=label, place=place),))
+
+
+def test_who_is_only_named_is_looked_for_where_the_sentence_says(home: Vocabulary) -> None:
+    sees = Context(runnable=EVERY_KIND, things=frozenset({"person", "人"}))
+    steps = (GoTo(place="kitchen"), Find(object="Mary", place="kitchen"))
+    assert plan("go to Mary in the kitchen", home, sees) == StepPlan(steps=steps)
+
+
+def test_everybody_that_eyes_know_is_not_one_person(home: Vocabulary) -> None:
+    sees = Context(runnable=EVERY_KIND, things=frozenset({"person", "people", "人"}))
+    made = plan("go to all the people in the kitchen", home, sees)
+    assert isinstance(made, Clarify)
+    assert made.code is Code.INCOMPLETE
