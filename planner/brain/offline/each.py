@@ -4,8 +4,8 @@ count the chairs" counts in both, 去厨房和卧室看看 looks in both.
 Several places are one order's list: the first with the verb, the others bare. A clause that goes on
 with "there" left unsaid, and whose place follows where the robot is, is done at each; what is only
 said or waited for is done at the last. A search ends where nothing is found, so it can't be done at
-one place after the other: it is asked where. All rooms are the whole home, which `find` and `count`
-search by themselves.
+one place after the other ("find the cup in the kitchen and the study"): it is asked where. All
+rooms are the whole home, which `find` and `count` search by themselves.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ WHICH = Bilingual(
     en="in which one of these places, or in the whole home?", zh="在其中哪一处，还是在整个家里？"
 )
 TOO_MANY = Bilingual(en="so many places are too much for one order.", zh="一次说的地点太多了。")
-_LEAD = re.compile(r"^(?:back )?(?:to|into) ")
+_LEAD = re.compile(r"^(?:back )?(?:to|into|in|inside|on) ")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,11 @@ def at_each(
     while at < len(heard):
         places, acts = _list(heard, at)
         end = _end(heard, acts, places, read)
-        if end > acts:
+        searched = _searched(heard, at)
+        if len(searched) > 1:
+            meanings.append(_searching(heard[at : at + len(searched)]))
+            at += len(searched)
+        elif end > acts:
             meanings.append(_spread(heard[acts:end], places, read))
             at = end
         else:
@@ -78,8 +82,7 @@ def _goals(meaning: Meaning) -> tuple[str, ...]:
 
 def _bare(heard: Heard) -> bool:
     """Tell whether a clause is one more place of a list, without a verb of its own."""
-    named = go_to(_LEAD.sub("", heard.clause.text), heard.reading)
-    return isinstance(named, Steps) and bool(_goals(heard.meaning))
+    return _place_alone(heard) and bool(_goals(heard.meaning))
 
 
 def _end(
@@ -127,6 +130,29 @@ def _spread(
     return replace(here, steps=tuple(step for done in each for step in done))
 
 
+def _searched(heard: Sequence[Heard], at: int) -> tuple[Find, ...]:
+    """Return the searches for one thing in several places: "find the cup here and there"."""
+    finds: list[Find] = []
+    for one in heard[at:]:
+        steps = one.meaning.steps if isinstance(one.meaning, Steps) else ()
+        last = steps[-1] if steps else None
+        again = not finds or (isinstance(last, Find) and last.object == finds[0].object)
+        if not isinstance(last, Find) or not again or (finds and not _place_alone(one)):
+            break
+        finds.append(last)
+    return tuple(finds)
+
+
+def _place_alone(heard: Heard) -> bool:
+    named = go_to(_LEAD.sub("", heard.clause.text), heard.reading)
+    return isinstance(named, Steps)
+
+
+def _searching(searches: Sequence[Heard]) -> Problem:
+    each = tuple(one.meaning.steps for one in searches if isinstance(one.meaning, Steps))
+    return _ask(searches, WHICH, (*each, (_anywhere(each[0][-1]),)))
+
+
 def _anywhere(step: Step) -> Step:
     return step.model_copy(update={"place": None}) if isinstance(step, Find | Count) else step
 
@@ -141,5 +167,5 @@ def _at(
 
 def _ask(acts: Sequence[Heard], what: Bilingual, choices: tuple[tuple[Step, ...], ...]) -> Problem:
     reading = acts[0].reading
-    part = " ".join(act.clause.text for act in acts)
+    part = ", ".join(act.clause.text for act in acts)
     return Problem(Code.INCOMPLETE, reading.marked.restore(part), what=what, choices=choices)

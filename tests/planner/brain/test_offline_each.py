@@ -42,6 +42,11 @@ EACH = {
         "kitchen bedroom study count=chairs@study"
     ),
     "先去厨房再去卧室数椅子": "kitchen bedroom count=椅子@bedroom",
+    # two orders, each with its verb; or two things
+    "find the cup in the kitchen and find the ball in the bedroom": (
+        "kitchen find=cup@kitchen bedroom find=ball@bedroom"
+    ),
+    "find the cup and the ball": "find=cup find=ball",
     # all rooms are the home, which these steps search by themselves
     "go to every room and count the chairs": "count=chairs",
     "go to every room, count the chairs and come back": "count=chairs come_back",
@@ -70,6 +75,14 @@ ASKED = {
     ),
     "patrol the kitchen and the study and look for people": (
         "find the people in the kitchen", "find the people in the study", "find the people",
+    ),
+    "find the cup in the kitchen and in the bedroom and come back": (
+        "find the cup in the kitchen, then come back",
+        "find the cup in the bedroom, then come back",
+        "find the cup, then come back",
+    ),
+    "find the cup in the kitchen and the bedroom": (
+        "find the cup in the kitchen", "find the cup in the bedroom", "find the cup",
     ),
     "去厨房和卧室找杯子": ("去厨房找杯子", "去卧室找杯子", "找杯子"),
 }  # fmt: skip
