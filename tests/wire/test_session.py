@@ -149,9 +149,10 @@ def test_all_that_one_tick_says_arrives(tmp_path: Path) -> None:
 
 def test_a_closed_session_gives_nothing(tmp_path: Path) -> None:
     session = open_session(Party.BRIDGE, "r1", tmp_path)
-    ears = session.subscriber(STOP)
+    ears, eyes = session.subscriber(STOP), session.image_subscriber(CAMERA_COLOR)
     session.close()
     assert ears.newest() is None
+    assert eyes.newest() is None
 
 
 def test_the_newest_picture_comes_whole_with_its_header(tmp_path: Path) -> None:
