@@ -44,17 +44,24 @@ _DENYING = (
     r"|no longer)"
 )
 
+_NEARER = (
+    r"(?:drive|turn|spin|rotate|roll|come|approach)(?: (?:any|closer|nearer|near|further|on|here|to"
+    r"|towards?|up|at|me|us|around|now|again|more|anymore))*"
+)
+_IT = r"(?:(?:the |this |that )?(?:robot|car|it|thing) (?:from )?)?"
+
 ENGLISH = (
-    rf"{_ENDING} (?:{_SEARCHING}){_REST}"
+    rf"{_ENDING} {_IT}(?:{_SEARCHING}){_REST}"
     rf"|{_ENDING} (?:{_DRIVING}) {_TO}\b{_REST}"
     rf"|(?:{_ENDING}|cancel|abort|end|pause|abandon|call off|suspend)"
     rf" (?:(?:the|this|that|your|my|all|current|whole) )*{_SEARCH}{_REST}"
-    rf"|{_DENYING} (?:{_BASE})(?: .*)?"
+    rf"|{_DENYING} (?:{_BASE})(?: .*)?|{_DENYING} {_NEARER}"
+    rf"|leave (?:me|us|him|her|them|it) alone{_NOW}"
 )
 
 _DO = (
     r"(?:寻找|查找|找|搜|跟|尾随|追|数(?![据学字])|计数|清点|点数|统计|查看|检查|察看|观察|看|盯"
-    r"|巡[逻视检查]|探索|转|绕|带路|领路)"
+    r"|巡[逻视检查]|探索|转|绕|带路|领路|靠近|靠过来|接近|过来|上前)"
 )
 _WELL = r"[^,。]{0,3}(?:错|漏|丢|岔)[了啦吧啊]*$|.*[说讲聊]"
 """别跟丢了 is no order to quit, and 别跟他说 no order to this end."""

@@ -124,7 +124,10 @@ QUITS = [
     ),
     *("I don't want you to follow me", "don't follow me if I go out", "no longer follow me"),
     *("don't look for the cup, find the ball", "don't come after me", "don't keep searching"),
+    *("don't come closer", "don't come here", "do not drive", "don't turn any more"),
+    *("leave me alone", "stop the robot following me", "stop it from following me"),
     # Chinese
+    *("别过来", "别靠近我", "不要再过来了"),
     *("别找了", "不要找了", "停止寻找", "停止搜索", "别跟着我", "别跟着我了", "别跟了", "别数了"),
     *("不要跟着我了", "不要再找了", "别再跟着我", "不要跟我了", "先别找", "别看了", "别转了"),
     *(
@@ -148,6 +151,7 @@ GOES_ON = [
     *("why did you stop looking", "did you stop looking?", "don't stop following me", "search"),
     *("do not stop looking", "never stop searching", "don't forget to find the cup", "the search"),
     *("stop waiting", "don't wait", "stop driving so fast", "stop looking after the baby"),
+    *("don't turn left", "don't come to the kitchen", "leave me alone with it", "don't go"),
     *("keep looking", "resume the search", "the search engine", "you should find the cup"),
     *("找球，别找杯子", "去厨房，别找杯子", "停止搜索了吗", "停止跟随了没有", "为什么停止搜索"),
     *(
