@@ -71,7 +71,7 @@ passes gives back a quarter of a tick), a gate shows `blocked` and holds; what e
 in a row in which the way that is asked for then is free for 0.3 m, of bumpers and of the fence.
 Where there is a fence and no pose, nothing but a hand on the stick passes.
 
-A hand on the stick may cross the fence at 0.2 m/s; each crossing is an event, `fence_crossed`.
+A hand on the stick may cross the fence at 0.2 m/s; each crossing is an event, `outside_fence`.
 Bumpers shut the way that they face, the cliff sensor the way ahead; away from them at most 0.1 m/s
 and 0.3 rad/s pass.
 

@@ -129,7 +129,7 @@ def _tell_crossing(tick: Tick, margin_m: float) -> None:
         watch.outside = not margin_m >= FENCE_MARGIN_M
     elif tick.s.mode is Mode.TELEOP and not margin_m >= 0.0:
         watch.outside = True
-        tick.say("fence_crossed", "a hand on the stick moves the robot outside the fence")
+        tick.say("outside_fence", "a hand on the stick moves the robot outside the fence")
 
 
 def scan_age_s(tick: Tick) -> float:

@@ -331,7 +331,7 @@ def test_a_hand_that_crosses_the_fence_is_told_of_once_a_crossing(
     for margin_m in margins_m:
         tick.robot_in_map = Pose2(1.5 - margin_m, 0.0, 0.0)
         _inside_fence(tick, AHEAD)
-    assert [code for code, _ in tick.events] == ["fence_crossed"] * said
+    assert [code for code, _ in tick.events] == ["outside_fence"] * said
 
 
 def test_what_a_hand_took_out_and_a_planner_brought_in_may_be_taken_out_anew() -> None:
