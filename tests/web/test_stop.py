@@ -93,7 +93,7 @@ def test_a_stop_that_nobody_confirms_is_red_and_says_so(robot: Robot, open_page:
         robot.system.thaw("planner")
     # What waited in the planner's sockets stops the robot after all, and the page tells.
     page.locator("#stop-state.good").wait_for()
-    assert robot.judge.status.held is not None
+    until(lambda: robot.judge.status.held is not None, 1.0, "a hold", robot.judge.describe)
 
 
 def test_arming_is_another_act_and_takes_two(robot: Robot, open_page: OpenPage) -> None:
