@@ -58,7 +58,7 @@ def fence_scale(
         return 1.0  # distance changes by no more than the way gone
     if here < FENCE_MARGIN_M and _inward(fence, base_in_map, twist, here):
         return min(1.0, INWARD_MPS / speed)
-    return _largest(fence, base_in_map, twist, length, reaction)
+    return _largest(fence, base_in_map, twist, length, reaction, here)
 
 
 def _largest(
@@ -67,10 +67,11 @@ def _largest(
     twist: Twist2,
     whole: float,
     reaction: float,
+    here: float,
 ) -> float:
     """Find by halving the largest factor whose stop ends on the clear way; 0 if it is no speed."""
     speed = abs(twist.v_mps)
-    clear = _clear_m(fence, base_in_map, twist, whole)
+    clear = _clear_m(fence, base_in_map, twist, whole, here)
     if clear >= whole:
         return 1.0
     low, high = 0.0, 1.0
@@ -84,24 +85,24 @@ def _largest(
     return low if low * speed >= STANDING_MPS else 0.0
 
 
-def _clear_m(fence: Fence, start: Pose2, twist: Twist2, whole: float) -> float:
+def _clear_m(fence: Fence, start: Pose2, twist: Twist2, whole: float, here: float) -> float:
     """Return how much of a motion's way keeps the margin all along [m], at most ``whole``.
 
     Distance changes by no more than the way gone, so that what is left beyond the margin may be
     skipped; no skip is so short that it takes for ever, and none so long that it steps over a post:
     between two places 5 cm apart that keep the margin it is less by 2.5 cm at most.
     """
-    clear = gone = 0.0
-    if not whole < inf:
+    clear, margin = 0.0, here
+    if not (whole < inf and here >= FENCE_MARGIN_M):
         return 0.0
     for _ in range(_LOOKS):
+        gone = min(whole, clear + max(margin - FENCE_MARGIN_M, _STEP_M))
         margin = _margin_m(fence, start, twist, gone)
         if not margin >= FENCE_MARGIN_M:
             return _edge_m(fence, start, twist, clear, gone)
-        clear = gone
         if gone >= whole:
             return whole
-        gone = min(whole, gone + max(margin - FENCE_MARGIN_M, _STEP_M))
+        clear = gone
     return clear  # what is further off has not been looked at
 
 

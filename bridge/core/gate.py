@@ -104,7 +104,8 @@ def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
             return twist  # POSE_LOST caps it at the speed at which a hand may cross
         tick.s.motion.bound_by = "pose_lost"
         return STILL
-    _tell_crossing(tick, fence.margin_m(here.x_m, here.y_m))
+    if tick.s.mode is Mode.TELEOP or tick.s.watch.outside:
+        _tell_crossing(tick, fence.margin_m(here.x_m, here.y_m))
     robot = tick.config.robot
     learnt = tick.s.learnt
     lag_s = robot.drive.lag_s + learnt.lag_more_s

@@ -131,7 +131,8 @@ ROWS: tuple[Row, ...] = (
          _do("3 in 5 min", _STOP1, "WTX", _REARM)),
     _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s, or of other sign",
          _do("100 ms", _FAST1, ALL, _RESET), _do("250 ms", _CUT0, ALL, _RESET)),
-    _row("YAW_DISAGREE", "odometry and gyro differ by over 0.3 rad/s, or the gyro is stale",
+    _row("YAW_DISAGREE", "odometry and gyro differ by over 0.3 rad/s, or the gyro is stale or not "
+         "wired",
          _do("0.5 s", _CAP, "WTX", clean_s=2.0, cap_mps=0.3)),
     _row("ENC_STALE", "no state from the drive",
          _do("80 ms", _HOLD2), _do("250 ms", _FAST1, ALL, _REARM)),
