@@ -6,6 +6,8 @@ Joins the system that a person runs with the judge that watches it. Every verdic
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from math import hypot, inf, pi, remainder
 from pathlib import Path
 
@@ -14,7 +16,7 @@ import psutil
 from planner.world import Place, Site
 from tests.e2e.judge import Judge, still
 from tests.e2e.polling import until
-from tests.e2e.system import ENDED, TWO_ROOM, Json, System
+from tests.e2e.system import ENDED, TWO_ROOM, Json, System, new_home
 from wire import Mode
 
 REST_LIMIT_S = 20.0
@@ -164,3 +166,16 @@ class Robot:
         assert driven_m < path_m, (driven_m, self.judge.describe())
         self.judge.assert_no_contact()
         return stood_s
+
+
+@contextmanager
+def resting_in(site: Path) -> Iterator[Robot]:
+    """Lend a robot of its own, at rest in a site, and hold that nothing is left of it."""
+    with new_home() as folder:
+        robot = Robot(Path(folder), site)
+        try:
+            robot.start()
+            robot.rest()
+            yield robot
+        finally:
+            robot.close()

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -118,6 +119,16 @@ class System:
         """Start ``pons up`` and wait for the line with its URL."""
         self.launch()
         self.until_ready()
+
+    @contextlib.contextmanager
+    def running(self) -> Iterator[System]:
+        """Be up, and end as a person ends it; whatever happens, nothing is left."""
+        try:
+            self.start()
+            yield self
+            self.end()
+        finally:
+            self.destroy()
 
     def until_ready(self) -> None:
         """Wait for the line with the URL."""

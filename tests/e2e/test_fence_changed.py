@@ -21,13 +21,8 @@ KEEP_OUT = [[0.4, 3.4], [0.9, 3.4], [0.9, 3.9], [0.4, 3.9]]
 def system(home: Path) -> Iterator[System]:
     site = home / "sites" / "two_room"  # home.yaml names its folder
     shutil.copytree(TWO_ROOM, site)
-    found = System(home, site)
-    try:
-        found.start()
+    with System(home, site).running() as found:
         yield found
-        found.end()
-    finally:
-        found.destroy()
 
 
 def status(system: System) -> Json:

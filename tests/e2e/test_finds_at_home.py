@@ -10,8 +10,8 @@ import pytest
 
 from lockstep.homes import site_of
 from sim.site import load_home
-from tests.e2e.robot import Robot
-from tests.e2e.system import ENDED, HOME_SITE, Json, new_home
+from tests.e2e.robot import Robot, resting_in
+from tests.e2e.system import ENDED, HOME_SITE, Json
 
 pytestmark = [pytest.mark.e2e, pytest.mark.home, pytest.mark.timeout(400)]
 
@@ -27,14 +27,8 @@ LIMIT_S = 150.0
 def house(tmp_path: Path) -> Iterator[Robot]:
     """Return a robot that starts in the kitchen: the way there is told elsewhere."""
     site = site_of(tmp_path, load_home(HOME_SITE).model_copy(update={"dock": "dining_table"}))
-    with new_home() as folder:
-        robot = Robot(Path(folder), site)
-        try:
-            robot.start()
-            robot.rest()
-            yield robot
-        finally:
-            robot.close()
+    with resting_in(site) as robot:
+        yield robot
 
 
 def done(house: Robot, text: str) -> Json:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from math import hypot
-from pathlib import Path
 
 import pytest
 
 from pons.texts import figures
-from tests.e2e.robot import THERE_M, Robot
-from tests.e2e.system import ENDED, HOME_SITE, new_home
+from tests.e2e.robot import THERE_M, Robot, resting_in
+from tests.e2e.system import ENDED, HOME_SITE
 
 pytestmark = [pytest.mark.home, pytest.mark.timeout(600)]
 
@@ -22,14 +21,8 @@ DRIVE_LIMIT_S = 120.0
 @pytest.fixture(scope="module")
 def house() -> Iterator[Robot]:
     """Return a robot at rest in the default home."""
-    with new_home() as folder:
-        robot = Robot(Path(folder), HOME_SITE)
-        try:
-            robot.start()
-            robot.rest()
-            yield robot
-        finally:
-            robot.close()
+    with resting_in(HOME_SITE) as robot:
+        yield robot
 
 
 def test_seven_rooms_in_both_languages(

@@ -19,13 +19,8 @@ BEFORE, AFTER = "max_speed_mps = 0.5", "max_speed_mps = 0.4"
 def system(home: Path) -> Iterator[System]:
     robot = home / "robot.toml"
     robot.write_text((ROOT / "robot.toml").read_text("utf-8"), "utf-8")
-    found = System(home, PONS_ROBOT=str(robot))
-    try:
-        found.start()
+    with System(home, PONS_ROBOT=str(robot)).running() as found:
         yield found
-        found.end()
-    finally:
-        found.destroy()
 
 
 def status(system: System) -> Json:
