@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import ceil, cos, floor, hypot, pi, sin, tau
+from math import ceil, cos, floor, hypot, inf, pi, sin, tau
 from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
@@ -87,11 +87,12 @@ class ScanPicture:
         lx, ly = lidar.x_m, lidar.y_m
         offset = hypot(lx, ly)
         first = lidar.yaw_rad + scan.angle_min_rad
-        returned = [r for r in ranges if r is not None and r <= high]
         far = high if sight_m is None else min(high, sight_m + offset)
-        near, xs, ys = _points(ranges, first, scan.angle_increment_rad, low, far)
+        returns, near, xs, ys = _points(
+            ranges, _rays(first, scan.angle_increment_rad, len(ranges)), low, high, far, lx, ly
+        )
         nearest_m = near
-        if near is None and returned:
+        if near is None and returns:
             nearest_m = far
         return cls(
             base_in_odom=base_in_odom_at_scan,
@@ -102,10 +103,10 @@ class ScanPicture:
             ranges_m=ranges,
             range_min_m=low,
             range_max_m=high,
-            returns=len(returned),
+            returns=returns,
             sight_m=sight_m,
-            xs_m=tuple([lx + x for x in xs]) if lx else tuple(xs),
-            ys_m=tuple([ly + y for y in ys]) if ly else tuple(ys),
+            xs_m=tuple(xs),
+            ys_m=tuple(ys),
             nearest_m=None if nearest_m is None else nearest_m - offset,
         )
 
@@ -132,9 +133,9 @@ class ScanPicture:
         if self.sight_m is None or within_m <= self.sight_m:
             return self.xs_m, self.ys_m
         low, far = self.range_min_m, self.range_max_m
-        _, xs, ys = _points(self.ranges_m, self.first_rad, self.step_rad, low, far)
-        lx, ly = self.lidar_x_m, self.lidar_y_m
-        return tuple([lx + x for x in xs]), tuple([ly + y for y in ys])
+        rays = _rays(self.first_rad, self.step_rad, self.beams)
+        _, _, xs, ys = _points(self.ranges_m, rays, low, far, far, self.lidar_x_m, self.lidar_y_m)
+        return tuple(xs), tuple(ys)
 
     @property
     def whole(self) -> bool:
@@ -167,22 +168,34 @@ class ScanPicture:
 
 
 def _points(
-    ranges: tuple[float | None, ...], first_rad: float, step_rad: float, low: float, far: float
-) -> tuple[float | None, list[float], list[float]]:
-    """Return the least range up to ``far`` [m], and x and y from the lidar of all such returns."""
-    cosines, sines = _rays(first_rad, step_rad, len(ranges))
-    kept = [
-        (r, c, s)
-        for r, c, s in zip(ranges, cosines, sines, strict=True)
-        if r is not None and r <= far
-    ]
-    if not kept:
-        return None, [], []
-    least = min([r for r, _, _ in kept])
-    if not least >= low:  # rare: most scans have nothing so near
-        kept = [(max(r, low), c, s) for r, c, s in kept]
-        least = low
-    return least, [r * c for r, c, _ in kept], [r * s for r, _, s in kept]
+    ranges: tuple[float | None, ...],
+    rays: tuple[tuple[float, ...], tuple[float, ...]],
+    low: float,
+    high: float,
+    far: float,
+    lidar_x_m: float,
+    lidar_y_m: float,
+) -> tuple[int, float | None, list[float], list[float]]:
+    """Go over the beams once, for this is the dearest part of a tick.
+
+    Returns:
+        How many returned up to ``high`` [m]; the least range up to ``far`` [m], never under
+        ``low``, or None; x and y in ``base`` [m] of all returns up to ``far``.
+    """
+    cosines, sines = rays
+    returns, least = 0, inf
+    xs: list[float] = []
+    ys: list[float] = []
+    for index, r in enumerate(ranges):
+        if r is None or not r <= high:  # what is not a number is no return either
+            continue
+        returns += 1
+        if r <= far:
+            seen = max(r, low)
+            least = min(least, seen)
+            xs.append(lidar_x_m + seen * cosines[index])
+            ys.append(lidar_y_m + seen * sines[index])
+    return returns, least if xs else None, xs, ys
 
 
 @lru_cache(maxsize=8)
