@@ -16,6 +16,11 @@ from planner.world import Site
 ESCAPE_M = 0.6
 """A robot squeezed in deeper than this does not stand where the map says."""
 GOAL_MOVE_M = 0.5
+ROOM_M = 0.10
+"""Kept clear about a robot that stands: the bridge's gate stops it 0.05 m before anything, and the
+pose and the map's cells err by about as much."""
+SHIFT_M = 0.15
+"""A goal is moved by so much for the sake of room; what is meant by it stays the same."""
 
 Cell = tuple[int, int]
 
@@ -36,9 +41,15 @@ class _Near:
 
     columns: NDArray[np.intp]
     rows: NDArray[np.intp]
+    away_m: NDArray[np.float64]
 
     def keep(self, wanted: NDArray[np.bool_]) -> _Near:
-        return _Near(self.columns[wanted], self.rows[wanted])
+        return _Near(self.columns[wanted], self.rows[wanted], self.away_m[wanted])
+
+    def before(self, wanted: NDArray[np.bool_]) -> _Near:
+        """Put the cells that are wanted before all others, in the order that they have."""
+        order = np.argsort(~wanted, kind="stable")
+        return _Near(self.columns[order], self.rows[order], self.away_m[order])
 
     def first(self) -> Cell:
         return int(self.columns[0]), int(self.rows[0])
@@ -78,9 +89,11 @@ def _xy(costmap: Costmap, request: RouteRequest, which: str) -> tuple[float, flo
 
 
 def _goals(costmap: Costmap, site: Site, goal_m: tuple[float, float]) -> _Near:
+    """List where to end: with room to stand, where that is about as near as any free floor."""
     column, row = costmap.grid.cell_of(*goal_m)
-    if costmap.free[row, column]:
-        return _Near(np.array([column]), np.array([row]))
+    stands = costmap.clearance_m >= costmap.radius_m + ROOM_M
+    if costmap.free[row, column] and stands[row, column]:
+        return _only(column, row)
     near = _free_near(costmap, goal_m, GOAL_MOVE_M)
     room = site.room_at(*goal_m)
     if room is not None:
@@ -92,13 +105,16 @@ def _goals(costmap: Costmap, site: Site, goal_m: tuple[float, float]) -> _Near:
     if len(near.rows) == 0:
         text = f"({goal_m[0]:.2f}, {goal_m[1]:.2f}), none within {GOAL_MOVE_M} m"
         raise RouteFailure("goal_blocked", text)
-    return near
+    roomy = stands[near.rows, near.columns] & (near.away_m <= near.away_m[0] + SHIFT_M)
+    if costmap.free[row, column] and not roomy.any():
+        return _only(column, row)
+    return near.before(roomy)
 
 
 def _starts(costmap: Costmap, start_m: tuple[float, float]) -> _Near:
     column, row = costmap.grid.cell_of(*start_m)
     if costmap.free[row, column]:
-        return _Near(np.array([column]), np.array([row]))
+        return _only(column, row)
     near = _free_near(costmap, start_m, ESCAPE_M)
     near = near.keep(
         np.array(
@@ -138,7 +154,11 @@ def _free_near(costmap: Costmap, xy_m: tuple[float, float], reach_m: float) -> _
     y_m = grid.origin_y_m + (rows + 0.5) * grid.resolution_m
     away_m = np.hypot(x_m - xy_m[0], y_m - xy_m[1])
     order = np.argsort(away_m, kind="stable")
-    return _Near(columns[order], rows[order]).keep(away_m[order] <= reach_m)
+    return _Near(columns[order], rows[order], away_m[order]).keep(away_m[order] <= reach_m)
+
+
+def _only(column: int, row: int) -> _Near:
+    return _Near(np.array([column]), np.array([row]), np.zeros(1))
 
 
 def moved_m(costmap: Costmap, request: RouteRequest, ends: Ends) -> float:

@@ -180,6 +180,29 @@ def test_a_goal_in_furniture_moves_to_the_nearest_free_floor_and_says_so() -> No
     assert end.y_m < 3.0
 
 
+def test_a_goal_too_near_to_a_wall_to_be_stood_at_moves_a_little_away() -> None:
+    site = drawn(*["#" * 24], *["." * 24] * 23)  # all above y 5.75 m
+    tight = ask(site, RouteRequest(at(1.0, 1.0), at(3.0, 5.42)))
+    end = tight.points[-1]
+    assert 5.75 - end.y_m >= LIMITS.radius_m + 0.10 - 1e-6
+    assert 0.0 < tight.moved_goal_m <= 0.15
+    assert abs(end.x_m - 3.0) <= 0.05
+    roomy = ask(site, RouteRequest(at(1.0, 1.0), at(3.0, 5.32)))
+    assert roomy.moved_goal_m == 0.0
+
+
+def test_a_goal_in_a_niche_without_more_room_stays_where_it_is() -> None:
+    rows = ["#" * 20 + "." * 7 + "#" * 20] * 10 + ["." * 47] * 20
+    result = ask(drawn(*rows, square_m=0.1), RouteRequest(at(1.0, 1.0), at(2.33, 2.5)))
+    assert result.moved_goal_m == 0.0
+
+
+def test_a_goal_in_furniture_moves_to_where_there_is_room_to_stand() -> None:
+    rows = ["." * 24] * 10 + ["." * 10 + "####" + "." * 10] * 2 + ["." * 24] * 12
+    result = ask(drawn(*rows), RouteRequest(at(1.0, 1.0), at(3.0, 3.02)))
+    assert 3.0 - result.points[-1].y_m >= LIMITS.radius_m + 0.10 - 1e-6
+
+
 def test_a_goal_deep_in_furniture_is_blocked() -> None:
     rows = ["." * 24] * 8 + ["." * 8 + "########" + "." * 8] * 8 + ["." * 24] * 8
     error = failure(drawn(*rows), RouteRequest(at(1.0, 1.0), at(3.0, 3.0)))
