@@ -1,6 +1,7 @@
-"""Keep the questions that a plan's own steps asked: take the answer, or end what nobody answers.
+"""Keep the questions that steps of any kind ask: hand on the answer, or end what nobody answers.
 
 The robot stands and is free for other goals meanwhile; who waits behind the asking goal waits on.
+What an answer means is for the skill that asked to say.
 """
 
 from __future__ import annotations
@@ -9,28 +10,26 @@ from planner.mission.queue import enqueue, finish, note_step, release_answered
 from planner.mission.records import Mission
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended
-from planner.mission.walk import next_step
 from planner.plan import Code, GoalState, StepState, message, same
 
 MAX_ANSWER = 2000
 
 
 def asks(mission: Mission) -> bool:
-    """Tell whether a goal waits for the answer to a question of its own plan."""
+    """Tell whether a goal waits for the answer to a question of one of its own steps."""
     step = mission.now
     return (
         mission.state is GoalState.NEEDS_CLARIFICATION
         and step is not None
-        and step.kind == "ask"
         and step.state is StepState.RUNNING
     )
 
 
 def take_answer(turn: Turn, mission: Mission, text: str) -> None:
-    """Write the answer into its step, and go on first of all who wait."""
-    mission = note_step(turn, mission, state=StepState.SUCCEEDED, answer=text[:MAX_ANSWER])
+    """Write the answer into its step, and go on in it first of all who wait."""
+    mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
     release_answered(turn)
-    enqueue(turn, next_step(turn, turn.put(mission, outcome=None)), first=True)
+    enqueue(turn, turn.put(mission, outcome=None), first=True)
 
 
 def end_unanswered(turn: Turn) -> None:
@@ -47,8 +46,8 @@ def end_unanswered(turn: Turn) -> None:
 
 
 def _unanswered(turn: Turn, mission: Mission, limit_s: float) -> None:
-    text = (mission.now.text if mission.now is not None else None) or ""
-    said = message(Code.NO_ANSWER, text=same(text), seconds=f"{limit_s:.0f}")
+    asked = mission.outcome.message if mission.outcome is not None else same("")
+    said = message(Code.NO_ANSWER, text=asked, seconds=f"{limit_s:.0f}")
     now_unix_s = turn.now_s + turn.book.wall_offset_s
     outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
                     code=Code.NO_ANSWER, said=said)  # fmt: skip

@@ -32,7 +32,8 @@ def observed(facts: Facts, mission: Mission) -> tuple[Observation, ...]:
 
 
 def _observation(facts: Facts, mission: Mission, step: StepRecord, *, newest: bool) -> Observation:
-    result = "answered" if step.answer is not None else RESULTS.get(step.state, "succeeded")
+    answered = step.kind == "ask" and step.answer is not None
+    result = "answered" if answered else RESULTS.get(step.state, "succeeded")
     detail = _detail(facts, step)
     if newest and step.state is StepState.FAILED and mission.failure is not None:
         detail = mission.failure.message

@@ -206,6 +206,8 @@ class Walk:
     """What odometry says was done in this leg, as in ``Mission.done``."""
     until_s: float | None = None
     """When a wait ends."""
+    question: Bilingual | None = None
+    """What a person is asked."""
     aloud: bool = True
     """A question is spoken; False where it was perhaps spoken before."""
     ticket: int | None = None

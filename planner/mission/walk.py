@@ -40,7 +40,7 @@ from planner.mission.verdict import (
     spot_at,
     success,
 )
-from planner.plan import Code, GoalState, Outcome, StepState, message, same
+from planner.plan import Code, GoalState, Outcome, StepState, message
 from planner.world.polygon import contains
 from wire import Pose2
 
@@ -125,7 +125,7 @@ def carry_out(turn: Turn, mission: Mission, act: Act) -> None:
             note_step(turn, mission, state=StepState.RUNNING, reason=None)
             turn.set(walk=Walk("say", turn.next_entry))
         case Question():
-            _ask(turn, mission)
+            _ask(turn, mission, act)
         case Think():
             _decide(turn, mission)
         case Done():
@@ -231,10 +231,14 @@ def _later(turn: Turn, mission: Mission) -> None:
     turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s))
 
 
-def _ask(turn: Turn, mission: Mission) -> None:
-    again = mission.steps[mission.step].state is StepState.RUNNING  # then it was perhaps said
-    note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    turn.set(walk=Walk("ask", turn.next_entry, aloud=not again))
+def _ask(turn: Turn, mission: Mission, act: Question) -> None:
+    """Ask a person. What was answered before was about another question: it is forgotten."""
+    notes = act.notes if act.notes is not None else mission.notes
+    begun = mission.steps[mission.step].state is StepState.RUNNING
+    again = begun and notes == mission.notes  # then it was perhaps said
+    mission = turn.put(mission, notes=notes)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, answer=None)
+    turn.set(walk=Walk("ask", turn.next_entry, question=act.text, aloud=not again))
 
 
 def _decide(turn: Turn, mission: Mission) -> None:
@@ -304,15 +308,15 @@ def speak_if_safe(turn: Turn) -> None:
     mission, walk = turn.running, turn.book.walk
     if mission is None or walk is None or turn.book.safe < walk.record:
         return
-    text = mission.steps[mission.step].text or "" if mission.now is not None else ""
     if walk.kind == "say":
+        text = mission.steps[mission.step].text or "" if mission.now is not None else ""
         turn.emit(SayAloud(mission.id, text))
         finish_step(turn, StepState.SUCCEEDED)
-    elif walk.kind == "ask":
+    elif walk.kind == "ask" and walk.question is not None:
         if walk.aloud:
-            turn.emit(SayAloud(mission.id, text))
+            turn.emit(SayAloud(mission.id, walk.question.of(mission.language)))
         turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
-        said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=same(text)))
+        said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=walk.question))
         step_aside(turn, mission, GoalState.NEEDS_CLARIFICATION, "asked", said)
 
 

@@ -148,9 +148,11 @@ class Speak:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """Ask a person, standing, and wait for the answer."""
+    """Ask a person, standing; the skill is asked again with the answer in its step's record."""
 
-    text: str
+    text: Bilingual
+    notes: Notes | None = None
+    """Held from now on, also while nobody has answered yet."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,9 +7,10 @@ set for answers, after which the goal ends and the robot stays where it is.
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Question, Scene
+from planner.mission.skills.act import Act, Done, Question, Scene
+from planner.plan import same
 
 
 def ask(scene: Scene) -> Act:
-    """Return the question."""
-    return Question(scene.step.text or "")
+    """Return the question, until it is answered."""
+    return Question(same(scene.step.text or "")) if scene.step.answer is None else Done()

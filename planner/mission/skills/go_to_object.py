@@ -1,13 +1,13 @@
 """Drive up to a thing: half a metre is left between it and the robot's edge, which faces it.
 
-Precondition: the detector knows what is meant, or a vision model can point at it; words that pick
-one out by more than kind and colour ("the small cup") only a model understands. The thing is
-found as ``find`` does, and looked at once more where it was seen for a moment only; the standing
-point is tried from this side first, then about the thing, and the route search moves one that lies
-in furniture. Verdict: the bridge reached the leg, and where the thing must be in view a look
-confirms it; where it is too near for that, it is still remembered, which it is not when it should
-have been seen on the way and was not. When it is gone it is looked for once more, then that is
-told. Budget: as for ``find``.
+Precondition: the detector knows what is meant, or a vision model can point at it and a person says
+yes to the point (pointing.py); words that pick one out by more than kind and colour ("the small
+cup") only a model understands. The thing is found as ``find`` does, and looked at once more where it
+was seen for a moment only; the standing point is tried from this side first, then about the thing,
+and the route search moves one that lies in furniture. Verdict: the bridge reached the leg, and where
+the thing must be in view a look confirms it; where it is too near for that, it is still remembered,
+which it is not when it should have been seen on the way and was not. When it is gone it is looked
+for once more, then that is told. Budget: as for ``find``.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ from __future__ import annotations
 from math import hypot, pi
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
+from planner.mission.skills.act import Act, Cannot, Done, Gaze, Later, Scene
 from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, spin
 from planner.mission.skills.find import not_found, unknown
 from planner.mission.skills.notes import Notes
+from planner.mission.skills.pointing import agreed
 from planner.mission.skills.search import search, short_of, within
 from planner.mission.skills.seen import (
     away_m,
@@ -33,7 +34,6 @@ from planner.mission.skills.seen import (
     twice,
 )
 from planner.mission.skills.tell import called
-from planner.mission.skills.unanswered import not_pointed
 from planner.plan import Bilingual, Code, Found, message, same
 from planner.vision.kinds import kind_of
 from planner.vision.records import Thing
@@ -50,21 +50,22 @@ MOVED_M = 0.6
 NEAR_ENOUGH_M = 0.1
 FRESH_S = 20.0
 """What was seen for sure so recently is driven to without a second look."""
-POINT, ANSWER = 2, 3
 DRIVE, FACE, CHECK, JUDGE = 10, 11, 12, 13
 
 
 def go_to_object(scene: Scene) -> Act:
     """Return the next act on the way to the thing, or that it was reached."""
     wanted = one_of(scene)
-    if wanted is None and not scene.eyes.model:
+    pointed = scene.notes.pointed is not None
+    if wanted is None and not (pointed or scene.eyes.model):
         return unknown(scene)
     if scene.pose is None:
         return Later()
     if scene.notes.at is not None:
         return approach(scene, scene.pose, wanted)
-    if wanted is None:
-        return _pointed(scene, scene.pose)
+    if wanted is None or pointed:
+        at = agreed(scene, scene.pose)
+        return set_off(scene, scene.pose, scene.notes, at) if isinstance(at, tuple) else at
     thing = _known(scene, scene.pose, wanted) or search(scene, scene.pose, wanted)
     if isinstance(thing, Thing):
         if not lasting(thing) and thing.id not in scene.notes.tried:
@@ -191,17 +192,3 @@ def _moved(scene: Scene) -> Cannot:
     bare = Bilingual(en=name.en.partition(" ")[2], zh=name.zh)
     said = message(Code.NOT_FOUND, thing=bare, looked=looked)
     return Cannot(Code.NOT_FOUND, "moved", said, {"rooms": scene.notes.rooms})
-
-
-def _pointed(scene: Scene, pose: Pose2) -> Act:
-    """Have a vision model point at what the detector does not know, and drive there."""
-    notes, words = scene.notes, scene.step.object or ""
-    if notes.stage == 0:
-        return Gaze(LOOKS, then=notes.but(stage=POINT))
-    if notes.stage == POINT:
-        return Inquire(words, point=True, then=notes.but(stage=ANSWER))
-    if scene.answer is None:  # interrupted before the answer was used
-        return Inquire(words, point=True, then=notes)
-    if scene.answer.at is None:
-        return not_pointed(words, scene.answer)
-    return set_off(scene, pose, notes, scene.answer.at)

@@ -40,6 +40,8 @@ class Notes(Frozen):
     """Things that were looked at again and were not what is wanted."""
     at: tuple[float, float, float] | None = None
     """Where the thing is, as of when it was seen last: x, y, height [m] in ``map``."""
+    pointed: tuple[float, float, float] | None = None
+    """Where a vision model pointed, likewise: driven to by nobody's word but a person's."""
     label: str | None = None
     color: str | None = None
     stand: int = 0

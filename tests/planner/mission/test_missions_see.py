@@ -121,21 +121,30 @@ class FakeLooker:
 
 
 async def seeing(
-    home: Path, site: Site, plan: StepPlan, looker: FakeLooker | None, text: str
+    home: Path,
+    site: Site,
+    plan: StepPlan,
+    looker: FakeLooker | None,
+    text: str,
+    reply: str | None = None,
 ) -> tuple[Together, FakeEyes, str]:
-    """Let one goal end while pictures come; return what is left to look at."""
+    """Let one goal end while pictures come, its question answered so; return what is left of it."""
     bridge = LiveBridge(pose=START)
     eyes = FakeEyes(bridge)
     async with planner(home, site, plan, bridge=bridge, eyes=eyes, looker=looker) as world:
         looking = asyncio.create_task(eyes.look_on())
         try:
             goal = await world.missions.submit(text)
+            if reply is not None:
+                await world.until(lambda: world.missions.goal(goal.id).state is ASKS)
+                await world.missions.answer(goal.id, reply)
             await world.until(lambda: world.missions.goal(goal.id).state in DONE)
         finally:
             looking.cancel()
         return world, eyes, goal.id
 
 
+ASKS = GoalState.NEEDS_CLARIFICATION
 DONE = (GoalState.SUCCEEDED, GoalState.FAILED, GoalState.REFUSED)
 WHAT = StepPlan(steps=(Look(question="what does the sign say?"),))
 
@@ -188,16 +197,19 @@ def test_a_pixel_counts_in_the_picture_that_the_plan_was_made_on(
     run(story())
 
 
-def test_what_only_a_model_knows_is_pointed_at_and_driven_up_to(tmp_path: Path, site: Site) -> None:
+@pytest.mark.parametrize(("reply", "x_m"), [("yes, please", 1.2), ("no", START.x_m)])
+def test_what_only_a_model_knows_is_pointed_at_and_driven_up_to_upon_a_yes(
+    tmp_path: Path, site: Site, reply: str, x_m: float
+) -> None:
     async def story() -> None:
         plan = StepPlan(steps=(GoToObject(object="guitar"),))
-        looker = FakeLooker()
-        world, eyes, goal_id = await seeing(tmp_path, site, plan, looker, "go to the guitar")
+        looker, text = FakeLooker(), "go to the guitar"
+        world, eyes, goal_id = await seeing(tmp_path, site, plan, looker, text, reply)
         goal = world.missions.goal(goal_id)
-        assert goal.state is GoalState.SUCCEEDED, goal.outcome
+        assert (goal.state is GoalState.SUCCEEDED) == (reply != "no"), goal.outcome
         assert looker.asked == [("guitar", goal_id)]
         assert len(eyes.pointed) == 1
-        assert abs(world.bridge.pose.x_m - 1.2) < 0.1, "half a metre before the robot's edge"
+        assert abs(world.bridge.pose.x_m - x_m) < 0.1, "half a metre before the robot's edge"
 
     run(story())
 

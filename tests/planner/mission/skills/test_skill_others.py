@@ -20,7 +20,7 @@ from planner.mission.skills import (
     Think,
     act_of,
 )
-from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, Means, StepState
+from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, Means, StepState, same
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2
@@ -56,7 +56,8 @@ def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
         ("wait", {"seconds": 3.0}, {}, Stand(3.0)),
         ("say", {"text": "hi"}, {}, Speak("hi")),
         ("say", {"text": "hi", "state": StepState.RUNNING}, {}, Skip("perhaps_said")),
-        ("ask", {"text": "who?"}, {}, Question("who?")),
+        ("ask", {"text": "who?"}, {}, Question(same("who?"))),
+        ("ask", {"text": "who?", "answer": "me"}, {}, Done()),
         ("decide", {"text": "where?"}, {}, Think()),
     ],
 )

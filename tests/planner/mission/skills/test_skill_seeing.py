@@ -187,12 +187,6 @@ def test_without_means_a_step_is_refused_and_a_model_may_point() -> None:
     which: dict[str, Any] = {"step": {"object": "the small cup"}, "notes": Notes(stage=2)}
     assert isinstance(looking("go_to_object", thing(), eyes=model, **which), Inquire)
     assert isinstance(looking("go_to_object", thing(), **which), Cannot)
-    there = Answer(at=(2.0, 0.0, 0.4))
-    goes = looking(
-        "go_to_object", step={"object": "guitar"}, eyes=model, notes=Notes(stage=3), answer=there
-    )
-    assert isinstance(goes, Drive)
-    assert goes.goal.x_m == pytest.approx(1.2)
 
 
 def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() -> None:

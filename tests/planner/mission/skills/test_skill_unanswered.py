@@ -10,9 +10,10 @@ from planner.brain.reasons import reason
 from planner.mission.skills import Scene
 from planner.mission.skills.act import Cannot, Done, Inquire
 from planner.mission.skills.eyesight import Answer, Eyesight
-from planner.mission.skills.go_to_object import ANSWER, go_to_object
+from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.look import ASKED, look
 from planner.mission.skills.notes import NOTHING
+from planner.mission.skills.pointing import ANSWER
 from planner.plan import Code, same
 from planner.vision import Sight
 from tests.planner.mission.skills.scenes import scene

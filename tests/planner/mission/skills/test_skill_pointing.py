@@ -1,0 +1,96 @@
+"""A model's point is told to a person and driven to upon a plain yes alone."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+import pytest
+
+from planner.mission.skills import Act, Cannot, Drive, Eyesight, Gaze, Inquire, Question, act_of
+from planner.mission.skills.eyesight import Answer
+from planner.mission.skills.notes import NOTHING
+from planner.mission.skills.pointing import AGAIN, ANSWER, PROPOSED
+from planner.plan import Bilingual, Code
+from tests.planner.mission.skills.scenes import scene
+from wire import CameraConfig, Pose2
+
+EYES = Eyesight(CameraConfig(), ("cup",), model=True)
+AT = (4.0, 0.5, 0.4)
+ASKED = NOTHING.but(stage=PROPOSED, pointed=AT)
+
+
+def going(reply: str | None = None, **more: Any) -> Act:
+    """Return what a goal to the guitar does next, where a person answered so."""
+    step = {"object": "guitar", "answer": reply}
+    return act_of(scene("go_to_object", step=step, **({"eyes": EYES, "notes": ASKED} | more)))
+
+
+def test_a_point_is_proposed_before_anything_moves() -> None:
+    act = going(notes=NOTHING.but(stage=ANSWER), answer=Answer(at=AT))
+    assert act == Question(
+        Bilingual(
+            en="“guitar”: the vision model points 4.0 m away, straight ahead (in the kitchen). "
+            "Shall I drive there?",
+            zh="“guitar”：视觉模型指向正前方 4.0 米处（kitchen）。要我开过去吗？",
+        ),
+        ASKED,
+    )
+    assert going() == act, "nobody answered, and the robot was perhaps restarted"
+
+
+@pytest.mark.parametrize(
+    ("yaw", "en", "zh"),
+    [
+        (0.0, "straight ahead", "正前方"),
+        (-pi / 4, "ahead on the left", "左前方"),
+        (pi / 4, "ahead on the right", "右前方"),
+        (-pi / 2, "on the left", "左侧"),
+        (pi / 2, "on the right", "右侧"),
+        (-3 * pi / 4, "behind on the left", "左后方"),
+        (3 * pi / 4, "behind on the right", "右后方"),
+        (pi, "behind me", "正后方"),
+    ],
+)
+def test_it_is_told_as_seen_from_the_robot(yaw: float, en: str, zh: str) -> None:
+    at = (9.0, 0.0, 0.4)
+    act = going(pose=Pose2(7.0, 0.0, yaw), notes=ASKED.but(pointed=at))
+    assert isinstance(act, Question)
+    assert f"points 2.0 m away, {en}. Shall" in act.text.en, "in no room that is known"
+    assert f"{zh} 2.0 米处。" in act.text.zh
+
+
+def test_a_yes_drives_to_the_point_that_was_told_and_asks_no_model_again() -> None:
+    for eyes in (EYES, Eyesight(CameraConfig(), ("cup",)), Eyesight(CameraConfig(), ("guitar",))):
+        act = going("yes", eyes=eyes)
+        assert isinstance(act, Drive)
+        assert act.goal.x_m == pytest.approx(4.0 - 0.8, abs=0.05)
+        assert act.then is not None
+        assert act.then.at == AT
+
+
+@pytest.mark.parametrize("stage", [PROPOSED, AGAIN])
+def test_a_no_ends_it(stage: int) -> None:
+    act = going("no, thanks", notes=ASKED.but(stage=stage))
+    assert isinstance(act, Cannot)
+    assert (act.code, act.reason) == (Code.POINT_REFUSED, "point_declined")
+    assert act.said is not None
+    assert act.said.en == "You did not say yes, so I do not drive there."
+
+
+def test_what_is_neither_is_asked_once_more_and_is_then_a_no() -> None:
+    act = going("what is it?")
+    assert isinstance(act, Question)
+    assert act.text.en.startswith("Please answer yes or no. “guitar”")
+    assert act.text.zh.startswith("请回答“是”或“不”。")
+    assert act.notes is not None
+    assert going(notes=act.notes) == act, "interrupted"
+    assert isinstance(going("hm", notes=act.notes), Cannot)
+    assert isinstance(going("yes", notes=act.notes), Drive)
+
+
+def test_an_answer_to_another_question_is_none_to_this_point() -> None:
+    assert isinstance(going("yes", notes=NOTHING), Gaze)
+    assert isinstance(going("yes", notes=NOTHING.but(stage=ANSWER)), Inquire)
+    fresh = going("yes", notes=NOTHING.but(stage=ANSWER), answer=Answer(at=AT))
+    assert isinstance(fresh, Question)
