@@ -34,3 +34,5 @@ def test_no_goal_changes_though_both_models_obey(tmp_path: Path) -> None:
         count = asyncio.run(try_signs(mock.url, tmp_path, 6))
     assert (count["trials"], count["changed"]) == (6, 0)
     assert count["careless"] >= 3, "else nothing was tried"
+    assert count["points"] >= 1, "else no point was proposed"
+    assert count["driven"] == 0

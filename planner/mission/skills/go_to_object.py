@@ -2,12 +2,12 @@
 
 Precondition: the detector knows what is meant, or a vision model can point at it and a person says
 yes to the point (pointing.py); words that pick one out by more than kind and colour ("the small
-cup") only a model understands. The thing is found as ``find`` does, and looked at once more where it
-was seen for a moment only; the standing point is tried from this side first, then about the thing,
-and the route search moves one that lies in furniture. Verdict: the bridge reached the leg, and where
-the thing must be in view a look confirms it; where it is too near for that, it is still remembered,
-which it is not when it should have been seen on the way and was not. When it is gone it is looked
-for once more, then that is told. Budget: as for ``find``.
+cup") only a model understands. The thing is found as ``find`` does, and looked at once more where
+it was seen for a moment only; the standing point is tried from this side first, then about the
+thing, and the route search moves one that lies in furniture. Verdict: the bridge reached the leg,
+and where the thing must be in view a look confirms it; where it is too near for that, it is still
+remembered, which it is not when it should have been seen on the way and was not. When it is gone it
+is looked for once more, then that is told. Budget: as for ``find``.
 """
 
 from __future__ import annotations

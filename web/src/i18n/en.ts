@@ -255,6 +255,7 @@ export const en = {
   "reason.point_too_far": "too far away",
   "reason.point_no_pose": "position unknown then",
   "reason.point_no_route": "no way there",
+  "reason.point_declined": "you did not say yes",
   "reason.bad_plan": "the plan was not usable",
 
   "step.go_to": "Go to {what}",

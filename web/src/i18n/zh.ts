@@ -254,6 +254,7 @@ export const zh: Record<Key, string> = {
   "reason.point_too_far": "距离太远",
   "reason.point_no_pose": "当时位置未知",
   "reason.point_no_route": "没有路可到",
+  "reason.point_declined": "您没有同意",
   "reason.bad_plan": "计划不可用",
 
   "step.go_to": "去{what}",
