@@ -22,14 +22,17 @@ from planner.mission.skills.notes import Notes
 from planner.mission.skills.pointing import agreed
 from planner.mission.skills.search import search, short_of, within
 from planner.mission.skills.seen import (
+    WORTH,
     away_m,
     bearing,
     confirmed,
+    fits,
     found,
     lasting,
     one_of,
     seen_now,
     spot_of,
+    sure,
     turn_to,
     twice,
 )
@@ -99,10 +102,11 @@ def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
     if notes.stage == FACE and abs(turn_to(pose, at[:2])) > FACING_RAD:
         return spin(pose, bearing(pose, at[:2]), notes.but(stage=CHECK))
     if notes.stage in (FACE, CHECK):
-        in_view = wanted is not None and scene.eyes.should_see(pose, at)
-        if in_view:
-            return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE))
-        gone = wanted is not None and _near(scene, at, scene.sight.things) is None
+        near = _near(scene, at, (t for t in scene.sight.things if fits(t, wanted)))
+        if wanted is not None and scene.eyes.should_see(pose, at):
+            sure_before = near.confidence if near is not None else None
+            return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE, sure=sure_before))
+        gone = wanted is not None and (near is None or not near.confidence >= WORTH)
         return _look_anew(scene, wanted) if gone else _there(scene, pose)
     return _judge(scene, pose, wanted)
 
@@ -135,7 +139,19 @@ def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
     at = scene.notes.at
     if at is not None and _near(scene, at, seen_now(scene, wanted)) is not None:
         return _there(scene, pose)
-    return _look_anew(scene, wanted)
+    return _there(scene, pose) if _hidden(scene, at, wanted) else _look_anew(scene, wanted)
+
+
+def _hidden(scene: Scene, at: tuple[float, float, float] | None, wanted: Wanted | None) -> bool:
+    """Tell whether what was seen on the way is out of sight from here, behind a table or cut off.
+
+    The memory knows what hides it: a thing that the looks should have shown is less sure by now.
+    """
+    fitting = (t for t in scene.sight.things if fits(t, wanted))
+    near = _near(scene, at, fitting) if at is not None else None
+    if near is None or scene.notes.sure is None or not near.seen_s >= scene.now_s - FRESH_S:
+        return False
+    return sure(near) and near.confidence >= scene.notes.sure
 
 
 def _near(scene: Scene, at: tuple[float, float, float], things: Iterable[Thing]) -> Thing | None:
@@ -161,14 +177,14 @@ def _look_anew(scene: Scene, wanted: Wanted | None) -> Act:
 
 def _there(scene: Scene, pose: Pose2) -> Done:
     notes, at = scene.notes, scene.notes.at or (pose.x_m, pose.y_m, 0.0)
-    away = away_m(pose, at[:2])
+    near = _near(scene, at, scene.sight.things) if notes.label is not None else None
+    away = away_m(pose, at[:2] if near is None else (near.x_m, near.y_m))
     figures: dict[str, object] = {"rooms": notes.rooms}
     if notes.label is None:
         said = Bilingual(
             en=f"I am {away:.1f} m from what you pointed out.", zh=f"我在目标前 {away:.1f} 米处。"
         )
         return Done(figures, Code.ARRIVED, said)
-    near = _near(scene, at, scene.sight.things)
     if near is not None:
         figures["found"] = found(near, pose, scene.now_s)
     else:

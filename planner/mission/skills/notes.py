@@ -42,6 +42,8 @@ class Notes(Frozen):
     """Where the thing is, as of when it was seen last: x, y, height [m] in ``map``."""
     pointed: tuple[float, float, float] | None = None
     """Where a vision model pointed, likewise: driven to by nobody's word but a person's."""
+    sure: float | None = None
+    """How sure of the thing one was when the robot stood before it and began to look."""
     label: str | None = None
     color: str | None = None
     stand: int = 0

@@ -275,12 +275,38 @@ def test_a_thing_that_was_seen_for_a_moment_is_looked_at_again_before_the_way_to
     assert isinstance(looking("go_to_object", thing(first_s=NOW_S - 3.0)).then, Notes)
 
 
+def test_what_was_seen_on_the_way_and_is_hidden_from_where_one_stands_is_said_to_be_there() -> None:
+    at = (1.6, 0.0, 0.8)
+    arrived = Notes(stage=FACE, at=at, label="cup", color="red")
+    look = looking("go_to_object", thing(seen_s=NOW_S - 4.0), notes=arrived)
+    assert isinstance(look, Gaze)
+    judge, gazed = look.then, {"gazed_s": NOW_S - 1.0}
+    hidden = looking("go_to_object", thing(seen_s=NOW_S - 5.0, x_m=1.5), notes=judge, **gazed)
+    assert isinstance(hidden, Done)
+    assert hidden.said is not None
+    assert "1.5 m" in hidden.said.en, "by where it was seen last"
+    for other in (
+        thing(seen_s=NOW_S - 5.0, confidence=0.89),  # it should have been seen
+        thing(seen_s=NOW_S - 21.0),
+        thing(seen_s=NOW_S - 5.0, x_m=2.3),
+    ):
+        assert not isinstance(looking("go_to_object", other, notes=judge, **gazed), Done)
+    doubtful = judge.but(sure=0.5)
+    unsure = thing(seen_s=NOW_S - 5.0, confidence=0.5)
+    assert not isinstance(looking("go_to_object", unsure, notes=doubtful, **gazed), Done)
+    unknown = judge.but(sure=None)
+    seen = thing(seen_s=NOW_S - 5.0)
+    assert not isinstance(looking("go_to_object", seen, notes=unknown, **gazed), Done)
+
+
 def test_what_was_not_seen_on_the_way_is_not_said_to_be_there() -> None:
     at = (0.9, 0.0, 0.05)
     notes = Notes(stage=FACE, at=at, label="cup", color="red")
     assert not EYES.should_see(HERE, at), "it lies before the feet"
     there = thing(x_m=0.9, z_m=0.05, seen_s=NOW_S - 9.0)
     assert isinstance(looking("go_to_object", there, notes=notes), Done)
+    for other in (replace(there, confidence=0.29), replace(there, color="blue")):
+        assert not isinstance(looking("go_to_object", other, notes=notes), Done)
     again = looking("go_to_object", notes=notes)
     assert isinstance(again, (Drive, Gaze)), "it is looked for once more"
     told = looking("go_to_object", notes=notes.but(again=1))
