@@ -84,6 +84,8 @@ def measure(lab: Lab) -> list[Row]:
     """Break everything, each with several seeds."""
     rows = []
     for fault in SimFault:
+        if fault.value.startswith("camera_"):  # the bridge does not see
+            continue
         data = list(
             lab.slices(fault.value, lab.count(3, SEEDS), lambda i, f=fault: asdict(trial(f, i + 1)))  # type: ignore[misc]  # the default binds the loop's fault
         )
@@ -92,6 +94,12 @@ def measure(lab: Lab) -> list[Row]:
         what = ", ".join(sorted({one["first"] or "nothing" for one in data}))
         contacts = sum(one["contacts"] for one in data)
         note = f"{what}; seen {len(seen)}, stood {len(stood)} of {len(data)}; contacts {contacts}"
-        rows.append(row_of(f"{fault.value} -> said", "ticks", "", seen, note))
-        rows.append(row_of(f"{fault.value} -> stands", "ticks", "", stood, ""))
+        rows.append(_times(f"{fault.value} -> said", seen, "not told", note))
+        rows.append(_times(f"{fault.value} -> stands", stood, "drives on", ""))
     return rows
+
+
+def _times(what: str, ticks: list[float], otherwise: str, note: str) -> Row:
+    if not ticks:
+        return Row(what, "ticks", "", value=otherwise, note=note)
+    return row_of(what, "ticks", "", ticks, note)

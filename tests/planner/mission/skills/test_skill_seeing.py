@@ -281,6 +281,7 @@ def test_what_was_seen_on_the_way_and_is_hidden_from_where_one_stands_is_said_to
     look = looking("go_to_object", thing(seen_s=NOW_S - 4.0), notes=arrived)
     assert isinstance(look, Gaze)
     judge, gazed = look.then, {"gazed_s": NOW_S - 1.0}
+    assert judge is not None
     hidden = looking("go_to_object", thing(seen_s=NOW_S - 5.0, x_m=1.5), notes=judge, **gazed)
     assert isinstance(hidden, Done)
     assert hidden.said is not None
