@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -145,8 +146,12 @@ def kind_of(found: object) -> str:
 def senseless(outputs: Sequence[Array]) -> bool:
     """Tell whether an output of fractions has some and none is finite, by a sample of them."""
     fractions = (found for found in outputs if kind_of(found) == FRACTIONS)
-    samples = (it.reshape(-1)[:: max(1, it.size // SAMPLES)] for it in fractions if it.size)
-    return any(not np.isfinite(sample).any() for sample in samples)
+    return any(it.size > 0 and not (isfinite(it.item(0)) or _any_finite(it)) for it in fractions)
+
+
+def _any_finite(fractions: Array) -> bool:
+    sample = fractions.reshape(-1)[:: max(1, fractions.size // SAMPLES)]
+    return bool(np.isfinite(sample).any())
 
 
 def _memory(array: Array) -> tuple[str, int, type[np.generic], tuple[int, ...], int]:
