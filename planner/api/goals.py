@@ -40,7 +40,10 @@ def _giving(router: APIRouter, services: Services) -> None:
 
     @router.post("", status_code=202, operation_id="give_goal")
     async def give(new: NewGoal, idempotency_key: IdempotencyKey = None) -> Goal:
-        """Give a goal in words. What is understood but impossible ends refused."""
+        """Give a goal in words. What is understood but impossible ends refused.
+
+        A plain yes or no answers the question of a step, where only one asks.
+        """
         act = None if stays_put(new.text) else persons_act(services.robot, new.operator)
         return await goals.submit(
             new.text,

@@ -7,7 +7,7 @@
     await missions.start(freeze=True) … await missions.close()
 
     await submit(text, *, language=None, confirm=False, replace=False, idempotency_key=None,
-                 operator=True, act=None, source="api") -> Goal
+                 act=None, source="api", answers=True) -> Goal
     goal(id) -> Goal;  goals(limit=50) -> tuple[Goal, ...]  (newest first)
     await cancel(id) | pause(id) | move(id, before=None) -> Goal
     await resume(id=None, act=None) | confirm(id, act=None) | answer(id, text, act=None) -> Goal

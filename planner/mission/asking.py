@@ -1,18 +1,21 @@
 """Keep the questions that steps of any kind ask: hand on the answer, or end what nobody answers.
 
 The robot stands and is free for other goals meanwhile; who waits behind the asking goal waits on.
-What an answer means is for the skill that asked to say.
+What an answer means is for the skill that asked to say. A plain yes or no that is said as a goal is
+the answer where one question alone can be meant: a wrong guess would move the robot.
 """
 
 from __future__ import annotations
 
 from planner.mission.queue import enqueue, finish, note_step, release_answered
-from planner.mission.records import Mission
+from planner.mission.records import Book, Mission
+from planner.mission.skills.consent import consents
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended
-from planner.plan import Code, GoalState, StepState, message, same
+from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message, same
 
 MAX_ANSWER = 2000
+_WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
 
 
 def asks(mission: Mission) -> bool:
@@ -30,6 +33,38 @@ def take_answer(turn: Turn, mission: Mission, text: str) -> None:
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
     release_answered(turn)
     enqueue(turn, turn.put(mission, outcome=None), first=True)
+
+
+def meant(book: Book, text: str) -> tuple[str, ...]:
+    """Return the goals whose question a sentence may answer; one alone is beyond doubt.
+
+    None unless it is a plain yes or no and a step asks. A question of any other kind (about the
+    order, for a yes to a plan) counts where it is no older than the step's: it may be meant, too.
+    """
+    asking = [m for m in book.missions.values() if asks(m)]
+    if not asking or consents(text) is None:
+        return ()
+    asked_unix_s = max(m.updated_unix_s for m in asking)
+    waiting = (m for m in book.missions.values() if m.state in _WAITS)
+    return tuple(m.id for m in waiting if asks(m) or m.updated_unix_s >= asked_unix_s)
+
+
+def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> None:
+    """End a goal whose words answer the one question that is meant; of several, take none."""
+    names = [f"“{turn.book.missions[asked].text[:60]}”" for asked in asking]
+    en, zh = ", ".join(names), "、".join(names)
+    if len(asking) > 1:
+        said = Bilingual(
+            en=f"More than one goal waits for you: {en}. I take this for none of them.",
+            zh=f"有不止一个任务在等待您：{zh}。这句话没有用于其中任何一个。",
+        )
+        outcome = Outcome(code=Code.AMBIGUOUS, message=said)
+        turn.put(mission, state=GoalState.REFUSED, reason=Code.AMBIGUOUS.value, outcome=outcome)
+        return
+    said = Bilingual(en=f"Taken as the answer for {en}.", zh=f"已作为{zh}的回答。")
+    outcome = Outcome(code=Code.ANSWERED, message=said)
+    turn.put(mission, state=GoalState.SUCCEEDED, outcome=outcome)
+    take_answer(turn, turn.book.missions[asking[0]], mission.text)
 
 
 def end_unanswered(turn: Turn) -> None:

@@ -28,6 +28,8 @@ class Submitted:
     stop: bool = False
     echoed: bool = True
     """The bridge has confirmed that stop."""
+    asking: tuple[str, ...] = ()
+    """The goals whose question the sentence may answer."""
 
 
 @dataclass(frozen=True, slots=True)

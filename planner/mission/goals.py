@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.mission.asking import asks, take_answer
+from planner.mission.asking import asks, take_answer, take_sentence
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.gate import unwalkable
@@ -83,6 +83,9 @@ def submit(turn: Turn, event: Submitted) -> None:
     )
     if event.stop:
         _stopped(turn, mission, event.echoed)
+        return
+    if event.asking:
+        take_sentence(turn, mission, event.asking)
         return
     _think(turn, mission)
 

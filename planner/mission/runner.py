@@ -17,7 +17,7 @@ from planner.brain.protocol import Brain
 from planner.link import Identity, Link, StopResult
 from planner.mission.accept import language_of
 from planner.mission.ahead import RouteAhead
-from planner.mission.asking import asks
+from planner.mission.asking import asks, meant
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import (
@@ -123,11 +123,13 @@ class Missions(Shown):
         confirm: bool = False,
         replace: bool = False,
         idempotency_key: str | None = None,
-        operator: bool = True,
         act: OpRequest | None = None,
         source: str = "api",
+        answers: bool = True,
     ) -> Goal:
         """Take a goal in and return it, usually still in planning. An order to stop stops first.
+
+        A plain yes or no answers the one question that a step asks, if only that can be meant.
 
         Args:
             text: what the person said.
@@ -135,9 +137,9 @@ class Missions(Shown):
             confirm: wait for a yes between plan and first step.
             replace: end the running goal once this one is understood, and go first.
             idempotency_key: the same key and request return the same goal.
-            operator: a person gave it now; it may run although a stop stands.
             act: the person's ``op/resume``, signed, which clears the bridge's hold.
             source: who asks, for the bridge's record of stops.
+            answers: it may answer a question; never where ``confirm`` or ``replace`` is set.
 
         Raises:
             QueueFull: 33 goals are open.
@@ -151,12 +153,14 @@ class Missions(Shown):
         body = body_of(text, said, confirm, replace)
         if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
             return self.goal(known)
+        may_answer = answers and intent is None and not (confirm or replace)
+        asking = meant(self._book, text) if may_answer else ()
         waiting = sum(not m.ended for m in self._book.missions.values())
-        local = intent is not None and not isinstance(intent, Replace)
+        local = bool(asking) or (intent is not None and not isinstance(intent, Replace))
         if waiting >= MAX_OPEN and not local:
             raise QueueFull(waiting)
-        if local and not isinstance(intent, GoOn):
-            operator, act = False, None  # what can't lead to motion clears no hold
+        operator = not local or isinstance(intent, GoOn) or len(asking) == 1
+        act = act if operator else None  # what can't lead to motion clears no hold
         first = isinstance(intent, Replace) and intent.now
         taken_back = current(self._book) if first else None
         if isinstance(intent, Replace):
@@ -165,7 +169,8 @@ class Missions(Shown):
         key = self._repeats.remember(idempotency_key, body, goal_id)
         self._loop.clear_hold(act)
         self._loop.accepted.note(goal_id, self._clocks.monotonic())
-        self._loop.event(Submitted(goal_id, text, said, confirm, replace, first, operator), key)
+        given = Submitted(goal_id, text, said, confirm, replace, first, operator, asking=asking)
+        self._loop.event(given, key)
         if taken_back is not None:
             self._loop.event(Cancel(taken_back))
         try:
@@ -222,7 +227,7 @@ class Missions(Shown):
             return self.goal(goal_id)
         if isinstance(intent, Replace):
             taken_back = await self.cancel(goal_id)
-            await self.submit(intent.rest, act=act)
+            await self.submit(intent.rest, act=act, answers=False)
             return taken_back
         return await self._command(Reply(goal_id, text), act)
 

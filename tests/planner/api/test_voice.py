@@ -80,10 +80,13 @@ def test_what_is_heard_but_not_surely_waits_for_a_yes(
 ) -> None:
     services.ears.heard = Heard("go to the kitchen", 0.6, understood=True)
     assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
+    services.ears.heard = Heard("yes", 0.6, understood=True)  # so it answers nothing
+    assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
     services.ears.heard = Heard("stop", 0.6, understood=True)
     assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
     assert [(call[1], call[3]) for call in services.goals.calls] == [
         ("go to the kitchen", True),
+        ("yes", True),
         ("stop", False),
     ]
 

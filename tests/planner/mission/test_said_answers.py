@@ -1,0 +1,243 @@
+"""A plain yes or no that is said as a goal answers the one question that a step asks; else none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from planner.brain.scripted import Reply
+from planner.mission import QueueFull
+from planner.mission.records import MAX_OPEN
+from planner.plan import Ask, Bilingual, Clarify, Code, Goal, GoalState, GoTo, StepPlan
+from planner.world import Site
+from tests.planner.mission.live import KITCHEN, Together, planner, run
+from wire import OpRequest
+
+ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION
+RUNNING, PAUSED = GoalState.RUNNING, GoalState.PAUSED
+SUCCEEDED, REFUSED, CANCELLED = GoalState.SUCCEEDED, GoalState.REFUSED, GoalState.CANCELLED
+DRIVES = StepPlan(steps=(Ask(question="Shall I drive there?"), GoTo(place="kitchen")))
+TWICE = StepPlan(steps=(Ask(question="Shall I?"), Ask(question="Are you sure?")))
+WHICH = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
+
+
+async def asking(world: Together, text: str = "please fetch it") -> Goal:
+    """Give a goal whose first step asks, and wait until it does; then let time pass."""
+    goal = await world.missions.submit(text)
+    goal = await world.reach(goal.id, ASKS)
+    await later(world)
+    return goal
+
+
+async def later(world: Together) -> None:
+    seq = world.bridge.seq
+    await world.until(lambda: world.bridge.seq > seq + 1)
+
+
+def told(goal: Goal) -> tuple[GoalState, Code | None, str]:
+    said = goal.outcome
+    return goal.state, said.code if said else None, said.message.en if said else ""
+
+
+def answer_of(world: Together, goal: Goal) -> str | None:
+    plan = world.missions.goal(goal.id).plan
+    return plan.steps[0].answer if plan is not None and plan.steps else None
+
+
+def heard(world: Together) -> list[str]:
+    return [request.text for request in world.brain.asked]
+
+
+@pytest.mark.parametrize("text", ["yes", "Yes, please.", "好的", "no", "不要"])
+def test_it_answers_the_one_question_and_is_told_so(tmp_path: Path, site: Site, text: str) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, DRIVES) as world:
+            goal = await asking(world)
+            said = await world.missions.submit(text)
+            assert told(said) == (
+                SUCCEEDED, Code.ANSWERED, "Taken as the answer for “please fetch it”."
+            )  # fmt: skip
+            assert answer_of(world, goal) == text
+            assert heard(world) == ["please fetch it"], "no brain is asked"
+            await world.reach(goal.id, SUCCEEDED)
+        async with planner(tmp_path, site, prefix="h") as after:
+            assert after.missions.goal(said.id) == said
+            assert answer_of(after, goal) == text
+
+    run(story())
+
+
+@pytest.mark.parametrize("said", ["maybe", "yes?", "yes, but slowly", "the red one", "yes, hm"])
+def test_any_other_sentence_is_a_new_goal(tmp_path: Path, site: Site, said: str) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, DRIVES, WHICH) as world:
+            goal = await asking(world)
+            await world.reach((await world.missions.submit(said)).id, ASKS)
+            assert heard(world)[-1] == said
+            assert (world.missions.goal(goal.id).state, answer_of(world, goal)) == (ASKS, None)
+
+    run(story())
+
+
+def test_it_says_yes_to_nothing_but_a_step(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, WHICH, KITCHEN, WHICH) as world:
+            unclear = await asking(world)
+            plan = await world.missions.submit("go to the kitchen", confirm=True)
+            await world.reach(plan.id, CONFIRMS)
+            for text in ("yes", "no"):
+                await world.reach((await world.missions.submit(text)).id, ASKS)
+                assert heard(world)[-1] == text, "it is a goal, as any sentence"
+            assert world.missions.goal(unclear.id).state is ASKS
+            assert world.missions.goal(plan.id).state is CONFIRMS
+            assert world.bridge.waypoints == []
+
+    run(story())
+
+
+@pytest.mark.parametrize("text", ["yes", "no"])
+@pytest.mark.parametrize("other", [DRIVES, WHICH, KITCHEN])
+def test_where_two_may_be_meant_it_answers_neither_names_both_and_clears_no_hold(
+    tmp_path: Path, site: Site, text: str, other: StepPlan | Clarify
+) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, DRIVES, other) as world:
+            first = await asking(world)
+            second = await world.missions.submit("bring it", confirm=other is not DRIVES)
+            before = await world.reach(second.id, ASKS, CONFIRMS)
+            await world.missions.stop("test")
+            act = OpRequest(id="a", source="test")
+            said = await world.missions.submit(text, act=act)
+            state, code, words = told(said)
+            assert (state, said.reason, code) == (REFUSED, "ambiguous", Code.AMBIGUOUS)
+            assert "“please fetch it”, “bring it”" in words
+            assert (world.missions.goal(first.id).state, answer_of(world, first)) == (ASKS, None)
+            assert world.missions.goal(second.id) == before
+            await later(world)
+            assert world.bridge.held is not None
+            assert heard(world) == ["please fetch it", "bring it"]
+
+    run(story())
+
+
+def test_what_waited_before_the_step_asked_is_not_meant_and_gets_no_yes(
+    tmp_path: Path, site: Site
+) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, WHICH, KITCHEN, DRIVES) as world:
+            unclear = await asking(world, "hm")
+            plan = await world.missions.submit("go to the kitchen", confirm=True)
+            await world.reach(plan.id, CONFIRMS)
+            await later(world)
+            goal = await asking(world)
+            await world.missions.submit("yes")
+            assert answer_of(world, goal) == "yes"
+            assert world.missions.goal(plan.id).state is CONFIRMS
+            assert world.missions.goal(unclear.id).state is ASKS
+            await world.reach(goal.id, SUCCEEDED)
+            assert {w.mission for w in world.bridge.waypoints if w.points} == {goal.id}
+
+    run(story())
+
+
+@pytest.mark.parametrize(("confirm", "replace"), [(True, False), (False, True)])
+def test_what_is_heard_unsurely_or_replaces_a_goal_answers_nothing(
+    tmp_path: Path, site: Site, confirm: bool, replace: bool
+) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, DRIVES, WHICH) as world:
+            goal = await asking(world)
+            said = await world.missions.submit("yes", confirm=confirm, replace=replace)
+            await world.reach(said.id, ASKS)
+            assert (world.missions.goal(goal.id).state, answer_of(world, goal)) == (ASKS, None)
+
+    run(story())
+
+
+@pytest.mark.parametrize(
+    ("text", "becomes"), [("no, stop", PAUSED), ("别动", PAUSED), ("don't go there", CANCELLED)]
+)
+def test_an_order_about_what_runs_is_obeyed_and_is_no_answer(
+    tmp_path: Path, site: Site, text: str, becomes: GoalState
+) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, DRIVES, KITCHEN) as world:
+            goal = await asking(world)
+            driving = await world.missions.submit("go to the kitchen")
+            await world.until(lambda: world.bridge.horizon is not None)
+            await world.missions.submit(text)
+            await world.reach(driving.id, becomes)
+            assert (world.missions.goal(goal.id).state, answer_of(world, goal)) == (ASKS, None)
+
+    run(story())
+
+
+def test_after_a_stop_it_is_the_persons_act_as_any_answer_is(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, DRIVES) as world:
+            goal = await asking(world)
+            await world.missions.stop("test")
+            await world.missions.submit("yes", act=OpRequest(id="a", source="test"))
+            await world.reach(goal.id, SUCCEEDED)
+
+    run(story())
+
+
+def test_a_no_ends_nothing_that_runs(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, DRIVES, KITCHEN) as world:
+            goal = await asking(world)
+            driving = await world.missions.submit("go to the kitchen")
+            await world.until(lambda: world.bridge.horizon is not None)
+            await world.missions.submit("no")
+            assert answer_of(world, goal) == "no"
+            assert world.missions.goal(driving.id).state is RUNNING
+            await world.reach(driving.id, SUCCEEDED)
+
+    run(story())
+
+
+def test_what_is_said_about_one_goal_answers_no_other(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, WHICH, DRIVES, WHICH) as world:
+            unclear = await asking(world, "hm")
+            goal = await asking(world)
+            await world.missions.answer(unclear.id, "yes")
+            await world.reach(unclear.id, ASKS)
+            assert heard(world)[-1] == "yes"
+            await world.missions.answer(unclear.id, "forget that, go there")
+            await world.until(lambda: heard(world)[-1] == "go there")
+            assert (world.missions.goal(goal.id).state, answer_of(world, goal)) == (ASKS, None)
+
+    run(story())
+
+
+def test_the_same_request_again_answers_no_second_question(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, TWICE) as world:
+            goal = await asking(world)
+            said = await world.missions.submit("yes", idempotency_key="k")
+            await world.reach(goal.id, ASKS)
+            assert (await world.missions.submit("yes", idempotency_key="k")).id == said.id
+            plan = world.missions.goal(goal.id).plan
+            assert plan is not None
+            assert [step.answer for step in plan.steps] == ["yes", None]
+
+    run(story())
+
+
+def test_a_full_queue_keeps_no_answer_out(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        replies: list[Reply] = [*[WHICH] * (MAX_OPEN - 1), DRIVES]
+        async with planner(tmp_path, site, *replies) as world:
+            for number in range(MAX_OPEN - 1):
+                await world.reach((await world.missions.submit(f"hm {number}")).id, ASKS)
+            await later(world)
+            goal = await asking(world)
+            with pytest.raises(QueueFull):
+                await world.missions.submit("go to the kitchen")
+            await world.missions.submit("yes")
+            assert answer_of(world, goal) == "yes"
+
+    run(story())
