@@ -94,6 +94,7 @@ def _about_lines(about: About) -> list[str]:
         f"decoder: {about.decoder} ({about.why})",
         f"provider: {about.provider} ({about.provider_why})",
         f"classes: {sum(map(bool, about.classes))}: {names}",
+        f"least score: {about.least}",
     ]
 
 

@@ -14,7 +14,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from train.budget import BARE_FRAMES, FRAMES, UNSEEN_FRAMES, Schedule
+from train.budget import BARE_FRAMES, FRAMES, SPARE_FRAMES, UNSEEN_FRAMES, Schedule
 
 ROOT = Path(__file__).resolve().parents[1]
 MODEL = ROOT / "planner" / "vision" / "models" / "pons_home.onnx"
@@ -36,7 +36,11 @@ class Plan:
     def steps(self) -> list[list[str]]:
         """Return the commands in their order."""
         run, draw, learn = self.run, [sys.executable, "-m"], [str(self.learn), "-m"]
-        counts = {"train": self.frames, "unseen": UNSEEN_FRAMES, "bare": BARE_FRAMES}
+        counts = {
+            "train": self.frames,
+            "unseen": UNSEEN_FRAMES,
+            "bare": BARE_FRAMES + SPARE_FRAMES,
+        }
         each = [*draw, "train.frames", "--workers", str(self.cores)]
         drawn = [
             [*each, "--kind", kind, "--count", str(count), "--out", str(run / kind)]
@@ -45,10 +49,11 @@ class Plan:
         fit = [*learn, "train.fit", "--frames", str(run / "train"), "--out", str(run / "fit")]
         fit += ["--epochs", str(self.epochs), "--threads", str(self.cores)]
         export = [*learn, "train.export", "--fit", str(run / "fit"), "--model", str(self.model)]
+        settle = [*learn, "train.settle", "--model", str(self.model), "--bare", str(run / "bare")]
         judge = [*draw, "train.judge", "--model", str(self.model), "--out", str(run / "fit")]
         judge += ["--unseen", str(run / "unseen"), "--bare", str(run / "bare")]
         card = [*draw, "train.card", "--run", str(run)]
-        return [*drawn, fit, [*export, "--commit", commit()], judge, card]
+        return [*drawn, fit, [*export, "--commit", commit()], settle, judge, card]
 
 
 def main(arguments: list[str] | None = None) -> int:

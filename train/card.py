@@ -22,6 +22,7 @@ from train.budget import (
     MAX_BYTES,
     MAX_GFLOPS,
     MAX_HOURS,
+    SPARE_FRAMES,
     STRIDES,
     UNSEEN_FRAMES,
     WIDTH_PX,
@@ -105,7 +106,7 @@ def _score(judge: Facts) -> str:
     false = judge["false_in_empty"] / max(1, judge["empty_frames"])
     classes = "\n".join(
         f"| {it['label']} | {it['asked']} | {it['average_precision']:.3f} "
-        f"| {it['recall']:.3f} | {it['precision']:.3f} |"
+        f"| {judge['least'][it['label']]:.2f} | {it['recall']:.3f} | {it['precision']:.3f} |"
         for it in judge["classes"]
     )
     return f"""## How it scores on homes that it never saw
@@ -119,10 +120,11 @@ On {judge["frames"]} frames of unseen homes (the goal is judged on {UNSEEN_FRAME
 | false detections in an empty frame | {false:.3f} | <= {GOAL_FALSE} |
 | model alone, one thread | {judge["ms_p50"]:.1f} ms | |
 
-Recall and precision are those at the least score that is believed, {judge["min_score"]}:
+Recall and precision are those at the least score from which a class is believed. It was settled on
+{SPARE_FRAMES} other frames without anything of ours (`train/settle.py`) and stands in the file:
 
-| class | asked for | AP50 | recall | precision |
-|---|---|---|---|---|
+| class | asked for | AP50 | least score | recall | precision |
+|---|---|---|---|---|---|
 {classes}
 """
 

@@ -18,7 +18,7 @@ import onnx
 import onnxruntime
 import torch
 
-from train.budget import CLASSES, HEIGHT_PX, MAX_BYTES, MIN_SCORE, STRIDES, WIDTH_PX
+from train.budget import CLASSES, HEIGHT_PX, MAX_BYTES, STRIDES, WIDTH_PX
 from train.learner import CHECKPOINT
 from train.model import Net, Shipped
 
@@ -72,7 +72,6 @@ def metadata(commit: str) -> dict[str, str]:
         "task": "detect",
         "batch": "1",
         "layout": "yolov8",
-        "min_score": str(MIN_SCORE),
         "description": "Finds the things of a home in pictures of the simulated camera",
         "author": "Pons",
         "license": "Apache-2.0",

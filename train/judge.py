@@ -19,12 +19,12 @@ import numpy as np
 import onnxruntime
 
 from train.augment import decoded
-from train.budget import CLASSES, MIN_SCORE
+from train.budget import BARE_FRAMES, CLASSES, MIN_SCORE
 from train.score import Found, There, false_in_empty, mean_average_precision, scores
 from train.store import NoFrames, read_all
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 LEAST = 0.02
 """Precision is judged down to this score."""
+KEY = "min_scores"
+"""In a file's metadata: the least score of each class that is believed."""
 SAME = 0.6
 """Two boxes of a class that overlap more are one thing."""
 
@@ -49,6 +51,8 @@ class Model:
         self._session = onnxruntime.InferenceSession(
             str(path), options, providers=["CPUExecutionProvider"]
         )
+        told = self._session.get_modelmeta().custom_metadata_map.get(KEY)
+        self.least = least_of(told)
         self.seconds: list[float] = []
         """How long each picture took, decoding and suppression apart."""
 
@@ -95,17 +99,25 @@ def truth(frame: Framed) -> list[There]:
     ]
 
 
-def judged(seen: Sequence[Picture], empty: Sequence[Picture]) -> dict[str, Any]:
+def least_of(told: str | None) -> dict[str, float]:
+    """Return from which score each class is believed, as a file's metadata tell."""
+    given: list[float] = json.loads(told) if told else [MIN_SCORE] * len(CLASSES)
+    return dict(zip(CLASSES, given, strict=True))
+
+
+def judged(
+    seen: Sequence[Picture], empty: Sequence[Picture], least: Mapping[str, float]
+) -> dict[str, Any]:
     """Return every number that the card states of a model."""
-    classes = scores(seen, MIN_SCORE)
-    count, false = false_in_empty([*seen, *empty], MIN_SCORE)
+    classes = scores(seen, least)
+    count, false = false_in_empty([*seen, *empty], least)
     return {
         "frames": len(seen),
         "map50": mean_average_precision(classes),
         "classes": [asdict(it) for it in classes.values()],
         "empty_frames": count,
         "false_in_empty": false,
-        "min_score": MIN_SCORE,
+        "least": dict(least),
     }
 
 
@@ -119,13 +131,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, help="a folder for judge.json")
     given = parser.parse_args(arguments)
     try:
-        unseen, bare = read_all(given.unseen)[: given.frames], read_all(given.bare)
+        unseen, bare = read_all(given.unseen)[: given.frames], read_all(given.bare)[:BARE_FRAMES]
     except NoFrames as error:
         print(f"train.judge: {error}", file=sys.stderr)
         return 2
     model = Model(given.model)
     seen = pictures(unseen, model.detect)
-    result = judged(seen, pictures(bare, model.detect))
+    result = judged(seen, pictures(bare, model.detect), model.least)
     result["ms_p50"] = 1e3 * float(np.median(model.seconds))
     print(table(result))
     if given.out is not None:

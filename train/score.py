@@ -34,6 +34,7 @@ class Found:
 
 
 Picture = tuple[Sequence[There], Sequence[Found]]
+Least = Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +64,13 @@ def _area(box: Box) -> float:
     return (box[2] - box[0]) * (box[3] - box[1])
 
 
-def scores(pictures: Sequence[Picture], min_score: float) -> dict[str, ClassScore]:
-    """Return the score of every class that is asked for at least once."""
+def scores(pictures: Sequence[Picture], least: Least) -> dict[str, ClassScore]:
+    """Return the score of every class that is asked for at least once.
+
+    Args:
+        pictures: what is in each, beside what was found.
+        least: the score from which each class is believed.
+    """
     asked: dict[str, int] = defaultdict(int)
     told: dict[str, list[tuple[float, bool]]] = defaultdict(list)
     for true, found in pictures:
@@ -73,7 +79,7 @@ def scores(pictures: Sequence[Picture], min_score: float) -> dict[str, ClassScor
         for label, score, right in verdicts(true, found):
             told[label].append((score, right))
     return {
-        label: _class_score(label, count, told[label], min_score)
+        label: _class_score(label, count, told[label], least[label])
         for label, count in sorted(asked.items())
         if count
     }
@@ -139,7 +145,7 @@ def mean_average_precision(classes: Mapping[str, ClassScore]) -> float:
     return sum(it.average_precision for it in classes.values()) / len(classes)
 
 
-def false_in_empty(pictures: Iterable[Picture], min_score: float) -> tuple[int, int]:
+def false_in_empty(pictures: Iterable[Picture], least: Least) -> tuple[int, int]:
     """Return how many pictures hold nothing of ours, and how much was seen in them."""
     empty = [found for true, found in pictures if not true]
-    return len(empty), sum(it.score >= min_score for found in empty for it in found)
+    return len(empty), sum(it.score >= least[it.label] for found in empty for it in found)

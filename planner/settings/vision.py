@@ -37,8 +37,8 @@ class VisionSettings(BaseModel):
     rate_hz: Annotated[float, Field(ge=1.0, le=30.0)] = 5.0
     """Pictures thought upon in a second, at most. A step that stands and looks waits 6 s for a few
     of them: slower eyes would fail it, and let a thing that is followed walk off."""
-    min_score: Annotated[float, Field(ge=0.05, le=0.95)] = 0.4
-    """What scores less is not reported."""
+    min_score: Annotated[float, Field(ge=0.05, le=0.95)] | None = None
+    """What scores less is not reported; None: what the model's file says of each class, or 0.4."""
     input_px: Annotated[int, Field(ge=32, le=2048, multiple_of=32)] | None = None
     """Width and height of the input of a model that leaves them open."""
 

@@ -31,7 +31,7 @@ def main(parent: Parent, settings: str) -> int:
 def _detector(settings: dict[str, Any]) -> Detector | None:
     if settings["path"] is None:
         return None
-    min_score = float(settings.pop("min_score"))
+    min_score: float | None = settings.pop("min_score")
     paths = {
         name: None if settings[name] is None else Path(settings[name])
         for name in ("path", "labels")

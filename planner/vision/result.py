@@ -39,6 +39,8 @@ class About:
     width: int
     height: int
     """Of the model's input [px]."""
+    least: str
+    """How high something must score to be reported, in words."""
 
     @property
     def line(self) -> str:
@@ -47,5 +49,6 @@ class About:
         count = sum(map(bool, self.classes))
         return (
             f"detector {self.model}: input {size}, {count} classes; decoder {self.decoder} "
-            f"({self.why}); provider {self.provider} ({self.provider_why})"
+            f"({self.why}); provider {self.provider} ({self.provider_why}); "
+            f"least score {self.least}"
         )

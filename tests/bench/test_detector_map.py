@@ -9,8 +9,8 @@ import pytest
 from bench.lab import Lab
 from bench.measure import detector_map
 from bench.store import Store
-from train.judge import judged
-from train.score import Found, There
+from train.judge import judged, least_of
+from train.score import Found, Picture, There
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -20,7 +20,8 @@ CUP = There("cup", (0.0, 0.0, 10.0, 10.0))
 
 def test_the_rows_hold_both_goals() -> None:
     right, ghost = Found("cup", 0.9, CUP.box), Found("ball", 0.41, CUP.box)
-    verdict = judged([([CUP], [right]), ([], [ghost])], [([], []), ([], []), ([], [])])
+    empty: list[Picture] = [([], [])] * 3
+    verdict = judged([([CUP], [right]), ([], [ghost])], empty, least_of(None))
     found, false = detector_map.rows(verdict)
     assert (found.value, found.goal) == ("1.000", ">= 0.85")
     assert (false.value, false.goal, false.valid) == ("0.250", "<= 0.02", True)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from train.card import card
-from train.judge import judged, table
+from train.judge import judged, least_of, table
 from train.score import Found, There
 
 
 def test_the_card_states_what_was_measured() -> None:
     cup = There("cup", (0.0, 0.0, 10.0, 10.0))
-    judge = judged([([cup], [Found("cup", 0.9, cup.box)]), ([], [])], [([], [])])
+    found = [Found("cup", 0.9, cup.box)]
+    judge = judged([([cup], found), ([], [])], [([], [])], least_of(None) | {"cup": 0.47})
     judge["ms_p50"] = 7.25
     fit = {
         "gflops": 0.376,
@@ -37,7 +38,7 @@ def test_the_card_states_what_was_measured() -> None:
         "| drawing and fitting | 30 min, 1 threads | 2 h on 2 cores |",
         "| mAP50 | 1.000 | >= 0.85 |",
         "| false detections in an empty frame | 0.000 | <= 0.02 |",
-        "| cup | 1 | 1.000 | 1.000 | 1.000 |",
+        "| cup | 1 | 1.000 | 0.47 | 1.000 | 1.000 |",
         "2000 steps of 16 frames",
         "the first 50% of them in a smaller size",
         "abc1234",

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from planner.settings.vision import VisionSettings
+from planner.vision.detect.least import KEY as KEY_READ
+from planner.vision.detect.least import MIN_SCORE as BELIEVED
 from sim.camera import Appearance, Renderer
 from sim.camera.scene import instances
 from sim.site.classes import CLASSES as OF_THE_SIMULATOR
@@ -18,6 +20,7 @@ from train.boxes import boxes, hulls, whole_box
 from train.budget import CLASSES, MIN_SCORE
 from train.frames import home_frames
 from train.homes import drawn_home
+from train.judge import KEY as KEY_WRITTEN
 from train.views import CLEAR_M, Views, targets
 from wire import CameraConfig, Pose2
 
@@ -35,7 +38,9 @@ def home() -> Home:
 
 def test_classes_and_least_score_are_those_of_simulator_and_planner() -> None:
     assert CLASSES == OF_THE_SIMULATOR
-    assert VisionSettings().min_score == MIN_SCORE
+    assert VisionSettings().min_score is None
+    assert BELIEVED == MIN_SCORE
+    assert KEY_READ == KEY_WRITTEN
 
 
 def test_homes_are_repeatable_and_those_never_shown_are_others(home: Home) -> None:

@@ -17,10 +17,10 @@ def test_steps_come_in_order_and_where_they_belong(tmp_path: Path) -> None:
     learn = tmp_path / "python"
     plan = training.Plan(tmp_path, learn, tmp_path / "m.onnx", frames=400, epochs=2, cores=1)
     steps = plan.steps()
-    names = ["frames"] * 3 + ["fit", "export", "judge", "card"]
+    names = ["frames"] * 3 + ["fit", "export", "settle", "judge", "card"]
     assert [command[2] for command in steps] == [f"train.{name}" for name in names]
     own = [name for name, command in zip(names, steps, strict=True) if command[0] == str(learn)]
-    assert own == ["fit", "export"]
+    assert own == ["fit", "export", "settle"]
     assert all(command[0] in (str(learn), sys.executable) for command in steps)
 
 

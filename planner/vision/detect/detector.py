@@ -9,10 +9,13 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 
+import numpy as np
+
 from planner.vision.colors_pixels import dark, exposure
 from planner.vision.detect.found import Found, believed, in_picture
 from planner.vision.detect.hints import hints
 from planner.vision.detect.inner import ANY, look_inside
+from planner.vision.detect.least import least_scores
 from planner.vision.detect.model_file import Model, Wanted, open_model
 from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
 from planner.vision.detect.pictures import Depth, Picture, unpack_color, unpack_depth
@@ -31,15 +34,23 @@ EMPTY = "depth_empty"
 class Detector:
     """Find things with one model."""
 
-    def __init__(self, wanted: Wanted, min_score: float = 0.4) -> None:
+    def __init__(self, wanted: Wanted, min_score: float | None = None) -> None:
         """Open the model.
+
+        Args:
+            wanted: what the owner sets about it.
+            min_score: what is believed of every class; None: what the model's file says.
 
         Raises:
             VisionFailure: it is refused.
         """
         self.model: Model = open_model(wanted)
-        self.min_score = min_score
         choice, taken = self.model.choice, self.model.input
+        metadata, count = self.model.session.metadata, len(choice.classes)
+        self.least, least = least_scores(metadata, count, min_score)
+        """How high each class must score, in the model's order."""
+        self._least = np.array(self.least, np.float32)
+        self._lowest = min(self.least)
         self._decoder, self._classes = choice.decoder, choice.classes
         self._kinds = [kind_of(canonical(label)) for label in self._classes]
         self._preparer = Preparer(self._decoder.RECIPE, taken.width, taken.height)
@@ -59,6 +70,7 @@ class Detector:
             classes=self._classes,
             width=taken.width,
             height=taken.height,
+            least=least,
         )
 
     def look(
@@ -122,8 +134,8 @@ class Detector:
         if senseless(outputs):
             # To be told of as a failure: an empty picture would be a thing's absence.
             raise ArithmeticError("no number came out that is finite")
-        found = self._decoder.decode(outputs, self.min_score)
-        found = believed(found, self.min_score, len(self._classes))
+        found = self._decoder.decode(outputs, self._lowest)
+        found = believed(found, self._least)
         found = in_picture(found, placed, picture.shape[1], picture.shape[0])
         return suppress(found) if self._decoder.SUPPRESS else strongest(found, MAX_FOUND)
 

@@ -47,13 +47,19 @@ def from_centres(cxcywh: Floats) -> Floats:
     return boxes
 
 
-def believed(found: Found, min_score: float, class_count: int) -> Found:
-    """Keep rows whose every number is possible; NaN and infinity fail by themselves."""
+def believed(found: Found, least: Floats) -> Found:
+    """Keep rows whose every number is possible; NaN and infinity fail by themselves.
+
+    Args:
+        found: as it was decoded.
+        least: how high each class must score, in the model's order.
+    """
     if not len(found):
         return found
     kept = np.isfinite(found.boxes).all(axis=1)
-    kept &= (found.scores >= min_score) & (found.scores <= HIGHEST_SCORE)
-    kept &= (found.classes >= 0) & (found.classes < class_count)
+    kept &= (found.classes >= 0) & (found.classes < len(least))
+    kept &= found.scores >= least.take(found.classes, mode="clip")
+    kept &= found.scores <= HIGHEST_SCORE
     found = found if kept.all() else found.only(kept)
     return Found(found.boxes, np.minimum(found.scores, np.float32(1.0)), found.classes)
 

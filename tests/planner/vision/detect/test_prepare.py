@@ -79,7 +79,7 @@ def test_only_possible_rows_are_believed() -> None:
     boxes[1, 2] = np.nan
     scores = np.array([0.9, 0.9, np.nan, 1.5, 0.9, 1.0005, 0.3], np.float32)
     classes = np.array([0, 0, 0, 0, 5, 1, 1])
-    kept = believed(Found(boxes, scores, classes), 0.4, 2)
+    kept = believed(Found(boxes, scores, classes), np.array([0.4, 0.4], np.float32))
     assert kept.scores.tolist() == pytest.approx([0.9, 1.0])
 
 

@@ -12,7 +12,9 @@ FINE = np.linspace(0.0, 1.0, 10_000, dtype=np.float32).reshape(1, 100, 100)
 
 @pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64])
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_only_an_output_without_any_finite_number_is_senseless(bad: float, kind: type[np.floating]) -> None:
+def test_only_an_output_without_any_finite_number_is_senseless(
+    bad: float, kind: type[np.floating]
+) -> None:
     first_bad = FINE.astype(kind)
     first_bad[0, 0, 0] = bad
     nothing = np.full_like(first_bad, bad)

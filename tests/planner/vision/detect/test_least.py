@@ -1,0 +1,47 @@
+"""Hold who says how high a class must score, and what becomes of what is no such word."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from planner.vision.detect import Detector, Wanted
+from planner.vision.detect.found import Found, believed
+from planner.vision.detect.least import MIN_SCORE, least_scores
+from tests.planner.vision.detect import tiny
+
+
+def test_the_owner_wins_over_the_file() -> None:
+    told = {"min_scores": "[0.5, 0.6]"}
+    assert least_scores(told, 2, None) == ((0.5, 0.6), "0.50 to 0.60 by class, as its file says")
+    assert least_scores(told, 2, 0.3) == ((0.3, 0.3), "0.30, as set")
+    assert least_scores({}, 2, None) == ((MIN_SCORE, MIN_SCORE), "0.40")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "[0.5]", "[0.5, 0.6, 0.7]", "0.5", "['a', 'b']", "[0.0, 0.5]", "[0.5, 1.0]", "[NaN, 0.5]",
+     "[0.5, Infinity]", "[-0.5, 0.5]", "[true, 0.5]", "[null, 0.5]", "{0: 0.5, 1: 0.5}", "(("],
+)  # fmt: skip
+def test_what_is_no_score_for_each_class_is_not_meant_for_us(text: str) -> None:
+    assert least_scores({"min_scores": text}, 2, None)[0] == (MIN_SCORE, MIN_SCORE)
+
+
+def test_each_class_has_a_least_score_of_its_own() -> None:
+    found = Found(
+        np.array([[0, 0, 9, 9]] * 4, np.float32),
+        np.array([0.5, 0.5, 0.6, 0.4], np.float32),
+        np.array([0, 1, 1, 0]),
+    )
+    kept = believed(found, np.array([0.45, 0.55], np.float32))
+    assert kept.classes.tolist() == [0, 1]
+    assert kept.scores.tolist() == pytest.approx([0.5, 0.6])
+
+
+def test_a_detector_believes_as_its_file_says(tmp_path: Path) -> None:
+    said = tiny.ULTRALYTICS | {"min_scores": str([0.55] * len(tiny.NAMES))}
+    detector = Detector(Wanted(tiny.model(tmp_path / "m.onnx", tiny.yolov8([]), metadata=said)))
+    assert detector.least == (0.55,) * len(tiny.NAMES)
+    assert "0.55 to 0.55 by class" in detector.about.line
