@@ -66,21 +66,28 @@ def bridge_late_us(lab: Lab, seconds: float, *, stress: bool) -> list[float]:
         return late_us[-round(seconds * 100) :]
 
 
-def cyclictest_late_us(seconds: float, period_us: int) -> list[float]:
+def cyclictest_late_us(seconds: float, period_us: int, *, awake: bool = True) -> list[float]:
     """Run one thread at a rate; return every lateness, from its histogram."""
-    with cyclictest(seconds, period_us) as ended:
+    with cyclictest(seconds, period_us, awake=awake) as ended:
         return ended()
 
 
 @contextmanager
-def cyclictest(seconds: float, period_us: int) -> Iterator[Callable[[], list[float]]]:
-    """Run it beside; what is yielded waits for its end. It ends with the context at the latest."""
+def cyclictest(
+    seconds: float, period_us: int, *, awake: bool = True
+) -> Iterator[Callable[[], list[float]]]:
+    """Run it beside; what is yielded waits for its end. It ends with the context at the latest.
+
+    By itself it holds /dev/cpu_dma_latency, so that no core may sleep while it runs: an idle
+    machine then wakes at once, and takes the power for it. Not ``awake``, it leaves that as it
+    is, as the bridge and any other program do.
+    """
     if shutil.which("cyclictest") is None:
         yield list
         return
     loops = max(1, round(seconds * 1e6 / period_us))
     words = ["cyclictest", "-q", "-t1", f"-a{rt_cpu()}", f"-i{period_us}", f"-l{loops}"]
-    words.append(f"-h{_BUCKETS_US}")
+    words += [f"-h{_BUCKETS_US}"] + ([] if awake else ["--laptop"])
     if may_take(PRIORITY):  # without a right to that rank the bridge has none either
         words += [f"-p{PRIORITY}", "-m"]
     quiet = subprocess.DEVNULL

@@ -31,6 +31,8 @@ LONG_ONLY = True
 SLICES = 12
 SLICE_S = 4.0
 PERIOD_US, FAST_US = 10_000, 1_000
+ASLEEP = "cyclictest (--laptop)"
+"""The same while cores may sleep, as they may beside the bridge: on an idle machine that counts."""
 Slice = dict[str, list[float]]
 
 
@@ -48,6 +50,7 @@ def _slice(lab: Lab, *, stress: bool) -> dict[str, Any]:
     with lab.folder() as folder, stressed(stress):
         loop = compiled_loop(folder)
         taken["cyclictest"] = cyclictest_late_us(SLICE_S, PERIOD_US)
+        taken[ASLEEP] = cyclictest_late_us(SLICE_S, PERIOD_US, awake=False)
         taken["C++"] = cpp_late_us(loop, SLICE_S, PERIOD_US)
         taken["1 kHz cyclictest"] = cyclictest_late_us(SLICE_S / 4, FAST_US)
         taken["1 kHz C++"] = cpp_late_us(loop, SLICE_S / 4, FAST_US)
@@ -57,11 +60,20 @@ def _slice(lab: Lab, *, stress: bool) -> dict[str, Any]:
 
 def _rows(load: str, slices: list[Slice]) -> list[Row]:
     rows: list[Row] = []
-    for name in ("bridge", "cyclictest", "C++", "1 kHz pacer", "1 kHz cyclictest", "1 kHz C++"):
+    for name in (
+        "bridge",
+        "cyclictest",
+        ASLEEP,
+        "C++",
+        "1 kHz pacer",
+        "1 kHz cyclictest",
+        "1 kHz C++",
+    ):
         for label, share in (("p50", 0.5), ("p99", 0.99)):
             samples = [percentile(one[name], share) for one in slices if one[name]]
             rows.append(row_of(f"{load}: {name}: {label} of a slice", "us", "", samples))
-    return [*rows, *_against("cyclictest", load, slices), *_against("C++", load, slices)]
+    others = ("cyclictest", ASLEEP, "C++")
+    return [*rows, *(row for other in others for row in _against(other, load, slices))]
 
 
 def _against(other: str, load: str, slices: list[Slice]) -> list[Row]:
