@@ -55,7 +55,7 @@ class DrawnFinder:
 class Counting:
     """Pass on what a finder finds, and count how often one kind of thing was among it."""
 
-    def __init__(self, finder: Finder, label: str, color: str) -> None:
+    def __init__(self, finder: Finder, label: str, color: str | None) -> None:
         self._finder, self._label, self._color = finder, label, color
         self.seen = self.other_color = self.looks = 0
 
@@ -63,7 +63,7 @@ class Counting:
         """Return what is found in a picture taken now."""
         found = self._finder.find(sim, header)
         kind = [one for one in found if canonical(one.label) == self._label]
-        right = [one for one in kind if one.color == self._color]
+        right = [one for one in kind if self._color in (None, one.color)]
         self.looks += 1
         self.seen += bool(right)
         self.other_color += bool(kind) and not right

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Drive, Gaze, Scene
 from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, look_round, spin
+from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import HERE, Spot, in_order, near_spot, room_at, room_of, spots_in
 from planner.mission.skills.seen import (
     WORTH,
@@ -24,11 +25,11 @@ from planner.mission.skills.seen import (
     spot_of,
     turn_to,
 )
+from planner.vision.colors import may_be
 from planner.vision.records import Thing
 
 if TYPE_CHECKING:
     from planner.mission.skills.eyesight import Wanted
-    from planner.mission.skills.notes import Notes
     from wire import Pose2
 
 VIEW_M = 1.6
@@ -60,10 +61,16 @@ def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | N
     if spent(scene) is not None:
         return scene.notes
     known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.notes.tried]
-    if known:
-        nearest = min(known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))
-        return _look_again(scene, pose, nearest, wanted)
-    return look_round(scene, pose, spots(scene, pose), wanted)
+    if not known:
+        next_ = look_round(scene, pose, spots(scene, pose), wanted)
+        if not isinstance(next_, Notes):
+            return next_
+        scene = scene.but(next_)  # all was looked at: light or distance may have changed a colour
+        known = [t for t in _alike(scene, wanted) if inside(t) and t.id not in next_.tried]
+        if not known:
+            return next_
+    nearest = min(known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))
+    return _look_again(scene, pose, nearest, wanted)
 
 
 def spent(scene: Scene) -> str | None:
@@ -147,13 +154,22 @@ def _confirmed(scene: Scene, wanted: Wanted) -> tuple[Thing, ...]:
 
 def _worth(scene: Scene, wanted: Wanted) -> list[Thing]:
     """Return what is worth a second look: remembered things, and what this gaze is not sure of."""
+    return [t for t in _remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
+
+
+def _alike(scene: Scene, wanted: Wanted) -> list[Thing]:
+    """Return what would be worth it if its colour were seen wrongly, from afar or in bad light."""
+    return [t for t in _remembered(scene, wanted) if may_be(t.color, wanted.color)]
+
+
+def _remembered(scene: Scene, wanted: Wanted) -> list[Thing]:
     oldest_s = scene.now_s - WORTH_S
     return [
         t
         for t in scene.sight.things
-        if t.seen_s >= oldest_s
+        if t.label == wanted.label
+        and t.seen_s >= oldest_s
         and t.confidence >= WORTH
-        and (fits(t, wanted) or may_fit(t, wanted))
         and placed(t, wanted, scene.sight.things)
     ]
 

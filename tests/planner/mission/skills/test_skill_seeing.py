@@ -95,6 +95,21 @@ def test_what_is_remembered_is_looked_at_again_once() -> None:
     assert tried.then.spot == "here", "then it looks round"
 
 
+def test_a_thing_whose_colour_light_may_have_changed_is_looked_at_last_of_all() -> None:
+    doubtful, other = thing(color="brown"), thing(id="cup_2", color="blue", y_m=0.8)
+    notes, acts = Notes(), []
+    for _ in range(200):  # each act is done as it asks
+        act = looking("find", doubtful, other, notes=notes)
+        acts.append(act)
+        if isinstance(act, Cannot):
+            break
+        notes = act.then or notes
+    assert isinstance(acts[-1], Cannot)
+    assert notes.tried == ("cup_1",), "a red cup may look brown, and never blue"
+    again = next(i for i, act in enumerate(acts) if act.then.tried)
+    assert again >= len(acts) - 2, "after all rooms"
+
+
 def test_a_search_ends_with_its_budget() -> None:
     for act in (looking("find", spent_m=56.0), looking("find", spent_s=541.0)):
         assert isinstance(act, Cannot)

@@ -93,6 +93,19 @@ def test_where_colours_do_not_agree_there_is_none() -> None:
     assert prevailing(thirds[:2]) is None
 
 
+def test_paint_wins_over_the_white_of_pages_and_labels() -> None:
+    def mixed(*parts: tuple[tuple[int, int, int], int]) -> str | None:
+        return prevailing(np.concatenate([np.full((n, 3), bgr, np.uint8) for bgr, n in parts]))
+
+    white, red, gray, green = (240, 240, 240), (30, 30, 200), (130, 130, 130), (40, 200, 40)
+    assert mixed((white, 75), (red, 25)) == "red"
+    assert mixed((white, 76), (red, 24)) == "white"
+    assert mixed((white, 39), (red, 32), (gray, 29)) == "red"
+    assert mixed((white, 75), (gray, 25)) == "white"
+    assert mixed((gray, 75), (red, 25)) == "gray"
+    assert mixed((white, 20), (red, 26), (gray, 27), (green, 27)) is None
+
+
 def test_a_dim_picture_is_brightened_before_colours_count() -> None:
     lit = np.full((80, 80, 3), 240, np.uint8)
     lit[30:50, 30:50] = (40, 48, 70)  # dark wood
