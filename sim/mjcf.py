@@ -87,7 +87,7 @@ def _solid(solid: Solid) -> str:
         x, y = (shape.x0 + shape.x1) / 2, (shape.y0 + shape.y1) / 2
         size = f"{(shape.x1 - shape.x0) / 2} {(shape.y1 - shape.y0) / 2} {half}"
         form = f'type="box" size="{size}" pos="{x} {y} {half}"'
-    return f'    <geom name="{solid.id}" {form} {_SEEN}/>'
+    return f"    <geom {form} {_SEEN}/>"  # nameless: a home may call its furniture anything
 
 
 def _obstacle(name: str) -> str:
@@ -111,7 +111,7 @@ def _carried(name: str, pose: Pose2, z_m: float, form: str) -> str:
     quat = " ".join(map(str, quaternion(pose.yaw_rad)))
     return (
         f'    <body name="{name}" mocap="true" pos="{pose.x_m} {pose.y_m} {z_m}" quat="{quat}">'
-        f'<geom name="{name}" {form} {_SEEN}/></body>'
+        f"<geom {form} {_SEEN}/></body>"
     )
 
 
@@ -126,7 +126,7 @@ def _robot(base: Base, hardware: Hardware) -> str:
         ' contype="0" conaffinity="1"/>'
         for name, x in (("front", reach), ("rear", -reach))
     )
-    return f"""    <body name="base">
+    return f"""    <body>
       <freejoint name="base"/>
       <geom name="ballast" type="cylinder" size="{0.8 * base.radius_m} 0.04" pos="0 0 0.1"
             mass="{chassis_kg}" group="1" contype="0" conaffinity="0"/>
@@ -139,7 +139,7 @@ def _robot(base: Base, hardware: Hardware) -> str:
 
 
 def _wheel(name: str, y_m: float, radius_m: float, mass_kg: float) -> str:
-    return f"""      <body name="wheel_{name}" pos="0 {y_m} {radius_m}">
+    return f"""      <body pos="0 {y_m} {radius_m}">
         <joint name="wheel_{name}" type="hinge" axis="0 1 0" armature="{_ARMATURE}"/>
         <geom name="wheel_{name}" type="sphere" size="{radius_m}" mass="{mass_kg}" condim="3"
               friction="1 0 0" group="1" contype="0" conaffinity="1"/>

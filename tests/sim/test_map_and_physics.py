@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from sim import PERIODS, Hardware
 from sim.site import load_home, solids
 from sim.site.check import spots
+from sim.site.shapes import Disc, Solid
+from sim.site.things import Upright
 from sim.world import World
 from wire import Pose2, RobotDescription
 
@@ -119,3 +121,11 @@ def test_the_robot_does_not_see_itself(repository: Path) -> None:
         world.place_robot(Pose2(1.5, 1.9, yaw))
         direction = np.array([[cos(yaw), sin(yaw), 0.0]])
         assert world.rays((1.5, 1.9), direction, 30.0)[0] > 0.30
+
+
+def test_a_home_may_call_its_things_as_the_physics_calls_its_own() -> None:
+    names = ("floor", "chassis", "base", "wheel_left", "caster_front", "ballast")
+    furniture = [Solid(name, Disc(3.0, 3.0, 0.2), 0.5) for name in (*names, "crate_0")]
+    things = [Upright(name, Pose2(-3.0, 3.0, 0.0), (0.2, 0.2), 0.5, round=False) for name in names]
+    world = World(furniture, RobotDescription().base, Hardware(), PERIODS.step_s, things)
+    assert set(names) <= set(world.carried)
