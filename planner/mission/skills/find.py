@@ -10,7 +10,7 @@ from __future__ import annotations
 from planner.mission.skills.act import Act, Cannot, Done, Later, Scene
 from planner.mission.skills.eyesight import Wanted
 from planner.mission.skills.notes import Notes
-from planner.mission.skills.search import search, spent
+from planner.mission.skills.search import alike, search, spent
 from planner.mission.skills.seen import found, wanted_of
 from planner.mission.skills.tell import by_neighbour, found_at, looked_in, unknown_words
 from planner.plan import Code, message
@@ -42,7 +42,7 @@ def not_found(scene: Scene, wanted: Wanted) -> Cannot:
     """Say that it was not seen, and where was looked."""
     notes = scene.notes
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
-    looked = looked_in(scene.facts, notes.rooms, shut, spent(scene))
+    looked = looked_in(scene.facts, notes.rooms, shut, spent(scene), alike(scene, wanted))
     name = by_neighbour(named(wanted.label, wanted.color), wanted)
     said = message(Code.NOT_FOUND, thing=name, looked=looked)
     return Cannot(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})

@@ -66,7 +66,7 @@ def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | N
         if not isinstance(next_, Notes):
             return next_
         scene = scene.but(next_)  # all was looked at: light or distance may have changed a colour
-        known = [t for t in _alike(scene, wanted) if inside(t) and t.id not in next_.tried]
+        known = [t for t in alike(scene, wanted) if t.id not in next_.tried]
         if not known:
             return next_
     nearest = min(known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))
@@ -157,9 +157,12 @@ def _worth(scene: Scene, wanted: Wanted) -> list[Thing]:
     return [t for t in _remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
 
 
-def _alike(scene: Scene, wanted: Wanted) -> list[Thing]:
-    """Return what would be worth it if its colour were seen wrongly, from afar or in bad light."""
-    return [t for t in _remembered(scene, wanted) if may_be(t.color, wanted.color)]
+def alike(scene: Scene, wanted: Wanted) -> list[Thing]:
+    """Return what would fit if its colour were seen wrongly, from afar or in bad light."""
+    inside, others = within(scene), _remembered(scene, wanted)
+    return [
+        t for t in others if inside(t) and not fits(t, wanted) and may_be(t.color, wanted.color)
+    ]
 
 
 def _remembered(scene: Scene, wanted: Wanted) -> list[Thing]:

@@ -12,7 +12,7 @@ from planner.vision.labels import listed as labels_listed
 from planner.vision.labels import named, singles_out
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from planner.mission.records import Facts
     from planner.mission.skills.eyesight import Wanted
@@ -101,9 +101,12 @@ def found_at(facts: Facts, label: str, color: str | None, room: str | None, away
     return Bilingual(en=f"{en}.", zh=f"{zh}。")
 
 
-def looked_in(facts: Facts, rooms: Iterable[str], shut: Iterable[str], spent: str | None
-              ) -> Bilingual:  # fmt: skip
-    """Say which rooms were looked through, which could not be reached, and what ran out."""
+def looked_in(facts: Facts, rooms: Iterable[str], shut: Iterable[str], spent: str | None,
+              alike: Sequence[Thing] = ()) -> Bilingual:  # fmt: skip
+    """Say which rooms were looked through, which could not be reached, and what ran out.
+
+    Of things that are ``alike``, it is said that light may have changed their colour.
+    """
     seen = [room_name(facts, r) or same(r) for r in rooms]
     closed = [room_name(facts, r) or same(r) for r in shut]
     en = [f"I looked in the {_and([n.en for n in seen])}."] if seen else []
@@ -114,6 +117,10 @@ def looked_in(facts: Facts, rooms: Iterable[str], shut: Iterable[str], spent: st
     if spent is not None:
         en.append("The way or the time for one search is used up.")
         zh.append("单次寻找的里程或时间已用完。")
+    if alike:
+        others = listed(alike)
+        en.append(f"I saw {others.en}; light may change a colour.")
+        zh.append(f"看到 {others.zh}；光线可能改变颜色。")
     return Bilingual(en=" ".join(en) or NOWHERE.en, zh="".join(zh) or NOWHERE.zh)
 
 

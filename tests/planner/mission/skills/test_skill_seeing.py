@@ -108,6 +108,9 @@ def test_a_thing_whose_colour_light_may_have_changed_is_looked_at_last_of_all() 
     assert notes.tried == ("cup_1",), "a red cup may look brown, and never blue"
     again = next(i for i, act in enumerate(acts) if act.then.tried)
     assert again >= len(acts) - 2, "after all rooms"
+    assert acts[-1].said is not None
+    assert acts[-1].said.en.endswith("I saw 1 brown cup; light may change a colour.")
+    assert acts[-1].said.zh.endswith("看到 1 个棕色的杯子；光线可能改变颜色。")
 
 
 def test_a_search_ends_with_its_budget() -> None:
