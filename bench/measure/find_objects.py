@@ -23,6 +23,8 @@ from lockstep.sighted import TruthFinder
 from planner.plan import Code, GoalState
 from planner.vision.kinds import kind_of
 from planner.vision.labels import named
+from sim.site.plan import furniture_shape
+from sim.site.things import furniture_class
 from train.homes import drawn_home
 
 if TYPE_CHECKING:
@@ -76,6 +78,21 @@ def chosen(home: Home, random: Random) -> tuple[str, str | None] | None:
     return label, None if label == LEAVES else color
 
 
+def places(home: Home, label: str, color: str | None) -> list[tuple[float, float]]:
+    """Return where such things stand; of any colour, furniture of the class counts as well."""
+    found = [
+        it.at for it in home.objects.values() if it.class_id == label and color in (None, it.color)
+    ]
+    if color is None:
+        boxes = [
+            furniture_shape(it).bounds
+            for name, it in home.furniture.items()
+            if furniture_class(name, it) == label
+        ]
+        found += [((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2) for box in boxes]
+    return found
+
+
 def trial(index: int) -> dict[str, object]:
     """Look for one thing in one home of several rooms."""
     seed, home, wanted = next(
@@ -112,11 +129,7 @@ def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path)
     found = plan.steps[-1].found if plan is not None and plan.steps else None
     off_m = None
     if found is not None:
-        off_m = min(
-            hypot(it.at[0] - found.x_m, it.at[1] - found.y_m)
-            for it in home.objects.values()
-            if it.class_id == label and color in (None, it.color)
-        )
+        off_m = min(hypot(x - found.x_m, y - found.y_m) for x, y in places(home, label, color))
     if goal.state is GoalState.SUCCEEDED and off_m is not None:
         verdict = "found" if off_m <= FAR_M + kind_of(label).reach_m else "wrong"
     else:
