@@ -56,8 +56,8 @@ MIN_SCORE, MOST_SCORE = 0.4, 0.8
 """The least score of a class lies between: lower nothing is believed, higher little would be seen.
 """
 GHOST_SHARE = 1 / 600
-"""Of empty frames, in which a class may be seen where nothing is: 14 classes make 0.023 at most, and
-less, since few of them have so many ghosts from the lowest score on."""
+"""Of empty frames, in which a class may be seen where nothing is: 14 classes make 0.023 at most,
+and less, since few of them have so many ghosts from the lowest score on."""
 
 
 @dataclass(frozen=True, slots=True)

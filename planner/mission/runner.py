@@ -173,13 +173,17 @@ class Missions(Shown):
         self._loop.event(given, key)
         if taken_back is not None:
             self._loop.event(Cancel(taken_back))
+        await self._written(goal_id, idempotency_key)
+        return self.goal(goal_id)
+
+    async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
+        """Wait until a goal is written down; what can't be is taken back."""
         try:
             await self._loop.settled()
         except JournalDown:
             self._loop.event(Cancel(goal_id))
             self._repeats.forget(idempotency_key)
             raise
-        return self.goal(goal_id)
 
     async def cancel(self, goal_id: str) -> Goal:
         """End a goal. Raises UnknownGoal, BadState."""

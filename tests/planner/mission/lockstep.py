@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 from planner.link import Identity
 from planner.mission.effects import (
@@ -69,7 +70,7 @@ class Together:
     def event(self, event: Event) -> None:
         self.carry(self.engine.event(event, self.now_s))
 
-    def give(self, plan: StepPlan | None, **more: bool) -> str:
+    def give(self, plan: StepPlan | None, **more: Any) -> str:
         """Submit a goal that the brain will answer with this plan; None: it thinks on."""
         self.ids += 1
         goal_id = f"g{self.ids}"

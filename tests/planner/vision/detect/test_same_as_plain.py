@@ -117,8 +117,15 @@ def color(picture: Picture, box: Box) -> str | None:
     votes = [0] * len(IDS)
     for blue, green, red in lit.tolist():
         votes[int(_table()[blue * 1024 + green * 32 + red])] += 1
-    most = max(votes)
-    return IDS[votes.index(most)] if most >= 0.4 * len(pixels) and len(pixels) >= 4 else None
+    most, count = max(votes), len(pixels)
+    first = IDS[votes.index(most)]
+    if count < 4 or (first != "white" and most >= 0.4 * count):
+        return first if count >= 4 else None
+    paints = {it: n for it, n in zip(IDS, votes, strict=True) if it not in ("white", "gray")}
+    paint = max(paints, key=lambda it: paints[it])
+    if paints[paint] >= max(0.25 * count, 0.4 * (count - votes[IDS.index("white")])):
+        return paint
+    return first if most >= 0.4 * count else None
 
 
 def test_photographs_show_what_they_show_by_the_plain_way(shared_data: Path) -> None:
