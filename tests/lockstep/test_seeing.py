@@ -123,8 +123,8 @@ def test_what_is_not_there_is_told_with_where_was_looked(world_with: World) -> N
     step = done(world, goal)
     assert (goal.state, step.reason, step.rooms) == (GoalState.FAILED, "not_found", ("kitchen",))
     assert told(goal)[1:] == (
-        "I saw no green cup. I looked in the kitchen.",
-        "没有看到绿色的杯子。看过的地方：厨房。",
+        "I saw no green cup. I looked in the kitchen. I saw 1 blue cup; light may change a colour.",
+        "没有看到绿色的杯子。看过的地方：厨房。看到 1 个蓝色的杯子；光线可能改变颜色。",
     )
     assert world.room == "kitchen", "the order named one room"
 
