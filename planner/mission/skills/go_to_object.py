@@ -5,9 +5,10 @@ yes to the point (pointing.py); words that pick one out by more than kind and co
 cup") only a model understands. The thing is found as ``find`` does, and looked at once more where
 it was seen for a moment only; the standing point is tried from this side first, then about the
 thing, and the route search moves one that lies in furniture. Verdict: the bridge reached the leg,
-and where the thing must be in view a look confirms it; where it is too near for that, it is still
-remembered, which it is not when it should have been seen on the way and was not. When it is gone it
-is looked for once more, then that is told. Budget: as for ``find``.
+and where the thing must be in view a look confirms it, or it was seen on the way and something
+hides it now; where it is too near for that, it is still remembered, which it is not when it should
+have been seen on the way and was not. When it is gone it is looked for once more, then that is
+told. Budget: as for ``find``.
 """
 
 from __future__ import annotations
@@ -102,12 +103,12 @@ def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
     if notes.stage == FACE and abs(turn_to(pose, at[:2])) > FACING_RAD:
         return spin(pose, bearing(pose, at[:2]), notes.but(stage=CHECK))
     if notes.stage in (FACE, CHECK):
-        near = _near(scene, at, (t for t in scene.sight.things if fits(t, wanted)))
+        near = _near(scene, at, wanted, scene.sight.things)
         if wanted is not None and scene.eyes.should_see(pose, at):
-            sure_before = near.confidence if near is not None else None
-            return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE, sure=sure_before))
+            before = near.confidence if near is not None else None
+            return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE, sure=before))
         gone = wanted is not None and (near is None or not near.confidence >= WORTH)
-        return _look_anew(scene, wanted) if gone else _there(scene, pose)
+        return _look_anew(scene, wanted) if gone else _there(scene, pose, wanted)
     return _judge(scene, pose, wanted)
 
 
@@ -137,27 +138,29 @@ def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> Act:
 def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
     """Say that the thing is there, go after it once where it has moved, or look for it once."""
     at = scene.notes.at
-    if at is not None and _near(scene, at, seen_now(scene, wanted)) is not None:
-        return _there(scene, pose)
-    return _there(scene, pose) if _hidden(scene, at, wanted) else _look_anew(scene, wanted)
+    if at is not None and _near(scene, at, wanted, seen_now(scene, wanted)) is not None:
+        return _there(scene, pose, wanted)
+    near = _near(scene, at, wanted, scene.sight.things) if at is not None else None
+    hidden = near is not None and _hidden(scene, near)
+    return _there(scene, pose, wanted) if hidden else _look_anew(scene, wanted)
 
 
-def _hidden(scene: Scene, at: tuple[float, float, float] | None, wanted: Wanted | None) -> bool:
+def _hidden(scene: Scene, near: Thing) -> bool:
     """Tell whether what was seen on the way is out of sight from here, behind a table or cut off.
 
     The memory knows what hides it: a thing that the looks should have shown is less sure by now.
     """
-    fitting = (t for t in scene.sight.things if fits(t, wanted))
-    near = _near(scene, at, fitting) if at is not None else None
-    if near is None or scene.notes.sure is None or not near.seen_s >= scene.now_s - FRESH_S:
+    if scene.notes.sure is None or not near.seen_s >= scene.now_s - FRESH_S:
         return False
     return sure(near) and near.confidence >= scene.notes.sure
 
 
-def _near(scene: Scene, at: tuple[float, float, float], things: Iterable[Thing]) -> Thing | None:
+def _near(
+    scene: Scene, at: tuple[float, float, float], wanted: Wanted | None, things: Iterable[Thing]
+) -> Thing | None:
     """Return which of these, seen twice at least, is what was driven up to at a point."""
     label = scene.notes.label
-    seen = [t for t in things if t.label == label and twice(t)]
+    seen = [t for t in things if t.label == label and fits(t, wanted) and twice(t)]
     near = min(seen, key=lambda t: _apart_m(t, at), default=None)
     return near if near is not None and _apart_m(near, at) <= MOVED_M else None
 
@@ -175,9 +178,9 @@ def _look_anew(scene: Scene, wanted: Wanted | None) -> Act:
     return go_to_object(scene.but(again))
 
 
-def _there(scene: Scene, pose: Pose2) -> Done:
+def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Done:
     notes, at = scene.notes, scene.notes.at or (pose.x_m, pose.y_m, 0.0)
-    near = _near(scene, at, scene.sight.things) if notes.label is not None else None
+    near = _near(scene, at, wanted, scene.sight.things) if notes.label is not None else None
     away = away_m(pose, at[:2] if near is None else (near.x_m, near.y_m))
     figures: dict[str, object] = {"rooms": notes.rooms}
     if notes.label is None:

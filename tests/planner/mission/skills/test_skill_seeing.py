@@ -304,6 +304,9 @@ def test_what_was_seen_on_the_way_and_is_hidden_from_where_one_stands_is_said_to
     assert isinstance(hidden, Done)
     assert hidden.said is not None
     assert "1.5 m" in hidden.said.en, "by where it was seen last"
+    blue = thing(id="cup_2", color="blue", seen_s=NOW_S - 0.2)
+    beside = looking("go_to_object", blue, thing(seen_s=NOW_S - 5.0, x_m=1.5), notes=judge, **gazed)
+    assert beside == hidden, "the blue one beside it is told by nobody"
     for other in (
         thing(seen_s=NOW_S - 5.0, confidence=0.89),  # it should have been seen
         thing(seen_s=NOW_S - 21.0),
