@@ -47,10 +47,8 @@ class Detector:
         self.model: Model = open_model(wanted)
         choice, taken = self.model.choice, self.model.input
         metadata, count = self.model.session.metadata, len(choice.classes)
-        self.least, least = least_scores(metadata, count, min_score)
-        """How high each class must score, in the model's order."""
-        self._least = np.array(self.least, np.float32)
-        self._lowest = min(self.least)
+        scores, least = least_scores(metadata, count, min_score)
+        self._least, self._lowest = np.array(scores, np.float32), min(scores)
         self._decoder, self._classes = choice.decoder, choice.classes
         self._kinds = [kind_of(canonical(label)) for label in self._classes]
         self._preparer = Preparer(self._decoder.RECIPE, taken.width, taken.height)

@@ -42,6 +42,18 @@ def test_each_class_has_a_least_score_of_its_own() -> None:
 
 def test_a_detector_believes_as_its_file_says(tmp_path: Path) -> None:
     said = tiny.ULTRALYTICS | {"min_scores": str([0.55] * len(tiny.NAMES))}
-    detector = Detector(Wanted(tiny.model(tmp_path / "m.onnx", tiny.yolov8([]), metadata=said)))
-    assert detector.least == (0.55,) * len(tiny.NAMES)
-    assert "0.55 to 0.55 by class" in detector.about.line
+    said |= {"min_scores": "[0.55, 0.45]"}
+    seen = [
+        tiny.Seen(box=(4, 4, 20, 20), number=0, score=0.5),
+        tiny.Seen(box=(30, 30, 50, 50), number=1, score=0.5),
+    ]
+    path = tiny.model(tmp_path / "m.onnx", tiny.yolov8(seen), metadata=said)
+    picture = tiny.jpeg(tiny.SIDE, tiny.SIDE)
+
+    def labels(detector: Detector) -> list[str]:
+        return [it.label for it in detector.look(picture).detections]
+
+    detector = Detector(Wanted(path))
+    assert labels(detector) == [tiny.NAMES[1]]
+    assert "0.45 to 0.55 by class" in detector.about.line
+    assert sorted(labels(Detector(Wanted(path), 0.3))) == sorted(tiny.NAMES)
