@@ -30,6 +30,14 @@ async def asking(world: Together, text: str = "please fetch it") -> Goal:
     return goal
 
 
+async def asking_on_the_way(world: Together) -> tuple[Goal, Goal]:
+    """Give a goal that asks, and one that drives meanwhile; return both once it does."""
+    goal = await asking(world)
+    driving = await world.missions.submit("go to the kitchen")
+    await world.until(lambda: world.bridge.horizon is not None)
+    return goal, driving
+
+
 async def later(world: Together) -> None:
     seq = world.bridge.seq
     await world.until(lambda: world.bridge.seq > seq + 1)
@@ -163,9 +171,7 @@ def test_an_order_about_what_runs_is_obeyed_and_is_no_answer(
 ) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, DRIVES, KITCHEN) as world:
-            goal = await asking(world)
-            driving = await world.missions.submit("go to the kitchen")
-            await world.until(lambda: world.bridge.horizon is not None)
+            goal, driving = await asking_on_the_way(world)
             await world.missions.submit(text)
             await world.reach(driving.id, becomes)
             assert (world.missions.goal(goal.id).state, answer_of(world, goal)) == (ASKS, None)
@@ -187,9 +193,7 @@ def test_after_a_stop_it_is_the_persons_act_as_any_answer_is(tmp_path: Path, sit
 def test_a_no_ends_nothing_that_runs(tmp_path: Path, site: Site) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, DRIVES, KITCHEN) as world:
-            goal = await asking(world)
-            driving = await world.missions.submit("go to the kitchen")
-            await world.until(lambda: world.bridge.horizon is not None)
+            goal, driving = await asking_on_the_way(world)
             await world.missions.submit("no")
             assert answer_of(world, goal) == "no"
             assert world.missions.goal(driving.id).state is RUNNING
