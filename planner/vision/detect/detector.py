@@ -19,7 +19,8 @@ from planner.vision.detect.least import least_scores
 from planner.vision.detect.model_file import Model, Wanted, open_model
 from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
 from planner.vision.detect.pictures import Depth, Picture, unpack_color, unpack_depth
-from planner.vision.detect.prepare import Floats, Preparer
+from planner.vision.detect.prepare import Preparer
+from planner.vision.detect.prepare_bytes import preparer
 from planner.vision.detect.session import RUN_ERRORS, Array, last_words, senseless
 from planner.vision.failure import VisionFailure
 from planner.vision.kinds import kind_of
@@ -51,7 +52,7 @@ class Detector:
         self._least, self._lowest = np.array(scores, np.float32), min(scores)
         self._decoder, self._classes = choice.decoder, choice.classes
         self._kinds = [kind_of(canonical(label)) for label in self._classes]
-        self._preparer = Preparer(self._decoder.RECIPE, taken.width, taken.height)
+        self._preparer: Preparer = preparer(self._decoder.RECIPE, taken)
         self._feeds = self.feeds(self._preparer.buffer)
         session = self.model.session
         try:
@@ -137,11 +138,11 @@ class Detector:
         found = in_picture(found, placed, picture.shape[1], picture.shape[0])
         return suppress(found) if self._decoder.SUPPRESS else strongest(found, MAX_FOUND)
 
-    def prepare(self, picture: Picture) -> Floats:
+    def prepare(self, picture: Picture) -> Array:
         """Return the model's input for a picture; the next picture is written over it."""
         return self._preparer.prepare(picture)[0]
 
-    def feeds(self, buffer: Floats) -> Mapping[str, Array]:
+    def feeds(self, buffer: Array) -> Mapping[str, Array]:
         """Return all that the model is fed with such an input."""
         return {self.model.input.name: buffer, **self.model.beside}
 

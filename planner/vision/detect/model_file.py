@@ -82,9 +82,8 @@ def open_model(wanted: Wanted) -> Model:
 
 def _tried(session: Session, taken: Input, beside: dict[str, Array]) -> Sequence[Array]:
     """Return what comes out for a grey picture; refuse where that can't be boxes of any layout."""
-    grey = np.full((1, 3, taken.height, taken.width), GREY, np.float32)
     try:
-        outputs = session.run({taken.name: grey, **beside})
+        outputs = session.run({taken.name: _grey(taken), **beside})
     except RUN_ERRORS as error:
         text = f"it failed on a trial picture: {last_words(error)}"
         raise VisionFailure("model_broken", text) from None
@@ -96,6 +95,13 @@ def _tried(session: Session, taken: Input, beside: dict[str, Array]) -> Sequence
     if senseless(outputs):
         raise VisionFailure("model_broken", "on a trial picture no number came out that is finite")
     return outputs
+
+
+def _grey(taken: Input) -> Array:
+    """Return a grey picture as the model takes one."""
+    if taken.bytes_in is None:
+        return np.full((1, 3, taken.height, taken.width), GREY, np.float32)
+    return np.full((1, taken.height, taken.width, 3), round(255 * GREY), np.uint8)
 
 
 def _facts(wanted: Wanted, session: Session, taken: Input, outputs: Sequence[Array]) -> Facts:

@@ -1,6 +1,7 @@
 """Turn a picture into a model's input: fit it in, order its channels, scale its values.
 
-The float buffer and the canvas are made once and used for every picture: making them anew costs
+For models that take floats; :mod:`prepare_bytes` is for those that scale by themselves. The float
+buffer and the canvas are made once and used for every picture: making them anew costs
 2.4 ms at 640 x 640. Only what the picture covers is written; the border stays as it was. What a
 byte becomes stands in a table of 256, which OpenCV looks up faster than numpy multiplies.
 """
@@ -8,7 +9,7 @@ byte becomes stands in a table of 256, which OpenCV looks up faster than numpy m
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal, Protocol
 
 import cv2
 import numpy as np
@@ -52,6 +53,16 @@ class Placed:
         """Tell whether the input's pixels are the picture's."""
         return (self.scale_x, self.scale_y, self.left, self.top) == (1.0, 1.0, 0, 0)
 
+    @property
+    def rows(self) -> slice:
+        """Return the rows of the input that it covers."""
+        return slice(self.top, self.top + self.height)
+
+    @property
+    def columns(self) -> slice:
+        """Return the columns of the input that it covers."""
+        return slice(self.left, self.left + self.width)
+
 
 def place(picture: tuple[int, int], size: tuple[int, int], fit: str) -> Placed:
     """Return where a picture (width, height) lies in an input of that width and height."""
@@ -66,8 +77,19 @@ def place(picture: tuple[int, int], size: tuple[int, int], fit: str) -> Placed:
     return Placed(width / picture[0], height / picture[1], left, top, width, height)
 
 
-class Preparer:
+class Preparer(Protocol):
     """Prepare pictures for one model."""
+
+    @property
+    def buffer(self) -> NDArray[Any]:
+        """Return the model's input; it stays where it is."""
+
+    def prepare(self, picture: Picture) -> tuple[NDArray[Any], Placed]:
+        """Return the input, and where the picture lies in it; the next is written over it."""
+
+
+class FloatPreparer:
+    """Prepare pictures for a model that takes 1 x 3 x height x width of floats."""
 
     def __init__(self, recipe: Recipe, width: int, height: int) -> None:
         """Make the buffers."""
@@ -90,8 +112,7 @@ class Preparer:
         The input is this object's own buffer: the next picture is written over it.
         """
         placed = place((picture.shape[1], picture.shape[0]), self._size, self._recipe.fit)
-        rows = slice(placed.top, placed.top + placed.height)
-        columns = slice(placed.left, placed.left + placed.width)
+        rows, columns = placed.rows, placed.columns
         if placed != self._placed:
             self._canvas[:] = BORDER
             self._write(self._canvas, slice(None), slice(None))

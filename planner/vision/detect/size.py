@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from planner.vision.detect.names import literal
 from planner.vision.detect.session import Slot
 from planner.vision.failure import VisionFailure
 
-FLOAT = "tensor(float)"
+FLOAT, BYTES = "tensor(float)", "tensor(uint8)"
+EXPECTED = f"expected 1 x 3 x height x width, {FLOAT}, or 1 x height x width x 3, {BYTES}"
+CHANNELS = "channels"
+"""In a model's metadata: ``bgr`` where its bytes are blue green red."""
 SIDES_PX = (32, 2048)
 SIZES = "orig_target_sizes"
 
@@ -23,6 +27,9 @@ class Input:
     height: int
     sizes: str | None
     """The input that asks for the picture's size, where there is one (RT-DETR, D-FINE)."""
+    bytes_in: Literal["rgb", "bgr"] | None = None
+    """The order of its channels where it takes a picture's bytes and scales them by itself, row by
+    row; None where it takes planes of floats as its family wants them."""
 
 
 def find_input(
@@ -32,7 +39,7 @@ def find_input(
 
     Args:
         slots: its inputs.
-        metadata: may say ``imgsz`` where the shape leaves the size open.
+        metadata: may say ``imgsz`` where the shape leaves the size open, and ``channels``.
         input_px: what the owner sets for such a model.
 
     Raises:
@@ -46,17 +53,24 @@ def find_input(
     strangers = [slot for slot in others if slot.name != SIZES or "int64" not in slot.kind]
     if strangers:
         raise VisionFailure("model_input_odd", f"it also wants {strangers[0].shown()}")
-    batch, channels = picture.shape[:2]
-    if picture.kind != FLOAT or channels != 3 or (isinstance(batch, int) and batch != 1):
-        expected = "expected 1 x 3 x height x width, tensor(float)"
-        raise VisionFailure("model_input_odd", f"{picture.shown()}; {expected}")
-    height, width = _sides(picture, metadata, input_px)
-    return Input(picture.name, width, height, SIZES if others else None)
+    axis = {FLOAT: 1, BYTES: 3}.get(picture.kind)
+    batch = picture.shape[0]
+    if axis is None or picture.shape[axis] != 3 or (isinstance(batch, int) and batch != 1):
+        raise VisionFailure("model_input_odd", f"{picture.shown()}; {EXPECTED}")
+    height, width = _sides(picture, 2 if axis == 1 else 1, metadata, input_px)
+    sizes = SIZES if others else None
+    return Input(picture.name, width, height, sizes, None if axis == 1 else _order(metadata))
 
 
-def _sides(picture: Slot, metadata: Mapping[str, str], input_px: int | None) -> tuple[int, int]:
-    """Return height and width [px]."""
-    height, width = picture.shape[2:]
+def _order(metadata: Mapping[str, str]) -> Literal["rgb", "bgr"]:
+    return "bgr" if metadata.get(CHANNELS, "").lower() == "bgr" else "rgb"
+
+
+def _sides(
+    picture: Slot, first: int, metadata: Mapping[str, str], input_px: int | None
+) -> tuple[int, int]:
+    """Return height and width [px], which stand in the shape from ``first`` on."""
+    height, width = picture.shape[first : first + 2]
     if not (isinstance(height, int) and isinstance(width, int)):
         height, width = _open_sides(picture, metadata, input_px)
     low, high = SIDES_PX

@@ -14,6 +14,7 @@ from onnx import TensorProto, helper
 from planner.vision.detect import Detector, Wanted
 from planner.vision.detect.onnx_file import examine
 from planner.vision.detect.session import Session
+from planner.vision.detect.size import BYTES, EXPECTED, FLOAT
 from planner.vision.failure import REFUSALS, VisionFailure
 from tests.planner.vision.detect import tiny
 
@@ -99,10 +100,14 @@ REFUSED = [
     (shaped(1, 3, "h", "w"), "model_size_open", "input_px"),
     (shaped(4, 3, 64, 64), "model_input_odd", "[4, 3, 64, 64]"),
     (shaped(1, 1, 64, 64), "model_input_odd", "expected 1 x 3 x height x width"),
-    (shaped(1, 64, 64, 3), "model_input_odd", "[1, 64, 64, 3]"),
+    (shaped(1, 64, 64, 3), "model_input_odd", f"[1, 64, 64, 3] {FLOAT}; {EXPECTED}"),
     (shaped(1, 3, 8, 64), "model_input_odd", "64 x 8 px; expected 32 to 2048"),
     (shaped(1, 3, 64, 9000), "model_input_odd", "9000 x 64"),
-    (shaped(1, 3, 64, 64, kind=TensorProto.UINT8), "model_input_odd", "uint8"),
+    (shaped(1, 3, 64, 64, kind=TensorProto.UINT8), "model_input_odd",
+     f"[1, 3, 64, 64] {BYTES}; {EXPECTED}"),
+    (shaped(4, 64, 64, 3, kind=TensorProto.UINT8), "model_input_odd", EXPECTED),
+    (shaped(1, 8, 64, 3, kind=TensorProto.UINT8), "model_input_odd", "64 x 8 px"),
+    (shaped(1, 64, 64, 3, kind=TensorProto.INT8), "model_input_odd", EXPECTED),
     (shaped(1, 3, 64, 64, beside=(BESIDE,)), "model_input_odd", "scale_factor"),
     (lambda path: tiny.model(path, GOOD), "model_names_missing", "it has 2"),
     (lambda path: tiny.model(path, GOOD, metadata={"names": "exit()"}), "model_names_malformed",

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Literal
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.vision.detect.found import Found, believed, in_picture
-from planner.vision.detect.nms import suppress
-from planner.vision.detect.prepare import BORDER, Preparer, Recipe, place
+from planner.vision.detect.nms import strongest, suppress
+from planner.vision.detect.prepare import BORDER, FloatPreparer, Preparer, Recipe, place
+from planner.vision.detect.prepare_bytes import BytePreparer
 
 BLUE, GREEN, RED = (250, 20, 10), (20, 240, 10), (20, 10, 230)
 IMAGENET = Recipe("stretched", "rgb", 1 / 255, (0.485, 0.456, 0.406), (0.229, 0.224, 0.225))
@@ -30,7 +34,7 @@ NORMAL_RED = (
 def test_a_picture_is_placed_ordered_and_scaled(
     recipe: Recipe, first: tuple[float, ...], border: float | None
 ) -> None:
-    preparer = Preparer(recipe, 64, 64)
+    preparer = FloatPreparer(recipe, 64, 64)
     buffer, placed = preparer.prepare(np.full((48, 96, 3), RED, np.uint8))
     assert buffer.shape == (1, 3, 64, 64)
     assert buffer.dtype == np.float32
@@ -43,17 +47,42 @@ def test_a_picture_is_placed_ordered_and_scaled(
         assert np.allclose(outside, border)
 
 
-def test_one_buffer_serves_every_picture_and_keeps_nothing_of_the_last() -> None:
-    used = Preparer(UNIT, 64, 64)
+MAKERS: dict[str, Callable[[], Preparer]] = {
+    "floats": lambda: FloatPreparer(UNIT, 64, 64),
+    "rgb bytes": lambda: BytePreparer("centred", "rgb", 64, 64),
+    "bgr bytes": lambda: BytePreparer("centred", "bgr", 64, 64),
+}
+
+
+@pytest.mark.parametrize("made", MAKERS.values(), ids=MAKERS)
+def test_one_buffer_serves_every_picture_and_keeps_nothing_of_the_last(
+    made: Callable[[], Preparer],
+) -> None:
+    used = made()
     pictures = ((96, 48, RED), (48, 96, GREEN), (64, 64, BLUE), (96, 48, GREEN))
     for width, height, color in pictures:
         picture = np.full((height, width, 3), color, np.uint8)
         buffer, placed = used.prepare(picture)
         again, _ = used.prepare(picture)
         assert again is buffer
-        fresh, where = Preparer(UNIT, 64, 64).prepare(picture)
+        assert again is used.buffer
+        fresh, where = made().prepare(picture)
         assert placed == where
         assert np.array_equal(buffer, fresh)
+
+
+@pytest.mark.parametrize(("channels", "red"), [("rgb", RED[::-1]), ("bgr", RED)])
+@pytest.mark.parametrize(("width", "height"), [(64, 64), (96, 48), (48, 96), (64, 32)])
+def test_bytes_go_in_as_they_are_on_grey(
+    channels: Literal["rgb", "bgr"], red: tuple[int, ...], width: int, height: int
+) -> None:
+    picture = np.full((height, width, 3), RED, np.uint8)
+    buffer, placed = BytePreparer("centred", channels, 64, 64).prepare(picture)
+    expected = np.full((1, 64, 64, 3), BORDER, np.uint8)
+    expected[0, placed.rows, placed.columns] = red
+    assert buffer.dtype == np.uint8
+    assert np.array_equal(buffer, expected)
+    assert (placed.width == 64) == (width >= height)
 
 
 @given(
@@ -75,10 +104,10 @@ def test_a_box_comes_back_from_where_it_was_placed(
 
 
 def test_only_possible_rows_are_believed() -> None:
-    boxes = np.array([[0, 0, 9, 9]] * 7, np.float32)
+    boxes = np.array([[0, 0, 9, 9]] * 8, np.float32)
     boxes[1, 2] = np.nan
-    scores = np.array([0.9, 0.9, np.nan, 1.5, 0.9, 1.0005, 0.3], np.float32)
-    classes = np.array([0, 0, 0, 0, 5, 1, 1])
+    scores = np.array([0.9, 0.9, np.nan, 1.5, 0.9, 1.0005, 0.3, 0.9], np.float32)
+    classes = np.array([0, 0, 0, 0, 5, 1, 1, -1])
     kept = believed(Found(boxes, scores, classes), np.array([0.4, 0.4], np.float32))
     assert kept.scores.tolist() == pytest.approx([0.9, 1.0])
 
@@ -88,6 +117,15 @@ def test_slivers_and_what_lies_outside_the_picture_are_left_out() -> None:
     found = Found(boxes, np.ones(3, np.float32), np.zeros(3, np.intp))
     kept = in_picture(found, place((64, 64), (64, 64), "centred"), 64, 64)
     assert kept.boxes.tolist() == [[0, 0, 64, 64]]
+
+
+@pytest.mark.parametrize("scores", [[0.9, 0.8, 0.7], [0.7, 0.9, 0.8]])
+def test_at_most_so_many_are_left_the_strongest_first(scores: list[float]) -> None:
+    rows = np.array(scores, np.float32)
+    found = Found(np.zeros((3, 4), np.float32), rows, np.zeros(3, np.intp))
+    for count in (2, 3, 9):
+        kept = strongest(found, count).scores
+        assert kept.tolist() == sorted(rows.tolist(), reverse=True)[:count]
 
 
 def overlap(one: list[float], other: list[float]) -> float:

@@ -82,6 +82,41 @@ def live(path: Path, base: Array, by: Array, weights: Array, metadata: Mapping[s
     return write(path, made, metadata)
 
 
+PRIMARIES = ("first", "second", "third")
+BRIGHT = 0.6
+"""From which mean on, as a share of white, :func:`of_bytes` sees a channel."""
+
+
+def of_bytes(path: Path, shape: Sequence[int | str], metadata: Mapping[str, str]) -> Path:
+    """Write a model that takes bytes and sees a box for each bright channel, however many."""
+    boxes = np.tile(np.array([[8, 24, 56, 40]], np.float32), (3, 1))
+    constants = {
+        "boxes": boxes,
+        "classes": np.arange(3, dtype=np.float32)[:, None],
+        "white": np.float32(255.0),
+        "least": np.float32(BRIGHT),
+        "flat": np.array([-1], np.int64),
+        "front": np.array([0], np.int64),
+    }
+    made = helper.make_graph(
+        [
+            helper.make_node("Cast", ["images"], ["floats"], to=TensorProto.FLOAT),
+            helper.make_node("ReduceMean", ["floats"], ["means"], axes=[0, 1, 2], keepdims=0),
+            helper.make_node("Div", ["means", "white"], ["shares"]),
+            helper.make_node("Greater", ["shares", "least"], ["bright"]),
+            helper.make_node("Unsqueeze", ["shares", "flat"], ["scores"]),
+            helper.make_node("Concat", ["boxes", "scores", "classes"], ["all"], axis=1),
+            helper.make_node("Compress", ["all", "bright"], ["rows"], axis=0),
+            helper.make_node("Unsqueeze", ["rows", "front"], ["output0"]),
+        ],
+        "of_bytes",
+        [helper.make_tensor_value_info("images", TensorProto.UINT8, shape)],
+        [helper.make_tensor_value_info("output0", TensorProto.FLOAT, (1, "n", 6))],
+        [numpy_helper.from_array(np.asarray(it), name) for name, it in constants.items()],
+    )
+    return write(path, made, {"names": str(PRIMARIES), "end2end": "True"} | dict(metadata))
+
+
 def write(
     path: Path, graph: Any, metadata: Mapping[str, str], opset: int = OPSET, ir: int = IR_VERSION
 ) -> Path:

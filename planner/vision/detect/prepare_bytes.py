@@ -1,0 +1,53 @@
+"""Fit a picture into the input of a model that takes bytes, and choose how a model's is prepared.
+
+Such a model scales by itself: what it takes is the picture, pixel by pixel as it was unpacked.
+Where that is as large as the input, one copy does (0.01 ms at 320 x 240; floats take 0.15 ms).
+"""
+
+from __future__ import annotations
+
+from typing import Literal, cast
+
+import cv2
+import numpy as np
+
+from planner.vision.detect.pictures import Picture
+from planner.vision.detect.prepare import BORDER, FloatPreparer, Placed, Preparer, Recipe, place
+from planner.vision.detect.size import Input
+
+
+class BytePreparer:
+    """Prepare pictures for a model that takes 1 x height x width x 3 of bytes."""
+
+    def __init__(self, fit: str, channels: Literal["rgb", "bgr"], width: int, height: int) -> None:
+        """Make the buffer."""
+        self._fit, self._channels, self._size = fit, channels, (width, height)
+        self.buffer: Picture = np.full((1, height, width, 3), BORDER, np.uint8)
+        """The model's input; it stays where it is."""
+        self._placed = place(self._size, self._size, fit)
+        self._target = self.buffer[0]
+
+    def prepare(self, picture: Picture) -> tuple[Picture, Placed]:
+        """Return the input, 1 x height x width x 3, and where the picture lies in it.
+
+        The input is this object's own buffer: the next picture is written over it.
+        """
+        placed = place((picture.shape[1], picture.shape[0]), self._size, self._fit)
+        if placed != self._placed:
+            self.buffer[:] = BORDER
+            self._placed, self._target = placed, self.buffer[0, placed.rows, placed.columns]
+        if picture.shape != self._target.shape:
+            size = placed.width, placed.height
+            picture = cast("Picture", cv2.resize(picture, size, interpolation=cv2.INTER_LINEAR))
+        if self._channels == "rgb":
+            cv2.cvtColor(picture, cv2.COLOR_BGR2RGB, dst=self._target)
+        else:
+            np.copyto(self._target, picture)
+        return self.buffer, placed
+
+
+def preparer(recipe: Recipe, taken: Input) -> Preparer:
+    """Return what prepares pictures for a model's input; of a recipe bytes need the fit alone."""
+    if taken.bytes_in is None:
+        return FloatPreparer(recipe, taken.width, taken.height)
+    return BytePreparer(recipe.fit, taken.bytes_in, taken.width, taken.height)
