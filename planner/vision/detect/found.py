@@ -56,10 +56,13 @@ def believed(found: Found, least: Floats) -> Found:
     """
     if not len(found):
         return found
-    kept = np.isfinite(found.boxes).all(axis=1)
-    kept &= (found.classes >= 0) & (found.classes < len(least))
+    # As unsigned, what is below zero is far above any count.
+    kept = found.classes.view(np.uintp) < len(least)
     kept &= found.scores >= least.take(found.classes, mode="clip")
     kept &= found.scores <= HIGHEST_SCORE
+    finite = np.isfinite(found.boxes)
+    if not finite.all():
+        kept &= finite.all(axis=1)
     found = found if kept.all() else found.only(kept)
     return Found(found.boxes, np.minimum(found.scores, np.float32(1.0)), found.classes)
 
@@ -74,6 +77,6 @@ def in_picture(found: Found, placed: Placed, width: int, height: int) -> Found:
         boxes /= np.array((placed.scale_x, placed.scale_y) * 2, np.float32)
     boxes = np.maximum(boxes, np.float32(0.0))
     np.minimum(boxes, np.array((width, height) * 2, np.float32), out=boxes)
-    kept = (boxes[:, 2:] - boxes[:, :2]).min(axis=1) >= MIN_SIDE_PX
+    sides = boxes[:, 2:] - boxes[:, :2]
     found = Found(boxes, found.scores, found.classes)
-    return found if kept.all() else found.only(kept)
+    return found if sides.min() >= MIN_SIDE_PX else found.only(sides.min(axis=1) >= MIN_SIDE_PX)

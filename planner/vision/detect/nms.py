@@ -33,5 +33,7 @@ def suppress(found: Found, max_overlap: float = MAX_OVERLAP) -> Found:
 
 def strongest(found: Found, count: int) -> Found:
     """Return at most so many, the highest scores first."""
+    if len(found) <= count and (found.scores[:-1] >= found.scores[1:]).all():
+        return found
     order = np.argsort(-found.scores, kind="stable")[:count]
     return found.only(order)

@@ -70,9 +70,13 @@ def test_what_gives_boxes_is_a_detector(
     assert {it.label for it in looking.look(tiny.jpeg(64, 64)).detections} == {"cup"}
 
 
-def test_a_row_that_names_no_class_becomes_nothing_later_either(tmp_path: Path) -> None:
+@pytest.mark.parametrize("number", [0.7, -1.0, -0.5, 2.0, 3e38, np.inf, -np.inf, np.nan])
+def test_a_row_that_names_no_class_becomes_nothing_later_either(
+    number: float, tmp_path: Path
+) -> None:
     looking = detector(tmp_path, rows(GOOD))
-    later = rows((10, 10, 40, 40, 0.9, 0.7))
+    later = rows((10, 10, 40, 40, 0.9, number))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(looking.model.session, "run", lambda _: [later])
-        assert looking.look(tiny.jpeg(64, 64)).detections == ()
+        result = looking.look(tiny.jpeg(64, 64))
+    assert (result.skipped, result.detections) == (None, ())
