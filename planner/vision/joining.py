@@ -31,6 +31,8 @@ NEUTRAL = frozenset({"black", "gray", "white", "brown"})
 ALIKE = 1.0
 """What a colour that light may have changed adds."""
 OVERLAP, OVERLAP_OTHER, INSIDE = 0.5, 0.85, 0.8
+WITHIN = 0.75
+"""Of the smaller one's reach: with middles so near, one of two large things is not there."""
 DRIFT_MPS = 0.005
 """Nobody watched: how fast a standing thing's place grows unsure, to a quarter of a metre."""
 DRIFT_MOST_M = 0.25
@@ -54,6 +56,8 @@ class Placed:
     box: Box
     spot: Spot
     room: str | None = None
+    whole: bool = True
+    """The picture's edge cuts nothing off it."""
 
 
 def single(placed: Sequence[Placed]) -> list[Placed]:
@@ -103,6 +107,15 @@ def cost_of(thing: Thing, p: Placed, now_s: float) -> float | None:
     if not cost <= GATE:
         return None
     return cost + 0.5 * (apart_m / (kind.reach_m + spread_m)) ** 2  # the nearer of two alike
+
+
+def one_place(a: Thing, b: Thing) -> bool:
+    """Tell whether two large things, of two classes and on the floor, would stand in each other."""
+    kinds = kind_of(a.label), kind_of(b.label)
+    if a.label == b.label or any(k.perched or k.mobile or k.reach_m < LARGE_M for k in kinds):
+        return False
+    least_m = min(kind.reach_m for kind in kinds)
+    return hypot(a.x_m - b.x_m, a.y_m - b.y_m) <= WITHIN * least_m
 
 
 def fused(thing: Thing, spot: Spot, now_s: float) -> tuple[float, float, float, float]:

@@ -1,20 +1,22 @@
 """Remember what was seen, and forget what is no longer where it was. Pure: told looks and the time.
 
 Laws: nothing is remembered from one weak look alone; one thing is told once, however many boxes lie
-on it; what should have been seen and was not loses confidence until it is forgotten, and what was
-out of sight keeps it; what walks is never joined over a long gap. The order in which one look names
-its things makes no difference. All times are the planner's own.
+on it, and no two large things stand in each other; what should have been seen and was not loses
+confidence until it is forgotten, and what was out of sight keeps it; what walks is never joined
+over a long gap. The order in which one look names its things makes no difference. All times are the
+planner's own.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
+from itertools import combinations
 from math import exp
 from typing import TYPE_CHECKING
 
-from planner.vision.joining import Placed, fused, joined, single
-from planner.vision.kinds import kind_of
+from planner.vision.joining import Placed, fused, joined, one_place, single
+from planner.vision.kinds import LARGE_M, kind_of
 from planner.vision.records import Thing
 from wire.geometry import MAX_COORDINATE_M
 
@@ -25,7 +27,7 @@ MOST_THINGS = 500
 MOST_PLACED = 64
 """Of one look: more than any detector finds in a room."""
 STRONG = 0.6
-"""A score that counts by itself."""
+"""A score that counts by itself, where the picture shows the whole thing."""
 SIGHTINGS, LOOKS = 2, 3
 """What is weaker counts when seen so often within so many looks."""
 UNSURE_S = 3.0
@@ -100,7 +102,7 @@ def remember(
             numbers[p.label] = numbers.get(p.label, 0) + 1
             named[p.index] = id_ = f"{p.label}_{numbers[p.label]}"
             after[id_] = _first(id_, p, now_s)
-    kept_now = _bounded(kept for kept in after.values() if not _over(kept, now_s))
+    kept_now = _bounded(_apart([kept for kept in after.values() if not _over(kept, now_s)]))
     named |= extra
     told = {kept.thing.id for kept in kept_now if kept.sure}
     here = {index: id_ for index, id_ in named.items() if id_ in told}
@@ -146,7 +148,7 @@ def _first(id_: str, p: Placed, now_s: float) -> Kept:
         room=p.room,
     )  # fmt: skip
     votes = ((p.color, p.score),) if p.color is not None else ()
-    return Kept(thing, sure=p.score >= STRONG, votes=votes)
+    return Kept(thing, sure=_enough(p), votes=votes)
 
 
 def _seen(kept: Kept, p: Placed, now_s: float) -> Kept:
@@ -161,7 +163,12 @@ def _seen(kept: Kept, p: Placed, now_s: float) -> Kept:
         room=p.room,
     )  # fmt: skip
     enough = sightings >= SIGHTINGS and looks <= LOOKS
-    return Kept(thing, looks, kept.sure or enough or p.score >= STRONG, votes)
+    return Kept(thing, looks, kept.sure or enough or _enough(p), votes)
+
+
+def _enough(p: Placed) -> bool:
+    """Say whether one sighting is enough: of what is cut off, many things look alike."""
+    return p.whole and p.score >= STRONG
 
 
 def _unseen(kept: Kept, expected: Callable[[Thing], bool], look_s: float) -> Kept:
@@ -188,6 +195,14 @@ def _over(kept: Kept, now_s: float) -> bool:
     if kept.sure:
         return not thing.confidence >= FORGOTTEN
     return unseen_s > UNSURE_S or kept.looks >= LOOKS
+
+
+def _apart(kept: list[Kept]) -> list[Kept]:
+    """Leave out the less sure of two large things that would stand in each other."""
+    sure = [k.thing for k in kept if k.sure and kind_of(k.thing.label).reach_m >= LARGE_M]
+    rivals = [pair for pair in combinations(sure, 2) if one_place(*pair)]
+    lost = {min(pair, key=lambda thing: (thing.confidence, thing.id)).id for pair in rivals}
+    return [k for k in kept if k.thing.id not in lost] if lost else kept
 
 
 def _bounded(kept: Iterable[Kept]) -> tuple[Kept, ...]:

@@ -30,6 +30,8 @@ SIGMA_PX = 2.0
 """Of a box's edge."""
 EDGE_PX = 2.0
 """A box that comes so near to the picture's edge is cut off there."""
+USUAL_SHARE = 0.8
+"""Of a class's greatest extent: so wide a thing shows on average, seen from anywhere."""
 SLIVER_PX = 12.0
 """So little of what is cut off tells nothing of where its middle is."""
 SIGMA_LEAST_M = 0.02
@@ -78,7 +80,7 @@ def place(view: View, seen: Detection) -> Spot | None:
     left, top, right, bottom = seen.box
     if not (all(map(isfinite, seen.box)) and left < right and top < bottom):
         return None
-    if _cut_off(view, seen) and min(right - left, bottom - top) < SLIVER_PX:
+    if cut_off(view, seen) and min(right - left, bottom - top) < SLIVER_PX:
         return None
     if seen.depth_m is not None:
         return _by_depth(view, seen, seen.depth_m)
@@ -90,23 +92,34 @@ def _by_depth(view: View, seen: Detection, depth_m: float) -> Spot | None:
     if not (0.0 < depth_m <= FARTHEST_M and 0.0 <= seen.depth_spread_m <= FARTHEST_M):
         return None
     kind, focal_px = kind_of(seen.label), view.header.focal_px
-    ray = ray_of(view, (left + right) / 2, (top + bottom) / 2)
     width_m = (right - left) * depth_m / focal_px
-    cut = _cut_off(view, seen)
-    behind_m = kind.behind_m if cut else kind.middle_m(width_m)
+    beyond_px = _beyond_m(view, seen, width_m) * focal_px / depth_m
+    ray = ray_of(view, (left + right) / 2 + beyond_px, (top + bottom) / 2)
+    cut = cut_off(view, seen)
+    behind_m = kind.middle_m(width_m, cut=cut)
     range_m = depth_m * hypot(ray.ahead, ray.left) + behind_m
     noise_m = FINEST_M + PER_METRE2 * depth_m * depth_m
     along_m = hypot(noise_m, seen.depth_spread_m / 2, behind_m / 2)
     across_m = depth_m * SIGMA_PX / focal_px + 0.05 * width_m
     if cut:
-        across_m, along_m = across_m + kind.reach_m / 2, hypot(along_m, kind.reach_m / 2)
+        across_m, along_m = across_m + kind.reach_m / 4, hypot(along_m, kind.reach_m / 2)
     z_m = view.camera.z_m + depth_m * ray.up
     return _spot(view, atan2(ray.left, ray.ahead), range_m, z_m, (along_m, across_m))
 
 
+def _beyond_m(view: View, seen: Detection, width_m: float) -> float:
+    """Return how far right of a box's middle the thing's own lies, cut off at one side of it [m].
+
+    The other edge is the thing's: its middle lies half of a usual width from there.
+    """
+    at_left, at_right = seen.box[0] <= EDGE_PX, seen.box[2] >= view.header.width - EDGE_PX
+    hidden_m = max(0.0, 2 * USUAL_SHARE * kind_of(seen.label).reach_m - width_m)
+    return hidden_m / 2 * (at_right - at_left)
+
+
 def _by_floor(view: View, seen: Detection) -> Spot | None:
     left, top, right, bottom = seen.box
-    if _cut_off(view, seen):
+    if cut_off(view, seen):
         return None  # its foot may be outside the picture: nobody knows how much nearer it is
     foot = ray_of(view, (left + right) / 2, bottom)
     reached = _floor_m(view, foot)
@@ -167,7 +180,8 @@ def _spot(
     return Spot(x_m, y_m, max(0.0, z_m), sigma_m)
 
 
-def _cut_off(view: View, seen: Detection) -> bool:
+def cut_off(view: View, seen: Detection) -> bool:
+    """Tell whether a box reaches the picture's edge: who knows how much of the thing it shows?"""
     left, top, right, bottom = seen.box
     inside_x = left > EDGE_PX and right < view.header.width - EDGE_PX
     return not (inside_x and top > EDGE_PX and bottom < view.header.height - EDGE_PX)

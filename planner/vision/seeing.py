@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from planner.vision.joining import Placed
 from planner.vision.labels import canonical
 from planner.vision.memory import Remembered, remember
-from planner.vision.project import View, place
+from planner.vision.project import View, cut_off, place
 from planner.vision.records import Look
 from planner.vision.visible import Visible
 
@@ -63,7 +63,7 @@ def _placed(site: Site, view: View, detections: tuple[Detection, ...]) -> list[P
         found.append(
             Placed(
                 index, seen.label, seen.score, seen.color, seen.box, spot,
-                room.id if room is not None else None,
+                room.id if room is not None else None, whole=not cut_off(view, seen),
             )
         )  # fmt: skip
     return found

@@ -54,6 +54,8 @@ def told(memory: Remembered) -> list[tuple[str, str | None]]:
 
 CUP, BLUE = placed(), placed(index=1, x_m=1.4, color="blue")
 WEAK = placed(score=0.45)
+CUT = replace(CUP, whole=False)
+BED, SOFA = placed("bed"), placed("sofa", x_m=1.5, score=0.7)
 
 
 @pytest.mark.parametrize(
@@ -65,6 +67,9 @@ WEAK = placed(score=0.45)
         ([[WEAK], [], []], []),
         ([[WEAK], [], [], [WEAK]], []),
         ([[CUP], [CUP], [CUP]], ["cup_1"]),
+        ([[CUT]], []),  # of what is cut off, many things look alike
+        ([[CUT], [CUT]], ["cup_1"]),
+        ([[CUT], [CUP]], ["cup_1"]),
         ([[CUP, BLUE]], ["cup_1", "cup_2"]),
         ([[CUP], [BLUE]], ["cup_1", "cup_2"]),
         ([[CUP], [placed(x_m=1.1)]], ["cup_1"]),
@@ -74,6 +79,11 @@ WEAK = placed(score=0.45)
         ([[CUP], [placed(x_m=2.0)]], ["cup_1", "cup_2"]),
         ([[placed("bed", sigma_m=0.2)], [placed("bed", x_m=1.9, sigma_m=0.2)]], ["bed_1"]),
         ([[placed("sofa"), placed("sofa", x_m=1.5, index=1)]], ["sofa_1", "sofa_2"]),
+        ([[BED], [BED], [SOFA]], ["bed_1"]),  # no sofa stands in a bed
+        ([[SOFA], [BED], [BED]], ["bed_1"]),
+        ([[BED], [placed("sofa", x_m=1.9, sigma_m=0.2)]], ["bed_1", "sofa_1"]),
+        ([[placed("table")], [placed("tv")]], ["table_1", "tv_1"]),  # a television on a table
+        ([[placed("sofa")], [placed("person")]], ["sofa_1", "person_1"]),
         ([[placed("sofa")], [placed("sofa"), placed("sofa", x_m=1.5, index=1)]], ["sofa_1"]),
     ],
 )

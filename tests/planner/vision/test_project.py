@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot, inf, isfinite, nan, pi
+from math import atan2, hypot, inf, isfinite, nan, pi
 
 import pytest
 from hypothesis import given, settings
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from planner.vision.kinds import kind_of
 from planner.vision.pointing import point_on_map
 from planner.vision.ports import PointRefused
-from planner.vision.project import place, spot_at
+from planner.vision.project import USUAL_SHARE, place, spot_at
 from planner.vision.rays import first_wall_m
 from tests.planner.vision.scenes import CAMERA, FOCAL_PX, box_of, seen, two_room, view
 from wire import Pose2, transform
@@ -79,6 +79,18 @@ def test_what_is_cut_off_is_less_sure() -> None:
     assert whole is not None
     assert cut is not None
     assert cut.sigma_m > whole.sigma_m
+
+
+@pytest.mark.parametrize("left_m", [-1.6, 1.6])
+def test_the_middle_of_what_is_cut_off_at_a_side_is_beyond_what_shows(left_m: float) -> None:
+    wide_m, depth_m = 2 * USUAL_SHARE * kind_of("sofa").reach_m, 2.0
+    (left, top, right, bottom), _ = box_of(view(), CAMERA.x_m + depth_m, left_m, 0.4, wide_m)
+    shown = (max(0.0, left), top + 20.0, min(320.0, right), bottom)
+    assert 60.0 < shown[2] - shown[0] < 0.8 * (right - left)
+    spot = place(view(), seen("sofa", shown, depth_m))
+    assert spot is not None
+    bearing_rad = atan2(spot.y_m, spot.x_m - CAMERA.x_m)
+    assert bearing_rad == pytest.approx(atan2(left_m, depth_m), abs=0.03)
 
 
 _any = st.floats(width=32)
