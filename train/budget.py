@@ -49,6 +49,14 @@ SPARE_FRAMES = 3_000
 FRAMES_A_HOME = {"train": 10, "unseen": 5, "bare": 5}
 HOMES_A_SHARD = 20
 
+FLOOR = 0.02
+"""What is less sure is nothing: the file is silent of it, and precision is judged down to this."""
+SAME = 0.6
+"""Two boxes of a class that overlap more are one thing."""
+CANDIDATES, MOST_BOXES = 128, 100
+"""Of a picture so many of the surest cells are made boxes of, and so many boxes come out. In 500
+frames of unseen homes at most 56 cells were 0.4 sure, 117 were 0.05; twice as many cost 1 %."""
+
 GOAL_MAP50 = 0.85
 GOAL_FALSE = 0.02
 """Detections in an empty picture, on average, at the shipped least scores."""

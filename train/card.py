@@ -14,7 +14,9 @@ from typing import Any
 from train.boxes import LEAST_PIXELS, LEAST_SHARE, LEAST_SIDE_PX
 from train.budget import (
     BARE_FRAMES,
+    CANDIDATES,
     CLASSES,
+    FLOOR,
     FRAMES,
     GOAL_FALSE,
     GOAL_MAP50,
@@ -22,6 +24,8 @@ from train.budget import (
     MAX_BYTES,
     MAX_GFLOPS,
     MAX_HOURS,
+    MOST_BOXES,
+    SAME,
     SPARE_FRAMES,
     STRIDES,
     UNSEEN_FRAMES,
@@ -96,6 +100,9 @@ The network has convolutions only, and heads at strides {", ".join(map(str, STRI
 fitted from nothing by AdamW in {fit["steps"]} steps of {fit["batch"]} frames (seed {fit["seed"]},
 PyTorch {fit["torch"]}): the first {fit["small_share"]:.0%} of them in a smaller size, the last
 {fit["plain_share"]:.0%} on frames as they were drawn, all others lit, moved and blurred at random.
+The file takes a picture's bytes as they are unpacked, blue green red, and gives finished boxes:
+those of the {CANDIDATES} surest cells, without any that overlaps a surer one of its class by more
+than {SAME}; {MOST_BOXES} at most, none less sure than {FLOOR}.
 It was exported with opset {export["opset"]} from commit {export["commit"] or "unknown"};
 the file differs from the network by at most {export["worst_difference"]:.0e}. No picture, weight
 or label from elsewhere is in it.
@@ -118,7 +125,7 @@ On {judge["frames"]} frames of unseen homes (the goal is judged on {UNSEEN_FRAME
 |---|---|---|
 | mAP50 | {judge["map50"]:.3f} | >= {GOAL_MAP50} |
 | false detections in an empty frame | {false:.3f} | <= {GOAL_FALSE} |
-| model alone, one thread | {judge["ms_p50"]:.1f} ms | |
+| from bytes to boxes, one thread | {judge["ms_p50"]:.1f} ms | |
 
 Recall and precision are those at the least score from which a class is believed. It was settled on
 {SPARE_FRAMES} other frames without anything of ours (`train/settle.py`) and stands in the file:

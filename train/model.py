@@ -110,15 +110,18 @@ class Net(nn.Module):
 
     def forward(self, pictures: Tensor) -> tuple[Tensor, Tensor]:
         """Return class logits (B, 14, N) and boxes (B, 4, N): left, top, right, bottom [px]."""
+        spoken = [head(x) for head, x in zip(self.heads, self.seen(pictures), strict=True)]
+        logits = torch.cat([what for what, _ in spoken], 2)
+        sides = torch.cat([where for _, where in spoken], 2)
+        return logits, sides
+
+    def seen(self, pictures: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Return what the heads speak of, at strides 4, 8 and 16."""
         at4 = self.to4(pictures)
         at8 = self.to8(at4)
         at16 = self.to16(at8)
         at8 = self.back8(torch.cat([at8, self.up(at16)], 1))
-        at4 = self.back4(at4 + self.up(self.less8(at8)))
-        spoken = [head(x) for head, x in zip(self.heads, (at4, at8, at16), strict=True)]
-        logits = torch.cat([what for what, _ in spoken], 2)
-        sides = torch.cat([where for _, where in spoken], 2)
-        return logits, sides
+        return self.back4(at4 + self.up(self.less8(at8))), at8, at16
 
 
 def cells(wide: int = WIDTH_PX, high: int = HEIGHT_PX) -> tuple[Tensor, Tensor]:
@@ -136,23 +139,6 @@ def corners(sides: Tensor, middles: Tensor, strides: Tensor) -> Tensor:
     """Return boxes (B, 4, N) as left, top, right, bottom [px] from what the heads say of sides."""
     reach = sides.clamp(-MAX_LOG, MAX_LOG).exp() * strides
     return torch.cat([middles - reach[:, :2], middles + reach[:, 2:]], 1)
-
-
-class Shipped(nn.Module):
-    """Speak as YOLOv8 models do: (1, 4 + 14, N), boxes as middle and size [px], scores 0 to 1."""
-
-    def __init__(self, net: Net) -> None:
-        super().__init__()
-        self.net = net
-        middles, strides = cells()
-        self.register_buffer("middles", middles[None])
-        self.register_buffer("strides", strides[None])
-
-    def forward(self, pictures: Tensor) -> Tensor:
-        logits, sides = self.net(pictures)
-        boxes = corners(sides, self.middles, self.strides)
-        low, high = boxes[:, :2], boxes[:, 2:]
-        return torch.cat([(low + high) / 2, high - low, logits.sigmoid()], 1)
 
 
 def gflops(net: nn.Module) -> float:

@@ -42,6 +42,7 @@ def test_the_card_states_what_was_measured() -> None:
         "2000 steps of 16 frames",
         "the first 50% of them in a smaller size",
         "abc1234",
+        "| from bytes to boxes, one thread | 7.2 ms | |",
     ):
         assert said in text
     assert "mAP50 1.000 on 2 frames" in table(judge)
