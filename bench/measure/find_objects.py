@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import asdict, dataclass
+from functools import partial
 from itertools import count
 from math import hypot
 from pathlib import Path
@@ -15,6 +16,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from bench.insight import in_sight
 from bench.lookout import Counting, DrawnFinder
 from bench.report import Row, row_of
 from lockstep import Together, TooLong
@@ -26,8 +28,11 @@ from planner.vision.labels import named
 from sim.site.plan import furniture_shape
 from sim.site.things import furniture_class
 from train.homes import drawn_home
+from wire import CameraConfig
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from bench.lab import Lab
     from sim.site import Home
 
@@ -66,16 +71,26 @@ def by_truth() -> bool:
     return os.environ.get(EYES) == "truth"
 
 
-def chosen(home: Home, random: Random) -> tuple[str, str | None] | None:
-    """Return the label and colour of something to look for, or None where there is nothing."""
+def chosen(
+    home: Home, random: Random, shows: Callable[[Sequence[str]], bool]
+) -> tuple[str, str | None] | None:
+    """Return the label and colour of something to look for, or None where there is nothing.
+
+    Shows: whether any picture shows one of these objects of the home.
+    """
     things = sorted(
         {(it.class_id, it.color) for it in home.objects.values() if it.class_id in SOUGHT
          and it.color is not None}
     )  # fmt: skip
-    if not things:
-        return None
-    label, color = random.choice(things)
-    return label, None if label == LEAVES else color
+    while things:
+        label, color = random.choice(things)
+        alike = [
+            name for name, it in home.objects.items() if (it.class_id, it.color) == (label, color)
+        ]
+        if shows(alike):
+            return label, None if label == LEAVES else color
+        things.remove((label, color))
+    return None
 
 
 def places(home: Home, label: str, color: str | None) -> list[tuple[float, float]]:
@@ -99,10 +114,14 @@ def trial(index: int) -> dict[str, object]:
         (seed, home, wanted)
         for seed in count(1_000 * index + 7)
         if len((home := drawn_home("unseen", seed)).rooms) > 1
-        and (wanted := chosen(home, Random(f"sought {seed}"))) is not None
+        and (wanted := chosen(home, Random(f"sought {seed}"), partial(_shows, home))) is not None
     )
     with TemporaryDirectory(prefix="pons-") as folder:
         return asdict(_look_for(home, seed, wanted, site_of(Path(folder), home)))
+
+
+def _shows(home: Home, names: Sequence[str]) -> bool:
+    return in_sight(home, names, CameraConfig(), Random(0))
 
 
 def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path) -> Sought:
