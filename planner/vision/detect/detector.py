@@ -9,10 +9,8 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 
-import numpy as np
-
 from planner.vision.colors_pixels import dark, exposure
-from planner.vision.detect.found import Found, believed, in_picture
+from planner.vision.detect.found import Found, believed, fenced, in_picture
 from planner.vision.detect.hints import hints
 from planner.vision.detect.inner import ANY, look_inside
 from planner.vision.detect.least import least_scores
@@ -49,7 +47,7 @@ class Detector:
         choice, taken = self.model.choice, self.model.input
         metadata, count = self.model.session.metadata, len(choice.classes)
         scores, least = least_scores(metadata, count, min_score)
-        self._least, self._lowest = np.array(scores, np.float32), min(scores)
+        self._least, self._lowest = fenced(scores), min(scores)
         self._decoder, self._classes = choice.decoder, choice.classes
         self._kinds = [kind_of(canonical(label)) for label in self._classes]
         self._preparer: Preparer = preparer(self._decoder.RECIPE, taken)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,18 +49,21 @@ def from_centres(cxcywh: Floats) -> Floats:
     return boxes
 
 
+def fenced(least: Sequence[float]) -> Floats:
+    """Return how high each class must score, in the model's order, between two never reached."""
+    return np.array((inf, *least, inf), np.float32)
+
+
 def believed(found: Found, least: Floats) -> Found:
     """Keep rows whose every number is possible; NaN and infinity fail by themselves.
 
     Args:
         found: as it was decoded.
-        least: how high each class must score, in the model's order.
+        least: of :func:`fenced`: what is no class meets a fence.
     """
     if not len(found):
         return found
-    # As unsigned, what is below zero is far above any count.
-    kept = found.classes.view(np.uintp) < len(least)
-    kept &= found.scores >= least.take(found.classes, mode="clip")
+    kept = found.scores >= least.take(found.classes + 1, mode="clip")
     kept &= found.scores <= HIGHEST_SCORE
     finite = np.isfinite(found.boxes)
     if not finite.all():

@@ -24,18 +24,17 @@ class BytePreparer:
         self._fit, self._channels, self._size = fit, channels, (width, height)
         self.buffer: Picture = np.full((1, height, width, 3), BORDER, np.uint8)
         """The model's input; it stays where it is."""
-        self._placed = place(self._size, self._size, fit)
-        self._target = self.buffer[0]
+        self._shape = self.buffer[0].shape
+        self._placed, self._target = place(self._size, self._size, fit), self.buffer[0]
 
     def prepare(self, picture: Picture) -> tuple[Picture, Placed]:
         """Return the input, 1 x height x width x 3, and where the picture lies in it.
 
         The input is this object's own buffer: the next picture is written over it.
         """
-        placed = place((picture.shape[1], picture.shape[0]), self._size, self._fit)
-        if placed != self._placed:
-            self.buffer[:] = BORDER
-            self._placed, self._target = placed, self.buffer[0, placed.rows, placed.columns]
+        if picture.shape != self._shape:
+            self._make_room(picture.shape)
+        placed = self._placed
         if picture.shape != self._target.shape:
             size = placed.width, placed.height
             picture = cast("Picture", cv2.resize(picture, size, interpolation=cv2.INTER_LINEAR))
@@ -44,6 +43,13 @@ class BytePreparer:
         else:
             np.copyto(self._target, picture)
         return self.buffer, placed
+
+    def _make_room(self, shape: tuple[int, ...]) -> None:
+        """Clear the buffer for pictures of another shape."""
+        self.buffer[:] = BORDER
+        self._shape = shape
+        placed = self._placed = place((shape[1], shape[0]), self._size, self._fit)
+        self._target = self.buffer[0, placed.rows, placed.columns]
 
 
 def preparer(recipe: Recipe, taken: Input) -> Preparer:

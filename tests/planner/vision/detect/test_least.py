@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from planner.vision.detect import Detector, Wanted
-from planner.vision.detect.found import Found, believed
+from planner.vision.detect.found import Found, believed, fenced
 from planner.vision.detect.least import MIN_SCORE, least_scores
 from tests.planner.vision.detect import tiny
 
@@ -35,7 +35,7 @@ def test_each_class_has_a_least_score_of_its_own() -> None:
         np.array([0.5, 0.5, 0.6, 0.4], np.float32),
         np.array([0, 1, 1, 0]),
     )
-    kept = believed(found, np.array([0.45, 0.55], np.float32))
+    kept = believed(found, fenced([0.45, 0.55]))
     assert kept.classes.tolist() == [0, 1]
     assert kept.scores.tolist() == pytest.approx([0.5, 0.6])
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.vision.detect.found import Found, believed, in_picture
+from planner.vision.detect.found import Found, believed, fenced, in_picture
 from planner.vision.detect.nms import strongest, suppress
 from planner.vision.detect.prepare import BORDER, FloatPreparer, Preparer, Recipe, place
 from planner.vision.detect.prepare_bytes import BytePreparer
@@ -108,7 +108,7 @@ def test_only_possible_rows_are_believed() -> None:
     boxes[1, 2] = np.nan
     scores = np.array([0.9, 0.9, np.nan, 1.5, 0.9, 1.0005, 0.3, 0.9], np.float32)
     classes = np.array([0, 0, 0, 0, 5, 1, 1, -1])
-    kept = believed(Found(boxes, scores, classes), np.array([0.4, 0.4], np.float32))
+    kept = believed(Found(boxes, scores, classes), fenced([0.4, 0.4]))
     assert kept.scores.tolist() == pytest.approx([0.9, 1.0])
 
 
