@@ -19,7 +19,7 @@ from planner.vision.failure import VisionFailure
 QUIET, LOUD = 0.005, 0.05
 """Of each cell's best class score in the trial the median. Beside an objectness classes are learnt
 on things alone and talk everywhere (a YOLOX: 0.15); without one they are silent where nothing is
-(Pons's own YOLOv8: 0.0000003)."""
+(the cells of Pons's own: 0.0000003)."""
 SAYING = 0.05
 """The least `min_score`: a row that scores less never becomes a box."""
 NEARLY_ZERO = -0.001
