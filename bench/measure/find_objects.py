@@ -25,6 +25,7 @@ from lockstep.sighted import TruthFinder
 from planner.plan import Code, GoalState
 from planner.vision.kinds import kind_of
 from planner.vision.labels import named
+from sim.camera.coat import PAINTS, USUAL
 from sim.site.plan import furniture_shape
 from sim.site.things import furniture_class
 from train.homes import drawn_home
@@ -48,6 +49,8 @@ SOUGHT = frozenset({"cup", "bottle", "ball", "book", "box", "plant", "chair"})
 LEAVES = "plant"
 """Green whatever its home says: the colour that is declared of one is painted nowhere, so a plant
 is asked for without."""
+WOOD = "brown"
+"""What cardboard and every wood are called."""
 EYES = "PONS_BENCH_EYES"
 
 
@@ -94,18 +97,29 @@ def chosen(
 
 
 def places(home: Home, label: str, color: str | None) -> list[tuple[float, float]]:
-    """Return where such things stand; of any colour, furniture of the class counts as well."""
+    """Return where such things stand; furniture of the class counts as well."""
     found = [
-        it.at for it in home.objects.values() if it.class_id == label and color in (None, it.color)
+        it.at
+        for it in home.objects.values()
+        if it.class_id == label and color in (None, painted(label, it.color))
     ]
-    if color is None:
-        boxes = [
-            furniture_shape(it).bounds
-            for name, it in home.furniture.items()
-            if furniture_class(name, it) == label
-        ]
-        found += [((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2) for box in boxes]
-    return found
+    boxes = [
+        furniture_shape(it).bounds
+        for name, it in home.furniture.items()
+        if furniture_class(name, it) == label and color in (None, painted(label, it.color))
+    ]
+    return found + [((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2) for box in boxes]
+
+
+def painted(class_id: str, color: str | None) -> str:
+    """Return what people call the colour that a thing has in the simulator's plain look.
+
+    What declares none has a usual one: a cup is then red, a carton or a chair of wood brown.
+    """
+    if color is not None:
+        return color
+    usual = USUAL[class_id][0]
+    return next((name for name, paint in PAINTS.items() if paint == usual), WOOD)
 
 
 def trial(index: int) -> dict[str, object]:

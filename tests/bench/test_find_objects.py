@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 from bench.insight import in_sight
-from bench.measure.find_objects import chosen, places
+from bench.measure.find_objects import chosen, painted, places
 from sim.site.things import furniture_class
 from train.homes import drawn_home
 from wire import CameraConfig
@@ -44,6 +44,15 @@ def test_a_plant_of_any_colour_may_be_furniture() -> None:
     )
     small = [it.at for it in home.objects.values() if it.class_id == "plant"]
     assert len(places(home, "plant", None)) > len(small)
-    assert places(home, "plant", "red") == [
-        it.at for it in home.objects.values() if (it.class_id, it.color) == ("plant", "red")
+
+
+def test_what_declares_no_colour_counts_by_its_paint() -> None:
+    assert [painted("ball", None), painted("ball", "blue"), painted("box", None)] == [
+        "red",
+        "blue",
+        "brown",
     ]
+    home = drawn_home("unseen", 116_008)
+    balls = [it for it in home.objects.values() if it.class_id == "ball"]
+    assert None in {it.color for it in balls}
+    assert places(home, "ball", "red") == [it.at for it in balls if it.color in (None, "red")]
