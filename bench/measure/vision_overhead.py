@@ -1,6 +1,8 @@
 """Measure what a look costs beside the bare model: the same model, threads and frames, by turns.
 
-Raw is ``session.run`` on an input that lies ready in the cache. A look is all that Pons does: fit
+Raw is ``session.run`` on an input that lies ready in the cache. Where a file takes bytes and does
+itself what else is done beside it, its bare network is run too, and a look held against that as
+well: what costs less outside is not to be hidden inside. A look is all that Pons does: fit
 the picture in, run, read the output, suppress, name colours; a second row unpacks the JPEG too, a
 third is what the planner asks for: with the depth picture unpacked and read in each box. The pipe
 between the processes has a row of its own.
@@ -12,10 +14,13 @@ import asyncio
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from random import Random
 from statistics import median
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from bench.bare_net import BareNet
 from bench.processes import rss_mb
 from bench.report import Row, row_of
 from planner.settings import VisionSettings
@@ -25,8 +30,6 @@ from pons.settings import CHECKOUT
 from wire import Image, ImageHeader
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from bench.lab import Lab
 
 NAME = "vision_overhead"
@@ -40,7 +43,7 @@ THREADS = 1
 GOAL = "<= 5 %"
 GOAL_MEMORY = "<= 180"
 LOOKS = 60
-WAYS = ("raw", "look", "jpeg", "whole", "opencv")
+WAYS = ("raw", "bare", "look", "jpeg", "whole", "opencv")
 FOCAL_PX = 277.0
 """Of a camera that sees 60 degrees across 320 px."""
 
@@ -108,15 +111,34 @@ def _time_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
     ):
         over = [100 * (one / bare - 1) for one, bare in zip(data[way], raw, strict=True)]
         rows.append(row_of(f"{subject.name}: {way} over raw", "%", GOAL, over, inside, valid=valid))
+    if data["bare"]:
+        rows += _bare_rows(subject, data, told, valid=valid)
     if data["opencv"]:
         rows.append(
-            row_of(f"{subject.name}: OpenCV's dnn", "ms", "", data["opencv"], "forward alone")
+            row_of(
+                f"{subject.name}: OpenCV's dnn",
+                "ms",
+                "",
+                data["opencv"],
+                "forward of the whole file",
+            )
         )
     else:
         rows.append(
             Row(f"{subject.name}: OpenCV's dnn", "ms", "", value="none", note=data["refused"])
         )
     return rows
+
+
+def _bare_rows(subject: Subject, data: dict[str, Any], told: str, *, valid: bool) -> list[Row]:
+    bare = data["bare"]
+    net = "the file from its first convolution to its last ones: no bytes, no boxes"
+    over = [100 * (one / alone - 1) for one, alone in zip(data["look"], bare, strict=True)]
+    inside = f"a look beside the network alone; {told}"
+    return [
+        row_of(f"{subject.name}: bare net", "ms", "", bare, net),
+        row_of(f"{subject.name}: look over bare net", "%", "", over, inside, valid=valid),
+    ]
 
 
 def _worker_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
@@ -140,6 +162,7 @@ def _rounds(subject: Subject, count: int) -> dict[str, Any]:
     buffer = detector.prepare(pictures[0])
     session, feeds = detector.model.session, detector.feeds(buffer)
     network, refused = _opencv(subject.model)
+    bare = _bare(subject.model, inputs) if detector.model.input.bytes_in else None
 
     def ready(number: int) -> None:
         np.copyto(buffer, inputs[number])  # as a look leaves it: in the cache
@@ -157,6 +180,8 @@ def _rounds(subject: Subject, count: int) -> dict[str, Any]:
         "jpeg": (_nothing, lambda number: detector.look(shown[number].color)),
         "whole": (_nothing, lambda number: whole(shown[number])),
     }
+    if bare is not None:
+        ways["bare"] = (bare.ready, lambda _: bare.run())
     if network is not None:
         ways["opencv"] = (_nothing, opencv)
     detections = sum(len(detector.find(picture)) for picture in pictures) / len(pictures)
@@ -184,6 +209,12 @@ def _frame_ms(ready: Callable[[int], Any], work: Callable[[int], Any]) -> float:
         work(number)
         took_ms.append((time.perf_counter() - began_s) * 1e3)
     return median(took_ms)
+
+
+def _bare(model: Path, inputs: Sequence[Any]) -> BareNet:
+    """Return a model's network alone, ready for the same frames."""
+    with TemporaryDirectory() as folder:
+        return BareNet(model, inputs, THREADS, Path(folder))
 
 
 def _opencv(model: Path) -> tuple[Any, str]:

@@ -11,15 +11,17 @@ from planner.vision.detect.header import read_header
 from planner.vision.worker import DEFAULT_MODEL
 
 SUBJECT = Subject("default", DEFAULT_MODEL)
+TIMED: dict[str, Any] = {
+    "raw": [10.0], "bare": [], "look": [10.2], "jpeg": [10.4], "whole": [11.0],
+    "opencv": [], "refused": "", "detections": 0.0,
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(("found", "valid"), [(2.5, True), (0.0, False)])
 def test_looks_that_find_nothing_stop_early_and_count_for_nothing(
     found: float, valid: bool
 ) -> None:
-    data: dict[str, Any] = {"raw": [10.0], "look": [10.2], "jpeg": [10.4], "whole": [11.0],
-                            "opencv": [], "refused": "", "detections": found}  # fmt: skip
-    rows = {row.what: row for row in _time_rows(SUBJECT, data)}
+    rows = {row.what: row for row in _time_rows(SUBJECT, TIMED | {"detections": found})}
     look = rows["default: look over raw"]
     assert look.figures is not None
     assert look.figures.p50 == pytest.approx(2.0)
@@ -30,6 +32,19 @@ def test_looks_that_find_nothing_stop_early_and_count_for_nothing(
     assert whole.figures is not None
     assert whole.figures.p50 == pytest.approx(10.0)
     assert rows["default: raw session.run"].valid
+
+
+def test_a_look_is_held_against_the_bare_network_too_where_that_was_timed() -> None:
+    data = TIMED | {"bare": [8.0]}
+    rows = {row.what: row for row in _time_rows(SUBJECT, data)}
+    over = rows["default: look over bare net"]
+    assert over.figures is not None
+    assert over.figures.p50 == pytest.approx(27.5)
+    assert (over.goal, over.valid) == ("", False)
+    figures = rows["default: bare net"].figures
+    assert figures is not None
+    assert figures.p50 == 8.0
+    assert "default: bare net" not in {row.what for row in _time_rows(SUBJECT, TIMED)}
 
 
 def test_frames_are_drawn_as_the_camera_sends_them() -> None:
