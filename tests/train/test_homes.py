@@ -12,12 +12,13 @@ import pytest
 from planner.settings.vision import VisionSettings
 from planner.vision.detect.least import KEY as KEY_READ
 from planner.vision.detect.least import MIN_SCORE as BELIEVED
+from planner.vision.detect.nms import MAX_OVERLAP
 from sim.camera import Appearance, Renderer
 from sim.camera.scene import instances
 from sim.site.classes import CLASSES as OF_THE_SIMULATOR
 from sim.site.plan import solids
 from train.boxes import boxes, hulls, whole_box
-from train.budget import CLASSES, MIN_SCORE
+from train.budget import CLASSES, MIN_SCORE, SAME
 from train.frames import home_frames
 from train.homes import drawn_home
 from train.judge import KEY as KEY_WRITTEN
@@ -41,6 +42,7 @@ def test_classes_and_least_score_are_those_of_simulator_and_planner() -> None:
     assert VisionSettings().min_score is None
     assert BELIEVED == MIN_SCORE
     assert KEY_READ == KEY_WRITTEN
+    assert MAX_OVERLAP == SAME
 
 
 def test_homes_are_repeatable_and_those_never_shown_are_others(home: Home) -> None:
