@@ -135,7 +135,7 @@ def _between(low: float, high: float, limit: int, begin: float, end: float) -> s
     side = high - low
     first = min(max(0, int(low + begin * side)), limit - 1)
     last = min(max(first + 1, ceil(low + end * side)), limit)
-    return slice(first, last, max(1, (last - first) // MOST_PIXELS_A_SIDE))
+    return slice(first, last, ceil((last - first) / MOST_PIXELS_A_SIDE))
 
 
 def foreground(

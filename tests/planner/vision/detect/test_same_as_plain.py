@@ -21,6 +21,7 @@ from planner.vision.colors_pixels import IDS, _table
 from planner.vision.detect import Detector, Wanted
 from planner.vision.detect.decoders import ALL
 from planner.vision.detect.facts import Facts
+from planner.vision.detect.found import believed, fenced
 from planner.vision.detect.pictures import Picture
 
 Box = tuple[float, float, float, float]
@@ -103,13 +104,13 @@ def plainly(detector: Detector, picture: Picture) -> list[Row]:
 
 def color(picture: Picture, box: Box) -> str | None:
     """Return the colour of a box's middle as it is told: brighten, then let each pixel vote."""
-    bright = float(np.percentile(picture[::8, ::8].max(axis=2), 90))
+    bright = float(np.percentile(picture[::16, ::16].max(axis=2), 90))
     gain = np.float32(min(4.0, max(1.0, 235.0 / max(1.0, bright))))
 
     def part(low: float, high: float, limit: int) -> slice:
         first = min(max(0, int(low + 0.25 * (high - low))), limit - 1)
         last = min(max(first + 1, ceil(low + 0.75 * (high - low))), limit)
-        return slice(first, last, max(1, (last - first) // 32))
+        return slice(first, last, ceil((last - first) / 32))
 
     height, width = picture.shape[:2]
     pixels = picture[part(box[1], box[3], height), part(box[0], box[2], width)].reshape(-1, 3)
@@ -158,7 +159,7 @@ def test_any_output_is_read_as_row_by_row(name: str, bad: float) -> None:
     out = rows.T[None] if name == "yolov8" else rows[None]
     facts = Facts({"out": out.shape}, {}, ("a", "b", "c"), "labels", SIDE, SIDE)
     with np.errstate(invalid="ignore"):
-        found = ALL[name](facts).decode([out], LEAST)
+        found = believed(ALL[name](facts).decode([out], LEAST), fenced([LEAST] * 3))
         plain = raw_yolox(rows, SIDE, SIDE) if name == "yolox" else rows_of_cells(rows, objectness)
     assert len(plain) > 10
     assert found.classes.tolist() == [row[1] for row in plain]
