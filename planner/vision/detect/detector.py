@@ -128,11 +128,10 @@ class Detector:
         """Return the boxes in an unpacked picture, in its pixels, the surest first."""
         _, placed = self._preparer.prepare(picture)
         outputs = self.model.session.run(self._feeds)
-        if senseless(outputs):
+        found = believed(self._decoder.decode(outputs, self._lowest), self._least)
+        if not len(found) and senseless(outputs):
             # To be told of as a failure: an empty picture would be a thing's absence.
             raise ArithmeticError("no number came out that is finite")
-        found = self._decoder.decode(outputs, self._lowest)
-        found = believed(found, self._least)
         found = in_picture(found, placed, picture.shape[1], picture.shape[0])
         return suppress(found) if self._decoder.SUPPRESS else strongest(found, MAX_FOUND)
 

@@ -13,13 +13,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.vision.detect.decoders.base import GRIDS, best_class, finite_rows, floats
+from planner.vision.detect.decoders.base import GRIDS, best_class, floats
 from planner.vision.detect.facts import Facts
 from planner.vision.detect.found import Found, from_centres
 from planner.vision.detect.prepare import Floats, Recipe
 
 RAW_REACH = 12.0
-"""Raw numbers are offsets and logarithms, 3.8 at most in ten pictures; decoded ones are pixels."""
+"""Raw numbers are offsets and logarithms, 3.8 at most in ten pictures; decoded ones are pixels. A
+row with a larger one is no box: e^12 strides are 1 300 000 px."""
 
 
 class YoloX:
@@ -33,7 +34,7 @@ class YoloX:
     def __init__(self, facts: Facts) -> None:
         """Lay out the grid once."""
         strides = _strides(facts) or GRIDS[0]
-        self._corners, self._strides = grid(facts.width, facts.height, strides)
+        self._grid = np.hstack(grid(facts.width, facts.height, strides))
 
     @classmethod
     def classes_of(cls, facts: Facts) -> int | None:
@@ -51,17 +52,18 @@ class YoloX:
             return Found.none()
         rows = rows.take(candidates, axis=0)
         scores, classes = best_class(rows)
-        kept = ((scores >= min_score) & finite_rows(rows)).nonzero()[0]
-        return Found(self._boxes(rows[kept, :4], candidates[kept]), scores[kept], classes[kept])
+        reach = np.abs(rows[:, :4]).max(axis=1)
+        kept = ((scores >= min_score) & (reach <= RAW_REACH)).nonzero()[0]  # NaN is neither
+        boxes = self._boxes(rows.take(kept, axis=0)[:, :4], candidates[kept])
+        return Found(boxes, scores[kept], classes[kept])
 
     def _boxes(self, raw: Floats, cells: NDArray[np.intp]) -> Floats:
-        """Return what some cells say of their boxes, in input pixels."""
-        placed = raw.copy()
-        placed[:, :2] += self._corners[cells]
-        with np.errstate(over="ignore"):  # an infinite box is believed by nobody
-            np.exp(placed[:, 2:], out=placed[:, 2:])
-            placed *= self._strides[cells]
-        return from_centres(placed)
+        """Return what some cells say of their boxes, in input pixels; written over what is raw."""
+        grid = self._grid.take(cells, axis=0)
+        raw[:, :2] += grid[:, :2]
+        np.exp(raw[:, 2:], out=raw[:, 2:])
+        raw *= grid[:, 2:]
+        return from_centres(raw)
 
 
 def grid(width: int, height: int, strides: Sequence[int]) -> tuple[Floats, Floats]:
