@@ -61,7 +61,7 @@ def test_the_middle_of_any_box_is_in_the_picture_and_not_large(
 ) -> None:
     picture, depth = scene()
     rows, columns = inner(box, 80, 80)
-    assert 0 < min(picture[rows, columns].shape[:2])
+    assert min(picture[rows, columns].shape[:2]) > 0
     assert max(picture[rows, columns].shape[:2]) <= MOST_PIXELS_A_SIDE
     look_inside(picture, depth, box)
 
