@@ -9,13 +9,15 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 
+import numpy as np
+
 from planner.vision.colors_pixels import dark, exposure
-from planner.vision.detect.found import Found, believed, fenced, in_picture
+from planner.vision.detect.found import Row, believed, in_picture
 from planner.vision.detect.hints import hints
 from planner.vision.detect.inner import ANY, look_inside
 from planner.vision.detect.least import least_scores
 from planner.vision.detect.model_file import Model, Wanted, open_model
-from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
+from planner.vision.detect.nms import strongest, suppress
 from planner.vision.detect.pictures import Depth, Picture, unpack_color, unpack_depth
 from planner.vision.detect.prepare import Preparer
 from planner.vision.detect.prepare_bytes import preparer
@@ -47,7 +49,7 @@ class Detector:
         choice, taken = self.model.choice, self.model.input
         metadata, count = self.model.session.metadata, len(choice.classes)
         scores, least = least_scores(metadata, count, min_score)
-        self._least, self._lowest = fenced(scores), min(scores)
+        self._least, self._lowest = scores, min(scores)
         self._decoder, self._classes = choice.decoder, choice.classes
         self._kinds = [kind_of(canonical(label)) for label in self._classes]
         self._preparer: Preparer = preparer(self._decoder.RECIPE, taken)
@@ -124,16 +126,16 @@ class Detector:
         """
         return self._detections(self.boxes(picture), picture, depth, focal_px)
 
-    def boxes(self, picture: Picture) -> Found:
+    def boxes(self, picture: Picture) -> list[Row]:
         """Return the boxes in an unpacked picture, in its pixels, the surest first."""
         _, placed = self._preparer.prepare(picture)
         outputs = self.model.session.run(self._feeds)
         found = believed(self._decoder.decode(outputs, self._lowest), self._least)
-        if not len(found) and senseless(outputs):
+        if not found and senseless(outputs):
             # To be told of as a failure: an empty picture would be a thing's absence.
             raise ArithmeticError("no number came out that is finite")
         found = in_picture(found, placed, picture.shape[1], picture.shape[0])
-        return suppress(found) if self._decoder.SUPPRESS else strongest(found, MAX_FOUND)
+        return suppress(found) if self._decoder.SUPPRESS else strongest(found)
 
     def prepare(self, picture: Picture) -> Array:
         """Return the model's input for a picture; the next picture is written over it."""
@@ -144,27 +146,22 @@ class Detector:
         return {self.model.input.name: buffer, **self.model.beside}
 
     def _detections(
-        self, found: Found, picture: Picture, depth: Depth | None, focal_px: float | None
+        self, rows: list[Row], picture: Picture, depth: Depth | None, focal_px: float | None
     ) -> tuple[Detection, ...]:
-        if not len(found):
+        if not rows:
             return ()
-        # As Python's numbers from here on: a numpy scalar costs ten times as much to reckon with.
-        boxes, numbers = found.boxes.tolist(), found.classes.tolist()
-        told = [ANY] * len(found)
+        told = [ANY] * len(rows)
         if depth is not None:
-            kinds = [self._kinds[number] for number in numbers]
-            size = (picture.shape[1], picture.shape[0])
-            told = hints(found.boxes, kinds, size, focal_px)
+            boxes = np.array([row[:4] for row in rows], np.float32)
+            kinds = [self._kinds[row[5]] for row in rows]
+            told = hints(boxes, kinds, (picture.shape[1], picture.shape[0]), focal_px)
         gain = exposure(picture)
         made: list[Detection] = []
-        for box, score, number, hint in zip(
-            boxes, found.scores.tolist(), numbers, told, strict=True
-        ):
+        for (left, top, right, bottom, score, number), hint in zip(rows, told, strict=True):
             if label := self._classes[number]:
+                box = (left, top, right, bottom)
                 seen = look_inside(picture, depth, box, hint, gain)
-                made.append(
-                    Detection(label, score, tuple(box), seen.color, seen.depth_m, seen.spread_m)
-                )
+                made.append(Detection(label, score, box, seen.color, seen.depth_m, seen.spread_m))
         return tuple(made)
 
 

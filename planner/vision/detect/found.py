@@ -1,48 +1,31 @@
-"""Own boxes as arrays while they are many: believe finite ones only, bring them to the picture."""
+"""Own what is found as rows of numbers: believe possible ones only, bring them to the picture.
+
+Few rows are left once a decoder has read its output, and right after a run numpy's calls are cold:
+5 to 10 us each. As Python's own numbers a row or two take a quarter of the time; what many rows
+would cost is bounded by ``MAX_CANDIDATES``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import inf
+from collections.abc import Iterable, Sequence
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.vision.detect.prepare import Floats, Placed
 
-Ints = NDArray[np.intp]
+Row = tuple[float, float, float, float, float, int]
+"""Left, top, right, bottom [px], score, number of the class."""
+MAX_CANDIDATES = 300
 MIN_SIDE_PX = 1.0
 """A thinner box shows nothing that a depth or a colour could be read from."""
 HIGHEST_SCORE = 1.001
 """One, and what half precision makes of it."""
-
 EDGES: Floats = np.array(
     [[1, 0, 1, 0], [0, 1, 0, 1], [-0.5, 0, 0.5, 0], [0, -0.5, 0, 0.5]], np.float32
 )
 """Centre and size times this are left, top, right and bottom."""
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """Hold boxes with their scores and classes, row by row."""
-
-    boxes: Floats
-    """n x 4: left, top, right, bottom [px]."""
-    scores: Floats
-    classes: Ints
-
-    @classmethod
-    def none(cls) -> Found:
-        """Return no boxes."""
-        return cls(np.empty((0, 4), np.float32), np.empty(0, np.float32), np.empty(0, np.intp))
-
-    def __len__(self) -> int:
-        return len(self.scores)
-
-    def only(self, rows: NDArray[np.bool_] | Ints) -> Found:
-        """Return some of the rows."""
-        return Found(self.boxes[rows], self.scores[rows], self.classes[rows])
 
 
 def from_centres(cxcywh: Floats) -> Floats:
@@ -50,39 +33,39 @@ def from_centres(cxcywh: Floats) -> Floats:
     return np.asarray(cxcywh[:, :4] @ EDGES)
 
 
-def fenced(least: Sequence[float]) -> Floats:
-    """Return how high each class must score, in the model's order, between two never reached."""
-    return np.array((inf, *least, inf), np.float32)
+def rows_of(boxes: Floats, scores: Floats, classes: NDArray[np.integer]) -> list[Row]:
+    """Return boxes (n x 4), scores and classes (n) as rows: of very many those that score most."""
+    if len(scores) > MAX_CANDIDATES:
+        best = np.argsort(-scores, kind="stable")[:MAX_CANDIDATES]
+        boxes, scores, classes = boxes[best], scores[best], classes[best]
+    told = zip(boxes.tolist(), scores.tolist(), classes.tolist(), strict=True)
+    return [(*box, score, number) for box, score, number in told]
 
 
-def believed(found: Found, least: Floats) -> Found:
-    """Keep rows whose every number is possible; NaN and infinity fail by themselves.
+def believed(rows: Iterable[Row], least: Sequence[float]) -> list[Row]:
+    """Return rows whose every number is possible; NaN and infinity fail by themselves.
 
     Args:
-        found: as it was decoded.
-        least: of :func:`fenced`: what is no class meets a fence.
+        rows: as they were decoded.
+        least: how high each class must score, in the model's order.
     """
-    if not len(found):
-        return found
-    kept = found.scores >= least.take(found.classes + 1, mode="clip")
-    kept &= found.scores <= HIGHEST_SCORE
-    finite = np.isfinite(found.boxes)
-    if not finite.all():
-        kept &= finite.all(axis=1)
-    found = found if kept.all() else found.only(kept)
-    return Found(found.boxes, np.minimum(found.scores, np.float32(1.0)), found.classes)
+    return [
+        (*row[:4], min(row[4], 1.0), row[5])
+        for row in rows
+        if 0 <= row[5] < len(least)
+        and least[row[5]] <= row[4] <= HIGHEST_SCORE
+        and isfinite(row[0] + row[1] + row[2] + row[3])
+    ]
 
 
-def in_picture(found: Found, placed: Placed, width: int, height: int) -> Found:
+def in_picture(rows: Iterable[Row], placed: Placed, width: int, height: int) -> list[Row]:
     """Return the input's boxes as the picture's, cut at its borders, without slivers."""
-    if not len(found):
-        return found
-    boxes = found.boxes
-    if not placed.as_it_is:
-        boxes = boxes - np.array((placed.left, placed.top) * 2, np.float32)
-        boxes /= np.array((placed.scale_x, placed.scale_y) * 2, np.float32)
-    boxes = np.maximum(boxes, np.float32(0.0))
-    np.minimum(boxes, np.array((width, height) * 2, np.float32), out=boxes)
-    sides = boxes[:, 2:] - boxes[:, :2]
-    found = Found(boxes, found.scores, found.classes)
-    return found if sides.min() >= MIN_SIDE_PX else found.only(sides.min(axis=1) >= MIN_SIDE_PX)
+    found: list[Row] = []
+    for left, top, right, bottom, score, number in rows:
+        x0 = max(0.0, (left - placed.left) / placed.scale_x)
+        y0 = max(0.0, (top - placed.top) / placed.scale_y)
+        x1 = min(float(width), (right - placed.left) / placed.scale_x)
+        y1 = min(float(height), (bottom - placed.top) / placed.scale_y)
+        if x1 - x0 >= MIN_SIDE_PX and y1 - y0 >= MIN_SIDE_PX:
+            found.append((x0, y0, x1, y1, score, number))
+    return found

@@ -9,31 +9,23 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from planner.vision.detect.found import Found
+from planner.vision.detect.found import Row
 
 MAX_OVERLAP = 0.5
 """Intersection over union above which the weaker box goes."""
-MAX_CANDIDATES = 300
 MAX_FOUND = 100
 
 
-def suppress(found: Found, max_overlap: float = MAX_OVERLAP) -> Found:
+def suppress(rows: list[Row], max_overlap: float = MAX_OVERLAP) -> list[Row]:
     """Return the strongest boxes, strongest first. Boxes must lie inside the picture."""
-    if len(found) < 2:
-        return found
-    if len(found) > MAX_CANDIDATES:
-        found = strongest(found, MAX_CANDIDATES)
-    rectangles = found.boxes.astype(np.float64)
-    rectangles[:, 2:] -= rectangles[:, :2]
-    kept = cv2.dnn.NMSBoxesBatched(
-        rectangles.tolist(), found.scores.tolist(), found.classes.tolist(), 0.0, max_overlap
-    )
-    return found.only(np.asarray(kept, np.intp).reshape(-1)[:MAX_FOUND])
+    if len(rows) < 2:
+        return rows
+    rectangles = [(left, top, right - left, bottom - top) for left, top, right, bottom, *_ in rows]
+    scores, classes = [row[4] for row in rows], [row[5] for row in rows]
+    kept = cv2.dnn.NMSBoxesBatched(rectangles, scores, classes, 0.0, max_overlap)
+    return [rows[at] for at in np.asarray(kept, np.intp).reshape(-1)[:MAX_FOUND].tolist()]
 
 
-def strongest(found: Found, count: int) -> Found:
-    """Return at most so many, the highest scores first."""
-    if len(found) <= count and (found.scores[:-1] >= found.scores[1:]).all():
-        return found
-    order = np.argsort(-found.scores, kind="stable")[:count]
-    return found.only(order)
+def strongest(rows: list[Row]) -> list[Row]:
+    """Return at most so many as a picture may show, the highest scores first."""
+    return sorted(rows, key=lambda row: -row[4])[:MAX_FOUND]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found
+from planner.vision.detect.found import Row
 from planner.vision.detect.prepare import Floats, Recipe
 
 GRIDS = ((8, 16, 32), (8, 16, 32, 64))
@@ -36,7 +36,7 @@ class Decoder(Protocol):
     def classes_of(cls, facts: Facts) -> int | None:
         """Return how many classes the outputs tell of; None where they are of another layout."""
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         """Return boxes in input pixels. What is not finite is left out, or left to `believed`."""
 
 

@@ -6,6 +6,7 @@ YOLOv10 and YOLO26 are made so, others by their exporter's ``nms`` option. Boxes
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 from typing import ClassVar
 
 import numpy as np
@@ -13,11 +14,8 @@ from numpy.typing import NDArray
 
 from planner.vision.detect.decoders.base import GRIDS, UNTOLD
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found
+from planner.vision.detect.found import Row
 from planner.vision.detect.prepare import Recipe
-
-MOST = 1e6
-"""Far above any count of classes, and inside what an integer can hold."""
 
 
 class EndToEnd:
@@ -42,14 +40,9 @@ class EndToEnd:
         cells = {facts.cells(strides) for strides in GRIDS} - {0}
         return None if shape[-2] in cells | {3 * count for count in cells} else UNTOLD
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
-        # Few rows, and numpy is cold after a run: as Python's numbers they take half the time.
-        rows = [
-            row
-            for row in outputs[0].reshape(-1, 6).tolist()
-            if row[4] >= min_score and 0.0 <= row[5] <= MOST and row[5] % 1.0 == 0.0
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
+        return [
+            (left, top, right, bottom, score, int(number))
+            for left, top, right, bottom, score, number in outputs[0].reshape(-1, 6).tolist()
+            if score >= min_score and isfinite(number) and number == int(number)
         ]
-        if not rows:
-            return Found.none()
-        numbers = np.array(rows, np.float32)
-        return Found(numbers[:, :4], numbers[:, 4], numbers[:, 5].astype(np.intp))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from planner.vision.detect.decoders.base import finite_rows, floats
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found, from_centres
+from planner.vision.detect.found import Row, from_centres, rows_of
 from planner.vision.detect.prepare import Recipe
 
 OUTPUTS = ("dets", "labels")
@@ -48,7 +48,7 @@ class RfDetr:
         both = len(dets) == len(labels) == 3 and dets[:2] == labels[:2] and dets[0] == 1
         return labels[2] if both and dets[2] == 4 and labels[2] > 0 else None
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         dets, logits = (floats(outputs[at]) for at in self._at)
         # Asked as a logit, so that only what is kept needs an exponential.
         kept = logits.max(axis=1) >= log(min_score / (1.0 - min_score))
@@ -56,4 +56,4 @@ class RfDetr:
         classes = logits[kept].argmax(axis=1)
         scores = 1.0 / (1.0 + np.exp(-logits[kept].max(axis=1, initial=-np.inf)))
         boxes = from_centres(dets[kept] * self._size)
-        return Found(boxes, scores.astype(np.float32), classes)
+        return rows_of(boxes, scores, classes)

@@ -12,9 +12,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.vision.detect.decoders.base import UNTOLD, finite_rows, floats
+from planner.vision.detect.decoders.base import UNTOLD, floats
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found
+from planner.vision.detect.found import Row, rows_of
 from planner.vision.detect.prepare import Recipe
 
 SIZES = "orig_target_sizes"
@@ -41,10 +41,11 @@ class RtDetr:
         one_picture = len(scores) == 2 and scores[0] == 1
         return UNTOLD if one_picture and labels == scores and boxes == (*scores, 4) else None
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         labels, boxes, scores = (outputs[at] for at in self._at)
-        found = Found(floats(boxes), floats(scores), _numbers(labels))
-        return found.only((found.scores >= min_score) & finite_rows(found.boxes))
+        scores = floats(scores)
+        kept = scores >= min_score
+        return rows_of(floats(boxes)[kept], scores[kept], _numbers(labels)[kept])
 
 
 def _numbers(labels: NDArray[np.generic]) -> NDArray[np.intp]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from planner.vision.detect.decoders.base import finite_rows, floats
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found, from_centres
+from planner.vision.detect.found import Row, from_centres, rows_of
 from planner.vision.detect.prepare import Recipe
 
 MAX_QUERIES = 1000
@@ -36,9 +36,9 @@ class RtDetrRows:
         # Nothing in the shape tells it from others; the names do.
         return shape[2] - 4 if shape[2] - 4 == len(facts.names) else None
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         rows = floats(outputs[0])
         rows = rows[finite_rows(rows)]
         rows = rows[rows[:, 4:].max(axis=1, initial=0.0) >= min_score]
         boxes = from_centres(rows[:, :4] * self._size)
-        return Found(boxes, rows[:, 4:].max(axis=1, initial=0.0), rows[:, 4:].argmax(axis=1))
+        return rows_of(boxes, rows[:, 4:].max(axis=1, initial=0.0), rows[:, 4:].argmax(axis=1))

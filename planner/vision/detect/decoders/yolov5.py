@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from planner.vision.detect.decoders.base import GRIDS, by_objectness, floats
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found, from_centres
+from planner.vision.detect.found import Row, from_centres, rows_of
 from planner.vision.detect.prepare import Recipe
 
 ANCHORS = 3
@@ -39,8 +39,8 @@ class YoloV5:
         counts = {ANCHORS * facts.cells(strides) for strides in GRIDS} - {0}
         return shape[2] - 5 if shape[1] in counts else None
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         rows = floats(outputs[0])
         # No class raises a score above its objectness, so most rows are done with here.
         boxes, scores, classes = by_objectness(rows[rows[:, 4] >= min_score], min_score)
-        return Found(from_centres(boxes), scores, classes)
+        return rows_of(from_centres(boxes), scores, classes)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from planner.vision.detect.decoders.base import GRIDS, finite_rows, floats
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found, from_centres
+from planner.vision.detect.found import Row, from_centres, rows_of
 from planner.vision.detect.prepare import Recipe
 
 
@@ -38,7 +38,7 @@ class YoloV8:
         named = count == len(facts.names)
         return count if count > 0 and (named or _cells_at(facts) is not None) else None
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         columns = floats(outputs[0])
         if self._turned:
             columns = columns.T
@@ -46,11 +46,11 @@ class YoloV8:
         best = columns[4:].max(axis=0)
         candidates = (best >= min_score).nonzero()[0]
         if not len(candidates):
-            return Found.none()
+            return []
         kept = columns.take(candidates, axis=1)
         rows = kept.T[finite_rows(kept.T)]
         classes = rows[:, 4:].argmax(axis=1)
-        return Found(from_centres(rows), rows[:, 4:].max(axis=1), classes)
+        return rows_of(from_centres(rows), rows[:, 4:].max(axis=1), classes)
 
 
 def _cells_at(facts: Facts) -> int | None:

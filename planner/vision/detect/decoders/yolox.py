@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from planner.vision.detect.decoders.base import GRIDS, best_class, floats
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found, from_centres
+from planner.vision.detect.found import Row, from_centres, rows_of
 from planner.vision.detect.prepare import Floats, Recipe
 
 RAW_REACH = 12.0
@@ -44,18 +44,18 @@ class YoloX:
         fits = _strides(facts) is not None and facts.largest <= RAW_REACH
         return shape[2] - 5 if fits else None
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         rows = floats(outputs[0])
         # No class raises a score above its objectness, so most rows are done with here.
         candidates = (rows[:, 4] >= min_score).nonzero()[0]
         if not len(candidates):
-            return Found.none()
+            return []
         rows = rows.take(candidates, axis=0)
         scores, classes = best_class(rows)
         reach = np.abs(rows[:, :4]).max(axis=1)
         kept = ((scores >= min_score) & (reach <= RAW_REACH)).nonzero()[0]  # NaN is neither
         boxes = self._boxes(rows.take(kept, axis=0)[:, :4], candidates[kept])
-        return Found(boxes, scores[kept], classes[kept])
+        return rows_of(boxes, scores[kept], classes[kept])
 
     def _boxes(self, raw: Floats, cells: NDArray[np.intp]) -> Floats:
         """Return what some cells say of their boxes, in input pixels; written over what is raw."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planner.vision.detect.decoders.base import by_objectness, floats
 from planner.vision.detect.decoders.yolox import RAW_REACH, YoloX
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import Found, from_centres
+from planner.vision.detect.found import Row, from_centres, rows_of
 from planner.vision.detect.prepare import Recipe
 
 
@@ -33,7 +33,7 @@ class YoloXDecoded:
             return None
         return YoloX.classes_of(replace(facts, largest=0.0))
 
-    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> Found:
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
         rows = floats(outputs[0])
         boxes, scores, classes = by_objectness(rows[rows[:, 4] >= min_score], min_score)
-        return Found(from_centres(boxes), scores, classes)
+        return rows_of(from_centres(boxes), scores, classes)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from planner.vision.detect import Detector, Wanted
-from planner.vision.detect.found import Found, believed, fenced
+from planner.vision.detect.found import Row, believed
 from planner.vision.detect.least import MIN_SCORE, least_scores
 from tests.planner.vision.detect import tiny
 
@@ -30,14 +29,11 @@ def test_what_is_no_score_for_each_class_is_not_meant_for_us(text: str) -> None:
 
 
 def test_each_class_has_a_least_score_of_its_own() -> None:
-    found = Found(
-        np.array([[0, 0, 9, 9]] * 4, np.float32),
-        np.array([0.5, 0.5, 0.6, 0.4], np.float32),
-        np.array([0, 1, 1, 0]),
-    )
-    kept = believed(found, fenced([0.45, 0.55]))
-    assert kept.classes.tolist() == [0, 1]
-    assert kept.scores.tolist() == pytest.approx([0.5, 0.6])
+    rows: list[Row] = [
+        (0.0, 0.0, 9.0, 9.0, score, number)
+        for score, number in ((0.5, 0), (0.5, 1), (0.6, 1), (0.4, 0))
+    ]
+    assert believed(rows, [0.45, 0.55]) == [rows[0], rows[2]]
 
 
 def test_a_detector_believes_as_its_file_says(tmp_path: Path) -> None:

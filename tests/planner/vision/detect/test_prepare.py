@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from math import inf, nan
 from typing import Literal
 
 import numpy as np
@@ -10,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.vision.detect.found import Found, believed, fenced, in_picture
-from planner.vision.detect.nms import strongest, suppress
+from planner.vision.detect.found import MAX_CANDIDATES, Row, believed, in_picture, rows_of
+from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
 from planner.vision.detect.prepare import BORDER, FloatPreparer, Preparer, Recipe, place
 from planner.vision.detect.prepare_bytes import BytePreparer
 
@@ -98,37 +99,48 @@ def test_a_box_comes_back_from_where_it_was_placed(
     assert 0 <= placed.left <= placed.left + placed.width <= size[0]
     assert 0 <= placed.top <= placed.top + placed.height <= size[1]
     whole = (placed.left, placed.top, placed.left + placed.width, placed.top + placed.height)
-    found = Found(np.array([whole], np.float32), np.ones(1, np.float32), np.zeros(1, np.intp))
-    (box,) = in_picture(found, placed, *picture).boxes
-    assert box == pytest.approx((0, 0, *picture), abs=0.01)
+    ((*box, _, _),) = in_picture([(*whole, 0.9, 0)], placed, *picture)
+    assert box == pytest.approx([0, 0, *picture], abs=0.01)
 
 
-def test_only_possible_rows_are_believed() -> None:
-    boxes = np.array([[0, 0, 9, 9]] * 8, np.float32)
-    boxes[1, 2] = np.nan
-    scores = np.array([0.9, 0.9, np.nan, 1.5, 0.9, 1.0005, 0.3, 0.9], np.float32)
-    classes = np.array([0, 0, 0, 0, 5, 1, 1, -1])
-    kept = believed(Found(boxes, scores, classes), fenced([0.4, 0.4]))
-    assert kept.scores.tolist() == pytest.approx([0.9, 1.0])
+BOX = (0.0, 0.0, 9.0, 9.0)
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        (0.0, 0.0, nan, 9.0, 0.9, 0),
+        (-inf, 0.0, inf, 9.0, 0.9, 0),
+        (*BOX, nan, 0),
+        (*BOX, 1.5, 0),
+        (*BOX, 0.3, 1),
+        (*BOX, 0.9, 5),
+        (*BOX, 0.9, -1),
+    ],
+)
+def test_only_possible_rows_are_believed(row: Row) -> None:
+    good, halved = (*BOX, 0.9, 0), (*BOX, 1.0005, 1)
+    assert believed([good, row, halved], [0.4, 0.4]) == [good, (*BOX, 1.0, 1)]
 
 
 def test_slivers_and_what_lies_outside_the_picture_are_left_out() -> None:
-    boxes = np.array([[-90, -90, -5, -5], [10, 10, 10.4, 40], [-5, -5, 900, 900]], np.float32)
-    found = Found(boxes, np.ones(3, np.float32), np.zeros(3, np.intp))
-    kept = in_picture(found, place((64, 64), (64, 64), "centred"), 64, 64)
-    assert kept.boxes.tolist() == [[0, 0, 64, 64]]
+    boxes = [(-90, -90, -5, -5), (10, 10, 10.4, 40), (80, 80, 90, 90), (-5, -5, 900, 900)]
+    rows: list[Row] = [(*box, 0.9, 0) for box in boxes]
+    kept = in_picture(rows, place((64, 64), (64, 64), "centred"), 64, 64)
+    assert kept == [(0, 0, 64, 64, 0.9, 0)]
 
 
-@pytest.mark.parametrize("scores", [[0.9, 0.8, 0.7], [0.7, 0.9, 0.8]])
-def test_at_most_so_many_are_left_the_strongest_first(scores: list[float]) -> None:
-    rows = np.array(scores, np.float32)
-    found = Found(np.zeros((3, 4), np.float32), rows, np.zeros(3, np.intp))
-    for count in (2, 3, 9):
-        kept = strongest(found, count).scores
-        assert kept.tolist() == sorted(rows.tolist(), reverse=True)[:count]
+def test_at_most_so_many_are_left_the_strongest_first() -> None:
+    scores = np.random.default_rng(3).permutation(MAX_CANDIDATES + 50) / 1000
+    boxes = np.tile(np.array(BOX, np.float32), (len(scores), 1))
+    rows = rows_of(boxes, scores.astype(np.float32), np.arange(len(scores)))
+    assert len(rows) == MAX_CANDIDATES
+    assert {scores[row[5]] for row in rows} == set(np.sort(scores)[-MAX_CANDIDATES:])
+    kept = [row[4] for row in strongest(rows)]
+    assert kept == sorted((row[4] for row in rows), reverse=True)[:MAX_FOUND]
 
 
-def overlap(one: list[float], other: list[float]) -> float:
+def overlap(one: Sequence[float], other: Sequence[float]) -> float:
     wide = min(one[2], other[2]) - max(one[0], other[0])
     high = min(one[3], other[3]) - max(one[1], other[1])
     if wide <= 0 or high <= 0:
@@ -144,14 +156,11 @@ def test_suppression_is_the_greedy_one_class_by_class(seed: int, count: int) -> 
     corners = rng.uniform(0, 60, (count, 2))
     boxes = np.concatenate((corners, corners + rng.uniform(5, 40, (count, 2))), axis=1)
     scores = rng.permutation(count).astype(np.float32) / count * 0.5 + 0.4
-    found = Found(boxes.astype(np.float32), scores.astype(np.float32), rng.integers(0, 3, count))
-    kept: list[int] = []
-    for row in np.argsort(-found.scores):
-        rivals = [it for it in kept if found.classes[it] == found.classes[row]]
-        if all(
-            overlap(found.boxes[it].tolist(), found.boxes[row].tolist()) <= 0.5 for it in rivals
-        ):
-            kept.append(int(row))
-    got = suppress(found)
-    assert got.boxes.tolist() == found.only(np.array(kept)).boxes.tolist()
-    assert got.classes.tolist() == found.classes[kept].tolist()
+    numbers = rng.integers(0, 3, count)
+    rows = rows_of(boxes.astype(np.float32), scores.astype(np.float32), numbers)
+    kept: list[Row] = []
+    for row in sorted(rows, key=lambda row: -row[4]):
+        rivals = [it for it in kept if it[5] == row[5]]
+        if all(overlap(it[:4], row[:4]) <= 0.5 for it in rivals):
+            kept.append(row)
+    assert suppress(rows) == kept

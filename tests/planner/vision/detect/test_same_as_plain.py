@@ -6,7 +6,6 @@ colours.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import product
 from math import ceil, exp
 from pathlib import Path
@@ -21,7 +20,7 @@ from planner.vision.colors_pixels import IDS, _table
 from planner.vision.detect import Detector, Wanted
 from planner.vision.detect.decoders import ALL
 from planner.vision.detect.facts import Facts
-from planner.vision.detect.found import believed, fenced
+from planner.vision.detect.found import believed
 from planner.vision.detect.pictures import Picture
 
 Box = tuple[float, float, float, float]
@@ -159,13 +158,9 @@ def test_any_output_is_read_as_row_by_row(name: str, bad: float) -> None:
     out = rows.T[None] if name == "yolov8" else rows[None]
     facts = Facts({"out": out.shape}, {}, ("a", "b", "c"), "labels", SIDE, SIDE)
     with np.errstate(invalid="ignore"):
-        found = believed(ALL[name](facts).decode([out], LEAST), fenced([LEAST] * 3))
+        found = believed(ALL[name](facts).decode([out], LEAST), [LEAST] * 3)
         plain = raw_yolox(rows, SIDE, SIDE) if name == "yolox" else rows_of_cells(rows, objectness)
     assert len(plain) > 10
-    assert found.classes.tolist() == [row[1] for row in plain]
-    assert np.allclose(found.scores, [row[0] for row in plain], atol=1e-6)
-    assert np.allclose(found.boxes, _boxes(plain), rtol=1e-5, atol=1e-4)
-
-
-def _boxes(rows: Sequence[Row]) -> list[Box]:
-    return [row[2] for row in rows]
+    assert [row[5] for row in found] == [row[1] for row in plain]
+    assert np.allclose([row[4] for row in found], [row[0] for row in plain], atol=1e-6)
+    assert np.allclose([row[:4] for row in found], [row[2] for row in plain], rtol=1e-5, atol=1e-4)
