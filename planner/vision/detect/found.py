@@ -1,8 +1,7 @@
 """Own what is found as rows of numbers: believe possible ones only, bring them to the picture.
 
 Few rows are left once a decoder has read its output, and right after a run numpy's calls are cold:
-5 to 10 us each. As Python's own numbers a row or two take a quarter of the time; what many rows
-would cost is bounded by ``MAX_CANDIDATES``.
+5 to 10 us each. As Python's own numbers a row or two take a quarter of the time.
 """
 
 from __future__ import annotations
@@ -17,7 +16,6 @@ from planner.vision.detect.prepare import Floats, Placed
 
 Row = tuple[float, float, float, float, float, int]
 """Left, top, right, bottom [px], score, number of the class."""
-MAX_CANDIDATES = 300
 MIN_SIDE_PX = 1.0
 """A thinner box shows nothing that a depth or a colour could be read from."""
 HIGHEST_SCORE = 1.001
@@ -34,10 +32,7 @@ def from_centres(cxcywh: Floats) -> Floats:
 
 
 def rows_of(boxes: Floats, scores: Floats, classes: NDArray[np.integer]) -> list[Row]:
-    """Return boxes (n x 4), scores and classes (n) as rows: of very many those that score most."""
-    if len(scores) > MAX_CANDIDATES:
-        best = np.argsort(-scores, kind="stable")[:MAX_CANDIDATES]
-        boxes, scores, classes = boxes[best], scores[best], classes[best]
+    """Return boxes (n x 4), scores and classes (n) as rows."""
     told = zip(boxes.tolist(), scores.tolist(), classes.tolist(), strict=True)
     return [(*box, score, number) for box, score, number in told]
 

@@ -13,6 +13,7 @@ from planner.vision.detect.found import Row
 
 MAX_OVERLAP = 0.5
 """Intersection over union above which the weaker box goes."""
+MAX_CANDIDATES = 300
 MAX_FOUND = 100
 
 
@@ -20,12 +21,14 @@ def suppress(rows: list[Row], max_overlap: float = MAX_OVERLAP) -> list[Row]:
     """Return the strongest boxes, strongest first. Boxes must lie inside the picture."""
     if len(rows) < 2:
         return rows
+    if len(rows) > MAX_CANDIDATES:
+        rows = strongest(rows, MAX_CANDIDATES)
     rectangles = [(left, top, right - left, bottom - top) for left, top, right, bottom, *_ in rows]
     scores, classes = [row[4] for row in rows], [row[5] for row in rows]
     kept = cv2.dnn.NMSBoxesBatched(rectangles, scores, classes, 0.0, max_overlap)
     return [rows[at] for at in np.asarray(kept, np.intp).reshape(-1)[:MAX_FOUND].tolist()]
 
 
-def strongest(rows: list[Row]) -> list[Row]:
-    """Return at most so many as a picture may show, the highest scores first."""
-    return sorted(rows, key=lambda row: -row[4])[:MAX_FOUND]
+def strongest(rows: list[Row], count: int = MAX_FOUND) -> list[Row]:
+    """Return at most so many, the highest scores first."""
+    return sorted(rows, key=lambda row: -row[4])[:count]

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.vision.detect.found import MAX_CANDIDATES, Row, believed, in_picture, rows_of
-from planner.vision.detect.nms import MAX_FOUND, strongest, suppress
+from planner.vision.detect.found import Row, believed, in_picture, rows_of
+from planner.vision.detect.nms import MAX_CANDIDATES, MAX_FOUND, strongest, suppress
 from planner.vision.detect.prepare import BORDER, FloatPreparer, Preparer, Recipe, place
 from planner.vision.detect.prepare_bytes import BytePreparer
 
@@ -132,12 +132,11 @@ def test_slivers_and_what_lies_outside_the_picture_are_left_out() -> None:
 
 def test_at_most_so_many_are_left_the_strongest_first() -> None:
     scores = np.random.default_rng(3).permutation(MAX_CANDIDATES + 50) / 1000
-    boxes = np.tile(np.array(BOX, np.float32), (len(scores), 1))
-    rows = rows_of(boxes, scores.astype(np.float32), np.arange(len(scores)))
-    assert len(rows) == MAX_CANDIDATES
-    assert {scores[row[5]] for row in rows} == set(np.sort(scores)[-MAX_CANDIDATES:])
-    kept = [row[4] for row in strongest(rows)]
-    assert kept == sorted((row[4] for row in rows), reverse=True)[:MAX_FOUND]
+    rows: list[Row] = [(*BOX, score, number) for number, score in enumerate(scores.tolist())]
+    best = sorted(scores.tolist(), reverse=True)
+    assert [row[4] for row in strongest(rows)] == best[:MAX_FOUND]
+    assert [row[4] for row in suppress(rows)] == best[:MAX_FOUND]  # each is of its own class
+    assert [row[4] for row in strongest(rows[:3])] == sorted(scores[:3].tolist(), reverse=True)
 
 
 def overlap(one: Sequence[float], other: Sequence[float]) -> float:
