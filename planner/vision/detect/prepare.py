@@ -49,11 +49,6 @@ class Placed:
     """Of the picture's copy in the input [px]."""
 
     @property
-    def as_it_is(self) -> bool:
-        """Tell whether the input's pixels are the picture's."""
-        return (self.scale_x, self.scale_y, self.left, self.top) == (1.0, 1.0, 0, 0)
-
-    @property
     def rows(self) -> slice:
         """Return the rows of the input that it covers."""
         return slice(self.top, self.top + self.height)
