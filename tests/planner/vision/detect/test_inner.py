@@ -97,8 +97,8 @@ def test_paint_wins_over_the_white_of_pages_and_labels() -> None:
         return prevailing(np.concatenate([np.full((n, 3), bgr, np.uint8) for bgr, n in parts]))
 
     white, red, gray, green = (240, 240, 240), (30, 30, 200), (130, 130, 130), (40, 200, 40)
-    assert mixed((white, 75), (red, 25)) == "red"
-    assert mixed((white, 76), (red, 24)) == "white"
+    assert mixed((white, 85), (red, 15)) == "red"
+    assert mixed((white, 86), (red, 14)) == "white"
     assert mixed((white, 39), (red, 32), (gray, 29)) == "red"
     assert mixed((white, 75), (gray, 25)) == "white"
     assert mixed((gray, 75), (red, 25)) == "gray"

@@ -123,7 +123,7 @@ def color(picture: Picture, box: Box) -> str | None:
         return first if count >= 4 else None
     paints = {it: n for it, n in zip(IDS, votes, strict=True) if it not in ("white", "gray")}
     paint = max(paints, key=lambda it: paints[it])
-    if paints[paint] >= max(0.25 * count, 0.4 * (count - votes[IDS.index("white")])):
+    if paints[paint] >= max(0.15 * count, 0.4 * (count - votes[IDS.index("white")])):
         return paint
     return first if most >= 0.4 * count else None
 
