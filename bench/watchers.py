@@ -37,7 +37,7 @@ class Watchers:
         )
         said = self._process.stdout.readline() if self._process.stdout else b""
         if said.strip() != b"ready":
-            self._process.kill()
+            self._end()
             raise Missed(f"the watchers said {said!r} instead of ready")
         return self
 
@@ -50,8 +50,12 @@ class Watchers:
         try:
             self._process.communicate(timeout=PATIENCE_S)
         except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
+            self._end()
+
+    def _end(self) -> None:
+        """Kill it, and close what led to it and from it."""
+        self._process.kill()
+        self._process.communicate()
 
 
 async def watch(url: str, count: int) -> None:

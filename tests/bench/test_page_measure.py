@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from websockets.asyncio.server import ServerConnection, serve
 
+from bench import watchers
 from bench.lab import Lab
 from bench.measure import page
 from bench.store import Store
@@ -25,7 +26,13 @@ def test_without_a_browser_it_is_not_measured_and_no_failure(
     assert "no Chromium" in row.note
 
 
-def test_each_watcher_opens_a_socket_of_its_own_and_reads() -> None:
+@pytest.mark.parametrize("patience_s", [5.0, 0.0])
+def test_each_watcher_opens_a_socket_of_its_own_and_reads(
+    patience_s: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Who has no patience kills them, and leaves no pipe open either."""
+    monkeypatch.setattr(watchers, "PATIENCE_S", patience_s)
+
     async def story() -> None:
         taken = asyncio.Queue[int]()
 
@@ -38,12 +45,12 @@ def test_each_watcher_opens_a_socket_of_its_own_and_reads() -> None:
 
         async with serve(stream, "127.0.0.1", 0) as server:
             port = server.sockets[0].getsockname()[1]
-            watchers = Watchers(f"ws://127.0.0.1:{port}/", 3)
-            await asyncio.to_thread(watchers.__enter__)
+            three = Watchers(f"ws://127.0.0.1:{port}/", 3)
+            await asyncio.to_thread(three.__enter__)
             try:
                 for _ in range(3 * 50):
                     await asyncio.wait_for(taken.get(), 5.0)
             finally:
-                await asyncio.to_thread(watchers.__exit__, None, None, None)
+                await asyncio.to_thread(three.__exit__, None, None, None)
 
     asyncio.run(story())
