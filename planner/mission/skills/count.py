@@ -18,7 +18,7 @@ from planner.mission.skills.beside import several
 from planner.mission.skills.find import unknown
 from planner.mission.skills.notes import Notes
 from planner.mission.skills.rooms import NEAR, room_at
-from planner.mission.skills.search import begin, spent, spots, within
+from planner.mission.skills.search import affords, begin, spent, spots, within
 from planner.mission.skills.seen import apart, confirmed, fits, sure, wanted_of
 from planner.mission.skills.tell import by_neighbour, counted, looked_in, room_name
 from planner.plan import Bilingual, Code
@@ -43,6 +43,8 @@ def count(scene: Scene) -> Act:
     if isinstance(next_, Notes):
         changed = next_ != scene.notes  # another room may be meant, where this one was shut
         return count(scene.but(next_)) if changed else _told(inside, wanted)
+    if not affords(scene, pose, next_):
+        return _told(inside.but(inside.notes.but(broke=True)), wanted)
     return replace(next_, notes=scene.notes) if spent(scene) is None else _told(inside, wanted)
 
 

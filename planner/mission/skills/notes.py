@@ -30,6 +30,8 @@ class Notes(Frozen):
     """The spot to which the way turned out to be shut."""
     shut: tuple[str, ...] = ()
     """Rooms to which there was no way."""
+    broke: bool = False
+    """The metres that were left did not last for the next way."""
     here: tuple[float, float] | None = None
     """Where the robot stood when it began to look: x [m], y [m] in ``map``."""
     order: tuple[str, ...] = ()

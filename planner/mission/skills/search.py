@@ -40,6 +40,10 @@ WORTH_S = 3600.0
 """What was seen longer ago tells which room to begin with, and no more."""
 MAX_M, MAX_S = 55.0, 540.0
 """For one step; a grant is 60 m and 600 s."""
+LAST_M = 59.0
+"""By then the last way must be over: where a grant ends under way, nobody tells what was seen."""
+ROUND_ABOUT = 1.5
+"""So much longer than straight a way through a home may be."""
 AWAY = 2.5
 """A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
 
@@ -48,6 +52,8 @@ def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | 
     """Return what to do next, or the thing that was found, or the notes when it was not."""
     scene = begin(scene, pose, wanted, first=True)
     next_ = _next(scene, pose, wanted)
+    if not affords(scene, pose, next_):
+        return scene.notes.but(broke=True)
     if isinstance(next_, (Drive, Gaze)):  # the order holds from its first act on
         return replace(next_, notes=scene.notes)
     return next_
@@ -73,9 +79,17 @@ def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | N
     return _look_again(scene, pose, nearest, wanted)
 
 
+def affords(scene: Scene, pose: Pose2, next_: object) -> bool:
+    """Tell whether what is left of the metres is likely to last for what is to be done next."""
+    if not isinstance(next_, Drive):
+        return True
+    way_m = ROUND_ABOUT * away_m(pose, (next_.goal.x_m, next_.goal.y_m))
+    return scene.spent_m + way_m <= LAST_M
+
+
 def spent(scene: Scene) -> str | None:
     """Return the budget that a search has used up, or None."""
-    if not scene.spent_m <= MAX_M:
+    if scene.notes.broke or not scene.spent_m <= MAX_M:
         return "metres"
     return None if scene.spent_s <= MAX_S else "seconds"
 

@@ -121,6 +121,31 @@ def test_a_search_ends_with_its_budget() -> None:
         assert "used up" in act.said.en
 
 
+def test_no_way_is_begun_that_the_rest_of_the_budget_does_not_last_for() -> None:
+    far = thing(x_m=8.0, room="kitchen")
+    assert isinstance(looking("find", far, spent_m=40.0), Drive)
+    lost = looking("find", far, spent_m=54.0)
+    assert isinstance(lost, Cannot)
+    assert lost.reason == "not_found"
+    assert lost.said is not None
+    assert "used up" in lost.said.en
+    assert isinstance(looking("find", thing(y_m=1.6), spent_m=54.0), Drive), "a turn is no way"
+
+
+def test_who_counts_begins_no_such_way_either_and_says_so() -> None:
+    notes = Notes()
+    for _ in range(50):  # each act is done as it asks, until another room is due
+        act = looking("count", notes=notes)
+        if isinstance(act, Drive) and act.way is Way.ROUTE:
+            break
+        notes = act.then or notes
+    assert isinstance(act, Drive)
+    told = looking("count", notes=notes, spent_m=54.9)
+    assert isinstance(told, Done)
+    assert told.said is not None
+    assert "used up" in told.said.en
+
+
 def test_rooms_come_in_a_sensible_order() -> None:
     square = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
