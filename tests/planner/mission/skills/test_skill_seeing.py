@@ -18,7 +18,6 @@ from planner.mission.skills import (
     Inquire,
     Wanted,
     Way,
-    act_of,
 )
 from planner.mission.skills.eyesight import Answer
 from planner.mission.skills.go_to_object import FACE, JUDGE
@@ -29,33 +28,9 @@ from planner.mission.skills.seen import APART_S, apart, confirmed, fits, mention
 from planner.mission.skills.tell import counted, found_at, listed, looked_in
 from planner.plan import Bilingual, Code
 from planner.settings.model import ModelSettings
-from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.fakes import FACTS
-from tests.planner.mission.skills.scenes import scene
+from tests.planner.mission.skills.looking import EYES, HERE, NOW_S, looking, sight, thing
 from wire import CameraConfig, Pose2
-
-EYES = Eyesight(CameraConfig(), ("cup", "person", "chair"))
-NOW_S = 100.0
-HERE = Pose2(0.0, 0.0, 0.0)
-
-
-def thing(**more: Any) -> Thing:
-    fields: dict[str, Any] = {
-        "id": "cup_1", "label": "cup", "color": "red", "x_m": 1.6, "y_m": 0.0, "z_m": 0.8,
-        "sigma_m": 0.05, "confidence": 0.9, "seen_s": NOW_S - 0.5, "first_s": 0.0, "sightings": 5,
-        "room": "hall",
-    }  # fmt: skip
-    return Thing(**{**fields, **more})
-
-
-def sight(*things: Thing, blind: str | None = None) -> Sight:
-    return Sight(Look(1, NOW_S, HERE, 320, 240, ()), things, blind)
-
-
-def looking(kind: str, *things: Thing, notes: Notes | None = None, **more: Any) -> Any:
-    step = {"object": "red cup"} | more.pop("step", {})
-    fields = {"eyes": EYES, "sight": sight(*things), "now_s": NOW_S, "notes": notes or Notes()}
-    return act_of(scene(kind, step=step, pose=HERE, **(fields | more)))
 
 
 def test_what_is_sure_fits_and_is_fresh_is_told_and_nothing_else() -> None:
@@ -111,39 +86,6 @@ def test_a_thing_whose_colour_light_may_have_changed_is_looked_at_last_of_all() 
     assert acts[-1].said is not None
     assert acts[-1].said.en.endswith("I saw 1 brown cup; light may change a colour.")
     assert acts[-1].said.zh.endswith("看到 1 个棕色的杯子；光线可能改变颜色。")
-
-
-def test_a_search_ends_with_its_budget() -> None:
-    for act in (looking("find", spent_m=56.0), looking("find", spent_s=541.0)):
-        assert isinstance(act, Cannot)
-        assert act.reason == "not_found"
-        assert act.said is not None
-        assert "used up" in act.said.en
-
-
-def test_no_way_is_begun_that_the_rest_of_the_budget_does_not_last_for() -> None:
-    far = thing(x_m=8.0, room="kitchen")
-    assert isinstance(looking("find", far, spent_m=40.0), Drive)
-    lost = looking("find", far, spent_m=54.0)
-    assert isinstance(lost, Cannot)
-    assert lost.reason == "not_found"
-    assert lost.said is not None
-    assert "used up" in lost.said.en
-    assert isinstance(looking("find", thing(y_m=1.6), spent_m=54.0), Drive), "a turn is no way"
-
-
-def test_who_counts_begins_no_such_way_either_and_says_so() -> None:
-    notes = Notes()
-    for _ in range(50):  # each act is done as it asks, until another room is due
-        act = looking("count", notes=notes)
-        if isinstance(act, Drive) and act.way is Way.ROUTE:
-            break
-        notes = act.then or notes
-    assert isinstance(act, Drive)
-    told = looking("count", notes=notes, spent_m=54.9)
-    assert isinstance(told, Done)
-    assert told.said is not None
-    assert "used up" in told.said.en
 
 
 def test_rooms_come_in_a_sensible_order() -> None:

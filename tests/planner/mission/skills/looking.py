@@ -1,0 +1,34 @@
+"""Ask a skill that looks what it does next, in a scene of a few things."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from planner.mission.skills import Eyesight, act_of
+from planner.mission.skills.notes import Notes
+from planner.vision.records import Look, Sight, Thing
+from tests.planner.mission.skills.scenes import scene
+from wire import CameraConfig, Pose2
+
+EYES = Eyesight(CameraConfig(), ("cup", "person", "chair"))
+NOW_S = 100.0
+HERE = Pose2(0.0, 0.0, 0.0)
+
+
+def thing(**more: Any) -> Thing:
+    fields: dict[str, Any] = {
+        "id": "cup_1", "label": "cup", "color": "red", "x_m": 1.6, "y_m": 0.0, "z_m": 0.8,
+        "sigma_m": 0.05, "confidence": 0.9, "seen_s": NOW_S - 0.5, "first_s": 0.0, "sightings": 5,
+        "room": "hall",
+    }  # fmt: skip
+    return Thing(**{**fields, **more})
+
+
+def sight(*things: Thing, blind: str | None = None) -> Sight:
+    return Sight(Look(1, NOW_S, HERE, 320, 240, ()), things, blind)
+
+
+def looking(kind: str, *things: Thing, notes: Notes | None = None, **more: Any) -> Any:
+    step = {"object": "red cup"} | more.pop("step", {})
+    fields = {"eyes": EYES, "sight": sight(*things), "now_s": NOW_S, "notes": notes or Notes()}
+    return act_of(scene(kind, step=step, pose=HERE, **(fields | more)))

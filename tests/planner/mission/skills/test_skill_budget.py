@@ -1,0 +1,37 @@
+"""A search or a count ends with its metres and seconds, tells where it looked, and stands."""
+
+from __future__ import annotations
+
+from planner.mission.skills import Cannot, Done, Drive, Way
+from planner.mission.skills.notes import Notes
+from tests.planner.mission.skills.looking import looking, thing
+
+
+def test_a_search_ends_with_its_budget() -> None:
+    for act in (looking("find", spent_m=56.0), looking("find", spent_s=541.0)):
+        assert isinstance(act, Cannot)
+        assert act.reason == "not_found"
+        assert act.said is not None
+        assert "used up" in act.said.en
+
+
+def test_no_way_is_begun_that_the_rest_of_the_budget_does_not_last_for() -> None:
+    far = thing(x_m=8.0, room="kitchen")
+    assert isinstance(looking("find", far, spent_m=40.0), Drive)
+    lost = looking("find", far, spent_m=54.0)
+    assert isinstance(lost, Cannot)
+    assert lost.reason == "not_found"
+    assert lost.said is not None
+    assert "used up" in lost.said.en
+    assert isinstance(looking("find", thing(y_m=1.6), spent_m=54.0), Drive), "a turn is no way"
+
+
+def test_who_counts_begins_no_such_way_either_and_says_so() -> None:
+    notes, act = Notes(), looking("count")
+    while not (isinstance(act, Drive) and act.way is Way.ROUTE):  # until another room is due
+        notes = act.then or notes
+        act = looking("count", notes=notes)
+    told = looking("count", notes=notes, spent_m=54.9)
+    assert isinstance(told, Done)
+    assert told.said is not None
+    assert "used up" in told.said.en
