@@ -109,13 +109,16 @@ def cost_of(thing: Thing, p: Placed, now_s: float) -> float | None:
     return cost + 0.5 * (apart_m / (kind.reach_m + spread_m)) ** 2  # the nearer of two alike
 
 
+def bulky(label: str) -> bool:
+    """Tell whether such a thing fills its place on the floor."""
+    kind = kind_of(label)
+    return kind.reach_m >= LARGE_M and not (kind.perched or kind.mobile)
+
+
 def one_place(a: Thing, b: Thing) -> bool:
-    """Tell whether two large things, of two classes and on the floor, would stand in each other."""
-    kinds = kind_of(a.label), kind_of(b.label)
-    if a.label == b.label or any(k.perched or k.mobile or k.reach_m < LARGE_M for k in kinds):
-        return False
-    least_m = min(kind.reach_m for kind in kinds)
-    return hypot(a.x_m - b.x_m, a.y_m - b.y_m) <= WITHIN * least_m
+    """Tell whether two bulky things, of two classes, would stand in each other."""
+    least_m = min(kind_of(a.label).reach_m, kind_of(b.label).reach_m)
+    return a.label != b.label and hypot(a.x_m - b.x_m, a.y_m - b.y_m) <= WITHIN * least_m
 
 
 def fused(thing: Thing, spot: Spot, now_s: float) -> tuple[float, float, float, float]:

@@ -11,12 +11,11 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
-from itertools import combinations
 from math import exp
 from typing import TYPE_CHECKING
 
-from planner.vision.joining import Placed, fused, joined, one_place, single
-from planner.vision.kinds import LARGE_M, kind_of
+from planner.vision.joining import Placed, bulky, fused, joined, one_place, single
+from planner.vision.kinds import kind_of
 from planner.vision.records import Thing
 from wire.geometry import MAX_COORDINATE_M
 
@@ -102,7 +101,8 @@ def remember(
             numbers[p.label] = numbers.get(p.label, 0) + 1
             named[p.index] = id_ = f"{p.label}_{numbers[p.label]}"
             after[id_] = _first(id_, p, now_s)
-    kept_now = _bounded(_apart([kept for kept in after.values() if not _over(kept, now_s)]))
+    left = [kept for kept in after.values() if not _over(kept, now_s)]
+    kept_now = _bounded(_apart(left, frozenset(named.values())))
     named |= extra
     told = {kept.thing.id for kept in kept_now if kept.sure}
     here = {index: id_ for index, id_ in named.items() if id_ in told}
@@ -197,10 +197,14 @@ def _over(kept: Kept, now_s: float) -> bool:
     return unseen_s > UNSURE_S or kept.looks >= LOOKS
 
 
-def _apart(kept: list[Kept]) -> list[Kept]:
-    """Leave out the less sure of two large things that would stand in each other."""
-    sure = [k.thing for k in kept if k.sure and kind_of(k.thing.label).reach_m >= LARGE_M]
-    rivals = [pair for pair in combinations(sure, 2) if one_place(*pair)]
+def _apart(kept: list[Kept], seen: frozenset[str]) -> list[Kept]:
+    """Leave out the less sure of two bulky things that would stand in each other.
+
+    One of them was just seen: what was not has not moved.
+    """
+    sure = [k.thing for k in kept if k.sure and bulky(k.thing.label)]
+    new = [thing for thing in sure if thing.id in seen]
+    rivals = [(a, b) for a in new for b in sure if one_place(a, b)]
     lost = {min(pair, key=lambda thing: (thing.confidence, thing.id)).id for pair in rivals}
     return [k for k in kept if k.thing.id not in lost] if lost else kept
 
