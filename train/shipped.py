@@ -14,6 +14,7 @@ from torch import nn
 
 from train.budget import CANDIDATES, CLASSES, FLOOR, HEIGHT_PX, MOST_BOXES, SAME, WIDTH_PX
 from train.model import Head, Net, Tensor, cells, corners
+from train.score import Box, overlap
 
 COUNT = len(CLASSES)
 APART_PX = 4096.0
@@ -81,7 +82,7 @@ class Suppressed(torch.autograd.Function):
     @staticmethod
     def forward(_ctx: Any, boxes: Tensor, scores: Tensor) -> Tensor:
         """Return (n, 3), of which the last is a box's number, given (1, N, 4) and (1, 1, N)."""
-        kept = greedy(boxes[0].tolist(), scores[0, 0].tolist())
+        kept = greedy(list(map(tuple, boxes[0].tolist())), scores[0, 0].tolist())
         return torch.tensor([(0, 0, number) for number in kept], dtype=torch.int64).reshape(-1, 3)
 
     @staticmethod
@@ -92,7 +93,7 @@ class Suppressed(torch.autograd.Function):
         return g.op("NonMaxSuppression", boxes, scores, *given)
 
 
-def greedy(boxes: list[list[float]], scores: list[float]) -> list[int]:
+def greedy(boxes: list[Box], scores: list[float]) -> list[int]:
     """Return which boxes stay, the surest first: none too like a surer one."""
     kept: list[int] = []
     for number in sorted(range(len(scores)), key=lambda it: -scores[it]):
@@ -101,12 +102,3 @@ def greedy(boxes: list[list[float]], scores: list[float]) -> list[int]:
         if all(overlap(boxes[number], boxes[other]) <= SAME for other in kept):
             kept.append(number)
     return kept
-
-
-def overlap(one: list[float], other: list[float]) -> float:
-    """Return intersection over union of two boxes: left, top, right, bottom."""
-    wide = min(one[2], other[2]) - max(one[0], other[0])
-    high = min(one[3], other[3]) - max(one[1], other[1])
-    both = max(0.0, wide) * max(0.0, high)
-    areas = [(it[2] - it[0]) * (it[3] - it[1]) for it in (one, other)]
-    return both / (sum(areas) - both)
