@@ -1,21 +1,10 @@
-"""Look at a request as it comes in: its language, and when it came."""
+"""Measure how long goals wait for their first waypoint."""
 
 from __future__ import annotations
 
-import re
 from collections import deque
 
-from planner.plan import Language
-
-_CJK = re.compile(r"[\u3400-\u9fff]")
 KEPT = 1000
-
-
-def language_of(text: str) -> Language:
-    """Tell Chinese from English by its characters; names in the other script don't decide."""
-    chinese = len(_CJK.findall(text))
-    words = len(re.findall(r"[A-Za-z]+", text))
-    return Language.ZH if chinese > words else Language.EN
 
 
 class Accepted:

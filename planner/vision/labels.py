@@ -7,10 +7,10 @@ sister", "a man in a red shirt") is unknown, never rounded to what it resembles.
 from __future__ import annotations
 
 import re
-import unicodedata
 from functools import cache, lru_cache
 from typing import TYPE_CHECKING
 
+from planner.language.folding import fold, fold_words
 from planner.plan import Bilingual, Language
 from planner.vision import colors
 from planner.vision.kinds import KINDS, Kind, kind_of
@@ -47,15 +47,11 @@ _WHICH_ZH = re.compile(
     r"另|其他|其它|别的|大|小|(?:上面?|里面?|旁边|边上|下面?|底下|前面|后面|中间|那边|这边)的"
 )
 _ANY_ZH = re.compile(r"家里的|附近的|最近的")
-_TRADITIONAL = str.maketrans(
-    "紅黃綠藍紫銀電視門書盤盆機個張臺這幾兩歲裡邊後們員類風頭貓馬鳥車飛訪嬰兒寶鐘錶雙顆號顏",
-    "红黄绿蓝紫银电视门书盘盆机个张台这几两岁里边后们员类风头猫马鸟车飞访婴儿宝钟表双颗号颜",
-)
 
 
 def canonical(name: str) -> str:
     """Return the class id of a detector's own name: "Dining Table", "tvmonitor", "couch"."""
-    words = " ".join(re.split(r"[\s_\-]+", unicodedata.normalize("NFKC", name).casefold())).strip()
+    words = " ".join(re.split(r"[\s_\-]+", fold(name))).strip()
     found = _english_names().get(words) or _chinese_names().get(words)
     return found or re.sub(r"[^\w]+", "_", words)[:64].strip("_") or "thing"
 
@@ -120,8 +116,7 @@ def listed(labels: Iterable[str], limit: int = 20) -> Bilingual:
 
 
 def _plain(words: str) -> str:
-    text = " ".join(unicodedata.normalize("NFKC", words).casefold().split())
-    return text.strip(" .,!?，。！？").translate(_TRADITIONAL)
+    return fold_words(words).strip(" .,!?，。！？")
 
 
 def _in_english(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import unicodedata
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from planner.language.folding import fold_words
 from planner.world.errors import SiteError
 from planner.world.fence import Outline
 from planner.world.polygon import area_m2, contains
@@ -76,8 +76,8 @@ class PlacesRecord(Record):
 
 
 def normalised(name: str) -> str:
-    """Return a name as it is compared: one width, one case, single spaces."""
-    return " ".join(unicodedata.normalize("NFKC", name).casefold().split())
+    """Return a name as it is compared: one width, one case, one script, single spaces."""
+    return fold_words(name)
 
 
 def load_places(path: Path) -> PlacesRecord:

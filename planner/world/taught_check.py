@@ -6,6 +6,7 @@ import unicodedata
 from collections.abc import Iterator
 from math import ceil, hypot
 
+from planner.language.folding import fold_width
 from planner.world.grid import FREE
 from planner.world.site import Site
 from planner.world.taught_errors import PlaceRefused
@@ -22,7 +23,7 @@ def plain_name(name: str) -> str:
     Raises:
         PlaceRefused: ``place_name_malformed``: empty, too long, or with what is no part of a name.
     """
-    kept = " ".join(unicodedata.normalize("NFKC", name[: 4 * MAX_CHARACTERS]).split())
+    kept = " ".join(fold_width(name[: 4 * MAX_CHARACTERS]).split())
     short = 1 <= len(kept) <= MAX_CHARACTERS and len(name) <= 4 * MAX_CHARACTERS
     if not (short and any(map(str.isalpha, kept)) and all(map(_in_a_name, kept))):
         raise PlaceRefused("place_name_malformed", f"got {name[:MAX_CHARACTERS]!r}")

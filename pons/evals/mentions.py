@@ -6,9 +6,9 @@ It shares no code with any brain, so that a brain's misreading can't hide in the
 from __future__ import annotations
 
 import re
-import unicodedata
 from functools import lru_cache
 
+from planner.language.folding import fold_words
 from planner.plan import Vocabulary
 
 _WORD = re.compile(r"[a-z0-9']+|[\u3400-\u9fff]")
@@ -54,7 +54,7 @@ _GENERIC_ZH = frozenset("的个一人有在里那这些吗")
 
 def plain(text: str) -> str:
     """Return a text in one width and case, with single spaces."""
-    return " ".join(unicodedata.normalize("NFKC", text).casefold().replace("’", "'").split())
+    return fold_words(text).replace("’", "'")
 
 
 @lru_cache(maxsize=8)

@@ -2,7 +2,6 @@
 
 from planner.brain.offline.brain import VERSION, OfflineBrain
 from planner.brain.offline.guard import MAX_CHARACTERS
-from planner.brain.offline.normalise import language_of
 from planner.brain.offline.reader import Context, plan
 
-__all__ = ["MAX_CHARACTERS", "VERSION", "Context", "OfflineBrain", "language_of", "plan"]
+__all__ = ["MAX_CHARACTERS", "VERSION", "Context", "OfflineBrain", "plan"]

@@ -9,15 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from planner.plan import Language
-
-# The characters of orders and rooms that differ, traditional then simplified.
-_PAIRS = (
-    "廳厅廚厨臥卧衛卫間间書书門门進进來来車车後后從从請请機机點点經经過过樓楼電电視视櫃柜檯台臺台爐炉燈灯沒没嗎吗裡里裏里這这個个讓让幫帮帶带東东說说開开關关現现會会圖图館馆陽阳園园"
-    "邊边兩两執执當当動动別别還还與与終终導导衝冲專专準准處处見见觀观尋寻顯显幾几數数誰谁給给將将著着轉转離离應应單单雙双檢检員员樁桩迴回歸归廁厕麼么為为時时達达訪访駛驶發发環环緊紧"
-    "趕赶馬马話话問问紅红樣样繼继續续順顺貨货區区實实驗验頭头號号遠远飯饭領领護护隨随搖摇擺摆餵喂"
-)
-_ONE_SCRIPT = str.maketrans(_PAIRS[::2], _PAIRS[1::2])
+from planner.language.folding import fold
 
 _CJK = r"[\u3400-\u9fff。、]"
 _CJK_GAP = re.compile(rf"(?<={_CJK})\s+|\s+(?={_CJK})")
@@ -38,9 +30,9 @@ _QUOTES = str.maketrans({"’": "'", "‘": "'", "“": '"', "”": '"', "「": 
 
 def normalise(text: str) -> str:
     """Return the sentence in one form of writing; the same words always give the same form."""
-    folded = unicodedata.normalize("NFKC", text).casefold().translate(_QUOTES)
+    folded = fold(text).translate(_QUOTES)
     shown = "".join(char for char in folded if unicodedata.category(char) != "Cf")
-    plain = _HYPHEN.sub(" ", shown.translate(_ONE_SCRIPT))
+    plain = _HYPHEN.sub(" ", shown)
     for pattern, words in _CONTRACTIONS:
         plain = pattern.sub(words, plain)
     whole = " ".join(_CJK_GAP.sub("", plain).split())
@@ -51,8 +43,3 @@ def normalise(text: str) -> str:
 def squash(name: str) -> str:
     """Return a name without what people write differently: spaces, hyphens, apostrophes, case."""
     return re.sub(r"[\s\-_'’\"]+", "", normalise(name))
-
-
-def language_of(text: str) -> Language:
-    """Tell the language of a sentence: any Chinese character makes it Chinese."""
-    return Language.ZH if re.search(r"[\u3400-\u9fff]", text) else Language.EN

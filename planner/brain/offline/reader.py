@@ -22,13 +22,15 @@ from planner.brain.offline.grammar import Grammar
 from planner.brain.offline.guard import EXAMPLE, refuse_bad_text
 from planner.brain.offline.lexicon import MARK, Marked, lexicon_of
 from planner.brain.offline.meaning import About, Meaning, Problem, Reading, Scene, Steps, read_by
-from planner.brain.offline.normalise import language_of, normalise
+from planner.brain.offline.normalise import normalise
 from planner.brain.offline.order import in_order
 from planner.brain.offline.people import mark_people
 from planner.brain.offline.quotes import take_quotes
 from planner.brain.offline.spelling import mend, words_of
 from planner.brain.offline.unsafe import TAMPERING, broken_rule
-from planner.brain.stoplane import is_stop
+from planner.language.folding import has_chinese
+from planner.language.identification import language_of
+from planner.language.stop import is_stop
 from planner.plan import (
     NEEDS_CAMERA,
     RUNNABLE,
@@ -114,7 +116,9 @@ def _understood(
     ordered = replace(marked, text=in_order(marked.text))
     meanings = [
         _within(meaning, context.runnable, context.blind)
-        for meaning in _meanings(ordered, reading, language_of(text))
+        for meaning in _meanings(
+            ordered, reading, Language.ZH if has_chinese(text) else Language.EN
+        )
     ]
     if not meanings:
         return Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example=EXAMPLE))

@@ -9,9 +9,9 @@ is looked at, and so is whatever is not understood.
 from __future__ import annotations
 
 import re
-import unicodedata
 from typing import TYPE_CHECKING, NamedTuple
 
+from planner.language.folding import fold_words, has_chinese
 from planner.mission.skills.seen import READ, mentioned
 from planner.plan import Language
 from planner.vision.colors import CHINESE
@@ -95,7 +95,6 @@ _VERB_ZH = re.compile(
 _NAME_ZH = re.compile(r"[小老阿].{1,2}|[王李张刘陈杨黄赵吴周徐孙马朱胡郭何高林罗郑梁].{1,2}")
 """Who is seen may be somebody by name."""
 _ENDS = re.compile(r"^[ .,!?。]+|[ .,!?。]+$")
-_SIMPLE = str.maketrans("沒嗎見裡邊", "没吗见里边")
 
 
 class Asked(NamedTuple):
@@ -134,14 +133,13 @@ def asked_for(question: str, facts: Facts) -> Asked | None:
 
 def plain(question: str) -> str:
     """Return a question in one way of writing; nothing of one that is too long to be read."""
-    text = " ".join(unicodedata.normalize("NFKC", question).casefold().split())
-    text = _ENDS.sub("", text)
-    return text.translate(_SIMPLE) if len(text) <= READ else ""
+    text = _ENDS.sub("", fold_words(question))
+    return text if len(text) <= READ else ""
 
 
 def in_chinese(text: str) -> bool:
     """Tell whether words are Chinese."""
-    return re.search(r"[\u3400-\u9fff]", text) is not None
+    return has_chinese(text)
 
 
 def _asked(question: str, facts: Facts) -> Iterable[Asked]:

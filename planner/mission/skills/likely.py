@@ -8,8 +8,9 @@ thing that may be anywhere, is searched by distance alone. A name counts by what
 from __future__ import annotations
 
 import re
-import unicodedata
 from typing import TYPE_CHECKING, NamedTuple
+
+from planner.language.folding import fold
 
 if TYPE_CHECKING:
     from planner.mission.records import Target
@@ -34,17 +35,17 @@ class Sort(NamedTuple):
 
 SORTS = (
     Sort("kitchen, kitchenette, cooking area, galley, pantry, break room",
-         "厨房, 廚房, 灶间, 伙房, 茶水间", _MEALS + "microwave oven toaster sink"),
+         "厨房, 灶间, 伙房, 茶水间", _MEALS + "microwave oven toaster sink"),
     Sort("dining room, dining area, dining, diner, canteen",
-         "餐厅, 餐廳, 饭厅, 飯廳, 食堂", _MEALS),
+         "餐厅, 饭厅, 食堂", _MEALS),
     Sort("bedroom, bed room, sleeping room, guest room, nursery",
-         "卧室, 臥室, 卧房, 主卧, 次卧, 睡房, 寝室, 客房, 儿童房", "bed"),
+         "卧室, 卧房, 主卧, 次卧, 睡房, 寝室, 客房, 儿童房", "bed"),
     Sort("living room, living area, living, lounge, sitting room, family room, parlour",
-         "客厅, 客廳, 起居室, 会客厅, 会客室", "sofa tv remote book chair"),
+         "客厅, 起居室, 会客厅, 会客室", "sofa tv remote book chair"),
     Sort("study, study room, office, library, den",
-         "书房, 書房, 办公室, 辦公室, 工作间, 图书室", "book chair laptop keyboard mouse"),
+         "书房, 办公室, 工作间, 图书室", "book chair laptop keyboard mouse"),
     Sort("bathroom, bath, restroom, washroom, toilet, shower room",
-         "卫生间, 衛生間, 洗手间, 浴室, 厕所, 盥洗室", "toilet sink toothbrush hair_drier"),
+         "卫生间, 洗手间, 浴室, 厕所, 盥洗室", "toilet sink toothbrush hair_drier"),
 )  # fmt: skip
 _PARTS = re.compile(r"[/&+,，、和与]| and ")
 _NUMBER = re.compile(r" ?(?:\d+|\b[a-z]|[一二三四五六])号?$")
@@ -71,5 +72,5 @@ def _is(room: Target, sort: Sort) -> bool:
 
 def _parts(name: str) -> list[str]:
     """Return the rooms that one name is made of, each after a space, without their numbers."""
-    plain = " ".join(re.split(r"[\s_-]+", unicodedata.normalize("NFKC", name).casefold()))
+    plain = " ".join(re.split(r"[\s_-]+", fold(name)))
     return [" " + _NUMBER.sub("", part.strip()) for part in _PARTS.split(plain)]
