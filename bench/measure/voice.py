@@ -20,7 +20,7 @@ from bench.lab import until
 from bench.report import Row, row_of
 from bench.robot import Robot
 from planner.brain.offline import plan
-from planner.brain.stoplane import is_stop
+from planner.language.stop import is_stop
 from planner.mission.facts import vocabulary_of
 from planner.plan import Step, StepPlan, Vocabulary
 from planner.voice import Heard, read_wav

@@ -1,6 +1,6 @@
 """Think: what a brain is, the brains that ship, and the stop lane that asks none of them.
 
-The door opens each name on first use, so that `from planner.brain.stoplane import is_stop` stays
+The door opens each name on first use, so that `from planner.language.stop import is_stop` stays
 free of pydantic: a stop must not wait for an import.
 """
 
@@ -14,10 +14,9 @@ if TYPE_CHECKING:
     from planner.brain.errors import BrainDown, Misconfigured, OutOfBudget, PlanRejected
     from planner.brain.fallback import FallbackBrain
     from planner.brain.mind import Mind, mind_of
-    from planner.brain.offline import OfflineBrain, language_of
+    from planner.brain.offline import OfflineBrain
     from planner.brain.protocol import Brain, Observation, ThinkRequest, Thought
     from planner.brain.scripted import ScriptedBrain
-    from planner.brain.stoplane import is_stop
 
 _DOORS = {
     "Brain": "protocol",
@@ -34,8 +33,6 @@ _DOORS = {
     "ScriptedBrain": "scripted",
     "ThinkRequest": "protocol",
     "Thought": "protocol",
-    "is_stop": "stoplane",
-    "language_of": "offline",
     "mind_of": "mind",
 }
 
@@ -54,8 +51,6 @@ __all__ = [
     "ScriptedBrain",
     "ThinkRequest",
     "Thought",
-    "is_stop",
-    "language_of",
     "mind_of",
 ]
 

@@ -10,7 +10,8 @@ import time
 from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 
-from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest, is_stop
+from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.language.stop import is_stop
 from planner.plan import (
     EVERY_KIND,
     Code,

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 
 from pydantic import ValidationError
 
-from planner.brain import is_stop
+from planner.language.stop import is_stop
 from planner.mission.records import Mission
 from planner.plan import Language, PlanRecord
 

@@ -16,7 +16,6 @@ from planner.brain.intents.kinds import (
 )
 from planner.brain.intents.names import name_reads_as_order
 from planner.brain.intents.reader import intent_of
-from planner.brain.intents.still import stays_put, stops
 
 __all__ = [
     "Cancel",
@@ -30,6 +29,4 @@ __all__ = [
     "Where",
     "intent_of",
     "name_reads_as_order",
-    "stays_put",
-    "stops",
 ]

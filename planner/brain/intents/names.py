@@ -12,7 +12,7 @@ import re
 from planner.brain.intents.reader import intent_of
 from planner.brain.offline import plan
 from planner.brain.offline.normalise import normalise
-from planner.brain.stoplane import is_stop
+from planner.language.stop import is_stop
 from planner.plan import Clarify, Code, Plan, Refuse, Vocabulary
 
 _HARMLESS = frozenset(

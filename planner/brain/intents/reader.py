@@ -25,7 +25,8 @@ from planner.brain.intents.kinds import (
     Resume,
     Where,
 )
-from planner.brain.stoplane import is_stop
+from planner.language.folding import fold_script, fold_width
+from planner.language.stop import is_stop
 
 MAX_READ = 300
 """Characters; a longer sentence is no order to the planner itself."""
@@ -40,10 +41,6 @@ _CJK = re.compile(r"[\u3400-\u9fff]")
 _END = " .!,;:。~…"
 _QUOTES = "\"'「」『』“”‘’《》"
 _APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
-_ONE_SCRIPT = str.maketrans(
-    "記這裡裏個點為兒處樁給請別動會誰麼過沒著歡從還來開進廳廚臥間機導務標",
-    "记这里里个点为儿处桩给请别动会谁么过没着欢从还来开进厅厨卧间机导务标",
-)
 _SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and then) ")
 
 
@@ -93,11 +90,11 @@ def _unseen(char: str) -> bool:
 
 
 def _said(text: str) -> _Said:
-    written = " ".join(unicodedata.normalize("NFKC", text).translate(_APOSTROPHES).split())
+    written = " ".join(fold_width(text).translate(_APOSTROPHES).split())
     folded = written.lower()
     if len(folded) != len(written):  # a few letters grow in lower case
         written = folded
-    return _Said(folded.translate(_ONE_SCRIPT), written)
+    return _Said(fold_script(folded), written)
 
 
 def _plain(said: _Said, grammar: ModuleType) -> _Said:

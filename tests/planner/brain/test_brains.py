@@ -16,9 +16,8 @@ from planner.brain import (
     PlanRejected,
     ScriptedBrain,
     ThinkRequest,
-    language_of,
 )
-from planner.plan import Answer, GoTo, Language, StepPlan, Vocabulary, Wait
+from planner.plan import Answer, GoTo, StepPlan, Vocabulary, Wait
 
 GOOD = StepPlan(steps=(Wait(seconds=1.0),))
 
@@ -85,13 +84,6 @@ def test_a_brain_that_hangs_can_be_cancelled(home: Vocabulary) -> None:
             await thinking
 
     asyncio.run(story())
-
-
-@pytest.mark.parametrize(
-    ("text", "language"), [("go", Language.EN), ("去kitchen", Language.ZH), ("", Language.EN)]
-)
-def test_any_chinese_character_makes_a_sentence_chinese(text: str, language: Language) -> None:
-    assert language_of(text) is language
 
 
 def test_the_door_opens_every_name_it_lists_and_no_other() -> None:

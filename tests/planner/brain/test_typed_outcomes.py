@@ -47,7 +47,7 @@ ORDERS = {
     ),
     Code.NEGATED: (
         ("don't go to the kitchen", "I take that as an order not to do it"),
-        ("不要去厨房", "我理解为不要这样做，所以不动。"),
+        ("不要去厨房", "我理解为不要这样做，因此不会为此移动。"),
     ),
     Code.CONDITIONAL: (
         ("go to the kitchen if it is empty", "I can't check the condition “go to the kitchen if"),

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.brain.stoplane import is_stop
+from planner.language.stop import is_stop
 
 STOPS = [
     # plain
@@ -302,7 +302,7 @@ def test_a_long_object_is_answered() -> None:
 
 def test_importing_the_stop_lane_brings_in_neither_pydantic_nor_numpy() -> None:
     code = (
-        "import sys; from planner.brain.stoplane import is_stop; assert is_stop('stop');"
+        "import sys; from planner.language.stop import is_stop; assert is_stop('stop');"
         "sys.exit(','.join({'pydantic', 'numpy', 'rapidfuzz', 'asyncio'} & set(sys.modules)) or 0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)

@@ -1,0 +1,457 @@
+"""Own the English words that stop a robot, and the words around them that mean something else.
+
+Patterns alone, for stop.py. ``ORDER`` and ``QUIT`` are matched against one whole clause in lower
+case, words and single spaces. All others are searched in a whole sentence whose clauses are divided
+by `` , `` and whose misspelt stop words were mended.
+"""
+
+from __future__ import annotations
+
+import re
+
+_STOP = r"s+t+o+p+|sotp|stpo|tsop|h+a+l+t+|f+r+e+z+e+"
+_COURTESY = (
+    r"please|pls|plz|kindly|just|now|right now|right away|immediately|instantly|at once|asap"
+    r"|robot|pons|car|you|hey|hi|ok|okay|oh|no|wait|whoa|quick|quickly|fast|thanks|thank you"
+    r"|(?:can|could|would|will) you|you (?:can|may|must|should|need to|have to)"
+    r"|i said|i want you to|i need you to|i would like you to|i told you to|let us|for me|all"
+)
+_PHRASE = (
+    rf"(?:{_STOP})(?: (?:it|that|this|there|here|right there|right here|where you are"
+    r"|everything|all motion|the (?:robot|car|cart|vehicle|mission|task|goal|job|drive)"
+    r"|(?:all |your |the )*motors?"
+    r"|(?:moving|driving|going|running|rolling|turning|spinning|navigating|following)(?: me)?"
+    r"|what you are doing))?"
+    r"|come to a (?:stop|halt)|(?:emergency|protective) (?:stop|brake|halt)|e ?stop|brakes?"
+    r"|(?:hold|stand|stay|keep) still|stay (?:put|where you are)|hold it|do not move(?: any ?more)?"
+    r"|abort|cancel|pause|(?:quit|give up)(?: (?:it|that|this))?|give it up"
+    r"|(?:abort|cancel|pause) (?:it|that|everything|the (?:goal|mission|task))"
+)
+ORDER = re.compile(
+    rf"(?:(?:{_COURTESY}) )*(?:{_PHRASE})(?: (?:{_PHRASE}|{_COURTESY}))*"
+    r"(?: (?:and|then|but|because)\b.*)?"
+)
+"""A whole clause that orders a stop, whatever follows it."""
+ONLY_COURTESY = re.compile(rf"(?:{_COURTESY}|quick)(?: (?:{_COURTESY}))*")
+
+# Quitting is said of searching, counting, following, patrolling and driving, never of waiting:
+# "stop waiting" begins something. What is quitted may be named in any words, but for a condition or
+# a place that says when or where to stop ("stop looking when you see it"). Behind a denial nothing
+# is left to a brain: "don't follow me if …" stops, as the safe side.
+_SEARCHING = (
+    r"looking|searching|hunting|seeking|finding|locating|counting|tracking|trailing|following"
+    r"|chasing|watching|scanning|observing|monitoring|exploring|inspecting|checking|patroll?ing"
+    r"|wandering|roaming|touring|visiting|guiding|leading|escorting|accompanying"
+)
+_DRIVING = (
+    r"moving|driving|going|coming|running|rolling|turning|spinning|navigating|walking|heading"
+)
+_TO = (
+    r"(?:to|towards?|into|after|behind|around|about|through|back|forwards?|backwards?|away|home"
+    r"|here|there|left|right|with|along|in circles?)"
+)
+_NO_FOLLOWER = r"after(?! (?:me|us|him|her|them|it)\b)"
+_WHEN = (
+    r"when|whenever|if|once|unless|as|while|before|in front|next to|near|beside"
+    rf"|{_NO_FOLLOWER}"
+)
+_GOES_ON = r"(?: (?:and|then|but|because|until|till)\b.*)?"
+_REST = rf"(?: (?!(?:and|then|but|because|until|till|{_WHEN})\b)[a-z0-9]+)*{_GOES_ON}"
+_ENDING = r"(?:s+t+o+p+|quit|cease|leave off|give up|(?:no more|enough)(?: of| with)?)"
+_SEARCH = (
+    r"(?:search|hunt|count|patrol|tour|chase|pursuit|exploration|inspection"
+    rf"|{_SEARCHING})"
+)
+_BASE = (
+    r"look|search|hunt|seek|find|locate|count|track|trail|follow|chase|watch|scan|observe|monitor"
+    r"|explore|inspect|check|patrol|wander|roam|guide|lead|escort|accompany"
+    r"|(?:come|go|run|walk) (?:after|behind|with)|keep (?:looking|searching|counting|following)"
+)
+_DENYING = r"(?:i do not want you to|(?:you )?(?:should|must) not|do not(?: ever)?|never|no longer)"
+_NEARER = (
+    r"(?:drive|turn|spin|rotate|roll|come|approach)(?: (?:any|closer|nearer|near|further|on|here|to"
+    r"|towards?|up|at|me|us|around|now|again|more|anymore))*"
+)
+_IT = r"(?:(?:the |this |that )?(?:robot|car|it|thing) (?:from )?)?"
+QUIT = re.compile(
+    rf"(?:(?:{_COURTESY}) )*(?:"
+    rf"{_ENDING} {_IT}(?:{_SEARCHING}){_REST}"
+    rf"|{_ENDING} (?:{_DRIVING}) {_TO}\b{_REST}"
+    rf"|(?:{_ENDING}|cancel|abort|end|pause|abandon|call off|suspend)"
+    rf" (?:(?:the|this|that|your|my|all|current|whole) )*{_SEARCH}{_REST}"
+    rf"|{_DENYING} (?:{_BASE})(?: .*)?|{_DENYING} {_NEARER}"
+    rf"|leave (?:me|us|him|her|them|it) alone{_GOES_ON})"
+)
+
+# Misspellings ----------------------------------------------------------------------------------
+
+MENDED = ("stop", "freeze", "halt", "brake", "abort", "whoa", "cease", "pause", "cancel")
+"""Words of which every spelling with one letter wrong is taken for the word itself."""
+OTHER_WORDS = frozenset(
+    {
+        *(
+            "stops",
+            "stoop",
+            "strop",
+            "stomp",
+            "stow",
+            "atop",
+            "shop",
+            "slop",
+            "step",
+            "top",
+            "stope",
+        ),
+        *("stoup", "sop", "sto", "op", "freezer", "freezes", "frieze", "breeze", "freed", "half"),
+        *("hall", "salt", "malt", "hat", "halo", "shalt", "haft", "halts", "hilt", "alt", "brakes"),
+        *("brave", "bake", "bra", "brae", "brace", "break", "broke", "braked", "braker", "drake"),
+        *("rake", "about", "aborts", "abbot", "who", "whop", "cases", "ceased", "crease", "lease"),
+        *("tease", "ease", "chase", "paused", "pauses", "cause", "causes", "cancels", "cancer"),
+    }
+)
+"""English words one letter away from a stop word; each may mean itself."""
+ALONE = {
+    **dict.fromkeys(("top", "step", "shop", "slop", "stow", "strop", "stoop", "atop"), "stop"),
+    **dict.fromkeys(("stomp", "sto", "sop"), "stop"),
+    **dict.fromkeys(("half", "hall", "salt", "hat", "malt"), "halt"),
+    **dict.fromkeys(("breeze", "freezer"), "freeze"),
+    **dict.fromkeys(("break", "breaks"), "brake"),
+}
+"""Taken for the stop word where nothing but courtesy stands beside it: nobody orders "step"."""
+
+
+def _any(*patterns: str) -> re.Pattern[str]:
+    return re.compile("|".join(patterns))
+
+
+# Clear other meanings ---------------------------------------------------------------------------
+
+_T = r"(?:stop|halt|freeze|brake|abort|cease|quit|pause)"
+_START = (
+    r"(?:^|, (?:and |but |so |then )?|\b(?:and|but|please|so|just|or|ok|okay|robot|hey|oh|go|on"
+    r"|ahead|going|driving|moving|then|now) )"
+)
+_ROBOT = (
+    r"(?:robot|thing|machine|car|cart|it|this|that|you|yourself|wheels?|motors?|vacuum|trolley)"
+)
+_BODY = r"(?:the|my|his|her|our|your|their|this|that|a|an|those|these|some|all|every)"
+_THIRD = (
+    rf"(?:him|her|them|everyone|everybody|people|{_BODY} (?!(?:\w+ )?{_ROBOT}\b)\w+(?: \w+)?"
+    r"|mom|mum|dad|mummy|daddy|grandma|grandpa)"
+)
+_SAY = r"(?:say|shout|yell|announce|call out|whisper|read(?: out)?|write|type|spell|sing|repeat)"
+_SAYS = r"(?:said|says|shouted|shouts|yelled|yells|screamed|told (?:me|him|her|them|us)(?: to)?)"
+_SUBJECT = r"(?:you|it|he|she|they|we|i|someone|somebody|the \w+)"
+_SOMEBODY = r"(?:i|we|he|she|they|someone|somebody|anyone|you)"
+_LATER = r"(?:see|reach|get|arrive|find|come|meet|detect|finish|pass|have|are at|notice)"
+_MEDIA = r"(?:music|song|video|movie|film|noise|alarm|timer|sound|radio|tv|television|recording)"
+_IN = r"(?:at|by|near|next to|beside|behind|in front of|inside|in|on|opposite|close to)"
+_NO_PLACE = r"(?:way|path|spot|place|moment|point|name|count|instant|minute|second|tracks?|dot)"
+
+ELSE = _any(
+    # a thing of that name
+    rf"(?<!put )(?<!to )(?<!into )(?<!this )\b(?:bus|tram|train|metro|subway|coach|taxi|truck|rest"
+    rf"|pit|door|next|first|last|final|the|a|an|my|your|our|any|each|every|which|what|whistle) {_T}"
+    r"s?\b(?<!brake)(?<!brakes)(?! (?:it|moving|driving|now|please)\b)",
+    r"(?:\b(?:check|test|fix|mend|about|hear|are|is|of|with|has|have|need|change|inspect) "
+    r"(?:the |your |my |its |a |new )*brakes?\b)",
+    rf"\b(?:e )?{_T} (?:sign|button|light|line|valve|watch|word|knob|switch|key|pad|bar|motion"
+    r"|pedal|list|frame)s?\b",
+    rf"\b(?:non|one) {_T}\b",
+    # denied as an order, or told of somebody else
+    rf"{_START}(?:you (?:must|should|may|can|need|have) )?(?:do not|never|not|must not|should not"
+    r"|can not|need not|no need to)(?: (?:ever|you|even|just|dare|please|to|try to|have to|need to"
+    rf"|let \w+))* {_T}\b",
+    r"\b(?:do|did) not (?:want|need|say|mean|tell|ask)(?: (?:you|it|him|the robot))?(?: to)?"
+    rf" {_T}\b",
+    rf"\b(?:who|nobody|no one) (?:said|says|told|asked)(?: you)?(?: to)? {_T}\b",
+    rf"\b{_BODY} (?!{_ROBOT})(?:\w+ )?\w+ (?:does|did|do|would|will|could|can) not {_T}\b",
+    # words to be said, or said by others
+    r"(?:^|, |\b(?:and|then|please|can you|could you|will you|would you|to) )(?<!have to )"
+    rf"(?<!need to )(?<!had to ){_SAY}(?: (?:the|words?|out|loud|aloud|loudly))* {_T}\b",
+    rf"\bwords? {_T}\b|\b(?:called|titled|named) {_T}\b",
+    r"(?<!one )(?<!body )\b(?:tell|ask|order|remind|make|let|get|have|help|teach|allow)"
+    rf" {_THIRD}(?: to)? {_T}\b",
+    rf"\b(?:he|she|they|(?:somebody|someone|anyone)(?: else)?|the (?!{_ROBOT})\w+)"
+    rf"(?: (?:always|just|never|once))? {_SAYS} {_T}\b",
+    rf"\b(?:heard|hear) \w+ (?:say|shout|yell|scream) {_T}\b|\b\w+ always {_SAYS} {_T}\b",
+    rf"\b(?:when|until|till|if|once|after|unless|before|whenever) {_SOMEBODY} (?:says?|shouts?"
+    rf"|yell|tells? you|hear|ask)(?: you)?(?: to)?(?: the)? {_T}\b"
+    r"(?! ,? ?(?:i mean|you|that means))",
+    # questions
+    rf"\bwhy (?:did|do|does|would|are|is|have|has) {_SUBJECT}(?: (?:always|just|suddenly|keep|ever"
+    rf"|even|have to|need to))* {_T}\b",
+    rf"\b(?:when|where) (?:did|do|does|would|should) {_SUBJECT}(?: (?:last|usually|normally|first"
+    rf"|next|always|have to))* {_T}\b",
+    rf"\bhow (?:long|far|fast|quickly|well|soon|much)\b[^,]* {_T}\b",
+    rf"\bwhat (?:happens|does|time|would happen|will happen)\b[^,]* {_T}\b",
+    rf"\bwhich \w+ (?:makes?|made|lets?)\b[^,]* {_T}\b",
+    rf"\bdid {_SUBJECT}(?: (?:just|ever|really|already|have to))* {_T}\b",
+    rf"\bnothing can {_T}\b|\b(?:tends?|tended|used) to {_T}\b",
+    # a place or a moment that is still to come
+    rf"\b{_T} (?:right )?{_IN} (?:{_BODY}|each) (?!{_NO_PLACE}\b)\w+",
+    rf"\b{_T} (?:there )?(?:when|once|as soon as|whenever) (?:you|we|it) {_LATER}\b",
+    r"\b(?:when|once|as soon as|next time|after|every time|each time|whenever|if) (?:you|we|it)"
+    rf" (?:have )?{_LATER}\b(?! (?:near|closer?|me)\b)[^!?]*?\b{_T}\b",
+    # another activity
+    rf"\b{_T} (?:talking|speaking|singing|beeping|playing|asking|saying|repeating|recording"
+    r"|shouting|laughing|crying|waiting|worrying|smoking"
+    rf"|(?:the|that|this|your|all that|all the) {_MEDIA})\b",
+    r"\bfreeze (?:up|the)\b",
+)
+"""A stop word in a clear other meaning."""
+
+_BEGINS = (
+    r"(?:go(?! away)|drive|move|come(?! on)|head|walk|run|roll|navigate|travel|return|bring|fetch"
+    r"|take(?! it easy)|find|look(?! out| ,)|search|seek|locate|count|follow|guide|lead|escort"
+    r"|accompany|patrol|visit|check|tell|say|ask|announce|describe|turn(?! off| yourself| it off)"
+    r"|rotate|spin|back(?! off)|reverse|greet|introduce|meet|answer|deliver|clean|open|show|explore"
+    r"|inspect|enter|approach|carry|keep (?:going|driving|moving)|continue|resume|read"
+    r"|see (?:if|what)|wait (?:(?:here|there) (?:for|until|till|and)|in|at|for|by|until|till|\d)"
+    r"|stay (?:in|at|with|near|by)"
+    r"|get (?:to|me|the)|proceed|remember|learn|start|begin|drop by|swing|pop|step|give (?!it|up)"
+    r"|play|speed up"
+    r"|(?:once|when|as soon as|after) (?:you|we) (?:have )?(?:see|reach|get|arrive|find"
+    r"|come|finish|are)(?! (?:near|close)))"
+)
+_POLITE = (
+    r"(?:(?:please|pls|hey|hi|ok|okay|robot|pons|now|so|then|first|and|just|can you|could you"
+    r"|would you|will you|i want you to|i need you to|i would like you to|you should|let us|kindly"
+    r"|,)[ ,]*)*"
+)
+PLAN = re.compile(rf"^{_POLITE}{_BEGINS}\b")
+"""A sentence that begins as an order to do something: in it only true stop words count."""
+_ASKS = r"(?:what|where|who|which|how (?:many|much|long|far)|is|are|do you|did|has|have)"
+PLAN_WITHIN = re.compile(rf"(?:^|, |\band (?:then )?){_POLITE}(?:{_BEGINS}|{_ASKS})\b")
+"""A clause, first or later, that orders or asks something."""
+_SOMEWHERE = (
+    r"\b(?:to|into|towards?|through|past|along|forwards?|backwards?|back|straight|left|right|around"
+    r"|met(?:re|er)s?|degrees?|me|\d+|him|her|them|round)\b"
+)
+ENDS_IN = re.compile(
+    rf"^{_POLITE}{_BEGINS}\b(?!.*\bnot\b)(?=.*{_SOMEWHERE}).*?(?:\band(?: then)?|\bthen|, then"
+    rf"|, and(?: then)?) {_T}(?: (?:there|here))?(?: (?:for|at|in|by|near|next|beside|and|when"
+    r"|until|once|before)\b.*)?$"
+)
+"""An order to go somewhere that ends with standing there: "go to the kitchen and stop"."""
+
+# What stops -------------------------------------------------------------------------------------
+
+STRONG = _any(
+    r"\b(?:s+t+[ao]+[hw]*p+|h+a+l+t+|f+r+e+e*z+e+|brakes?|who+a+h?|wo+a+h?|abort|desist|cease)\b",
+    r"\b(?:e ?stop|standstill|quit|avast|stationary|motionless)\b|\bст[оo]п\b",
+    r"\b(?:do not|must not|to not|not to|never) (?:you |dare |even |ever |please |to )*"
+    r"(?:move|budge|stir|twitch)\b(?! (?:to|into|the|my|this|that|from|it|towards?|away from)\b)",
+    r"\bting ?(?:xia(?: ?lai)?|zhi|che|ba|le|yi ?xia)\b|\bbie ?dong\b|\bzhan ?zhu\b|^(?:ting ?)+$",
+    r"\b(?:stand|hold|stay|keep|sit|remain|be|stood)"
+    r" (?:completely |perfectly |very |absolutely )?still\b",
+    r"\b(?:please|just|now|robot|no)*stop(?:now|it|please|moving|robot|that|there|right|the|all|pls"
+    r"|stop)+\b",
+)
+"""Words that stop wherever they stand, unless they clearly mean something else."""
+_FILLERS = r"(?:(?:you|ever|even|just|dare|to|please|all|now|think of|any) )*"
+_MOVING = (
+    r"(?:mov(?:e|ing)|budg(?:e|ing)|go(?:ing)?|com(?:e|ing)|driv(?:e|ing)|approach|continu(?:e|ing)"
+    r"|proceed|advance|roll(?:ing)?|turn|touch|hit|run|carry on|keep|back|get|take|step|try|dare"
+    r"|do (?:that|this|it)|start|leave|let it)"
+)
+_ANY_VERB = (
+    r"(?!stop|halt|pause|quit|wait|forget|worry|hesitate|freeze|brake|give up|mind|be|tell|say|ask"
+    r"|let|know|look like|understand|you think)\w+"
+)
+_MOMENT = (
+    r"(?:a|one|two|just a|half a|for a)? ?(?:sec|secs|second|seconds|minute|moment|mo|tick|bit)"
+)
+_CALLS = (
+    r"(?:please |robot |hey |no |oh |uh |just |ok |okay |now |right |well |good |and |you |dude )*"
+)
+_END = r"(?: ,|$| now| please| i said| right| boy| robot| there)"
+DENIAL = _any(
+    rf"\b(?:do not|never|must not|should not|can not|not to|no|not) {_FILLERS}{_MOVING}\b"
+    r"(?! (?:so |too |that )*slow)",
+    rf"(?:^|, ){_POLITE}(?:i (?:do|said do) not want you to|do not|never"
+    rf"|you (?:must|should|can|do) not) {_FILLERS}{_ANY_VERB}(?! (?:so |too |that )*slow)",
+    r"(?:^|, )(?:please |no )*do not(?: ,|$)|\bno you do not\b",
+    r"\bnot (?:one|another|an|a) (?:more |single )?(?:\w+ )?(?:inch|step|move|met(?:re|er)|foot"
+    r"|centimet(?:re|er)|millimet(?:re|er)|word|bit)\b",
+    r"(?:^|, )(?:no |oh )*not (?:now|here|there|yet|that|the|my|on|so|again|this|near|any|over)\b",
+    r"\bno (?:further|farther|closer|nearer|more)\b|\bas far as (?:you|it) (?:go|goes|get|gets)\b",
+    r"\b(?:not a|another|one more|single) (?:\w+ )?(?:hair|whisker|step|inch|fraction|smidge)\b",
+    r"\bplant yourself\b|\b(?:that|this|it) will do\b|\b(?:there|here) is (?:fine|good|far|okay)\b",
+    r"\bwe are done\b|\byou are done\b|\bsettle down\b|\bcalm down\b|\bsimmer down\b",
+    r"\b(?:too|so) (?:close|near)\b|\b(?:far|close|near) enough\b",
+    rf"(?:^|, ){_CALLS}(?:that is |that was |it is |i said )?(?:quite |really |more than |about )?"
+    r"enough\b(?! (?:\w+ )?(?:to|for|milk|time))",
+    # holding, staying, waiting
+    r"\bhold (?:it|up|on|position|your|everything|there|right there|back|steady|fast|off|now)\b",
+    rf"(?:^|, ){_CALLS}(?:hold|stand|sit|heel|park|cut|whoops|down){_END}",
+    r"\bstay (?:right |just |exactly )?(?:there|put|where|here|back|away|down|as you are|off)\b",
+    rf"(?:^|, ){_CALLS}stay(?: stay)*{_END}",
+    r"\b(?:remain|wait) (?:right |just |exactly )?(?:there|where you|here|put)(?: ,| please| now|$"
+    r"| you)|\b(?:remain|stay|wait|stand|hold) (?:right )?where you are\b",
+    rf"(?:^|, ){_CALLS}wait(?: wait)*(?: up| {_MOMENT}| there| for me| please| now| robot| a)*"
+    r"(?: ,|$| i\b| there is| do not| no\b| my| the| you)",
+    r"\bh[ao]ng (?:on|about|fire|back)\b|\bhold on\b|\bstand ?by\b|\bgive over\b|\bleave off\b",
+    rf"(?:^|, ){_CALLS}(?:a|one|just a|half a|gimme a|give me a) (?:sec|second|minute|moment|mo"
+    r"|tick|break|bit(?= ,|$))\b",
+    r"\btime ?out\b|\btake (?:a|five|5) ?(?:break|breather|rest)?$|\bsuspend\b|\bpause\b",
+    r"\bstand (?:down|back|there|right there|where|aside|fast|clear)\b|\bstay clear\b",
+    r"\bmake stand\b",
+    r"\b(?:nobody|everybody|everyone|no one) (?:move|moves|freeze|stand)\b",
+    # off, away, over
+    r"\b(?:cut|knock|pack|call|give|turn|shut|switch|power|kill|end|drop|leave|quit|park|nix)"
+    r" (?:it|this|that|yourself|everything|the thing)(?: (?:out|off|in|up|down|a rest|be|alone"
+    r"|there|right there|now|please))*(?: ,|$| now| please| i said| right| or| before| at| and)",
+    r"\b(?:kill|cut|disable|disengage|switch off|turn off|shut off|shut down|power down|stall|lock"
+    r"|unplug|deactivate) (?:the |your |all |that |its |this )*(?:power|engines?|motors?|wheels?"
+    r"|drives?|motion|movement|robot|machine|system|thing|current|ignition)\b",
+    r"\b(?:shut|power|turn|switch) (?:yourself )?(?:down|off)(?: ,|$| now| please| right)",
+    r"\b(?:motors?|engines?|power|drive|wheels|everything) off\b|(?:^|, )off(?: ,|$| now)",
+    r"\bkill switch\b|\bpull (?:over|up)\b|\bback off\b|\b(?:get|keep) (?:off|back|away)\b",
+    r"\b(?:cut|pack|can) it\b|\bchill(?: out)?$|\bcool it\b|\bred light\b|\b(?:drop|cast) anchor\b",
+    r"\beasy(?: ,|$| boy| there| now| does)|\bsteady(?: ,|$| on| there)|\bdisengage\b|\bbelay\b",
+    r"\b(?:come|coming|get|put|bring|skid|grind|roll|slow)\b[^,]* (?:to )?(?:an? |the )?(?:\w+ )?"
+    r"(?:stop|halt|standstill)\b",
+    r"\bput an? (?:stop|end) to\b|\bput [^,]* in park\b|\bin neutral\b",
+    r"\b(?:drop|end|finish|terminate|interrupt|scrub|scrap|scratch|cancel|abandon|kill)"
+    r" (?:the|this|that|your|my|all|it|what|everything)\b",
+    r"\b(?:call off|cancel|terminate|terminated|disarm)\b|\bcalling it off\b",
+    r"\bnever ?mind\b|\bforget (?:it|that|about|the|this)\b|\bchanged my mind\b|\bdo not bother\b",
+)
+"""Words that stop in a sentence that does not begin as an order to do something."""
+DENIAL_WORDS = frozenset(
+    {
+        *(
+            "far",
+            "another",
+            "single",
+            "plant",
+            "yourself",
+            "will",
+            "there",
+            "here",
+            "done",
+            "settle",
+        ),
+        *("calm", "simmer"),
+        *(
+            "not",
+            "never",
+            "no",
+            "close",
+            "near",
+            "enough",
+            "hold",
+            "stand",
+            "sit",
+            "heel",
+            "park",
+            "cut",
+            "whoops",
+            "down",
+            "stay",
+            "remain",
+            "wait",
+            "hang",
+            "hong",
+            "standby",
+            "give",
+            "leave",
+            "time",
+            "timeout",
+            "take",
+            "suspend",
+            "pause",
+            "nobody",
+            "everybody",
+            "everyone",
+            "knock",
+            "pack",
+            "call",
+            "turn",
+            "shut",
+            "switch",
+            "power",
+            "kill",
+            "end",
+            "drop",
+            "quit",
+            "nix",
+            "disable",
+            "disengage",
+            "stall",
+            "lock",
+            "unplug",
+            "deactivate",
+            "off",
+            "pull",
+            "back",
+            "get",
+            "keep",
+            "can",
+            "chill",
+            "cool",
+            "red",
+            "cast",
+            "easy",
+            "steady",
+            "belay",
+            "come",
+            "coming",
+            "put",
+            "bring",
+            "skid",
+            "grind",
+            "roll",
+            "slow",
+            "neutral",
+            "finish",
+            "terminate",
+            "terminated",
+            "interrupt",
+            "scrub",
+            "scrap",
+            "scratch",
+            "cancel",
+            "abandon",
+            "disarm",
+            "calling",
+            "mind",
+            "nevermind",
+            "forget",
+            "changed",
+            "bother",
+            "sec",
+            "second",
+            "minute",
+            "moment",
+            "mo",
+            "tick",
+            "bit",
+            "break",
+            "make",
+        ),
+    }
+)
+"""One of these stands in every sentence that DENIAL finds something in: asked first, for speed."""
+SOFT = _any(
+    r"\b(?:watch|look) (?:out|it)(?! (?:of|the window|for)\b)|\bwatch (?:where|your)\b",
+    r"\bbe careful\b|(?:^|, )careful\b|\bheads up\b|\bdanger\b|\bmind (?:the|my|your|out)\b",
+    r"\b(?:about|going|gonna|almost|nearly|you will|you would|you are) (?:to |just )?(?:hit|crash"
+    r"|run over|crush|fall|bump|smash|knock|go|drive|roll|tip|tumble|bang|break|hurt)\w*\b",
+    r"\byou (?:are )?(?:on|hurting|too|hit|hurt|ran over|almost|crushing|scaring|squashing|dragging"
+    r"|stuck|frightening|standing on)\b",
+    r"\bmy (?:foot|feet|toes?|hand|fingers?|leg|dress|tail|cable)\b",
+    r"\bunder (?:the|your) wheels?\b|\bin (?:the|your|my) (?:way|path)\b|\bwrong way\b",
+    r"\b(?:right now|right this|this (?:second|instant|minute|very)|immediately|at once|right away"
+    r"|instantly|or else)\b",
+)
+"""Warnings and urgency: they stop where no clause of the sentence orders something."""
+_CRY = (
+    r"(?:no+|nope|nah|nuh|uh|oh|hey|oi+|robot|please|my|god|ow+|ouch|help(?: me)?|ar+g+h+|a+h+"
+    r"|ee+k|na|whoops|oops|pons)"
+)
+REFUSES = re.compile(
+    rf"(?:{_CRY}[ ,]*)*(?:no+|nope|nah|ow+|ouch|help(?: me)?|ar+g+h+|ee+k)(?:[ ,]*{_CRY})*[ ,]*"
+)
+"""A sentence of nothing but "no", or a cry."""
