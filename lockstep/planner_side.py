@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, cast
 
 from lockstep.insist import Insistence, Request
 from lockstep.thinking import at_once
-from planner.brain import is_stop, language_of
+from planner.language.identification import language_of
+from planner.language.stop import is_stop
 from planner.link import Identity, WireBus
 from planner.link.lidar import points_in_map
 from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, Journal, SayAloud

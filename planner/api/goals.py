@@ -6,11 +6,10 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Header, Query
 
-from planner.api.operator import persons_act
+from planner.api.operator import act_behind, persons_act
 from planner.api.ports import Services
 from planner.api.problems import Problem
 from planner.api.requests import GoalOrder, Move, NewGoal, Reply
-from planner.brain.intents import stays_put
 from planner.mission.errors import MissionError
 from planner.plan import Goal
 
@@ -44,7 +43,7 @@ def _giving(router: APIRouter, services: Services) -> None:
 
         A plain yes or no answers the question of a step, where only one asks.
         """
-        act = None if stays_put(new.text) else persons_act(services.robot, new.operator)
+        act = act_behind(services.robot, new.text, new.operator)
         return await goals.submit(
             new.text,
             language=new.language,
@@ -93,7 +92,7 @@ def _acting(router: APIRouter, services: Services) -> None:
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: Reply) -> Goal:
         """Answer a goal's question; an operator's act."""
-        act = None if stays_put(reply.text) else persons_act(services.robot, reply.operator)
+        act = act_behind(services.robot, reply.text, reply.operator)
         return await goals.answer(goal_id, reply.text, act=act)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")

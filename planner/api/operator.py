@@ -15,6 +15,7 @@ from planner.api.ports import Robot, Services
 from planner.api.problems import Problem
 from planner.api.requests import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.api.unrefused import Unrefused
+from planner.mission.reception import read_utterance
 from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, signed_request
 
 
@@ -98,6 +99,23 @@ def persons_act(robot: Robot, given: OperatorProof | None) -> OpRequest | None:
     if given is None and (status is None or not (status.drive.virtual or status.held)):
         return None
     return request(robot, "resume", "api", given)
+
+
+def act_behind(robot: Robot, text: str, given: OperatorProof | None) -> OpRequest | None:
+    """Return the resume that comes with a person's sentence, where it may lead to motion.
+
+    Raises:
+        Problem: as ``persons_act``; never for a sentence that may mean stop.
+    """
+    said = read_utterance(text)
+    if said.stays_put:
+        return None
+    try:
+        return persons_act(robot, given)
+    except Problem:
+        if said.may_mean_stop:
+            return None
+        raise
 
 
 def request(robot: Robot, kind: OpKind, source: str, given: OperatorProof | None) -> OpRequest:

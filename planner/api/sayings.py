@@ -25,8 +25,8 @@ _EARS = Bilingual(
     zh="本机目前无法识别语音；文字输入不受影响。运行 `pons doctor` 可查看原因。",
 )
 _AGAIN = Bilingual(
-    en="Too much is being heard at once, so nothing moves. Please say it again in a moment.",
-    zh="语音识别繁忙，机器人不会移动。请稍后再说一次。",
+    en="Too much is being heard at once, so this recording was left out. Say it again in a moment.",
+    zh="语音识别繁忙，这段录音没有处理。请稍后再说一次。",
 )
 SAYINGS = {
     "audio_empty": Bilingual(en="The recording is empty.", zh="录音是空的。"),

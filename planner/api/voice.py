@@ -8,11 +8,10 @@ from fastapi import APIRouter, Query, Request, Response
 from pydantic import BaseModel, ConfigDict
 
 from planner.api.goals import IdempotencyKey
-from planner.api.operator import persons_act
+from planner.api.operator import act_behind
 from planner.api.ports import Services
 from planner.api.problems import Problem
-from planner.brain.intents import stays_put
-from planner.brain.stoplane import is_stop
+from planner.language.stop import is_stop
 from planner.plan import Bilingual, Goal, Language
 from planner.voice import BadRecording, Heard, VoiceFailure, read_wav
 
@@ -23,8 +22,9 @@ STATUS = {
     "body_too_large": 413,
 }
 NOT_HEARD = Bilingual(
-    en="I did not hear an order that I know, so nothing moves. Say for example: go to the kitchen.",
-    zh="没有听到能确认的英文指令，机器人不会移动。中文目前请用文字输入。",
+    en="I did not hear an order that I know, so I begin nothing new. Say for example: go to the "
+    "kitchen.",
+    zh="没有听到能确认的英文指令，不会开始新的动作。中文目前请用文字输入。",
 )
 _BODY: dict[str, Any] = {
     "requestBody": {
@@ -74,10 +74,10 @@ def routes(services: Services) -> APIRouter:
         """Give a goal by an English recording (WAV, 16-bit PCM, at most 15 s).
 
         202 with the goal, which waits for a yes where the order was heard but not quite surely; 200
-        without one where none was heard: nothing moves.
+        without one where none was heard: nothing new begins.
         """
         heard = await _heard(services, await request.body())
-        if not heard.understood:
+        if not (heard.understood or services.goals.hears_stop(heard.transcript)):
             response.status_code = 200
             outcome = SpokenOutcome(code="not_heard", message=NOT_HEARD)
             return Spoken(transcript=heard.transcript, confidence=heard.confidence, outcome=outcome)
@@ -88,7 +88,7 @@ def routes(services: Services) -> APIRouter:
             confirm=confirm or not (heard.sure or is_stop(text)),
             replace=replace,
             idempotency_key=idempotency_key,
-            act=None if stays_put(text) else persons_act(services.robot, None),
+            act=act_behind(services.robot, text, None),
         )
         return Spoken(
             transcript=text,

@@ -22,8 +22,8 @@ BY_AMOUNT = frozenset({"turn", "move"})
 """Steps that are measured from where they began."""
 STEERED = Bilingual(
     en="Somebody steered the robot while its planner was down: how far this step had come is not "
-    "known, so I stay here.",
-    zh="规划程序中断期间有人手动驾驶过机器人：无法得知这一步完成了多少，所以不动。",
+    "known, so the goal ends.",
+    zh="规划程序中断期间有人手动驾驶过机器人：无法得知这一步完成了多少，任务到此结束。",
 )
 
 

@@ -7,11 +7,11 @@ the answer where one question alone can be meant: a wrong guess would move the r
 
 from __future__ import annotations
 
-from planner.mission.queue import enqueue, finish, note_step, release_answered
+from planner.mission.queue import clear_hold, enqueue, finish, note_step, release_answered
 from planner.mission.records import Book, Mission
 from planner.mission.skills.consent import consents
 from planner.mission.turn import Turn
-from planner.mission.verdict import ended
+from planner.mission.verdict import ended, moves
 from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message, same
 
 MAX_ANSWER = 2000
@@ -30,9 +30,21 @@ def asks(mission: Mission) -> bool:
 
 def take_answer(turn: Turn, mission: Mission, text: str) -> None:
     """Write the answer into its step, and go on in it first of all who wait."""
+    if consents(text) is True or not drives_next(mission):
+        clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
     release_answered(turn)
     enqueue(turn, turn.put(mission, outcome=None), first=True)
+
+
+def drives_next(mission: Mission) -> bool:
+    """Return whether anything moves after the current question and before the next thought."""
+    for step in mission.steps[mission.step + 1 :]:
+        if step.kind in ("ask", "decide"):
+            return False
+        if moves(step):
+            return True
+    return False
 
 
 def meant(book: Book, text: str) -> tuple[str, ...]:
@@ -64,7 +76,8 @@ def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> None
     said = Bilingual(en=f"Taken as the answer for {en}.", zh=f"已作为{zh}的回答。")
     outcome = Outcome(code=Code.ANSWERED, message=said)
     turn.put(mission, state=GoalState.SUCCEEDED, outcome=outcome)
-    take_answer(turn, turn.book.missions[asking[0]], mission.text)
+    asked = turn.put(turn.book.missions[asking[0]], given_under_hold=mission.given_under_hold)
+    take_answer(turn, asked, mission.text)
 
 
 def end_unanswered(turn: Turn) -> None:

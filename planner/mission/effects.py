@@ -39,6 +39,13 @@ class DropBrain:
 
 
 @dataclass(frozen=True, slots=True)
+class ClearHold:
+    """Bring the ``op/resume`` that came with a person's words for this goal to the bridge."""
+
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
 class AskRoute:
     """Have a way searched; answer with ``Routed``."""
 
@@ -92,7 +99,7 @@ class Changed:
     id: str
 
 
-Effect = AskBrain | DropBrain | AskRoute | AskEyes | Journal | SayAloud | Changed
+Effect = AskBrain | DropBrain | ClearHold | AskRoute | AskEyes | Journal | SayAloud | Changed
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,9 +23,11 @@ class Submitted:
     """It ends what is in hand once it is understood."""
     first: bool = False
     """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
-    operator: bool = True
-    """A person gave it now: the hold that stands is about to be cleared."""
+    resumes: bool = False
+    """The sentence itself says "go on": the hold that stands is about to be cleared."""
     stop: bool = False
+    doubtful_stop: bool = False
+    """The sentence holds a stop word and has stopped the robot; it is thought about only now."""
     echoed: bool = True
     """The bridge has confirmed that stop."""
     asking: tuple[str, ...] = ()

@@ -8,8 +8,10 @@ from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.gate import unwalkable
 from planner.mission.queue import (
     cancel,
+    clear_hold,
     enqueue,
     finish,
+    hold_now,
     hold_queue,
     pardon,
     pause_planning,
@@ -17,9 +19,10 @@ from planner.mission.queue import (
     release_answered,
     release_queue,
 )
-from planner.mission.records import Mission
+from planner.mission.records import Book, Mission
 from planner.mission.rethought import fingerprint, rethought
 from planner.mission.skills import NOTHING
+from planner.mission.telling import go_on_told, stop_told
 from planner.mission.turn import Turn
 from planner.mission.verdict import spot_at
 from planner.plan import (
@@ -41,8 +44,8 @@ MAP_CHANGED = Bilingual(
     zh="地图已更换：地点以新地图为准，但无法返回原来的位置。",
 )
 HOW_FAR_UNKNOWN = Bilingual(
-    en="The map has changed since: how far this step had come is not known, so I stay here.",
-    zh="地图已更换：无法得知这一步完成了多少，所以不动。",
+    en="The map has changed since: how far this step had come is not known, so the goal ends.",
+    zh="地图已更换：无法得知这一步完成了多少，任务到此结束。",
 )
 LEGS_UNWRITTEN = 100
 """More legs than a planner can have streamed and not yet written when it died: the bridge latches
@@ -60,9 +63,9 @@ def submit(turn: Turn, event: Submitted) -> None:
     """Take a goal in. One id is one goal: a repeated id changes nothing."""
     if event.id in turn.book.missions:
         return
-    if event.stop:
+    if event.stop or event.doubtful_stop:
         stop(turn)
-    elif event.operator:
+    elif event.resumes:
         pardon(turn)
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
@@ -76,12 +79,14 @@ def submit(turn: Turn, event: Submitted) -> None:
         confirm=event.confirm,
         replace=event.replace,
         first=event.first,
+        doubtful_stop=event.doubtful_stop,
+        given_under_hold=hold_now(turn),
         map_id=turn.book.facts.map_id,
         accepted_at=(pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None,
         created_unix_s=now_unix_s,
         updated_unix_s=now_unix_s,
     )
-    if event.stop:
+    if event.stop or (event.doubtful_stop and not event.echoed):
         _stopped(turn, mission, event.echoed)
         return
     if event.asking:
@@ -92,8 +97,8 @@ def submit(turn: Turn, event: Submitted) -> None:
 
 def _stopped(turn: Turn, mission: Mission, echoed: bool) -> None:
     if echoed:
-        said = Outcome(code=Code.STOPPED, message=message(Code.STOPPED))
-        turn.put(mission, state=GoalState.SUCCEEDED, outcome=said)
+        said = Outcome(code=Code.STOPPED, message=stop_told(turn.book))
+        finish(turn, mission, GoalState.SUCCEEDED, said)
         return
     said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
     turn.put(mission, state=GoalState.FAILED, reason="bridge_silent", outcome=said)
@@ -116,6 +121,9 @@ def planned(turn: Turn, event: Planned) -> None:
     if mission is None or mission.state is not GoalState.PLANNING:
         return
     plan = event.plan
+    if mission.doubtful_stop and not isinstance(plan, StepPlan):
+        _stopped(turn, turn.put(mission, brain=event.brain), echoed=True)
+        return
     if plan is None:
         outcome = event.failure or _bad_plan("no answer")
         state = GoalState.FAILED if outcome.code is Code.MODEL_UNAVAILABLE else GoalState.REFUSED
@@ -129,15 +137,26 @@ def planned(turn: Turn, event: Planned) -> None:
             _done(turn, mission, GoalState.SUCCEEDED, Code.ANSWERED, Outcome(
                 code=Code.ANSWERED, message=words))  # fmt: skip
         case Refuse():
-            _done(turn, mission, GoalState.REFUSED, plan.code, Outcome(
-                code=plan.code, message=plan.reason))  # fmt: skip
+            told = go_on_told(turn.book, plan.reason, turn.now_s)
+            outcome = Outcome(code=plan.code, message=told)
+            _done(turn, mission, GoalState.REFUSED, plan.code, outcome)
         case Clarify():
-            said = Outcome(code=plan.code, message=plan.question)
+            told = go_on_told(turn.book, plan.question, turn.now_s)
+            said = Outcome(code=plan.code, message=told)
             turn.put(
                 mission, state=GoalState.NEEDS_CLARIFICATION, reason=plan.code.value, outcome=said
             )
         case StepPlan():
             _walkable(turn, mission)
+
+
+def _ask_what_was_meant(book: Book, mission: Mission) -> Bilingual:
+    """Ask whether a sentence with a stop word in it was an order to do something."""
+    told, text = stop_told(book), mission.text[:60]
+    return Bilingual(
+        en=f"{told.en} Did you mean “{text}” as an order to go on with? Say yes, or cancel.",
+        zh=f"{told.zh}您是要我执行“{text}”吗？请确认或取消。",
+    )
 
 
 def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: Outcome) -> None:
@@ -148,11 +167,19 @@ def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: O
 def _walkable(turn: Turn, mission: Mission) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
+    if outcome is not None and mission.doubtful_stop:
+        _stopped(turn, mission, echoed=True)
+        return
     if outcome is not None:
         finish(turn, mission, GoalState.REFUSED, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
-    if mission.confirm:
+    if mission.doubtful_stop:
+        said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
+        turn.put(
+            mission, state=GoalState.AWAITING_CONFIRMATION, reason="doubtful_stop", outcome=said
+        )
+    elif mission.confirm:
         turn.put(mission, state=GoalState.AWAITING_CONFIRMATION)
     else:
         ready(turn, mission)
@@ -164,6 +191,7 @@ def _bad_plan(why: str) -> Outcome:
 
 def ready(turn: Turn, mission: Mission) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
+    clear_hold(turn, mission)
     if mission.begun:  # it was asked under way, and goes on where it stood
         release_answered(turn)
         enqueue(turn, mission, first=True)
@@ -186,13 +214,12 @@ def _in_hand(turn: Turn, new: Mission) -> Mission | None:
 
 def confirm(turn: Turn, mission: Mission) -> None:
     """Take a person's yes."""
-    pardon(turn)
-    ready(turn, mission)
+    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)))
 
 
 def reply(turn: Turn, mission: Mission, text: str) -> None:
     """Take a person's answer: to the plan's own question, or to one about the order itself."""
-    pardon(turn)
+    mission = turn.put(mission, given_under_hold=hold_now(turn))
     if asks(mission):
         take_answer(turn, mission, text)
         return

@@ -22,6 +22,7 @@ from planner.mission.effects import (
     AskEyes,
     AskRoute,
     Changed,
+    ClearHold,
     DropBrain,
     Effect,
     Journal,
@@ -86,6 +87,7 @@ class Loop:
         self._eyes: Eyes | None = None
         self._door = EyeDoor(None)
         self._attends = False
+        self._acts: dict[str, OpRequest] = {}
 
     @property
     def book(self) -> Book:
@@ -168,6 +170,11 @@ class Loop:
         """
         if self._safe is not None:
             await self._safe.wait(self.book.written)
+
+    def keep_act(self, goal_id: str, act: OpRequest | None) -> None:
+        """Keep a person's ``op/resume`` for a goal until its plan is accepted, or the goal ends."""
+        if act is not None:
+            self._acts[goal_id] = act
 
     def clear_hold(self, act: OpRequest | None) -> None:
         """Bring a person's ``op/resume`` to the bridge, beside everything else."""
@@ -277,9 +284,13 @@ class Loop:
                 self._key_now = None
             case AskBrain() | AskRoute() | AskEyes() | DropBrain() if self._helpers is not None:
                 self._helpers.help(effect)
+            case ClearHold():
+                self.clear_hold(self._acts.pop(effect.id, None))
             case SayAloud():
                 self.hub.publish({"type": "say", "goal": effect.id, "text": effect.text})
             case Changed():
                 if effect.id in self.book.missions:
+                    if self.book.missions[effect.id].ended:
+                        self._acts.pop(effect.id, None)
                     goal = goal_of(self.book, self.book.missions[effect.id]).model_dump(mode="json")
                     self.hub.publish({"type": "goal", "goal": goal})

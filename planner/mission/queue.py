@@ -7,7 +7,7 @@ with the answer, too.
 
 from __future__ import annotations
 
-from planner.mission.effects import DropBrain
+from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.records import Mission, Walk
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended, failure
@@ -53,10 +53,26 @@ def release_answered(turn: Turn) -> None:
             turn.put(mission, held=False)
 
 
+def hold_now(turn: Turn) -> str | None:
+    """Return the id of the bridge's hold that stands now, or None."""
+    held = turn.book.status.held if turn.book.status is not None else None
+    return held.id if held is not None else None
+
+
 def pardon(turn: Turn) -> None:
     """Note that a person acted: the hold that stands now is about to be cleared."""
-    held = turn.book.status.held if turn.book.status is not None else None
-    turn.set(pardoned=held.id if held else None, pardon_until_s=turn.now_s + PARDON_S)
+    turn.set(pardoned=hold_now(turn), pardon_until_s=turn.now_s + PARDON_S)
+
+
+def clear_hold(turn: Turn, mission: Mission) -> None:
+    """Clear the hold under which a person gave this goal, now that its plan is accepted.
+
+    A hold that began after the person spoke stays: nobody has answered that one.
+    """
+    held = hold_now(turn)
+    if held is not None and held == mission.given_under_hold:
+        pardon(turn)
+        turn.emit(ClearHold(mission.id))
 
 
 def standing_hold(turn: Turn) -> str | None:

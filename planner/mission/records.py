@@ -57,6 +57,11 @@ class Mission(Frozen):
     replace: bool = False
     first: bool = False
     """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
+    doubtful_stop: bool = False
+    """Its sentence holds a stop word and stopped the robot before it was thought about."""
+    given_under_hold: str | None = None
+    """The bridge's hold that stood when a person last spoke for this goal. Once a plan is made and
+    accepted, that hold is cleared, and no hold that came later."""
     held: bool = False
     """Queued, and kept there until a person resumes or cancels it."""
     kept: bool = False

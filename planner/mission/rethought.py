@@ -11,7 +11,7 @@ import json
 from planner.mission.events import Planned
 from planner.mission.failing import give_up
 from planner.mission.gate import unwalkable
-from planner.mission.queue import end_running, note_step, step_aside
+from planner.mission.queue import clear_hold, end_running, note_step, step_aside
 from planner.mission.records import Mission
 from planner.mission.rules import needs_yes
 from planner.mission.turn import Turn
@@ -119,4 +119,5 @@ def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
         reason = "new_place" if question is not None else None
         step_aside(turn, mission, GoalState.AWAITING_CONFIRMATION, reason, question)
     else:
+        clear_hold(turn, mission)
         begin_step(turn)

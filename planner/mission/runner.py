@@ -7,17 +7,18 @@ loop. An order to stop is judged before anything else and waits for no brain and
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import uuid
 
 from planner.brain.intents import Cancel as TakeBack
-from planner.brain.intents import Replace, intent_of, stays_put, stops
+from planner.brain.intents import Replace
 from planner.brain.intents import Resume as GoOn
 from planner.brain.looking import Looker
 from planner.brain.protocol import Brain
+from planner.language.identification import language_of
 from planner.link import Identity, Link, StopResult
-from planner.mission.accept import language_of
 from planner.mission.ahead import RouteAhead
-from planner.mission.asking import asks, meant
+from planner.mission.asking import asks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import (
@@ -42,12 +43,14 @@ from planner.mission.events import (
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Router
 from planner.mission.journal import MissionJournal
-from planner.mission.local import Local, current, to_resume
+from planner.mission.local import Local, to_resume
 from planner.mission.loop import Clocks, Loop
 from planner.mission.memory import Memory
+from planner.mission.reception import Reception, is_active, read_utterance, receive
 from planner.mission.records import MAX_OPEN, Book, Rules
 from planner.mission.repeats import Repeats, body_of
 from planner.mission.shown import Shown
+from planner.mission.skills.consent import consents
 from planner.mission.table import refusal
 from planner.mission.thinking import thinker
 from planner.plan import Goal, Language
@@ -146,35 +149,38 @@ class Missions(Shown):
             IdempotencyConflict: the key came with another request before.
             JournalDown: it can't be written down, so it was not taken.
         """
-        said = language or language_of(text)
-        intent = intent_of(text)
-        if stops(text):
-            return await self._stop_goal(text, said, source)
-        body = body_of(text, said, confirm, replace)
+        spoken, goal_id = language or language_of(text), self._clocks.new_id()
+        given = Submitted(goal_id, text, spoken, confirm, replace)
+        heard = self._receive(given, answers=answers)
+        if heard.stops:
+            return await self._stop_goal(heard.given, source)
+        body = body_of(text, spoken, confirm, replace)
         if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
             return self.goal(known)
-        may_answer = answers and intent is None and not (confirm or replace)
-        asking = meant(self._book, text) if may_answer else ()
-        waiting = sum(not m.ended for m in self._book.missions.values())
-        local = bool(asking) or (intent is not None and not isinstance(intent, Replace))
-        if waiting >= MAX_OPEN and not local:
-            raise QueueFull(waiting)
-        operator = not local or isinstance(intent, GoOn) or len(asking) == 1
-        act = act if operator else None  # what can't lead to motion clears no hold
-        first = isinstance(intent, Replace) and intent.now
-        taken_back = current(self._book) if first else None
-        if isinstance(intent, Replace):
-            replace = not intent.now
-        goal_id = self._clocks.new_id()
+        if heard.crowded:
+            raise QueueFull(MAX_OPEN)
         key = self._repeats.remember(idempotency_key, body, goal_id)
-        self._loop.clear_hold(act)
+        if heard.given.resumes:
+            self._loop.clear_hold(act)
+        else:
+            for behind in (goal_id, *heard.given.asking):
+                self._loop.keep_act(behind, act)
         self._loop.accepted.note(goal_id, self._clocks.monotonic())
-        given = Submitted(goal_id, text, said, confirm, replace, first, operator, asking=asking)
-        self._loop.event(given, key)
-        if taken_back is not None:
-            self._loop.event(Cancel(taken_back))
+        self._loop.event(heard.given, key)
+        if heard.takes_back is not None:
+            self._loop.event(Cancel(heard.takes_back))
         await self._written(goal_id, idempotency_key)
         return self.goal(goal_id)
+
+    def hears_stop(self, text: str) -> bool:
+        """Return whether these words would stop the robot now, whatever else they may mean."""
+        said = read_utterance(text)
+        active = is_active(self._book, self._clocks.monotonic())
+        return said.orders_stop or (said.may_mean_stop and active)
+
+    def _receive(self, given: Submitted, *, answers: bool = True) -> Reception:
+        said, now_s = read_utterance(given.text), self._clocks.monotonic()
+        return receive(self._book, said, given, now_s, answers=answers)
 
     async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
         """Wait until a goal is written down; what can't be is taken back."""
@@ -215,8 +221,9 @@ class Missions(Shown):
         Raises:
             UnknownGoal, BadState: as named.
         """
-        intent = intent_of(text)
-        if stops(text):
+        said = read_utterance(text)
+        intent = said.intent
+        if said.orders_stop or (consents(text) is None and self.hears_stop(text)):
             await self.stop("answer")
             if isinstance(intent, Replace):
                 self._obey(Cancel(goal_id))
@@ -226,7 +233,7 @@ class Missions(Shown):
         if isinstance(intent, TakeBack):
             return await self.cancel(goal_id)
         own_question = asks(self._book.missions[goal_id])  # "go on" may be its answer
-        if stays_put(text) or (isinstance(intent, GoOn) and not own_question):
+        if said.stays_put or (isinstance(intent, GoOn) and not own_question):
             await self.submit(text, act=act)
             return self.goal(goal_id)
         if isinstance(intent, Replace):
@@ -248,11 +255,10 @@ class Missions(Shown):
 
     # Inside -------------------------------------------------------------------------------------
 
-    async def _stop_goal(self, text: str, language: Language, source: str) -> Goal:
+    async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
-        goal_id = self._clocks.new_id()
-        self._loop.event(Submitted(goal_id, text, language, stop=True, echoed=result.echoed))
-        return self.goal(goal_id)
+        self._loop.event(dataclasses.replace(given, echoed=result.echoed))
+        return self.goal(given.id)
 
     def _newest_paused(self) -> str:
         if (goal_id := to_resume(self._book)) is None:
@@ -278,7 +284,10 @@ class Missions(Shown):
         error = refusal(self._book, command)
         if error is not None:
             raise error
-        self._loop.clear_hold(act)
+        if isinstance(command, Resume):
+            self._loop.clear_hold(act)
+        else:
+            self._loop.keep_act(command.id, act)
         self._loop.event(command)
         await self._loop.settled()
         return self.goal(command.id)

@@ -7,7 +7,7 @@ from math import hypot
 from planner.mission.records import Book, Facts, Mission
 from planner.mission.sight import standing, worst_row
 from planner.mission.verdict import place_name, spot_at
-from planner.plan import Bilingual, GoalState
+from planner.plan import Bilingual, Code, GoalState, message
 from wire import Pose2, Status
 
 NEAR_M = 1.0
@@ -23,6 +23,29 @@ _PAUSED = {
     "disarmed": ("the robot is disarmed", "机器人未解锁"),
     "planner_restarted": ("the planner was restarted", "规划器曾重启"),
 }
+
+
+STOPPED = message(Code.STOPPED)
+STOPPING = Bilingual(en="Stopping: the bridge has confirmed it.", zh="正在停下：安全桥已确认。")
+
+
+def stop_told(book: Book) -> Bilingual:
+    """Say that a stop was confirmed; that the robot stands only where it does."""
+    status = book.status
+    return STOPPED if status is not None and standing(status) else STOPPING
+
+
+def go_on_told(book: Book, said: Bilingual, now_s: float) -> Bilingual:
+    """Say beside a refusal or a question that the robot is still on another goal, where it is."""
+    running = book.missions.get(book.running or "")
+    if running is None:
+        return said
+    text = _short(running.text)
+    moves = book.status is not None and not standing(book.status)
+    fresh = now_s - book.status_s <= OLD_S
+    en = "I keep driving for" if moves and fresh else "I am still at"
+    zh = "我仍在行驶，执行" if moves and fresh else "我仍在执行"
+    return Bilingual(en=f"{said.en} {en} “{text}”.", zh=f"{said.zh}{zh}“{text}”。")
 
 
 def where(book: Book, age_s: float) -> Bilingual:

@@ -74,8 +74,8 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "指令里有不是文字的字符（{found}），请用普通文字书写。",
     ),
     Code.NOT_UNDERSTOOD: (
-        "I did not understand “{part}”, so I stay where I am. Please say it another way.",
-        "我没听懂“{part}”，所以先不动。请换个说法。",
+        "I did not understand “{part}”. Please say it another way.",
+        "我没听懂“{part}”。请换个说法。",
     ),
     Code.UNKNOWN_PLACE: (
         "I know no place called “{name}”.{near} Known places: {known}.",
@@ -86,16 +86,16 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "“{part}”可能有不止一个意思，您指的是哪一个？",
     ),
     Code.INCOMPLETE: (
-        "Something is missing in “{part}”: {what} So I stay where I am.",
-        "“{part}”里缺少信息：{what}所以先不动。",
+        "Something is missing in “{part}”: {what}",
+        "“{part}”里缺少信息：{what}",
     ),
     Code.NEGATED: (
-        "You said “{part}”: I take that as an order not to do it, and stay where I am.",
-        "您说了“{part}”：我理解为不要这样做，所以不动。",
+        "You said “{part}”: I take that as an order not to do it, and plan no motion for it.",
+        "您说了“{part}”：我理解为不要这样做，因此不会为此移动。",
     ),
     Code.CONDITIONAL: (
-        "I can't check the condition “{part}”, so I stay where I am. Give the order without it.",
-        "我无法判断“{part}”这个条件，所以不动。请直接下达不带条件的指令。",
+        "I can't check the condition “{part}”, so I begin nothing. Give the order without it.",
+        "我无法判断“{part}”这个条件，所以不会开始。请直接下达不带条件的指令。",
     ),
     Code.OUT_OF_SCOPE: (
         "Speeds and coordinates are not mine to choose (“{part}”). Name a place instead.",
@@ -146,8 +146,8 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "{text}",
     ),
     Code.NO_ANSWER: (
-        "Nobody answered “{text}” within {seconds} s, so I stay where I am.",
-        "“{text}”在 {seconds} 秒内没有得到回答，所以不动。",
+        "Nobody answered “{text}” within {seconds} s, so the goal ends.",
+        "“{text}”在 {seconds} 秒内没有得到回答，任务到此结束。",
     ),
     Code.NO_ROOM: (
         "There is room for {room} m in a straight line, not for {asked} m.",
@@ -166,8 +166,8 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "去{place}的路被挡住了。",
     ),
     Code.BLIND: (
-        "I can't see now ({why}), so I stay where I am.",
-        "我现在看不见（{why}），所以不动。",
+        "I can't see now ({why}).",
+        "我现在看不见（{why}）。",
     ),
     Code.NOT_FOUND: (
         "I saw no {thing}. {looked}",

@@ -12,6 +12,7 @@ from typing import Any
 
 from planner.brain import Brain, OfflineBrain
 from planner.budget import Amounts, Most, Usage
+from planner.language.stop import is_stop
 from planner.mission import Leg, Memory
 from planner.mission.errors import BadState, UnknownGoal
 from planner.plan import Goal, GoalState, Language
@@ -45,6 +46,9 @@ class FakeGoals:
         self.acts: list[OpRequest | None] = []
         self.stops: list[str] = []
         self.leg: Leg | None = None
+
+    def hears_stop(self, text: str) -> bool:
+        return is_stop(text)
 
     async def submit(
         self,

@@ -91,7 +91,7 @@ def test_an_answer_lets_nobody_go_whom_more_than_the_question_keeps(
             world.event(Stopped("test"))
         world.bridge.hold(HeldReason.STOP)
         world.run(0.2)
-    fresh = world.give(go("dock"), operator=False)
+    fresh = world.give(go("dock"))
     world.event(Reply(goal, "me"))
     world.act()
     world.run_until(goal, SUCCEEDED)

@@ -1,0 +1,124 @@
+"""Receive a person's sentence: decide once, before any brain, what it is to the missions.
+
+Pure. The one door for text, voice, page, command line and the lockstep harness: whoever feeds the
+missions asks :func:`receive` and does what it says, a stop first of all.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from planner.brain.intents import Intent, Replace, intent_of
+from planner.brain.intents import Resume as GoOn
+from planner.language.stop import StopReading, is_stop, read_stop
+from planner.mission.asking import meant
+from planner.mission.local import current
+from planner.mission.records import MAX_OPEN
+from planner.mission.sight import at_rest
+from planner.plan import GoalState
+
+if TYPE_CHECKING:
+    from planner.mission.events import Submitted
+    from planner.mission.records import Book
+
+OLD_STATUS_S = 1.0
+"""A status older than this says nothing of whether the robot moves now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """Hold a sentence and what it says by itself, whatever the robot does."""
+
+    text: str
+    intent: Intent | None
+    reading: StopReading
+
+    @property
+    def orders_stop(self) -> bool:
+        """Return whether it orders a stop, at its start or in place of the current goal."""
+        instead = isinstance(self.intent, Replace) and is_stop(self.intent.rest)
+        return self.reading is StopReading.ORDER or instead
+
+    @property
+    def may_mean_stop(self) -> bool:
+        """Return whether a stop word stands in it that is not read as anything else."""
+        if isinstance(self.intent, Replace):
+            return read_stop(self.intent.rest) is not StopReading.NONE
+        return self.intent is None and self.reading is StopReading.POSSIBLE
+
+    @property
+    def stays_put(self) -> bool:
+        """Return whether it can't lead to motion, so that it needs no operator's proof."""
+        memory_or_goals = not (self.intent is None or isinstance(self.intent, Replace | GoOn))
+        return self.orders_stop or memory_or_goals
+
+
+@lru_cache(maxsize=64)
+def read_utterance(text: str) -> Utterance:
+    """Return what a sentence says by itself."""
+    return Utterance(text, intent_of(text), read_stop(text))
+
+
+@dataclass(frozen=True, slots=True)
+class Reception:
+    """Say what is to be done with a sentence."""
+
+    given: Submitted
+    stops: bool = False
+    """The bridge is told to stop before anything else."""
+    takes_back: str | None = None
+    """The goal that it ends."""
+    crowded: bool = False
+    """It would be a new goal, and too many are open."""
+
+
+def receive(
+    book: Book, said: Utterance, given: Submitted, now_s: float, *, answers: bool = True
+) -> Reception:
+    """Return what is to be done with a sentence that came now.
+
+    Args:
+        book: where everything stands.
+        said: the sentence as it was read.
+        given: the goal that it would be, without marks.
+        now_s: on the clock of the book.
+        answers: it may answer a question.
+    """
+    if said.orders_stop:
+        return Reception(replace(given, stop=True), stops=True)
+    intent, full = said.intent, is_full(book)
+    may_answer = answers and intent is None and not (given.confirm or given.replace)
+    asking = meant(book, given.text) if may_answer else ()
+    if said.may_mean_stop and not asking and is_active(book, now_s):
+        marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
+        return Reception(marked, stops=True)
+    replaces = isinstance(intent, Replace)
+    first = isinstance(intent, Replace) and intent.now
+    local = bool(asking) or (intent is not None and not replaces)
+    marked = replace(
+        given,
+        replace=given.replace if not replaces else not first,
+        first=first,
+        resumes=isinstance(intent, GoOn),
+        asking=asking,
+    )
+    takes_back = current(book) if first else None
+    return Reception(marked, takes_back=takes_back, crowded=full and not local)
+
+
+def is_full(book: Book) -> bool:
+    """Return whether no more goals are taken in."""
+    return sum(not mission.ended for mission in book.missions.values()) >= MAX_OPEN
+
+
+def is_active(book: Book, now_s: float) -> bool:
+    """Return whether anything moves, is about to move, or waits; in doubt it does."""
+    thinking = any(m.state is GoalState.PLANNING for m in book.missions.values())
+    if book.running is not None or book.queue or thinking:
+        return True
+    status = book.status
+    if status is None:
+        return False  # no bridge was ever heard, so nothing of ours can move
+    return not now_s - book.status_s <= OLD_STATUS_S or not at_rest(status)
