@@ -13,15 +13,26 @@ from typing import TYPE_CHECKING, cast
 from lockstep.insist import Insistence, Request
 from lockstep.thinking import at_once
 from planner.language.identification import language_of
-from planner.language.stop import is_stop
 from planner.link import Identity, WireBus
 from planner.link.lidar import points_in_map
-from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, Journal, SayAloud
+from planner.mission.effects import (
+    AskBrain,
+    AskEyes,
+    AskRoute,
+    ClearHold,
+    DropBrain,
+    Journal,
+    SayAloud,
+)
 from planner.mission.engine import Engine, Output
-from planner.mission.events import Event, Restarted, Sighted, Stopped, Submitted, Tick, Told
+from planner.mission.events import Cancel, Event, Restarted, Sighted, Stopped, Submitted, Tick, Told
 from planner.mission.facts import facts_of
+from planner.mission.local import Local
+from planner.mission.memory import Memory
+from planner.mission.reception import read_utterance, receive
 from planner.mission.records import Book, Mission
 from planner.mission.skills import Answer, Eyesight, Way
+from planner.mission.table import refusal
 from planner.mission.thinking import thinker
 from planner.route import RouteFailure, RouteRequest
 from wire import VIRTUAL_KEY, OpKind, Scan, Status, Stop, signed_request
@@ -34,6 +45,8 @@ if TYPE_CHECKING:
     from lockstep.pace import Pace
     from lockstep.scene import Scene
     from planner.brain import Brain
+    from planner.mission.errors import MissionError
+    from planner.mission.events import Command
     from planner.plan import Language
     from planner.vision.records import Sight
     from wire.session import Session
@@ -72,6 +85,7 @@ class PlannerSide:
         self._eyes: EyesSide | None = None
         self.said: list[str] = []
         self._scene, self._port, self._pace = scene, port, pace
+        self._memory, self._now_s = Memory(scene.site), now_s
         self._notebook = notebook
         self.think_with(brain)
         self._bus = WireBus(cast("Session", port))
@@ -112,7 +126,7 @@ class PlannerSide:
 
     def turn(self, now_s: float) -> None:
         """Hear, judge, answer, and carry out what is due."""
-        tick = self._port.bus.tick
+        self._now_s, tick = now_s, self._port.bus.tick
         self._scan = self._bus.scan() or self._scan
         status = self._bus.status()
         if status is not None:
@@ -137,15 +151,18 @@ class PlannerSide:
         self._do(self.engine.event(event, now_s))
 
     def say(self, goal_id: str, text: str, language: Language | None, now_s: float) -> None:
-        """Take a sentence as the API's handler does: stop lane first, then missions."""
-        spoken = language or language_of(text)
-        if is_stop(text):
-            self.stop("api")
-            self.event(Submitted(goal_id, text, spoken, stop=True), now_s)
+        """Take a sentence by the planner's own door: stop lane first, then missions."""
+        given = Submitted(goal_id, text, language or language_of(text))
+        heard = receive(self.engine.book, read_utterance(text), given, now_s)
+        if heard.stops:
+            self.order_stop("api", now_s)
+            self.event(heard.given, now_s)
             return
-        if self._status is not None and self._status.held is not None:
+        if heard.given.resumes:
             self.operate("resume")
-        self.event(Submitted(goal_id, text, spoken), now_s)
+        self.event(heard.given, now_s)
+        if heard.takes_back is not None:
+            self.event(Cancel(heard.takes_back), now_s)
 
     def order_stop(self, source: str, now_s: float) -> Request:
         """Stop through the API: the bridge and the missions both hear it."""
@@ -187,6 +204,8 @@ class PlannerSide:
                     self._in(self._pace.brain, self._telling(effect))
                 case Journal():
                     self._in(self._pace.journal, self._writing(effect))
+                case ClearHold():
+                    self.operate("resume")
                 case SayAloud():
                     self.said.append(effect.text)
                 case DropBrain():
@@ -200,9 +219,20 @@ class PlannerSide:
 
     def _thinking(self, ask: AskBrain) -> Callable[[float], Output]:
         book = self.engine.book
-        think = thinker(self._brain, self._scene.vocabulary, None, book.means, book.eyes.classes)
-        event = at_once(think(ask))
+        brain = thinker(self._brain, self._scene.vocabulary, None, book.means, book.eyes.classes)
+        local = Local(brain, self._memory, lambda: self.engine.book, self._obey, self._age_s)
+        event = at_once(local.think(ask))
         return lambda now_s: self.engine.event(event, now_s)
+
+    def _obey(self, command: Command) -> MissionError | None:
+        """Obey a command that a sentence gave, or say why it can't be obeyed."""
+        error = refusal(self.engine.book, command)
+        if error is None:
+            self.event(command, self._now_s)
+        return error
+
+    def _age_s(self) -> float:
+        return self._now_s - self.engine.book.status_s
 
     def _telling(self, ask: AskEyes) -> Callable[[float], Output]:
         answer = Answer(failure="camera_silent") if self._eyes is None else self._eyes.answer(ask)

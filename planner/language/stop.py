@@ -108,7 +108,7 @@ def is_stop(text: str) -> bool:
 
 def _see(text: str) -> str:
     """Return the text as a person sees it: folded, nothing unseen, signs and "don't" as words."""
-    plain = unmask(fold(text).translate(_SIGNS))
+    plain = unmask(fold(text).replace("стоп", " stop ").translate(_SIGNS))
     return _TOKEN.sub(_expand, plain)
 
 

@@ -239,7 +239,7 @@ ENDS_IN = re.compile(
 
 STRONG = _any(
     r"\b(?:s+t+[ao]+[hw]*p+|h+a+l+t+|f+r+e+e*z+e+|brakes?|who+a+h?|wo+a+h?|abort|desist|cease)\b",
-    r"\b(?:e ?stop|standstill|quit|avast|stationary|motionless)\b|\bст[оo]п\b",
+    r"\b(?:e ?stop|standstill|quit|avast|stationary|motionless)\b",
     r"\b(?:do not|must not|to not|not to|never) (?:you |dare |even |ever |please |to )*"
     r"(?:move|budge|stir|twitch)\b(?! (?:to|into|the|my|this|that|from|it|towards?|away from)\b)",
     r"\bting ?(?:xia(?: ?lai)?|zhi|che|ba|le|yi ?xia)\b|\bbie ?dong\b|\bzhan ?zhu\b|^(?:ting ?)+$",

@@ -47,6 +47,8 @@ class Following:
     leg: int
     path: LegPath
     progress_m: float = 0.0
+    slowed: tuple[float, LegPath] | None = None
+    """The share of the speed that a person has left to the goal, and the path at that speed."""
 
 
 class Engine:
@@ -159,9 +161,19 @@ class Engine:
             return None
         if (following.mission, following.leg) != (wanted.mission, wanted.leg):
             return None
-        horizon = cut(following.path, pose, following.progress_m)
+        horizon = cut(self._slowed(following), pose, following.progress_m)
         following.progress_m = horizon.progress_m
         return horizon
+
+    def _slowed(self, following: Following) -> LegPath:
+        """Return the path at the speed that a person has left to its goal."""
+        mission = self.book.missions.get(following.mission)
+        share = mission.speed_share if mission is not None else 1.0
+        if share == 1.0:
+            return following.path
+        if following.slowed is None or following.slowed[0] != share:
+            following.slowed = (share, following.path.slowed(share))
+        return following.slowed[1]
 
     def _course(self, horizon: Horizon | None) -> Course:
         """Return what is wanted of the bridge now; ``horizon`` was cut on the status answered."""

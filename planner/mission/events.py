@@ -127,6 +127,14 @@ class Reply:
 
 
 @dataclass(frozen=True, slots=True)
+class ChangeSpeed:
+    """Halve the speed cap of a running goal, or double it again up to the whole."""
+
+    id: str
+    slower: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Move:
     """Put a queued goal before another, or last."""
 
@@ -162,7 +170,7 @@ class Tick:
     """Time went by."""
 
 
-Command = Cancel | Pause | Resume | Confirm | Reply | Move
+Command = Cancel | Pause | Resume | Confirm | Reply | Move | ChangeSpeed
 Event = (
     Submitted
     | Planned
@@ -177,6 +185,7 @@ Event = (
     | Confirm
     | Reply
     | Move
+    | ChangeSpeed
     | Stopped
     | Restarted
     | Known

@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING
 from planner.brain.intents import (
     Cancel,
     Doing,
+    Faster,
     Forget,
     Intent,
     Pause,
     Remember,
     Replace,
     Resume,
+    Slower,
     Where,
     intent_of,
 )
@@ -91,6 +93,8 @@ class Local:
                 return self._each("resume", events.Resume, to_resume(self._book(), mission.id))
             case Doing():
                 return Answer(text=doing(self._book(), self._age_s(), mission.id))
+            case Slower() | Faster():
+                return self._change_speed(slower=isinstance(intent, Slower))
             case Where() | Replace():
                 return Answer(text=where(self._book(), self._age_s()))
 
@@ -104,6 +108,23 @@ class Local:
         if error is not None:
             return Answer(text=error.message)
         return Answer(text=Bilingual(en=f"{done.en}: “{text}”.", zh=f"{done.zh}：“{text}”。"))
+
+    def _change_speed(self, *, slower: bool) -> Answer:
+        """Change the speed cap of the running goal and say what it is now."""
+        running = self._book().running
+        if running is None:
+            return Answer(text=_NOTHING_RUNS)
+        error = self._command(events.ChangeSpeed(running, slower=slower))
+        if error is not None:
+            return Answer(text=error.message)
+        mission = self._book().missions[running]
+        share, text = f"{100.0 * mission.speed_share:.0f} %", mission.text[:60]
+        return Answer(
+            text=Bilingual(
+                en=f"At most {share} of the planned speed for “{text}” from now on.",
+                zh=f"从现在起，“{text}”的速度不超过原计划的 {share}。",
+            )
+        )
 
     async def _remember(self, name: str) -> Answer | Refuse:
         try:
@@ -136,6 +157,9 @@ class Local:
         )
 
 
+_NOTHING_RUNS = Bilingual(
+    en="No goal is running whose speed could change.", zh="没有正在执行的任务，无法改变速度。"
+)
 _SAID: dict[str, tuple[Bilingual, Bilingual]] = {
     "pause": (
         Bilingual(en="Paused", zh="已暂停"),

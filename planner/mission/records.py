@@ -93,6 +93,8 @@ class Mission(Frozen):
     """The newest leg of this mission; legs only rise."""
     accepted_at: tuple[float, float, float] | None = None
     """Where the robot stood when the goal was accepted: x [m], y [m], yaw [rad] in ``map``."""
+    speed_share: float = Field(default=1.0, ge=0.0, le=1.0)
+    """Of the planned speeds' cap: a person said "slow down" while it ran."""
     metres: float = 0.0
     limited: dict[str, int] = Field(default_factory=dict)
     """Statuses during which the bridge's limit of that name was the nearest one."""

@@ -10,6 +10,8 @@ from __future__ import annotations
 from planner.mission.effects import STAND, AskBrain, Effect, Wish
 from planner.mission.events import (
     Cancel,
+    ChangeSpeed,
+    Command,
     Confirm,
     Event,
     Journalled,
@@ -30,6 +32,7 @@ from planner.mission.events import (
 )
 from planner.mission.gazing import on_sight, on_told
 from planner.mission.goals import (
+    change_speed,
     confirm,
     pause,
     planned,
@@ -59,7 +62,7 @@ def advance(book: Book, event: Event, now_s: float) -> tuple[Book, tuple[Effect,
     A command that the state doesn't allow changes nothing; ask ``table.refusal`` why.
     """
     turn = Turn(book, now_s)
-    if isinstance(event, (Cancel, Pause, Resume, Confirm, Reply, Move)):
+    if isinstance(event, (Cancel, Pause, Resume, Confirm, Reply, Move, ChangeSpeed)):
         _command(turn, event)
     else:
         _fact(turn, event)
@@ -133,7 +136,7 @@ def _fact(
             on_known(turn, event.facts)
 
 
-def _command(turn: Turn, event: Cancel | Pause | Resume | Confirm | Reply | Move) -> None:
+def _command(turn: Turn, event: Command) -> None:
     mission = turn.mission(event.id)
     if mission is None or refusal(turn.book, event) is not None:
         return
@@ -150,3 +153,5 @@ def _command(turn: Turn, event: Cancel | Pause | Resume | Confirm | Reply | Move
             reply(turn, mission, event.text)
         case Move():
             reorder(turn, event.id, event.before)
+        case ChangeSpeed():
+            change_speed(turn, mission, slower=event.slower)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planner.mission.errors import BadState, MissionError, UnknownGoal
-from planner.mission.events import Cancel, Command, Confirm, Move, Pause, Reply, Resume
+from planner.mission.events import Cancel, ChangeSpeed, Command, Confirm, Move, Pause, Reply, Resume
 from planner.mission.records import Book, Mission
 from planner.plan import GoalState
 
@@ -23,6 +23,7 @@ ALLOWED: dict[type[Command], frozenset[GoalState]] = {
     Confirm: frozenset({GoalState.AWAITING_CONFIRMATION}),
     Reply: frozenset({GoalState.NEEDS_CLARIFICATION}),
     Move: frozenset({GoalState.QUEUED}),
+    ChangeSpeed: frozenset({GoalState.RUNNING}),
 }
 
 

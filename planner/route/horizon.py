@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import hypot
+from math import copysign, hypot
 
-from planner.route.request import RoutePoint
+from planner.route.request import MIN_SPEED_MPS, RoutePoint
 from wire import MAX_POINTS, Pose2, Waypoint
 
 OFF_PATH_M = 0.3
@@ -50,6 +50,16 @@ class LegPath:
         for a, b in pairwise(points):
             along_m.append(along_m[-1] + hypot(b.x_m - a.x_m, b.y_m - a.y_m))
         return cls(tuple(points), tuple(along_m), heading_rad)
+
+    def slowed(self, share: float) -> LegPath:
+        """Return the path with its fastest speed cut to a share of itself, and no point faster."""
+        fastest_mps = max(abs(point.speed_mps) for point in self.points)
+        cap_mps = max(share * fastest_mps, MIN_SPEED_MPS)
+        points = tuple(
+            replace(p, speed_mps=copysign(min(abs(p.speed_mps), cap_mps), p.speed_mps))
+            for p in self.points
+        )
+        return replace(self, points=points)
 
     @property
     def length_m(self) -> float:

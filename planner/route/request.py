@@ -63,6 +63,10 @@ class RouteRequest:
     straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
 
 
+MIN_SPEED_MPS = 0.05
+"""The slowest speed that the bridge takes for a speed."""
+
+
 @dataclass(frozen=True, slots=True)
 class RoutePoint:
     """Give one point of a route in ``map`` and the speed to pass it at; its sign is the direction.

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.route.costmap import MARGIN_M, Costmap
-from planner.route.request import RouteLimits
+from planner.route.request import MIN_SPEED_MPS, RouteLimits
 from planner.route.shape import Line, lengths_m
 
 SPACING_M = 0.10
@@ -16,8 +16,6 @@ MIN_GAP_M = 0.05
 """The bridge refuses points nearer than this or farther apart than 0.25 m; the first and the last
 gap may be as short as 0.01 m."""
 MIN_END_GAP_M = 0.01
-MIN_SPEED_MPS = 0.05
-"""The slowest speed that the bridge takes for a speed."""
 TIGHT_SPEED_MPS = 0.20
 """Where the disc just fits; a door of 0.90 m is passed at about 0.3 m/s."""
 ROOMY_M = 0.35

@@ -6,12 +6,14 @@ Pure, both languages, whole sentences only. The one door of this package.
 from planner.brain.intents.kinds import (
     Cancel,
     Doing,
+    Faster,
     Forget,
     Intent,
     Pause,
     Remember,
     Replace,
     Resume,
+    Slower,
     Where,
 )
 from planner.brain.intents.names import name_reads_as_order
@@ -20,12 +22,14 @@ from planner.brain.intents.reader import intent_of
 __all__ = [
     "Cancel",
     "Doing",
+    "Faster",
     "Forget",
     "Intent",
     "Pause",
     "Remember",
     "Replace",
     "Resume",
+    "Slower",
     "Where",
     "intent_of",
     "name_reads_as_order",

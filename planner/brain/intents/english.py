@@ -74,6 +74,18 @@ INSTEAD = re.compile(
     r"instead,? (?P<rest>(?:go|come|drive|move|return|head|wait|turn|patrol)\b.+)"
     r"|(?P<rest2>(?:go|come|drive|move|return|head|wait|turn|patrol)\b.+?),? instead"
 )
+_SPEED = r"(?: (?:a (?:little|bit|lot)|a little bit|much|even|still|down|up|more))*"
+SLOWER = re.compile(
+    rf"(?:slow down|ease off|ease up|easy does it)(?: a (?:little|bit)| there| now)*"
+    rf"|(?:(?:go|drive|move|roll)(?: a (?:little|bit)| much)? )?(?:slower|more slowly){_SPEED}"
+    r"|(?:not|do(?: not|n't) (?:go|drive|move)) (?:so|that|too) fast|reduce (?:your |the )?speed"
+    r"|(?:that is |that's |you are |you're |it is )?(?:way |much |going |driving )?too fast"
+)
+FASTER = re.compile(
+    rf"(?:speed up|hurry up|faster){_SPEED}|(?:go|drive|move)(?: a (?:little|bit))? faster{_SPEED}"
+    r"|(?:normal|full|usual) speed(?: again)?|(?:not|do(?: not|n't) (?:go|drive|move)) (?:so|that"
+    r"|too) slow(?:ly)?|too slow"
+)
 WHERE = re.compile(
     r"where are you(?: (?:now|at|right now|currently|at the moment))?|tell me where you are"
     r"|(?:what is|what's|report|tell me) your (?:current )?(?:location|position)"

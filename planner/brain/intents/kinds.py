@@ -54,4 +54,14 @@ class Doing:
     """Say what the robot does now."""
 
 
-Intent = Remember | Forget | Pause | Resume | Cancel | Replace | Where | Doing
+@dataclass(frozen=True, slots=True)
+class Slower:
+    """Halve the speed cap of the running goal."""
+
+
+@dataclass(frozen=True, slots=True)
+class Faster:
+    """Double it again, up to what the goal began with."""
+
+
+Intent = Remember | Forget | Pause | Resume | Cancel | Replace | Where | Doing | Slower | Faster

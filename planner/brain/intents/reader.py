@@ -17,12 +17,14 @@ from planner.brain.intents import chinese, english
 from planner.brain.intents.kinds import (
     Cancel,
     Doing,
+    Faster,
     Forget,
     Intent,
     Pause,
     Remember,
     Replace,
     Resume,
+    Slower,
     Where,
 )
 from planner.language.folding import fold_script, fold_width
@@ -36,6 +38,8 @@ _SIMPLE: tuple[tuple[str, Intent], ...] = (
     ("CANCEL", Cancel()),
     ("WHERE", Where()),
     ("DOING", Doing()),
+    ("SLOWER", Slower()),
+    ("FASTER", Faster()),
 )
 _CJK = re.compile(r"[\u3400-\u9fff]")
 _END = " .!,;:。~…"
@@ -81,7 +85,14 @@ def _read(said: _Said, grammar: ModuleType) -> Intent | None:
     simple = _simple(said.folded, grammar, asks=asks)
     if simple is not None or asks:
         return simple
-    return _taught(said, grammar) or _replacing(said, grammar)
+    return _taught(said, grammar) or _replacing(said, grammar) or _slowing(said, grammar)
+
+
+def _slowing(said: _Said, grammar: ModuleType) -> Intent | None:
+    """Read "slow down, there is a child": a reason behind it changes nothing."""
+    cut = _SEPARATOR.search(said.folded)
+    first = _plain(said.part(0, cut.start()), grammar).folded if cut is not None else ""
+    return Slower() if grammar.SLOWER.fullmatch(first) else None
 
 
 def _unseen(char: str) -> bool:

@@ -11,6 +11,7 @@ from planner.mission.effects import (
     AskBrain,
     AskRoute,
     Changed,
+    ClearHold,
     DropBrain,
     Effect,
     Journal,
@@ -55,6 +56,8 @@ class Together:
     said: list[str] = field(default_factory=list)
     routes: list[AskRoute] = field(default_factory=list)
     dropped: list[str] = field(default_factory=list)
+    cleared: list[str] = field(default_factory=list)
+    """Goals whose person's act was brought to the bridge; ``act`` clears its hold."""
     ids: int = 0
 
     def __post_init__(self) -> None:
@@ -107,6 +110,8 @@ class Together:
                 self.carry(self.engine.routed(effect, points, failure, self.now_s))
             case SayAloud():
                 self.said.append(effect.text)
+            case ClearHold():
+                self.cleared.append(effect.id)
             case DropBrain():
                 self.dropped.append(effect.id)
             case Changed():

@@ -1,0 +1,211 @@
+"""Check what a sentence is to the missions, and that no sentence clears a hold by accident."""
+
+from __future__ import annotations
+
+import os
+import random
+
+import pytest
+
+from planner.brain.offline import Context, plan
+from planner.language.identification import language_of
+from planner.mission.effects import AskBrain, ClearHold
+from planner.mission.events import Confirm, Planned, Submitted
+from planner.mission.reception import is_active, read_utterance, receive
+from planner.mission.records import MAX_OPEN, Book
+from planner.mission.reducer import advance
+from planner.mission.sight import standing
+from planner.plan import Code, GoalState, Outcome, Vocabulary, message
+from tests.planner.mission.lockstep import Together, go
+from wire import HeldReason
+
+SEQUENCES = int(os.environ.get("HOLD_SEQUENCES", "150"))
+"""10 000 of them take some minutes: HOLD_SEQUENCES=10000."""
+NO_PLAN = (
+    *("emergency brake", "what is this?", "hello there", "frobnicate the widget", "who are you"),
+    *("don't go to the kitchen", "if it rains, go to the kitchen", "never mind the cat", "hm"),
+    *(
+        "why did you stop",
+        "you are funny",
+        "is it raining",
+        "别过来",
+        "你好",
+        "今天天气怎么样",
+        "不要去厨房",
+    ),
+    *("停止任務", "幫我停下來", "stop the mission", "brake!", "go to the moon", "where are you"),
+    *(
+        "go to",
+        "kitchen or bedroom?",
+        "sing a song about trains",
+        "what are you doing",
+        "make me tea",
+    ),
+    *(
+        "去哪里了",
+        "算了吧你",
+        "请问几点了",
+        "cancel the goal",
+        "slow down",
+        "慢点",
+        "wait a moment",
+    ),
+)
+
+
+def given(text: str, goal_id: str = "g") -> Submitted:
+    return Submitted(goal_id, text, language_of(text))
+
+
+def hear(book: Book, text: str, goal_id: str, now_s: float) -> tuple[Book, list[object]]:
+    """Take one sentence as the planner's door does, and think about it with the offline brain."""
+    heard = receive(book, read_utterance(text), given(text, goal_id), now_s)
+    book, first = advance(book, heard.given, now_s)
+    effects: list[object] = list(first)
+    for effect in first:
+        if isinstance(effect, AskBrain):
+            made = plan(effect.text, WORDS, Context(language=effect.language))
+            book, more = advance(book, Planned(effect.id, made), now_s + 0.1)
+            effects += more
+    return book, effects
+
+
+WORDS = Vocabulary(entries=())
+
+
+def test_no_sentence_without_a_plan_clears_a_hold() -> None:
+    """Two at once neither: all are given under one hold, in any order, some twice."""
+    world = Together()
+    world.run(0.5)
+    world.bridge.hold(HeldReason.STOP)
+    world.run(0.2)
+    start, now_s = world.book, world.now_s
+    assert start.status is not None
+    assert start.status.held is not None
+    rng = random.Random(18)
+    for _ in range(SEQUENCES):
+        book = start
+        for number in range(rng.randrange(1, 9)):
+            text = rng.choice(NO_PLAN)
+            book, effects = hear(book, text, f"g{number}", now_s + number)
+            assert not any(isinstance(effect, ClearHold) for effect in effects), text
+            assert book.pardoned is None, text
+
+
+def test_a_plan_that_is_accepted_clears_the_hold_it_was_given_under() -> None:
+    world = Together()
+    world.run(0.5)
+    world.bridge.hold(HeldReason.STOP)
+    world.run(0.2)
+    goal = world.give(go("kitchen"))
+    assert world.cleared == [goal]
+
+
+def test_a_hold_that_came_after_the_words_stays() -> None:
+    world = Together()
+    world.run(0.5)
+    goal = world.give(None)
+    world.bridge.hold(HeldReason.STOP)
+    world.run(0.2)
+    world.event(Planned(goal, go("kitchen")))
+    world.run(5.0)
+    assert world.cleared == []
+    assert world.book.running is None
+
+
+def driving() -> Together:
+    world = Together()
+    world.run(0.5)
+    world.give(go("kitchen"))
+    world.run(1.0)
+    assert world.book.running is not None
+    return world
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["uh robot there is a child please stop", "emergency brake", "別過來", "停止任務", "幫我停下來",
+     "stop the mission", "no no no", "wait wait", "don't come any closer", "careful"],
+)  # fmt: skip
+def test_while_it_drives_a_stop_word_stops_first(text: str) -> None:
+    world = driving()
+    heard = receive(world.book, read_utterance(text), given(text), world.now_s)
+    assert heard.stops
+
+
+def test_the_same_words_do_nothing_to_a_robot_that_has_nothing_to_do() -> None:
+    world = Together()
+    world.run(0.5)
+    text = "uh robot there is a child please stop"
+    assert not is_active(world.book, world.now_s)
+    assert not receive(world.book, read_utterance(text), given(text), world.now_s).stops
+    assert is_active(world.book, world.now_s + 2.0), "nobody knows any more whether it moves"
+
+
+def test_what_waits_or_is_thought_about_counts_as_about_to_move() -> None:
+    world = Together()
+    world.run(0.5)
+    world.give(None)
+    assert is_active(world.book, world.now_s)
+
+
+def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
+    world = driving()
+    first = world.book.running
+    text = "hold on, go to the hall"
+    heard = receive(world.book, read_utterance(text), given(text, "second"), world.now_s)
+    assert heard.stops
+    assert heard.given.doubtful_stop
+    world.plans["second"] = go("hall")
+    world.event(heard.given)
+    mission = world.goal("second")
+    assert (mission.state, mission.reason) == (GoalState.AWAITING_CONFIRMATION, "doubtful_stop")
+    assert mission.outcome is not None
+    assert mission.outcome.message.en.startswith("Stopping: the bridge has confirmed it.")
+    assert world.goal(str(first)).state is GoalState.PAUSED
+    world.run(2.0)
+    assert world.book.status is not None
+    assert standing(world.book.status)
+    world.event(Confirm("second"))
+    world.act()
+    world.run_until("second", GoalState.SUCCEEDED)
+
+
+def test_a_doubtful_stop_of_which_no_plan_is_made_is_a_stop() -> None:
+    world = driving()
+    text = "there is a child, for heaven's sake stand still"
+    heard = receive(world.book, read_utterance(text), given(text, "second"), world.now_s)
+    world.plans["second"] = None
+    world.event(heard.given)
+    refused = Outcome(code=Code.NOT_UNDERSTOOD, message=message(Code.NOT_UNDERSTOOD, part="x"))
+    world.event(Planned("second", None, refused))
+    mission = world.goal("second")
+    assert mission.state is GoalState.SUCCEEDED
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.STOPPED
+
+
+def test_with_all_places_taken_a_doubtful_stop_still_stops() -> None:
+    world = driving()
+    for _ in range(MAX_OPEN):
+        world.give(None)
+    heard = receive(world.book, read_utterance("careful, brake"), given("x"), world.now_s)
+    assert heard.stops
+    assert heard.given.stop
+    assert receive(world.book, read_utterance("go to the hall"), given("x"), world.now_s).crowded
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_nothing_claims_to_stand_while_the_robot_drives(held: bool) -> None:
+    """What is told of a sentence that makes no plan names the goal that goes on, if one does."""
+    world = driving() if not held else Together()
+    if held:
+        world.run(0.5)
+    goal = world.give(None)
+    refused = plan("frobnicate the widget", WORDS, Context())
+    world.event(Planned(goal, refused))
+    outcome = world.goal(goal).outcome
+    assert outcome is not None
+    assert ("keep driving" in outcome.message.en) is not held
+    assert ("仍在行驶" in outcome.message.zh) is not held
+    assert "stay where I am" not in outcome.message.en
