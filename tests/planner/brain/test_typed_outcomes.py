@@ -50,7 +50,7 @@ ORDERS = {
         ("不要去厨房", "我理解为不要这样做，所以不动。"),
     ),
     Code.CONDITIONAL: (
-        ("go to the kitchen if it is empty", "I can't check the condition “go to the kitchen if"),
+        ("go to the kitchen if it is empty", "I can't check the condition “if it is empty”,"),
         ("如果没人就去厨房", "所以不动。"),
     ),
     Code.OUT_OF_SCOPE: (
