@@ -38,6 +38,11 @@ _ZH_THING = re.compile(
     r"(?:(?:给|交给)?(?:我|他|她)?|(?:放|拿|递|送|搬|端|取|带|倒|扔).*|(?:过来|起来|来|上|到).*|"
     r"进.*|里.*)?"
 )
+_ZH_NO_THING = re.compile(
+    r"[它他她我你门灯窗饭菜地带送]|^(?:打开|关闭|打扫|整理|收拾|[开关倒洗扫擦烧做煮炒泡喂浇修按敲推拉盛摆叠拖削])"
+)
+"""What no search is offered for: a person, what belongs to the house, or another deed (洗碗)."""
+_ZH_UNIT = re.compile(r"^一?[瓶杯罐盒包碗盘个只把张](?![子具垫筷柜])(?=..)")
 _NO_THING = frozenset(
     (
         "it",
@@ -113,19 +118,16 @@ def _english(text: str, reading: Reading) -> tuple[Step, ...]:
 def _go_and_see(text: str, reading: Reading) -> tuple[Step, ...]:
     """Return the way to those who were to get something."""
     people = _EN_FOR.fullmatch(text)
-    met = meet(people["who"], where(people, "at"), reading) if people else None
+    who = several(people["who"]) or people["who"] if people else ""
+    met = meet(who, where(people, "at"), reading) if people else None
     return met.steps if isinstance(met, Steps) else ()
 
 
 def _chinese(text: str, reading: Reading) -> tuple[Step, ...]:
     thing = _ZH_THING.fullmatch(text)
-    if (
-        thing is None
-        or any(char in thing["what"] for char in "它他她我你门灯窗饭菜地带送")
-        or not thing["what"]
-    ):
+    if thing is None or not thing["what"] or _ZH_NO_THING.search(thing["what"]):
         return _only_there(thing["src"] if thing else None, reading)
-    return _look_for(thing["what"], thing["src"], reading)
+    return _look_for(_ZH_UNIT.sub("", thing["what"]), thing["src"], reading)
 
 
 def _only_there(src: str | None, reading: Reading) -> tuple[Step, ...]:

@@ -17,7 +17,8 @@ from planner.brain.offline import (
 )
 from planner.brain.offline.arm import lacks_arm
 from planner.brain.offline.chinese_words import ALL_ROOMS, GO, IN, SEE, VERB
-from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
+from planner.brain.offline.denial import EXCEPTIONS_ZH
+from planner.brain.offline.grammar import Grammar, lacks, next_place, rule, unread
 from planner.brain.offline.lexicon import MARK
 from planner.plan import Code
 
@@ -26,20 +27,26 @@ _ARM = (
     r"关门|"
     r"关灯|关|开门|开灯|开窗|"
     r"倒水|倒茶|倒掉|倒杯|推|拉|扔|丢|洗(?!衣|手|碗)|洗衣服|洗碗|擦|扫|拖地|做饭|做晚饭|做早饭|"
-    r"做午饭|做菜|煮|炒|整理|收拾|叠|按下|"
+    r"做午饭|做菜|烧(?:水|饭|菜|茶)|煮|炒|整理|收拾|叠|按下|"
     r"按一下|摆|装(?!货|卸)|盛|喂|浇|带(?!我|路|大家|他|她|着|领)|交给|给我(?!讲|说|唱|介绍|带)|"
     r"送(?!我|客|他|她|大家)(?=.*(?:给|去|到|来))|敲门|修|举|举起|打扫|清洁|做.{0,3}饭|泡茶|泡.*茶|"
     r"削)"
 )
-_TALK = (
-    r"(?:说|讲|告诉|回答|唱|跳舞|播放|放.*音乐|提醒|叫|读|念|介绍|聊天|订|查询|搜索网|翻译|"
-    r"计算|写|发).*"
+_NO_ARM = (
+    r"放[松心慢假学弃]|开放|关[于心注系键节]|[相有机无]关|推[荐迟测理]|拉近|拿[手定]|端[正午]|送[行达]|带头|"
+    r"举[例办行动]|装[修作]|[假安服包西]装|修[正改养]|取[决名得]|[争采]取|搬家|抓紧|提起|擦肩|扫[一视]|摆脱|拖延|盛大"
 )
+_WITH_ARM = rf"(?:{_NO_ARM}|(?!{_ARM}).)*(?!{_NO_ARM}){_ARM}"
+"""A verb of an arm that is no part of another word: 放松 and 关于 grasp nothing."""
+_NO_LOOK = rf"(?!(?:{SEE}).*[着了]没有?$)"
+"""看看门关了没 closes no door."""
+_TALK = r"(?:说|讲|告诉|回答|提醒|叫|读|念|介绍|聊天|查询|发[现出生动]).*"
+_LACKS = r"(?:唱|跳舞|播放|放.*音乐|订|搜索网|翻译|计算|写|发).*"
 
 _NEGATION = (
     r"别(?!的)|(?<!能)(?<!可)(?<!好)(?<!行)(?<!要)(?!(?<=是)不是)不(?!锈钢|错|过)|勿|莫|禁止|"
     r"(?<!有)没(?!有问题)|无法|无需|非(?!常)|除了|除开|除|取消|停止|"
-    r"避免|避开|绕开|拒绝|忘了|算了|而是|代替|免得|省得|千万|\bnot\b|\bnever\b|\bdon"
+    r"避免|避开|绕开|拒绝|忘了|算了|而是|代替|免得|省得|千万|\bnot\b|\bnever\b|\bdon\b"
 )
 _CONDITION = (
     r"如果|要是|假如|假若|倘若|若|除非|的话|只要|只有|一旦|当.+(?:时|的时候)|时候(?!了)|直到|等到|"
@@ -74,7 +81,7 @@ _THANKS = (
 CHINESE = Grammar(
     asked=re.compile(r"(?:能|可以)([^,;.!?。]*)吗(?=[,;.!?。]|$)"),
     vetoes=(
-        (Code.NEGATED, re.compile(_NEGATION)),
+        (Code.NEGATED, re.compile(f"{_NEGATION}|{EXCEPTIONS_ZH}")),
         (Code.CONDITIONAL, re.compile(_CONDITION)),
         (Code.AMBIGUOUS, re.compile(r"或者|或|还是|要么|任意|随便|\bor\b")),
         (Code.OUT_OF_SCOPE, re.compile(_SCOPE)),
@@ -100,12 +107,14 @@ CHINESE = Grammar(
         *chinese_people.GUIDE,
         *past.CHINESE,
         *chinese_beside.RULES,
-        rule(rf"(?!(?:{SEE}).*[着了]没有?$).*{_ARM}.*", lacks_arm),  # 看看门关了没 closes no door
+        rule(rf"{_NO_LOOK}(?!{_WITH_ARM}).*{_ARM}.*", unread),
+        rule(rf"{_NO_LOOK}.*{_ARM}.*", lacks_arm),
         *aside.CHINESE,
         *chinese_people.RULES,
         *chinese_things.RULES,
         *chinese_drive.RULES[-2:],
-        rule(_TALK, lacks(Code.NO_CAPABILITY)),
+        rule(_TALK, unread),
+        rule(_LACKS, lacks(Code.NO_CAPABILITY)),
         rule(r"(?P<place>.+)", next_place),
     ),
 )

@@ -19,6 +19,7 @@ from planner.brain.offline.grammar import (
     say,
     set_out,
     stand,
+    unread,
     wait,
 )
 from planner.brain.offline.lexicon import MARK
@@ -155,10 +156,11 @@ RULES: tuple[Rule, ...] = (
         r"(?:巡逻|巡检|巡视|巡查|到处走走|随处走走|转转|转一转|逛逛|遛遛|溜达)[^\ue000-\ue7ff]*",
         wander,
     ),
+    rule(r"(?:往上|向上)?(?:跳|爬|飞起来).*", lacks(Code.NO_CAPABILITY)),
     rule(
-        r"(?:往|向|朝|沿)(?:着)?[^\ue000-\ue7ff]*(?:走|移动|前进|转|开|退|行驶|旋转|挪).*|(?:旋转|"
-        r"转|绕|跳|爬|飞起来).*|走\d.*",
-        lacks(Code.NO_CAPABILITY),
+        r"(?:往|向|朝|沿)(?:着)?[^\ue000-\ue7ff]*(?:走|移动|前进|转|开|退|行驶|旋转|挪).*"
+        r"|(?:旋转|转|绕).*|走\d.*",
+        unread,
     ),
     rule(rf"{_LEAD}{GO}(?P<place>.+?){_AFTER}", drive_to),
 )

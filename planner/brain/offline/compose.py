@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
-from planner.brain.offline.lexicon import Lexicon
+from planner.brain.offline.lexicon import Lexicon, Marked
 from planner.brain.offline.meaning import About, Meaning, Problem, Steps
 from planner.brain.offline.render import option, sentence
 from planner.brain.offline.talk import Topic, told
+from planner.brain.offline.vetoes import Veto
 from planner.plan import (
     DRIVES,
     MAX_STEPS,
@@ -70,6 +71,7 @@ class Setting:
     language: Language
     room: str | None
     now: datetime | None = None
+    offers: bool = True  # false where the sentence denies: what it names may be what it forbids
 
     def button(self, steps: Sequence[Step]) -> Option:
         """Return a button that stands for these steps."""
@@ -91,12 +93,15 @@ def compose(meanings: Sequence[Meaning], text: str, setting: Setting) -> Plan:
     return _checked(steps, text, setting)
 
 
-def veto(code: Code, part: str, places: Sequence[str], setting: Setting) -> Plan:
+def veto(found: Veto, marked: Marked, setting: Setting) -> Plan:
     """Return the no, or for "or" the question, to a sentence that may not be read as an order."""
-    if code is Code.AMBIGUOUS:
-        buttons = tuple(setting.button((GoTo(place=place),)) for place in dict.fromkeys(places))
-        return _ask(Problem(code, part), buttons, setting)
-    return Refuse(code=code, reason=message(code, part=_cut(part)))
+    part = marked.restore(found.part)
+    if found.code not in (Code.AMBIGUOUS, Code.NOT_UNDERSTOOD):
+        return Refuse(code=found.code, reason=message(found.code, part=_cut(part)))
+    named = dict.fromkeys(m.ids[0] for m in marked.mentions if len(m.ids) == 1)
+    several = found.code is Code.AMBIGUOUS or len(named) == 1
+    buttons = tuple(setting.button((GoTo(place=place),)) for place in named)
+    return _ask(Problem(found.code, part), buttons if several and found.only else (), setting)
 
 
 def unsafe(rule: Bilingual, part: str) -> Refuse:
@@ -160,7 +165,7 @@ def _explain(
 
 def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Plan:
     said = message(worst.code, part=_cut(worst.part))
-    if not _drives(offered):
+    if not _drives(offered) or not setting.offers:
         return Refuse(code=worst.code, reason=said)
     order = sentence(offered, setting.vocabulary, setting.lexicon)
     question = Bilingual(
@@ -175,14 +180,15 @@ def _ask(problem: Problem, options: tuple[Option, ...], setting: Setting) -> Cla
         what = problem.what or same("?")
         question = message(problem.code, part=_cut(problem.part), what=what)
     elif problem.code is Code.UNKNOWN_PLACE:
-        question = _unknown(problem, setting.vocabulary)
+        question = _unknown(problem, setting)
     else:
         question = message(problem.code, part=_cut(problem.part))
-    return Clarify(code=problem.code, question=question, options=options)
+    return Clarify(code=problem.code, question=question, options=options if setting.offers else ())
 
 
-def _unknown(problem: Problem, vocabulary: Vocabulary) -> Bilingual:
-    names = [vocabulary.name(place) for place in problem.places]
+def _unknown(problem: Problem, setting: Setting) -> Bilingual:
+    vocabulary = setting.vocabulary
+    names = [vocabulary.name(place) for place in problem.places if setting.offers]
     near = Bilingual(
         en=f" Did you mean {', '.join(name.en for name in names)}?" if names else "",
         zh=f"您是指{'、'.join(name.zh for name in names)}吗？" if names else "",

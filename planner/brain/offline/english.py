@@ -9,14 +9,16 @@ import re
 
 from planner.brain.offline import aside, english_drive, english_people, english_things, past
 from planner.brain.offline.arm import lacks_arm
+from planner.brain.offline.denial import EXCEPTIONS_EN
 from planner.brain.offline.english_words import PERSON
-from planner.brain.offline.grammar import Grammar, lacks, next_place, rule
+from planner.brain.offline.grammar import Grammar, lacks, next_place, rule, unread
 from planner.brain.offline.lexicon import MARK
 from planner.plan import Code
 
 _ARM = (
     r"(?:bring|fetch|get|grab|grasp|pick|put|place|take|carry|deliver|give|hand|hold|lift|drop|"
-    r"pour|open|close|shut|push|pull|press|turn (?:on|off)|turn .* (?:on|off)|switch|clean|wash|"
+    r"pour|open|close|shut|push|pull|press|turn (?:on|off|up|down|over|out)|"
+    r"turn .* (?:on|off)|switch|clean|wash|"
     r"wipe|sweep|"
     r"vacuum|mop|cook|bake|make|prepare|serve|dump|throw|distribute|arrange|set|offer|shake|"
     r"collect|"
@@ -28,11 +30,34 @@ _ARM = (
     r"\b.*"
     r"|.*\b(?:fetch|grab|grasp|pick up|put down|deliver (?:it|them)|bring (?:it|them|me))\b.*"
 )
-_TALK = (
-    r"(?:answer|tell|talk|speak|ask|say|sing|dance|play|remind|call|report|explain|read|repeat|"
-    r"wave|sell|order|book|search the (?:web|internet)|translate|calculate|write|type|send|"
-    r"email)\b.*"
+_TALK = r"(?:answer|tell|talk|speak|ask|say|remind|report|explain|read|repeat)\b.*"
+"""The robot talks: what it did not read of it, it has not understood."""
+_LACKS = (
+    r"(?:sing|dance|play|call|wave|sell|order|book|search the (?:web|internet)|translate|calculate|"
+    r"write|type|send|email)\b.*"
 )
+_OWN_MOTION = (
+    r"(?:take|make|do|have|pull) (?:an?|one|two|three|another|the|your|some|\d+)\b"
+    r"(?: [a-z0-9]+){0,3}? ?\b(?:(?:left|right)(?=$| (?:turn|at|in|into|to|by|here|there|now|after|"
+    r"before|past|on)\b)|turns?|steps?|laps?|loops?|rounds?|tour|trip|stroll|walk|drive|ride|spin|"
+    r"circles?|detour|stop|break|rest|seat|nap|bow|guess|moment|exit|way|route|path|road)\b.*"
+    r"|give (?:me|us) (?:(?:an?|the|some) )?(?:[a-z]+ )?(?:tour|moment|minute|second|break|space|"
+    r"room|answer|joke|directions|lift)\b.*"
+    r"|(?:put|bring|get|place|take|move|carry|set|drag|haul) (?:yourself|your self)\b.*"
+    r"|(?:get|set|carry|hang|hold|pull|keep) (?:off|on|over|up|out|in|it|back|away|down)"
+    r"(?: (?:now|here|there|already|again))*"
+    r"|(?:get|set|carry|hang|hold|keep) (?:going|moving|started|over here|over there|here|there|"
+    r"ready|closer|near|nearer|still|around|behind|ahead|forward|to|into|past|through|across|lost|"
+    r"out for|real|close)\b.*"
+    r"|hold (?:your )?(?:position|ground)\b.*|(?:set|make) (?:a )?course\b.*|give (?:way|up)\b.*"
+    r"|make (?:sure|it (?:to|back)|room|way|some noise|noise|me (?:laugh|happy)|a noise)\b.*"
+    r"|take (?:me|us|him|her|them|care|over|it easy|your time|cover|part|place)\b.*"
+    r"|leave (?:now|me|us|here|for|this room|the room)\b.*|drop (?:by|in|over|me|us)\b.*"
+    r"|bring (?:me|us) (?:over |back )?to\b.*"
+    r"|get the (?:hell|heck) out\b.*|get lost\b.*"
+    r"|help me (?:with|to) (?:find|look|search|locate|get to|go|count|see|check|follow|reach)\b.*"
+)
+"""Verbs of an arm that speak of the robot's own way: "take a left", "get going"."""
 
 _NEGATION = (
     r"\b(?:not|no|never|none|nobody|nowhere|neither|nor|without|except|avoid|instead|refuse|"
@@ -90,7 +115,7 @@ _PURPOSE = (
 ENGLISH = Grammar(
     asked=re.compile(r"(?!)()"),  # "can you …" is a courtesy that needs no closing word
     vetoes=(
-        (Code.NEGATED, re.compile(_NEGATION)),
+        (Code.NEGATED, re.compile(f"{_NEGATION}|{EXCEPTIONS_EN}")),
         (Code.CONDITIONAL, re.compile(_CONDITION)),
         (Code.AMBIGUOUS, re.compile(r"\b(?:or|either|whichever)\b")),
         (Code.OUT_OF_SCOPE, re.compile(_SCOPE)),
@@ -119,8 +144,10 @@ ENGLISH = Grammar(
             rf"give (?P<who>{PERSON}) (?:a )?(?:hug|kiss|hand|ride|lift)", lacks(Code.NO_CAPABILITY)
         ),
         *english_things.RULES[:-1],
+        rule(_OWN_MOTION, lacks(Code.NOT_UNDERSTOOD)),
         rule(_ARM, lacks_arm),
-        rule(_TALK, lacks(Code.NO_CAPABILITY)),
+        rule(_LACKS, lacks(Code.NO_CAPABILITY)),
+        rule(_TALK, unread),
         english_things.RULES[-1],
         rule(r"(?P<place>.+)", next_place),
     ),

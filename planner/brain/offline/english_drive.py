@@ -20,6 +20,7 @@ from planner.brain.offline.grammar import (
     say,
     set_out,
     stand,
+    unread,
     wait,
 )
 from planner.brain.offline.lexicon import MARK
@@ -176,12 +177,17 @@ RULES: tuple[Rule, ...] = (
         wander,
     ),
     rule(
+        r"(?:(?:move|go|drive|walk|come|step|roll|slide) )?(?:a (?:bit|little) )?sideways\b.*",
+        lacks(Code.NO_CAPABILITY),
+    ),
+    rule(
         r"(?:(?:move|go|drive|walk|come|step|roll) )?(?:a (?:bit|little) )?"
-        r"(?:left|right|closer|away|sideways|in circles?)\b.*"
-        r"|(?:turn|rotate|spin|reverse|back up|circle|orbit|park)\b.*"
+        r"(?:left|right|closer|away|in circles?)\b.*"
+        r"|turn(?! (?:on|off|up|down|over|out)\b|.* (?:on|off)$)\b.*"
+        r"|(?:rotate|spin|reverse|back up|circle|orbit|park)\b.*"
         r"|(?:move|go|drive|walk) (?:for )?(?:about )?(?:back )?\d.*"
         r"|(?:move|go|drive|walk) to the (?:left|right|front)\b.*",
-        lacks(Code.NO_CAPABILITY),
+        unread,
     ),
     rule(rf"(?:{GO} (?:into|in|inside)|enter(?: (?:into|to))?) (?P<place>.+)", drive_into),
     rule(

@@ -170,7 +170,7 @@ def stand(_found: Match[str], reading: Reading) -> Meaning | None:
 def wait(found: Match[str], reading: Reading) -> Meaning:
     """Read the groups `number` and `unit` as a time to stand still."""
     span_s = seconds(found["number"], found["unit"])
-    if span_s is None:
+    if not span_s:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     try:
         return Steps((Wait(seconds=span_s),))
@@ -199,6 +199,11 @@ def on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
 def about(topic: Topic) -> Build:
     """Return a builder for a question about the robot."""
     return lambda _found, _reading: About(topic)
+
+
+def unread(found: Match[str], reading: Reading) -> Meaning:
+    """Understand nothing of a clause, and offer no place that it names."""
+    return replace(reading.problem(Code.NOT_UNDERSTOOD, found[0]), places=())
 
 
 def lacks(code: Code) -> Build:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import datetime
 from itertools import chain
 
 from planner.brain.offline.chinese import CHINESE
 from planner.brain.offline.chinese_drive import TALK as ZH_TALK
 from planner.brain.offline.compose import Setting, compose, unsafe, veto
+from planner.brain.offline.denial import withholds_offers
 from planner.brain.offline.each import Heard, at_each
 from planner.brain.offline.english import ENGLISH
 from planner.brain.offline.english_drive import TALK
@@ -28,6 +29,7 @@ from planner.brain.offline.people import mark_people
 from planner.brain.offline.quotes import take_quotes
 from planner.brain.offline.spelling import mend, words_of
 from planner.brain.offline.unsafe import TAMPERING, broken_rule
+from planner.brain.offline.vetoes import vetoed
 from planner.language.folding import has_chinese
 from planner.language.identification import language_of
 from planner.language.stop import is_stop
@@ -40,6 +42,7 @@ from planner.plan import (
     Frozen,
     GoTo,
     Language,
+    Option,
     Patrol,
     Refuse,
     StepPlan,
@@ -81,29 +84,59 @@ def plan(
         return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
     apart, quotes = take_quotes(text)
     said = normalise(apart)
-    made = _understood(said, text, apart, quotes, vocabulary, context)
+    sentence = _Sentence(text, apart, quotes)
+    made = _offering(said, sentence, vocabulary, context)
     if isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD:
         mended = mend(said, _SPELT)  # only now: "the green cup" is no "greet"
         if mended != said:
-            second = _understood(mended, text, apart, quotes, vocabulary, context)
+            second = _offering(mended, sentence, vocabulary, context)
             lost = isinstance(second, Clarify) and second.code is Code.NOT_UNDERSTOOD
             return made if lost else second
     return made
 
 
+@dataclass(frozen=True, slots=True)
+class _Sentence:
+    """Hold a sentence as written, without its quotations, and these."""
+
+    text: str
+    apart: str
+    quotes: tuple[str, ...]
+
+
+def _offering(
+    said: str, sentence: _Sentence, vocabulary: Vocabulary, context: Context
+) -> StepPlan | Answer | Clarify | Refuse:
+    """Read a sentence; where an option would be no order by itself, ask without any."""
+    made = _understood(said, sentence, vocabulary, context)
+    options = made.options if isinstance(made, Clarify) else ()
+    if all(_reads_back(option, vocabulary, context) for option in options):
+        return made
+    return _understood(said, sentence, vocabulary, context, offers=False)
+
+
+def _reads_back(option: Option, vocabulary: Vocabulary, context: Context) -> bool:
+    """Tell whether an option's text is by itself an order that is planned."""
+    apart, quotes = take_quotes(option.text)
+    sentence = _Sentence(option.text, apart, quotes)
+    made = _understood(normalise(apart), sentence, vocabulary, context)
+    return isinstance(made, StepPlan)
+
+
 def _understood(
     said: str,
-    text: str,
-    apart: str,
-    quotes: tuple[str, ...],
+    sentence: _Sentence,
     vocabulary: Vocabulary,
     context: Context,
+    offers: bool = True,
 ) -> StepPlan | Answer | Clarify | Refuse:
     """Read a normalised sentence once."""
+    text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
     marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
     language = context.language or language_of(text)
-    setting = Setting(vocabulary, lexicon, language, context.room, context.now)
+    offers = offers and not withholds_offers(marked.text)
+    setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers)
     vetoed = _vetoed(marked, setting)
     if vetoed is not None:
         return vetoed
@@ -150,17 +183,12 @@ def _vetoed(marked: Marked, setting: Setting) -> StepPlan | Answer | Clarify | R
     text = marked.restore(marked.text)
     if TAMPERING.pattern.search(text):
         return unsafe(TAMPERING.rule, text)
-    looking = asks_whether(marked.text)
-    for (code, english), (_code, chinese) in zip(ENGLISH.vetoes, CHINESE.vetoes, strict=True):
-        found = english.search(looking) or chinese.search(looking)
-        if found:
-            named = [mention.ids[0] for mention in marked.mentions if len(mention.ids) == 1]
-            return veto(code, text, named, setting)
-        if code is Code.NEGATED:  # "don't hit the wall" is told as a no; "hit the wall" as a rule
-            rule = broken_rule(marked.text)
-            if rule is not None:
-                return unsafe(rule, text)
-    return None
+    found = vetoed(asks_whether(marked.text), (ENGLISH.vetoes, CHINESE.vetoes))
+    if found is None or not found.denies:  # "don't hit the wall" is a no; "hit the wall" a rule
+        rule = broken_rule(marked.text)
+        if rule is not None:
+            return unsafe(rule, text)
+    return veto(found, marked, setting) if found else None
 
 
 _WHETHER = re.compile(

@@ -44,8 +44,9 @@ HARM = (
     _ban(
         "it could hurt somebody or something",
         "可能会伤到人或物",
-        r"\b(?:hit|ram|crash|attack|kick|hurt|harm|kill|smash|stab|punch|injure|bump|chase|scare|"
-        r"frighten|"
+        r"\b(?:hit(?! the (?:road|sack|hay)\b)|ram|crash|attack|kick|hurt|harm|"
+        r"kill(?! the (?:lights?|power|music|tv|sound)\b)|"
+        r"smash|stab|punch|injure|bump|chase|scare|frighten|"
         r"crush|squash|trip (?:him|her|them|the|a|my)|knock (?:down|over|out)|poke|slap|bully|"
         r"threaten|burn|poison|drown|"
         r"(?:run|drive|roll) over(?! (?:to|there|here|and)\b)|run into(?! the [\ue000-\ue7ff])|"
@@ -55,7 +56,7 @@ HARM = (
         r"push (?:\w+ ){1,3}(?:down|over|off|out)|break (?:the|a|that|this|my) |destroy|"
         r"set (?:\w+ ){0,3}on fire|spy on|trap|lock (?:\w+ ){1,2}(?:in|up))\b",
         r"撞|碾|轧|压过|踢|打人|打他|打她|打翻|打碎|追赶|追着|追上|吓|伤害|攻击|杀|冲向|冲撞|推倒|"
-        r"绊倒|砸|烧|"
+        r"绊倒|砸|(?<!发)烧(?!水|饭|菜|茶)|"
         r"毁|弄坏|监视|偷窥|跟踪(?!球)",
     ),
     _ban(

@@ -50,8 +50,8 @@ ORDERS = {
         ("不要去厨房", "我理解为不要这样做，因此不会为此移动。"),
     ),
     Code.CONDITIONAL: (
-        ("go to the kitchen if it is empty", "I can't check the condition “go to the kitchen if"),
-        ("如果没人就去厨房", "所以不动。"),
+        ("go to the kitchen if it is empty", "I can't check the condition “if it is empty”,"),
+        ("如果没人就去厨房", "所以不会开始。"),
     ),
     Code.OUT_OF_SCOPE: (
         ("go to x=1, y=2", "Speeds and coordinates are not mine to choose"),
