@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 HTTP_HEAD_START_S = 0.15
 HTTP_TIMEOUT_S = 2.5
+CONFIRMED = "stop taken, the robot ramps to a stand / 已收到停止，正在停稳 (bridge confirmed)"
 
 
 def run(settings: Settings) -> int:
@@ -26,14 +27,14 @@ def run(settings: Settings) -> int:
     by_http.start()
     by_http.join(HTTP_HEAD_START_S)
     if by_http.confirmed:
-        print("stopped / 已停止 (bridge confirmed)")
+        print(CONFIRMED)
         return 0
     from pons.direct import stop_direct
 
     confirmed = stop_direct(settings, f"cli-{os.getpid()}-direct")
     by_http.join(0.0 if confirmed else HTTP_TIMEOUT_S)
     if confirmed or by_http.confirmed:
-        print("stopped / 已停止 (bridge confirmed)")
+        print(CONFIRMED)
         return 0
     print(
         "no_bridge: neither the planner nor the bridge confirmed the stop / 没有得到确认. "

@@ -62,6 +62,12 @@ def _file(said: Form) -> str:
 _STOPS = ("stop", "stop now", "please stop")
 STOPS = _file(any_of(*_STOPS))
 """The grammar of the stops alone, for a second look at what was no whole order."""
+_OTHER_STOPS = (
+    *("don't move", "emergency stop", "freeze", "halt", "stand still", "stop moving"),
+    *("stop stop", "stop stop stop", "robot stop", "hey robot stop"),
+)
+OTHER_STOPS = _file(any_of(*_OTHER_STOPS))
+"""Other ways to say stop, for a third look: beside the plain ones they would take their score."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,7 +46,7 @@ export const en = {
   "mode.FAULT": "Fault",
   "mode.none": "Unknown",
 
-  "held.stop": "Held: somebody pressed stop. A new goal, or this button, lets it go on.",
+  "held.stop": "Held by a stop. A goal that becomes a plan, or this button, lets it go on.",
   "held.teleop": "Held: it was steered by hand.",
   "held.planner_restarted": "Held: the planner was restarted. Nothing goes on by itself.",
   "held.fault": "Held by a fault.",

@@ -48,9 +48,9 @@ export const zh: Record<Key, string> = {
   "mode.FAULT": "故障",
   "mode.none": "未知",
 
-  "held.stop": "已停住：有人按了停止。下达新任务或按此按钮后可继续。",
-  "held.teleop": "已停住：曾被手动操控。",
-  "held.planner_restarted": "已停住：规划器重启过，不会自动继续。",
+  "held.stop": "因停止而保持。新任务的计划被接受后，或按此按钮后可继续。",
+  "held.teleop": "因手动操控而保持。",
+  "held.planner_restarted": "规划器重启过，保持中，不会自动继续。",
   "held.fault": "因故障停住。",
 
   "lost.planner": "规划器没有消息。灰色内容为最后所知；停止按钮仍会尝试。",
