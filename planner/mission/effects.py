@@ -79,7 +79,7 @@ class Journal:
 
 @dataclass(frozen=True, slots=True)
 class SayAloud:
-    """Speak to the people near the robot. At most once, even across a crash."""
+    """Tell whoever listens to events words to speak or show. At most once, even across a crash."""
 
     id: str
     text: str
