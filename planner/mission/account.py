@@ -21,6 +21,7 @@ DRIVEN = frozenset({"go_to", "return_home", "come_back"})
 MOTION = DRIVEN | {"turn", "move", "patrol"}
 BACK = frozenset({"come_back", "return_home"})
 _OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
+_IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
 _THING = {
     "find": ("finding “{}”", "寻找“{}”"),
     "count": ("counting “{}”", "清点“{}”"),
@@ -130,9 +131,9 @@ def _mended(mission: Mission) -> int:
 def _failed_later(facts: Facts, mission: Mission, index: int) -> bool:
     """Tell whether a later drive to the same place did not come there."""
     name = place_name(facts, mission, mission.steps[index])
-    later = (step for step in mission.steps[index + 1 :] if step.kind in DRIVEN)
+    later = (s for s in mission.steps[index + 1 :] if s.kind in DRIVEN and s.state not in _IDLE)
     last = [step for step in later if place_name(facts, mission, step) == name]
-    return bool(last) and last[-1].state is StepState.FAILED
+    return bool(last) and last[-1].state is not StepState.SUCCEEDED
 
 
 def _arrived(names: Sequence[Bilingual]) -> Bilingual:

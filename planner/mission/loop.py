@@ -25,6 +25,7 @@ from planner.mission.effects import (
     DropBrain,
     Effect,
     Journal,
+    KeepPicture,
     SayAloud,
 )
 from planner.mission.engine import Engine, Leg, Output
@@ -275,8 +276,9 @@ class Loop:
             case Journal() if self._safe is not None:
                 self._safe.write(effect, self._key_now)
                 self._key_now = None
-            case AskBrain() | AskRoute() | AskEyes() | DropBrain() if self._helpers is not None:
-                self._helpers.help(effect)
+            case AskBrain() | AskRoute() | AskEyes() | KeepPicture() | DropBrain():
+                if self._helpers is not None:
+                    self._helpers.help(effect)
             case SayAloud():
                 self.hub.publish({"type": "say", "goal": effect.id, "text": effect.text})
             case Changed():

@@ -197,7 +197,11 @@ def _inquire(turn: Turn, mission: Mission, act: Inquire) -> None:
             gaze_until_s=turn.now_s + act.seconds,
         ),
     )
-    ask = AskEyes(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y)
+    ask = AskEyes(
+        *(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y),
+        views=act.views,
+        now=act.now,
+    )
     turn.emit(ask)
 
 

@@ -88,6 +88,15 @@ def test_who_has_been_to_a_place_and_finds_no_way_back_has_not_arrived() -> None
     )
 
 
+def test_a_drive_that_was_never_begun_says_nothing_about_an_arrival() -> None:
+    world = rethinking(go("hall", "dock", "kitchen", "dock"), Answer(text=same("no")))
+    goal = world.give(None)
+    shut(world, "kitchen")
+    assert told(world, goal, state=FAILED) == (
+        "Arrived: hall, then dock. I found no way to kitchen. Not done: going to dock."
+    )
+
+
 def test_another_place_that_was_gone_to_instead_is_told_so() -> None:
     world = shut(rethinking(go("kitchen", "hall"), go("hall")), "kitchen")
     assert told(world, world.give(None), code=Code.ARRIVED) == (
