@@ -62,13 +62,15 @@ def looks() -> list[Goal]:
     """Return questions about a room (lines 3, 25, 46), half with a failed drive or a question."""
     goals: list[Goal] = []
     for (room, at), (label, words), language, there, more in product(
-        ROOMS.items(), ASKS.items(), (0, 1), HOW, ("alone", "alone", "asked", "shut")
+        ROOMS.items(), ASKS.items(), (0, 1), HOW, ("alone", "driven", "asked", "shut")
     ):
         beside = (at[0] - 0.7, at[1] + 0.3 * language)
         truth = (thing(label, *beside, room),) if HOW[there] else ()
         look = Look(question=words[language], place=room)
         shut = more == "shut"
         steps: tuple[Step, ...] = (Ask(question="may I?"), look) if more == "asked" else (look,)
+        if more == "driven":
+            steps = (GoTo(place="dock"), look)
         if shut:  # on the way, so that the look itself is done
             steps = (GoTo(place="dock"), look)
         second = plan(look) if shut else plan(DINNER)
@@ -114,7 +116,26 @@ def errands() -> list[Goal]:
     return goals
 
 
-GOALS = [*looks(), *tours(), *errands()]
+def conditions() -> list[Goal]:
+    """Return plans that hang on what is ahead (47): what a model reads is told, not obeyed."""
+    goals: list[Goal] = []
+    for words, (label, at), shut, goes in product(
+        ("is the door open?", "前面的门开着吗？", "is there a cup?"),
+        (("cup", (0.8, 0.1)), ("person", (0.9, -0.1))),
+        (True, False),
+        (True, False),
+    ):
+        look = plan(Look(question=words), Decide(question=words))
+        then = plan(GoTo(place="kitchen")) if goes else plan(Say(text="the door is shut"))
+        truth = (thing(label, *at, "hall"),)
+        first = plan(GoTo(place="dock"), *look.steps) if shut else look
+        thoughts = (first, look, then) if shut else (first, then)
+        looked_for = label == "cup" if "cup" in words else None
+        goals.append(Goal(f"if {words} {label} {shut} {goes}", thoughts, truth, looked_for, shut))
+    return goals
+
+
+GOALS = [*looks(), *tours(), *errands(), *conditions()]
 
 
 def told(mission: Mission) -> Bilingual:
@@ -135,7 +156,7 @@ def played(goal: Goal, manner: str, **more: Any) -> tuple[Telling, Mission]:
 @pytest.mark.parametrize("manner", ["honest", "denies", "describes", "down"])
 def test_no_scripted_goal_tells_anything_untrue(manner: str) -> None:
     """Wrong: a yes told where nothing is, none told where something is, or a law broken."""
-    assert len(GOALS) >= 110
+    assert len({goal.name for goal in GOALS}) >= 150
     disturbed = [g for g in GOALS if g.shut or any(s.kind == "ask" for s in g.thoughts[0].steps)]
     assert len(disturbed) * 2 >= len(GOALS)
     wrong: list[str] = []
@@ -150,7 +171,8 @@ def test_no_scripted_goal_tells_anything_untrue(manner: str) -> None:
         yes = "Yes, I see" in said.en or "says yes" in said.en
         if yes is not goal.looked_for:
             wrong.append(f"{goal.name}: {said.en}")
-        if manner != "down" and not world.model.asked[-1].views:
+        around = looked[-1].place is not None
+        if manner != "down" and bool(world.model.asked[-1].views) is not around:
             wrong.append(f"{goal.name}: one picture alone was shown")
     assert wrong == []
 
