@@ -16,7 +16,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
-from planner.mission.skills.answering import answer
+from planner.mission.skills.answering import Told, answer
 from planner.mission.skills.around import LOOKS, look_round
 from planner.mission.skills.asked import unknown_kind
 from planner.mission.skills.directions import direction, goes_round, listed
@@ -39,6 +39,8 @@ _ROUND = re.compile(
 )
 """To look about; "a round table" and "around the table" are things to look at."""
 GAZED, ASKED = 1, 2
+NO_DETECTOR = Bilingual(en="No detector is here to see anything.", zh="这里没有检测模型。")
+"""Who has none has not seen that nothing is there."""
 
 
 def looks_round(question: str) -> bool:
@@ -72,7 +74,8 @@ def look(scene: Scene) -> Act:
 
 def _answered(scene: Scene, pose: Pose2, question: str) -> Done:
     """Tell what was seen, and what a model read or why it did not."""
-    notes, views, told = scene.notes, scene.eyes.views, answer(scene, question)
+    notes, views = scene.notes, scene.eyes.views
+    told = Told(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
     said, silent = [told.said], why_silent(scene.answer)
     if len(notes.faced) > 1 and not goes_round(notes.faced, views):
         names = listed(tuple(map(direction, notes.faced)))
