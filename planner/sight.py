@@ -110,7 +110,13 @@ def looker_of(
         except VisionFailure as failure:
             raise NotSent(str(failure), why="bad_picture") from None
 
-    looker = model.looker(shrink)
+    async def lay_out(pictures: Sequence[tuple[bytes, str]], long_side: int) -> bytes:
+        try:
+            return await worker.sheet(pictures, long_side)
+        except VisionFailure as failure:
+            raise NotSent(str(failure), why="bad_picture") from None
+
+    looker = model.looker(shrink, lay_out)
     if looker.refuses is not None:
         log.info("no picture goes to %s: %s", model.address.host, looker.refuses)
     breaker = brain.breaker if isinstance(brain, FallbackBrain) else None

@@ -17,6 +17,8 @@ from planner.plan import Bilingual, BrainTag, Language
 if TYPE_CHECKING:
     from wire import Pose2
 
+MAX_VIEWS = 16
+"""Pictures on one sheet: with more of them too little of each would be left."""
 LONG_SIDE_PX = 1024
 """A picture leaves with no longer side than this."""
 FULL = 1000
@@ -36,6 +38,15 @@ class Picture:
     """As the camera numbers them."""
     base_in_map: Pose2 | None = None
     """The robot when it was taken: a pixel of this picture is projected from there."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """Hold the picture of one of several directions from one spot, and what was found in it."""
+
+    picture: Picture
+    direction: Bilingual
+    detections: Sequence[Detected] = ()
 
 
 class Detected(Protocol):
@@ -75,6 +86,10 @@ class Asked:
     """What the detector found in this very picture: handed over as data."""
     goal: str = ""
     """Whose budget pays."""
+    direction: Bilingual | None = None
+    """Which way the picture shows, from how the robot stood when it began to look."""
+    views: tuple[View, ...] = ()
+    """Several directions from one spot: they are shown on one sheet in place of the picture."""
 
 
 @dataclass(frozen=True, slots=True)

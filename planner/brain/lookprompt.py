@@ -10,13 +10,15 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-from planner.brain.looking import FULL, Asked, Detected, Picture
+from planner.brain.looking import FULL, Asked, Detected, Picture, View
 from planner.brain.schema import Message
 from planner.brain.template import FOLDER, Template, as_json
 
 MAX_QUESTION = 500
 MAX_LISTED = 20
 """Things of the detector that are told, the largest first."""
+LEAST_LISTED = 4
+"""Of each picture on a sheet, however many there are."""
 _BLANKS = frozenset({"schema"})
 
 
@@ -58,20 +60,46 @@ class LookPrompts:
 
 
 def _messages(template: Template, schema: dict[str, Any], key: str, asked: Asked) -> list[Message]:
-    told = {
-        key: asked.words[:MAX_QUESTION],
-        "language": asked.language.value,
-        "detector": listed(asked.picture, asked.detections),
-    }
+    told: dict[str, Any] = {key: asked.words[:MAX_QUESTION], "language": asked.language.value}
+    told |= _sheet(asked) if asked.views else _single(asked)
     return [
         {"role": "system", "content": template.filled(schema=as_json(schema))},
         {"role": "user", "content": as_json(told)},
     ]
 
 
-def listed(picture: Picture, found: Sequence[Detected]) -> list[dict[str, Any]]:
+def _single(asked: Asked) -> dict[str, Any]:
+    """Tell of one picture which way it shows, where that is known, and what was found in it."""
+    told: dict[str, Any] = {}
+    if asked.direction is not None:
+        told["direction"] = {"en": asked.direction.en, "zh": asked.direction.zh}
+    return {**told, "detector": listed(asked.picture, asked.detections)}
+
+
+def _sheet(asked: Asked) -> dict[str, Any]:
+    """Tell of each picture on a sheet its number, its direction and what was found in it."""
+    most = max(LEAST_LISTED, MAX_LISTED // len(asked.views))
+    pictures = [
+        {
+            "number": number,
+            "direction": {"en": view.direction.en, "zh": view.direction.zh},
+            "detector": listed(view.picture, view.detections, most),
+        }
+        for number, view in enumerate(asked.views, start=1)
+    ]
+    return {"pictures": pictures}
+
+
+def label_of(number: int, view: View) -> str:
+    """Return what stands above a picture of a sheet: ``1 ahead``."""
+    return f"{number} {view.direction.en}"
+
+
+def listed(
+    picture: Picture, found: Sequence[Detected], most: int = MAX_LISTED
+) -> list[dict[str, Any]]:
     """Return what the detector found, the largest first, as the prompts say it."""
-    ordered = sorted(found, key=_area, reverse=True)[:MAX_LISTED]
+    ordered = sorted(found, key=_area, reverse=True)[:most]
     return [line for each in ordered if (line := _line(picture, each)) is not None]
 
 

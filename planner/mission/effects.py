@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from planner.brain.protocol import Observation
 from planner.mission.records import Mission
 from planner.mission.skills.act import Way
-from planner.plan import Language
+from planner.plan import Bilingual, Language
 from wire import Pose2
 
 
@@ -73,6 +73,21 @@ class AskEyes:
     x: int | None = None
     """Else what a point of the picture shows, each 0 to 1000; the words don't matter then."""
     y: int | None = None
+    views: tuple[Bilingual, ...] = ()
+    """Names of the directions whose pictures were to be kept, in their order."""
+    now: Bilingual | None = None
+    """The direction of the newest picture."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeepPicture:
+    """Keep the picture that a gaze has ended with, for the question at the end of its step."""
+
+    id: str
+    number: int
+    """Of the direction, in the order of gazing; 0 begins a new look."""
+    seq: int
+    """As the camera numbers it: any other picture shows something else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +101,7 @@ class Journal:
 
 @dataclass(frozen=True, slots=True)
 class SayAloud:
-    """Speak to the people near the robot. At most once, even across a crash."""
+    """Tell whoever listens to events words to speak or show. At most once, even across a crash."""
 
     id: str
     text: str
@@ -99,7 +114,17 @@ class Changed:
     id: str
 
 
-Effect = AskBrain | DropBrain | ClearHold | AskRoute | AskEyes | Journal | SayAloud | Changed
+Effect = (
+    AskBrain
+    | DropBrain
+    | ClearHold
+    | AskRoute
+    | AskEyes
+    | KeepPicture
+    | Journal
+    | SayAloud
+    | Changed
+)
 
 
 @dataclass(frozen=True, slots=True)

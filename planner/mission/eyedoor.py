@@ -2,17 +2,20 @@
 
 Law: a goal's pixel counts in the picture that was the newest when its plan was asked for, or when
 the model was asked, and in no other: once that is gone, the point is. What a model says is words
-for people and never a step. Whatever fails comes back as a code inside the answer.
+for people and never a step. A look in several directions is asked about with a picture of each,
+kept here as it went on; where one is missing, after a restart, with the newest alone, and the
+answer says so. Whatever fails comes back as a code inside the answer.
 """
 
 from __future__ import annotations
 
 import asyncio
 import logging
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.brain.errors import BrainDown, PlanRejected
-from planner.brain.looking import Asked, Pointed
+from planner.brain.looking import MAX_VIEWS, Asked, Pointed, View
 from planner.brain.looking import Picture as Shown
 from planner.mission.events import Told
 from planner.mission.skills.eyesight import Answer
@@ -20,7 +23,7 @@ from planner.vision.ports import PointRefused
 
 if TYPE_CHECKING:
     from planner.brain.looking import Looker
-    from planner.mission.effects import AskEyes
+    from planner.mission.effects import AskEyes, KeepPicture
     from planner.vision.ports import Eyes, Picture
     from planner.vision.records import Detection
 
@@ -28,6 +31,8 @@ log = logging.getLogger(__name__)
 
 KEPT = 64
 """Pictures kept for goals: more than can be open."""
+LOOKS = 2
+"""Goals whose looks keep pictures: more than one only where one was interrupted by another."""
 AS_NEW_S = 1.0
 """A picture with what was found in it is shown rather than one newer by so little without."""
 
@@ -39,6 +44,8 @@ class EyeDoor:
         """Ask these eyes, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
         self._pictures: dict[str, asyncio.Future[Picture | None]] = {}
+        self._views: dict[str, dict[int, tuple[Shown, tuple[Detection, ...]]]] = {}
+        """By goal, and by the number of the direction."""
 
     def note(self, goal_id: str) -> None:
         """Keep the newest picture: a plan for this goal is asked for now.
@@ -56,6 +63,17 @@ class EyeDoor:
             self._pictures[goal_id].set_result(newest)
         if len(self._pictures) > KEPT:
             self._pictures.pop(next(iter(self._pictures))).cancel()
+
+    def keep(self, keep: KeepPicture) -> None:
+        """Keep the picture of one direction, if it is the one that is meant and still there."""
+        before = self._views.pop(keep.id, {})
+        views = self._views[keep.id] = before if keep.number > 0 else {}
+        if len(self._views) > LOOKS:
+            del self._views[next(iter(self._views))]
+        picture = self._eyes.looked if self._eyes is not None else None
+        same = picture is not None and picture.color.header.seq == keep.seq
+        if self._eyes is not None and picture is not None and same and len(views) < MAX_VIEWS:
+            views[keep.number] = _shown(self._eyes, picture), _detections(self._eyes, picture)
 
     async def ask(self, ask: AskEyes) -> Told:
         """Return the answer to one question."""
@@ -89,10 +107,18 @@ class EyeDoor:
             if not isinstance(found, Pointed):
                 return Answer(failure="not_in_picture")
             return await _point(eyes, picture, found.x, found.y)
-        said = await looker.describe(asked)
+        views = self._looked_at(ask)
+        said = await looker.describe(replace(asked, direction=ask.now, views=views))
         if said.brain.fallback_from is not None:  # the detector spoke: the skill does that itself
             return Answer(failure=said.brain.fallback_reason)
-        return Answer(text=said.text)
+        return Answer(text=said.text, seen=said.seen, shown=max(1, len(views)))
+
+    def _looked_at(self, ask: AskEyes) -> tuple[View, ...]:
+        """Return the pictures of a look's directions where there are several and all are here."""
+        kept = self._views.pop(ask.id, {})
+        if len(ask.views) < 2 or kept.keys() != set(range(len(ask.views))):
+            return ()
+        return tuple(View(kept[n][0], name, kept[n][1]) for n, name in enumerate(ask.views))
 
 
 def _newest(eyes: Eyes, picture: Picture | None) -> Picture | None:

@@ -7,6 +7,7 @@ look and to come back comes back with nothing, too: that way alone is still driv
 
 from __future__ import annotations
 
+from planner.mission.account import BACK
 from planner.mission.effects import AskBrain
 from planner.mission.observed import observed
 from planner.mission.queue import end_running, note_step, settle_walk
@@ -24,7 +25,6 @@ MENDABLE = frozenset(
 SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED})
 IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON})
 """Nothing was wrong but that it was not there: the way back that the person ordered holds."""
-BACK = frozenset({"come_back", "return_home"})
 AGAIN_S = 1.0
 """A way that is shut stays so for a while: a step that goes on without it is asked no sooner."""
 
@@ -45,7 +45,7 @@ def fail_step(turn: Turn, cannot: Cannot) -> None:
     before = mission.failure if mission.returning else None
     why = Outcome(code=cannot.code, message=said) if before is None else _beside(before, said)
     mission = note_step(
-        turn, mission, state=StepState.FAILED, reason=cannot.reason, **cannot.figures
+        turn, mission, state=StepState.FAILED, reason=cannot.reason, said=said, **cannot.figures
     )
     mission = turn.put(mission, failure=why)
     mendable = cannot.code in MENDABLE and before is None
@@ -79,7 +79,8 @@ def end_failed(turn: Turn, mission: Mission, said: Bilingual | None) -> None:
     failed = [s for s in mission.steps[: mission.step + 1] if s.state is StepState.FAILED]
     looked = [s for s in failed if s.kind not in BACK] or failed
     reason = looked[-1].reason if looked else None
-    end_running(turn, GoalState.FAILED, code, reason, said=said)
+    own = failed[-1].said if failed else None  # a step that failed tells why by itself
+    end_running(turn, GoalState.FAILED, code, reason, said=own or said)
 
 
 def _go_back(turn: Turn, mission: Mission) -> bool:

@@ -18,6 +18,7 @@ from planner.plan import (
     same,
 )
 
+NO_STEPS = Bilingual(en="there are no steps in it", zh="里面没有步骤")
 UP_TO = frozenset({"go_to_object", "follow"})
 """The robot goes up to what these name: any other of its kind is the wrong one."""
 
@@ -25,7 +26,7 @@ UP_TO = frozenset({"go_to_object", "follow"})
 def unwalkable(book: Book, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
     """Return why these steps can't all be walked, or None. Nothing has moved yet."""
     if not steps:
-        return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why="no steps"))
+        return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=NO_STEPS))
     for step in steps:
         code = book.means.lacks(step.kind) if step.kind in SKILLS else Code.NO_CAPABILITY
         if code is not None:

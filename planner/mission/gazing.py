@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import hypot
 
+from planner.mission.effects import KeepPicture
 from planner.mission.failing import fail_step
 from planner.mission.legs import ask_route
 from planner.mission.queue import settle_walk
@@ -51,7 +52,7 @@ def on_sight(turn: Turn, sight: Sight, classes: tuple[str, ...]) -> None:
         seq = look.seq if look is not None else -1
         walk = turn.walk(gazed=walk.gazed + 1, look_seq=seq) or walk
         if _enough(turn, walk, sight):
-            go_on(turn, walk.then, gazed_s=walk.gaze_s)
+            _gazed(turn, walk)
             return
     if _ask_again(turn, walk, sight):
         _asked_again(turn, walk)
@@ -96,11 +97,20 @@ def end_gaze_if_due(turn: Turn) -> None:
     if walk.kind == "inquire":
         go_on(turn, walk.then, answer=Answer(failure="timed_out"))
     elif walk.gazed > 0:
-        go_on(turn, walk.then, gazed_s=walk.gaze_s)
+        _gazed(turn, walk)
     else:
         why = turn.book.sight.blind or "camera_silent"
         said = message(Code.BLIND, why=same(why))
         fail_step(turn, Cannot(Code.BLIND, why, said))
+
+
+def _gazed(turn: Turn, walk: Walk) -> None:
+    """Go on after a gaze; the picture of a look's direction is kept for a model to be shown."""
+    mission, then = turn.running, walk.then
+    looks = mission is not None and mission.now is not None and mission.now.kind == "look"
+    if mission is not None and looks and then is not None and then.faced and turn.book.eyes.model:
+        turn.emit(KeepPicture(mission.id, len(then.faced) - 1, walk.look_seq))
+    go_on(turn, then, gazed_s=walk.gaze_s)
 
 
 def _counts(walk: Walk, sight: Sight) -> bool:

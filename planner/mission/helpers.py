@@ -8,7 +8,7 @@ from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain
+from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, KeepPicture
 from planner.mission.events import Planned, Told
 from planner.mission.eyedoor import EyeDoor
 from planner.mission.skills import Way
@@ -59,8 +59,8 @@ class Helpers:
         self._inquiries: dict[int, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def help(self, ask: AskBrain | AskRoute | AskEyes | DropBrain) -> None:
-        """Start to think, to search or to ask about the picture, or stop thinking about a goal."""
+    def help(self, ask: AskBrain | AskRoute | AskEyes | KeepPicture | DropBrain) -> None:
+        """Start to think, to search or to ask about pictures; keep one; stop thinking."""
         match ask:
             case AskBrain():
                 self._drop(ask.id)
@@ -70,6 +70,8 @@ class Helpers:
                 self._drop(ask.id)
             case AskRoute():
                 self.spawn(self._search(ask))
+            case KeepPicture():
+                self._eyes.keep(ask)
             case AskEyes():
                 self._inquiries[ask.ticket] = self._start(self._inquire(ask))
 

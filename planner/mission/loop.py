@@ -26,6 +26,7 @@ from planner.mission.effects import (
     DropBrain,
     Effect,
     Journal,
+    KeepPicture,
     SayAloud,
 )
 from planner.mission.engine import Engine, Leg, Output
@@ -282,8 +283,9 @@ class Loop:
             case Journal() if self._safe is not None:
                 self._safe.write(effect, self._key_now)
                 self._key_now = None
-            case AskBrain() | AskRoute() | AskEyes() | DropBrain() if self._helpers is not None:
-                self._helpers.help(effect)
+            case AskBrain() | AskRoute() | AskEyes() | KeepPicture() | DropBrain():
+                if self._helpers is not None:
+                    self._helpers.help(effect)
             case ClearHold():
                 self.clear_hold(self._acts.pop(effect.id, None))
             case SayAloud():

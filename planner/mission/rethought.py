@@ -10,7 +10,7 @@ import json
 
 from planner.mission.events import Planned
 from planner.mission.failing import give_up
-from planner.mission.gate import unwalkable
+from planner.mission.gate import NO_STEPS, unwalkable
 from planner.mission.queue import clear_hold, end_running, note_step, step_aside
 from planner.mission.records import Mission
 from planner.mission.rules import needs_yes
@@ -18,6 +18,7 @@ from planner.mission.turn import Turn
 from planner.mission.walk import begin_step, next_step
 from planner.plan import (
     Answer,
+    Bilingual,
     Clarify,
     Code,
     GoalState,
@@ -32,7 +33,7 @@ from planner.plan import (
     plan_record,
 )
 
-SAME_AGAIN = "same_again"
+SAME_AGAIN = Bilingual(en="the same steps again", zh="与试过的步骤相同")
 
 
 def fingerprint(steps: tuple[StepRecord, ...]) -> str:
@@ -76,7 +77,7 @@ def _same_again(mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | No
     tried = {*mission.tried, fingerprint(mission.steps[mission.step :])}
     if fingerprint(steps) not in tried:
         return None
-    said = message(Code.BAD_PLAN, why="the same steps again")
+    said = message(Code.BAD_PLAN, why=SAME_AGAIN)
     return Outcome(code=Code.BAD_PLAN, message=said)
 
 
@@ -90,7 +91,7 @@ def _no_steps(turn: Turn, mission: Mission, plan: Plan | None, failure: Outcome 
     if isinstance(plan, Refuse):
         _end(turn, mission, GoalState.REFUSED, Outcome(code=plan.code, message=plan.reason))
         return
-    why = message(Code.BAD_PLAN, why="no plan")
+    why = message(Code.BAD_PLAN, why=NO_STEPS)
     _end(turn, mission, GoalState.FAILED, failure or Outcome(code=Code.BAD_PLAN, message=why))
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from math import hypot
 
+from planner.mission.account import place_name
 from planner.mission.records import Book, Facts, Mission
 from planner.mission.sight import standing, worst_row
-from planner.mission.verdict import place_name, spot_at
+from planner.mission.verdict import spot_at
 from planner.plan import Bilingual, Code, GoalState, message
 from wire import Pose2, Status
 

@@ -5,17 +5,16 @@
 
 from __future__ import annotations
 
+from planner.mission.account import MOTION, account, place_name
 from planner.mission.records import Facts, Mission, Walk
 from planner.mission.skills.look import looks_round
-from planner.mission.skills.words import angle, metres
-from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message, same
+from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message
 from planner.world.polygon import area_m2, contains
 from wire import Pose2, Status
 
 MAX_LIMITS_NAMED = 5
 MIN_LIMIT_SHARE = 0.02
 """A limit that was the nearest one in under 2 % of the statuses explains nothing."""
-MOTION = frozenset({"go_to", "return_home", "come_back", "turn", "move", "patrol"})
 SEEKS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point"})
 BUDGET = Bilingual(en="distance or time", zh="里程或时间")
 
@@ -60,26 +59,6 @@ def accepted_at(mission: Mission) -> Pose2 | None:
     return Pose2(*mission.accepted_at) if mission.accepted_at is not None else None
 
 
-def place_name(facts: Facts, mission: Mission, step: StepRecord | None) -> Bilingual:
-    """Name a step's destination for a person."""
-    if step is not None and step.kind == "come_back":
-        return Bilingual(en="where you gave the order", zh="下达指令的地方")
-    if step is not None and step.kind in ("turn", "move"):
-        return Bilingual(en="where I was to be", zh="要到达的位置")
-    wanted = facts.home if step is not None and step.kind == "return_home" else None
-    wanted = wanted or (_place(mission, step) if step is not None else "")
-    target = facts.targets.get(wanted)
-    return target.name if target is not None else same(wanted or "?")
-
-
-def _place(mission: Mission, step: StepRecord) -> str:
-    """Return the place that a step is at: of a patrol the one whose turn it is, or the last."""
-    if step.places:
-        visited = len(step.places) if step.state is StepState.SUCCEEDED else mission.part
-        return step.places[min(visited, len(step.places) - 1)]
-    return step.place or ""
-
-
 def limits(mission: Mission, walk: Walk | None) -> tuple[str, ...]:
     """Return the bridge's names for what held the speed down, the longest first."""
     counts = dict(mission.limited)
@@ -98,16 +77,19 @@ def ended(
     now_unix_s: float,
     *,
     code: Code,
-    said: Bilingual,
+    said: Bilingual | None,
 ) -> Outcome:
-    """Return the outcome of a mission that had begun, with the bridge's figures."""
+    """Return the outcome of a mission that had begun: what came of each step, and the figures.
+
+    ``said``: how it ends, where no step tells that.
+    """
     drives = [s for s in mission.steps if moves(s)]
     tried = [s for s in drives if s.state not in (StepState.PENDING, StepState.SKIPPED)]
     last = tried[-1] if tried else (drives[0] if drives else None)
     pose = status.base_in_map if status is not None else None
     return Outcome(
         code=code,
-        message=said,
+        message=account(facts, mission, code, said),
         asked=asked_spot(facts, mission, last) if last is not None else None,
         reached=(last.reached if last is not None and last.reached else None)
         or (spot_at(facts, pose) if tried else None),
@@ -117,48 +99,9 @@ def ended(
     )
 
 
-def success(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:
-    """Return the code and sentence of a mission whose every step is done, with what was seen."""
-    told = [s for s in mission.steps if s.said is not None]
-    if not told:
-        return _driven(facts, mission)
-    code = told[-1].code or Code.SEEN
-    sentences = [s.read or s.said for s in told if s.said is not None]
-    last = max(mission.steps.index(s) for s in told)
-    if any(s.kind in MOTION for s in mission.steps[last:]):
-        code, said = _driven(facts, mission)
-        sentences.append(said)
-    en, zh = " ".join(s.en for s in sentences), "".join(s.zh for s in sentences)
-    return code, Bilingual(en=en, zh=zh)
-
-
-def back_in_vain(facts: Facts, mission: Mission, why: Outcome) -> Bilingual:
-    """Return the sentence of a mission that came back without what it was sent for."""
-    back = mission.steps[mission.step - 1]
-    arrived = message(Code.ARRIVED, place=place_name(facts, mission, back))
-    return Bilingual(en=f"{why.message.en} {arrived.en}", zh=f"{why.message.zh}{arrived.zh}")
-
-
-def _driven(facts: Facts, mission: Mission) -> tuple[Code, Bilingual]:
-    """Return the code and sentence of the last drive."""
-    drives = [s for s in mission.steps if s.kind in MOTION]
-    if drives and drives[-1].kind in ("turn", "move"):
-        return Code.DONE, _amount(drives[-1])
-    if drives:
-        return Code.ARRIVED, message(Code.ARRIVED, place=place_name(facts, mission, drives[-1]))
-    return Code.DONE, message(Code.DONE)
-
-
-def _amount(step: StepRecord) -> Bilingual:
-    """Say how far a turn or a move came, by odometry, and what was asked."""
-    turned = step.kind == "turn"
-    put = angle if turned else metres
-    asked = put((step.angle_rad if turned else step.distance_m) or 0.0)
-    came = put((step.turned_rad if turned else step.moved_m) or 0.0)
-    return Bilingual(
-        en=f"Done: {came.en} by odometry ({asked.en} asked).",
-        zh=f"已完成：里程计显示{came.zh}（要求{asked.zh}）。",
-    )
+def thoughts(count: int) -> Bilingual:
+    """Name the thoughts that a goal may have under way, as a budget."""
+    return Bilingual(en=f"{count} thoughts under way", zh=f"途中 {count} 次思考机会")
 
 
 def failure(

@@ -6,6 +6,7 @@ pose lies inside the room's outline. Nothing moves or speaks before the journal 
 
 from __future__ import annotations
 
+from planner.mission.account import outcome_code
 from planner.mission.amounts import measure_from, settle_amounts
 from planner.mission.effects import AskEyes, SayAloud
 from planner.mission.failing import end_failed, fail_step, think, to_step
@@ -34,11 +35,10 @@ from planner.mission.skills import (
 from planner.mission.turn import Turn
 from planner.mission.verdict import (
     accepted_at,
-    back_in_vain,
     ended,
     moves,
     spot_at,
-    success,
+    thoughts,
 )
 from planner.plan import Code, GoalState, Outcome, StepState, message
 from planner.world.polygon import contains
@@ -197,7 +197,11 @@ def _inquire(turn: Turn, mission: Mission, act: Inquire) -> None:
             gaze_until_s=turn.now_s + act.seconds,
         ),
     )
-    ask = AskEyes(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y)
+    ask = AskEyes(
+        *(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y),
+        views=act.views,
+        now=act.now,
+    )
     turn.emit(ask)
 
 
@@ -246,7 +250,8 @@ def _decide(turn: Turn, mission: Mission) -> None:
         think(turn, mission)
         return
     if mission.decides >= turn.book.rules.decides:
-        fail_step(turn, Cannot(Code.OUT_OF_BUDGET, "thoughts"))
+        said = message(Code.OUT_OF_BUDGET, budget=thoughts(turn.book.rules.decides))
+        fail_step(turn, Cannot(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
     think(turn, turn.put(mission, decides=mission.decides + 1))
@@ -329,11 +334,11 @@ def end_wait_if_due(turn: Turn) -> None:
 
 def _succeed(turn: Turn, mission: Mission) -> None:
     if mission.failure is not None:
-        end_failed(turn, mission, back_in_vain(turn.book.facts, mission, mission.failure))
+        end_failed(turn, mission, mission.failure.message)
         return
-    code, said = success(turn.book.facts, mission)
     now_unix_s = turn.now_s + turn.book.wall_offset_s
+    code = outcome_code(mission)
     outcome = ended(
-        turn.book.facts, mission, None, turn.book.status, now_unix_s, code=code, said=said
+        turn.book.facts, mission, None, turn.book.status, now_unix_s, code=code, said=None
     )
     finish(turn, mission, GoalState.SUCCEEDED, outcome)

@@ -102,8 +102,8 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "速度和坐标不由指令决定（“{part}”）。请说地点名称。",
     ),
     Code.NO_CAPABILITY: (
-        "I can't do “{part}”: this robot drives, and has no means for that.",
-        "我做不到“{part}”：这台机器人只会行驶，没有这个能力。",
+        "I can't do “{part}”: as it is said, that is beyond this robot.",
+        "我做不到“{part}”：照这样说，这台机器人做不到。",
     ),
     Code.NO_CAMERA: (
         "I can't do “{part}”: it needs a camera, and there is none.",

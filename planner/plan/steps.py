@@ -45,7 +45,7 @@ class Wait(Frozen):
 
 
 class Say(Frozen):
-    """Say words to the people near the robot."""
+    """Say words: people read them on the page."""
 
     kind: Literal["say"] = "say"
     text: Words
@@ -80,7 +80,7 @@ class Move(Frozen):
 
 
 class Patrol(Frozen):
-    """Visit places one after the other, looking around."""
+    """Drive to places one after the other, not looking."""
 
     kind: Literal["patrol"] = "patrol"
     places: Annotated[tuple[PlaceId, ...], Field(min_length=1, max_length=20)]

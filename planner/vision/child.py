@@ -13,7 +13,16 @@ from pathlib import Path
 from typing import Any
 
 from planner.kept import Frame, Parent, run
-from planner.vision.detect import Detector, Wanted, depth_at, shrink, unpack_color, unpack_depth
+from planner.vision.detect import (
+    Detector,
+    Wanted,
+    depth_at,
+    lay_out,
+    scaled,
+    shrink,
+    unpack_color,
+    unpack_depth,
+)
 from planner.vision.failure import VisionFailure
 from planner.vision.frames import look_frame
 
@@ -41,6 +50,8 @@ def _detector(settings: dict[str, Any]) -> Detector | None:
 
 def _answer(detector: Detector | None, asked: Frame) -> Frame:
     head, body = asked
+    if "sheet" in head:
+        return {}, _sheet(head, body)
     if "long_side" in head:
         return {}, _shrunk(body, int(head["long_side"]))
     if "at" in head:
@@ -64,6 +75,18 @@ def _shrunk(body: bytes, long_side: int) -> bytes:
     if isinstance(picture, str):
         raise VisionFailure(picture)
     return shrink(picture, long_side)
+
+
+def _sheet(head: dict[str, Any], body: bytes) -> bytes:
+    """Lay out the pictures that stand one behind the other in the body."""
+    tiles, at = [], 0
+    for label, length in zip(head["sheet"], head["lengths"], strict=True):
+        picture = unpack_color(body[at : at + int(length)])
+        if isinstance(picture, str):
+            raise VisionFailure(picture)
+        tiles.append((scaled(picture, int(head["long_side"])), str(label)))  # not all at once
+        at += int(length)
+    return lay_out(tiles, int(head["long_side"]))
 
 
 if __name__ == "__main__":

@@ -18,6 +18,8 @@ from planner.vision.frames import read_about, read_look
 from planner.vision.result import About, LookResult
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from planner.settings import VisionSettings
     from wire import Image
 
@@ -102,6 +104,24 @@ class VisionWorker(KeptProcess):
         """
         head = {"long_side": max(1, long_side)}
         return await self.ask(head, (picture,), timeout_s, _picture)
+
+    async def sheet(
+        self, pictures: Sequence[tuple[bytes, str]], long_side: int, timeout_s: float = LOOK_S
+    ) -> bytes:
+        """Return several pictures as one JPEG, each below its label (ASCII), in their order.
+
+        Its longer side is at most so long [px]; it has no metadata.
+
+        Raises:
+            VisionFailure: ``picture_*``, ``detector_down`` or ``detector_timed_out``.
+        """
+        head = {
+            "sheet": [label for _, label in pictures],
+            "lengths": [len(data) for data, _ in pictures],
+            "long_side": max(1, long_side),
+        }
+        bodies = tuple(data for data, _ in pictures)
+        return await self.ask(head, bodies, timeout_s, _picture)
 
     async def depth_at(
         self, depth: Image, u_px: float, v_px: float, timeout_s: float = LOOK_S

@@ -1,7 +1,7 @@
 """Answer questions about a picture by a tiny rule, and as badly as a model can that obeys signs.
 
 The mock has no eyes: it tells a picture's size from its head, takes for seen what the detector's
-list in the prompt says, and reads as "what stands written there" the picture's comment (a JPEG
+lists in the prompt say, and reads as "what stands written there" the picture's comment (a JPEG
 segment), where a test puts the words that it has drawn.
 """
 
@@ -61,7 +61,9 @@ def asked_of(body: dict[str, Any]) -> Asked | None:
         order = _order(text if text is not None else message.get("content"))
         for kind, key in (("look", "question"), ("point", "point_at")):
             if isinstance(order.get(key), str):
-                listed = tuple(_dicts(order.get("detector")))
+                tiles = _dicts(order.get("pictures"))
+                each = (order, *tiles)
+                listed = tuple(line for one in each for line in _dicts(one.get("detector")))
                 return Asked(kind, order[key], listed, _picture(parts))  # type: ignore[arg-type]  # one of the two
     return None
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from planner.brain.draft import Hear
 from planner.brain.endpoint.judge import Planned, Unusable, clean, judge
 from planner.brain.endpoint.line import Line
-from planner.brain.endpoint.looker import EndpointLooker, Shrink
+from planner.brain.endpoint.looker import EndpointLooker, LayOut, Shrink
 from planner.brain.endpoint.partial import Drafting
 from planner.brain.endpoint.reply import Reply, Tokens
 from planner.brain.errors import PlanRejected
@@ -73,13 +73,13 @@ class EndpointBrain:
         """Render the prompt of this closed world, so that the first goal need not wait for it."""
         self._prompt.messages(ThinkRequest(text="", vocabulary=vocabulary))
 
-    def looker(self, shrink: Shrink | None = None) -> EndpointLooker:
+    def looker(self, shrink: Shrink | None = None, lay_out: LayOut | None = None) -> EndpointLooker:
         """Return whoever asks the same model about pictures, over the same line.
 
         Raises:
             Misconfigured: ``prompt_missing``, ``prompt_malformed``.
         """
-        return EndpointLooker(self._line, shrink)
+        return EndpointLooker(self._line, shrink, lay_out)
 
     async def close(self) -> None:
         """Give the connections back."""

@@ -7,7 +7,7 @@ A picture leaves this machine only after the owner's second yes, never larger th
 from __future__ import annotations
 
 import logging
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, TypeVar
 
 from planner.brain.endpoint.judge import Unusable, clean
@@ -25,8 +25,9 @@ from planner.brain.looking import (
     NotThere,
     Picture,
     Pointed,
+    View,
 )
-from planner.brain.lookprompt import LOOK_SCHEMA, POINT_SCHEMA, LookPrompts
+from planner.brain.lookprompt import LOOK_SCHEMA, POINT_SCHEMA, LookPrompts, label_of
 from planner.brain.schema import Message
 from planner.brain.template import Template, repair
 from planner.plan import Bilingual, BrainTag
@@ -36,22 +37,27 @@ log = logging.getLogger(__name__)
 T = TypeVar("T")
 Shrink = Callable[[bytes, int], Awaitable[bytes]]
 """Returns a JPEG with no longer side than so many pixels, from a process that may decode."""
+LayOut = Callable[[Sequence[tuple[bytes, str]], int], Awaitable[bytes]]
+"""Returns one JPEG with these pictures, each below its label, likewise."""
 
 
 class EndpointLooker:
     """Look through a model behind an OpenAI-compatible endpoint."""
 
-    def __init__(self, line: Line, shrink: Shrink | None = None) -> None:
+    def __init__(
+        self, line: Line, shrink: Shrink | None = None, lay_out: LayOut | None = None
+    ) -> None:
         """Read the prompts.
 
         Args:
             line: shared with whoever plans by the same model.
             shrink: makes a large picture smaller; None: a large one is not sent.
+            lay_out: puts several pictures on one sheet; None: no sheet is sent.
 
         Raises:
             Misconfigured: ``prompt_missing``, ``prompt_malformed``.
         """
-        self._line, self._shrink = line, shrink
+        self._line, self._shrink, self._lay_out = line, shrink, lay_out
         self._prompts = LookPrompts()
         self._look, self._point = map(self._tagged, (self._prompts.look, self._prompts.point))
 
@@ -77,7 +83,8 @@ class EndpointLooker:
         """Return the model's answer; see ``planner.brain.looking.Looker``."""
 
         async def talk(end_s: float) -> Words:
-            url = await self._url(asked.picture)
+            picture = await self._sheet(asked.views) if asked.views else asked.picture
+            url = await self._url(picture)
             messages = self._prompts.look_messages(asked)
             return await self._twice(messages, (LOOK_FORM, LOOK_SCHEMA), url, end_s, judge_look)
 
@@ -103,9 +110,7 @@ class EndpointLooker:
         Raises:
             NotSent: it is not.
         """
-        refused = self.refuses
-        if refused is not None:
-            raise NotSent(f"{self._line.address.host}: {refused}", why=refused)
+        self._consent()
         jpeg, size = picture.jpeg, _size(picture.jpeg)
         if size != (picture.width, picture.height):
             told = f"{size} in the JPEG, {picture.width} x {picture.height} told"
@@ -118,6 +123,25 @@ class EndpointLooker:
             most = f"{LONG_SIDE_PX} px, {MAX_JPEG_BYTES} bytes"
             raise NotSent(f"{told}; at most {most}", why="picture_too_large")
         return data_url(jpeg if self._line.address.local else without_notes(jpeg))
+
+    def _consent(self) -> None:
+        """Raise NotSent where no picture may leave at all."""
+        refused = self.refuses
+        if refused is not None:
+            raise NotSent(f"{self._line.address.host}: {refused}", why=refused)
+
+    async def _sheet(self, views: Sequence[View]) -> Picture:
+        """Return the pictures of several directions as one, each below its label.
+
+        Raises:
+            NotSent: it can't be made.
+        """
+        self._consent()
+        if self._lay_out is None:
+            raise NotSent(f"nobody can lay out {len(views)} pictures", why="bad_picture")
+        named = [(view.picture.jpeg, label_of(at, view)) for at, view in enumerate(views, start=1)]
+        jpeg = await self._lay_out(named, LONG_SIDE_PX)
+        return Picture(jpeg, *_size(jpeg), views[-1].picture.seq)
 
     async def _twice(
         self,

@@ -14,6 +14,15 @@ from planner.plan import Answer, Bilingual, Clarify, Code, Refuse, StepPlan, mes
 _NO_OTHER_WAY = Bilingual(en="the built-in brain knows no other way", zh="内置大脑没有别的办法")
 
 
+def _whole(seen: Observation) -> Bilingual:
+    """Return what is known of a step, and beside it what a model read."""
+    if seen.read is None:
+        return seen.detail
+    return Bilingual(
+        en=f"{seen.detail.en} {seen.read.en}".strip(), zh=f"{seen.detail.zh}{seen.read.zh}"
+    )
+
+
 def rest_of(
     plan: StepPlan | Answer | Clarify | Refuse, observed: Sequence[Observation]
 ) -> StepPlan | Answer | Clarify | Refuse:
@@ -28,6 +37,6 @@ def rest_of(
     left = plan.steps[len(walked) - int(failed) :]
     if left:
         return StepPlan(steps=left)
-    told = [seen.read or seen.detail for seen in observed if seen.step != "decide"]
+    told = [_whole(seen) for seen in observed if seen.step != "decide"]
     told = told or [_NO_OTHER_WAY]
     return Answer(text=told[-1])

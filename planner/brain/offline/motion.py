@@ -68,7 +68,7 @@ def turn_and_move(found: Match[str], reading: Reading) -> Meaning:
 
 
 def patrol(found: Match[str], reading: Reading) -> Meaning:
-    """Visit a place, looking around; places that follow are joined to it."""
+    """Visit a place of a patrol; places that follow are joined to it."""
     meaning = go_to(found["place"], reading)
     if not isinstance(meaning, Steps):
         return meaning

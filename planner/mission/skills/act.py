@@ -120,13 +120,16 @@ class Inquire:
     """Ask about the picture, standing: a vision model in words, or what a pixel shows.
 
     With ``x`` and ``y`` (0 to 1000) the point there; else with ``point`` where these words are;
-    else what is seen, as an answer to these words.
+    else what is seen, as an answer to these words: in the pictures of all ``views``, the names of
+    the directions gazed in, where they are still there; else in the newest one, of ``now``.
     """
 
     words: str = ""
     point: bool = False
     x: int | None = None
     y: int | None = None
+    views: tuple[Bilingual, ...] = ()
+    now: Bilingual | None = None
     seconds: float = ANSWER_S
     notes: Notes | None = None
     then: Notes | None = None

@@ -45,12 +45,20 @@ class Spot(NamedTuple):
     """With a preposition: `` on the table in the kitchen``, ``在厨房的桌子上``."""
 
 
-def answer(scene: Scene, question: str) -> Bilingual:
+class Told(NamedTuple):
+    """Hold the answer, and whether it is a yes."""
+
+    said: Bilingual
+    yes: bool | None = None
+    """None: nothing is asked for that is there or not, or it can't be told."""
+
+
+def answer(scene: Scene, question: str) -> Told:
     """Say what was seen during this step; where one thing is asked for, whether it was."""
     sought = sought_in(question, scene.facts, scene.step.place, scene.eyes.classes)
     late = _unknown(scene, question) if sought.what is None else None
     if late is not None:
-        return late
+        return Told(late)
     inside, since_s = within(scene), scene.now_s - scene.spent_s
     seen = apart(t for t in confirmed(scene.sight, None, since_s) if inside(t))
     fitting = tuple(t for t in seen if fits(t, sought.what))
@@ -62,9 +70,11 @@ def answer(scene: Scene, question: str) -> Bilingual:
         return _beside(sought.what, judged_so, _spot(sought.by, sought.relation, at), seen=there)
     if sought.unclear and fitting:
         what = _said(fitting, sought.what)
-        return Bilingual(
-            en=f"I see {what.en}{at.en}; whether “{sought.unclear}”, I can't tell by sight.",
-            zh=f"{at.zh}看到 {what.zh}；是不是“{sought.unclear}”，我看不出来。",
+        return Told(
+            Bilingual(
+                en=f"I see {what.en}{at.en}; whether “{sought.unclear}”, I can't tell by sight.",
+                zh=f"{at.zh}看到 {what.zh}；是不是“{sought.unclear}”，我看不出来。",
+            )
         )
     return _plainly(sought.what, fitting, at)
 
@@ -85,28 +95,37 @@ def _judged(things: Things, relation: Relation, by: list[Thing] | None) -> Judge
     return Judged(tuple(sorts[True]), tuple(sorts[None]), tuple(sorts[False]))
 
 
-def _beside(what: Wanted | None, so: Judged, spot: Spot, *, seen: bool) -> Bilingual:
+def _beside(what: Wanted | None, so: Judged, spot: Spot, *, seen: bool) -> Told:
     """Say whether what is asked for stands by its neighbour; ``seen``: that one was seen now."""
     at, beside = spot.at, spot.beside
     if so.there:
         found = _said(so.there, what)
         yes = ("Yes, ", "有，") if what is not None else ("", "")
-        return Bilingual(
-            en=f"{yes[0]}I see {found.en}{beside.en}.", zh=f"{yes[1]}{beside.zh}看到 {found.zh}。"
+        return Told(
+            Bilingual(
+                en=f"{yes[0]}I see {found.en}{beside.en}.",
+                zh=f"{yes[1]}{beside.zh}看到 {found.zh}。",
+            ),
+            None if what is None else True,
         )
     if so.unsure:
         found = _said(so.unsure, what)
-        return Bilingual(
-            en=f"I can't tell: I see {found.en}{at.en}, but not well enough where.",
-            zh=f"说不准：{at.zh}看到 {found.zh}，但位置不够确定。",
+        return Told(
+            Bilingual(
+                en=f"I can't tell: I see {found.en}{at.en}, but not well enough where.",
+                zh=f"说不准：{at.zh}看到 {found.zh}，但位置不够确定。",
+            )
         )
     if not seen:
-        return _without_neighbour(what, so.elsewhere, spot)
+        return Told(_without_neighbour(what, so.elsewhere, spot))
     no = _plainly(what, (), beside)
     if what is None or not so.elsewhere:
         return no
     found = _said(so.elsewhere, what)
-    return Bilingual(en=f"{no.en} I see {found.en} elsewhere.", zh=f"{no.zh}别处看到 {found.zh}。")
+    said = Bilingual(
+        en=f"{no.said.en} I see {found.en} elsewhere.", zh=f"{no.said.zh}别处看到 {found.zh}。"
+    )
+    return Told(said, no.yes)
 
 
 def _without_neighbour(what: Wanted | None, elsewhere: Things, spot: Spot) -> Bilingual:
@@ -124,20 +143,21 @@ def _without_neighbour(what: Wanted | None, elsewhere: Things, spot: Spot) -> Bi
                      zh=f"说不准：{at.zh}看到 {found.zh}，但没有看到{by.zh}。")  # fmt: skip
 
 
-def _plainly(what: Wanted | None, things: Things, at: Bilingual) -> Bilingual:
+def _plainly(what: Wanted | None, things: Things, at: Bilingual) -> Told:
     """Say what was seen of what is asked for, without any neighbour."""
     if what is None:
         if not things:
-            return Bilingual(en=f"I see nothing that I know{at.en}.",
-                             zh=f"{at.zh}没有看到我认识的东西。")  # fmt: skip
+            return Told(Bilingual(en=f"I see nothing that I know{at.en}.",
+                                  zh=f"{at.zh}没有看到我认识的东西。"))  # fmt: skip
         found = listed(things)
-        return Bilingual(en=f"I see {found.en}{at.en}.", zh=f"{at.zh}看到 {found.zh}。")
+        return Told(Bilingual(en=f"I see {found.en}{at.en}.", zh=f"{at.zh}看到 {found.zh}。"))
     if not things:
         name = named(what.label, what.color)
-        return Bilingual(en=f"No, I see no {name.en}{at.en}.",
-                         zh=f"没有，{at.zh}没有看到{name.zh}。")  # fmt: skip
+        return Told(Bilingual(en=f"No, I see no {name.en}{at.en}.",
+                              zh=f"没有，{at.zh}没有看到{name.zh}。"), False)  # fmt: skip
     found = _said(things, what)
-    return Bilingual(en=f"Yes, I see {found.en}{at.en}.", zh=f"有，{at.zh}看到 {found.zh}。")
+    said = Bilingual(en=f"Yes, I see {found.en}{at.en}.", zh=f"有，{at.zh}看到 {found.zh}。")
+    return Told(said, True)
 
 
 def _said(things: Things, what: Wanted | None) -> Bilingual:

@@ -36,6 +36,10 @@ class Answer:
 
     text: Bilingual | None = None
     """What a vision model says: it may describe, it never commands."""
+    seen: bool | None = None
+    """Whether it says that what was asked for is there; tainted as its words are."""
+    shown: int = 1
+    """Pictures that it was shown: one of each direction of this look, or the newest alone."""
     at: tuple[float, float, float] | None = None
     """x, y, height above the floor [m]."""
     failure: str | None = None

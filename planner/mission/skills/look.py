@@ -2,27 +2,32 @@
 
 Precondition: without a vision model, the one kind of thing that is asked for is known to the
 detector. Law: a place that is named is driven to and looked round in; else one gaze ahead, or round
-where the words ask for it. With a vision model its words are the answer: they may repeat what
-stands written in the picture, so they describe and never command. Without one the answer is what
-the detector saw, by kind, colour, number and neighbour (answering.py); where one is set and does
-not answer, why is told, too. Verdict: looked. Budget: one leg and one turn about.
+where the words ask for it. The answer is what the detector saw, by kind, colour, number and
+neighbour (answering.py). Beside it stands, labelled, what a vision model read in the pictures of
+all these directions (reading.py): its words may repeat what stands written there, so they describe
+and never command. Where a model is set and does not answer, why is told. Verdict: looked; a place
+to which there was no way was not. Budget: one leg and one turn about.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
-from planner.mission.skills.answering import answer
+from planner.mission.skills.answering import Told, answer
 from planner.mission.skills.around import LOOKS, look_round
 from planner.mission.skills.asked import unknown_kind
+from planner.mission.skills.directions import direction, goes_round, listed
 from planner.mission.skills.notes import Notes
+from planner.mission.skills.reading import reading
 from planner.mission.skills.rooms import HERE, Spot, room_at
 from planner.mission.skills.search import begin, spots
 from planner.mission.skills.tell import unknown_name
 from planner.mission.skills.unanswered import why_silent
-from planner.plan import Bilingual, Code
+from planner.plan import Bilingual, Code, message
+from wire import wrap
 
 if TYPE_CHECKING:
     from wire import Pose2
@@ -34,6 +39,8 @@ _ROUND = re.compile(
 )
 """To look about; "a round table" and "around the table" are things to look at."""
 GAZED, ASKED = 1, 2
+NO_DETECTOR = Bilingual(en="No detector is here to see anything.", zh="这里没有检测模型。")
+"""Who has none has not seen that nothing is there."""
 
 
 def looks_round(question: str) -> bool:
@@ -55,14 +62,43 @@ def look(scene: Scene) -> Act:
         next_ = _next(scene, pose, question)
         if not isinstance(next_, Notes):
             return next_
+        if scene.step.place is not None and not next_.faced:
+            return _never_there(scene)
         notes = next_.but(stage=GAZED)
     if scene.eyes.model and notes.stage < ASKED:
-        return Inquire(question, then=notes.but(stage=ASKED))
-    read = scene.answer.text if scene.answer is not None else None
-    said, silent = answer(scene, question), why_silent(scene.answer)
+        views = tuple(map(direction, notes.faced))
+        now = _facing(notes, pose)
+        return Inquire(question, views=views, now=now, then=notes.but(stage=ASKED))
+    return _answered(scene.but(notes), pose, question)
+
+
+def _answered(scene: Scene, pose: Pose2, question: str) -> Done:
+    """Tell what was seen, and what a model read or why it did not."""
+    notes, views = scene.notes, scene.eyes.views
+    told = Told(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
+    said, silent = [told.said], why_silent(scene.answer)
+    if len(notes.faced) > 1 and not goes_round(notes.faced, views):
+        names = listed(tuple(map(direction, notes.faced)))
+        said.append(Bilingual(en=f"I could look {names.en} only.", zh=f"只看到了{names.zh}。"))
     if silent is not None:
-        said = Bilingual(en=f"{said.en} {silent.en}", zh=f"{said.zh}{silent.zh}")
-    return Done({"rooms": notes.rooms}, Code.SEEN, said, read)
+        said.append(silent)
+    whole = Bilingual(en=" ".join(s.en for s in said), zh="".join(s.zh for s in said))
+    read = None
+    if scene.answer is not None:
+        read = reading(scene.answer, told.yes, notes.faced, views, _facing(notes, pose))
+    return Done({"rooms": notes.rooms}, Code.SEEN, whole, read)
+
+
+def _facing(notes: Notes, pose: Pose2) -> Bilingual:
+    """Name the direction that the robot faces, from how it stood when it looked first."""
+    return direction(wrap(pose.yaw_rad - notes.ahead) if notes.ahead is not None else 0.0)
+
+
+def _never_there(scene: Scene) -> Cannot:
+    """Say that nothing was looked at: what was not seen there is no no."""
+    target = scene.facts.targets.get(scene.step.place or "")
+    name = target.name if target is not None else Bilingual(en="?", zh="?")
+    return Cannot(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
 
 
 def _unknown(scene: Scene, question: str) -> Cannot | None:
@@ -83,7 +119,21 @@ def _model_alone(scene: Scene) -> bool:
 
 
 def _next(scene: Scene, pose: Pose2, question: str) -> Act | Notes:
-    """Return the next leg or gaze, or the notes when enough was looked at."""
+    """Return the next leg or gaze, or the notes when enough was looked at.
+
+    Each gaze notes its direction as the robot stands then, wherever it was to turn.
+    """
+    if not scene.notes.faced and scene.notes.turned is None:
+        scene = scene.but(scene.notes.but(ahead=pose.yaw_rad))
+    next_ = _looked(scene, pose, question)
+    if not isinstance(next_, Gaze) or next_.then is None:
+        return next_
+    ahead = next_.then.ahead if next_.then.ahead is not None else pose.yaw_rad
+    faced = (*next_.then.faced, round(wrap(pose.yaw_rad - ahead), 3))
+    return replace(next_, then=next_.then.but(faced=faced))
+
+
+def _looked(scene: Scene, pose: Pose2, question: str) -> Act | Notes:
     if scene.step.place is not None:
         return look_round(scene, pose, spots(scene, pose)[:1], None)
     if not looks_round(question):

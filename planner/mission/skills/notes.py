@@ -34,6 +34,10 @@ class Notes(Frozen):
     """The metres that were left did not last for the next way."""
     here: tuple[float, float] | None = None
     """Where the robot stood when it began to look: x [m], y [m] in ``map``."""
+    ahead: float | None = None
+    """The heading in ``map`` that counts as ahead: how it stood when it looked first [rad]."""
+    faced: tuple[float, ...] = ()
+    """Directions that were gazed in, in their order: angles to the left of ahead [rad]."""
     order: tuple[str, ...] = ()
     """Rooms to look in, in their order, as of the beginning."""
     aim: str | None = None

@@ -1,4 +1,4 @@
-"""Say words to the people near the robot.
+"""Tell people words: on the page, in events, in the goal's outcome.
 
 Law: at most once, even across a crash: words whose beginning is on disk were perhaps said, and are
 left out. Budget: 500 characters by the plan's own bounds; no motion.

@@ -7,8 +7,10 @@ from planner.vision.detect.detector import Detector
 from planner.vision.detect.draw import drawn, save
 from planner.vision.detect.inner import depth_at
 from planner.vision.detect.model_file import Wanted
-from planner.vision.detect.pictures import shrink, unpack_color, unpack_depth
+from planner.vision.detect.pictures import scaled, shrink, unpack_color, unpack_depth
+from planner.vision.detect.sheet import lay_out
 
 __all__ = [
-    "Detector", "Wanted", "depth_at", "drawn", "save", "shrink", "unpack_color", "unpack_depth"
+    "Detector", "Wanted", "depth_at", "drawn", "lay_out", "save", "scaled", "shrink",
+    "unpack_color", "unpack_depth",
 ]  # fmt: skip

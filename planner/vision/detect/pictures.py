@@ -85,13 +85,19 @@ def unpack_depth(data: bytes, size: tuple[int, int]) -> Depth | str:
 
 def shrink(picture: Picture, long_side: int) -> bytes:
     """Return a JPEG of a picture whose longer side is at most ``long_side`` [px]. No metadata."""
+    small = scaled(picture, long_side)
+    _, data = cv2.imencode(".jpg", small, (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
+    return data.tobytes()
+
+
+def scaled(picture: Picture, long_side: int) -> Picture:
+    """Return a picture whose longer side is at most ``long_side`` [px]."""
     height, width = picture.shape[:2]
     scale = long_side / max(height, width)
-    if scale < 1.0:
-        size = (max(1, round(width * scale)), max(1, round(height * scale)))
-        picture = cast("Picture", cv2.resize(picture, size, interpolation=cv2.INTER_AREA))
-    _, data = cv2.imencode(".jpg", picture, (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
-    return data.tobytes()
+    if scale >= 1.0:
+        return picture
+    size = (max(1, round(width * scale)), max(1, round(height * scale)))
+    return cast("Picture", cv2.resize(picture, size, interpolation=cv2.INTER_AREA))
 
 
 def _fits(header: PictureHeader) -> bool:

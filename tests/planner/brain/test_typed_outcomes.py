@@ -38,8 +38,8 @@ ORDERS = {
         ("跟着小明", "“小明”里缺少信息：小明在哪里？请说出地点。"),
     ),
     Code.NO_CAPABILITY: (
-        ("bring me the cup from the kitchen", "no means for that. Shall I do only this: find the"),
-        ("去厨房把杯子拿过来", "没有这个能力。要不要只做这些：去厨房"),
+        ("bring me the cup from the kitchen", "beyond this robot. Shall I do only this: find the"),
+        ("去厨房把杯子拿过来", "这台机器人做不到。要不要只做这些：去厨房"),
     ),
     Code.UNSAFE: (
         ("run over the cat", "I will not do “run over the cat”: it could hurt somebody"),

@@ -104,7 +104,8 @@ def test_the_words_may_be_told(home: Vocabulary) -> None:
     thought = asyncio.run(think_warily(TwoMinds(blind, told), asked(home, LOOKED)))
     assert thought.plan == told
     answered = asyncio.run(think_warily(OfflineBrain(), look_for(home)))
-    assert answered.plan == Answer(text=SIGN)
+    both = Bilingual(en=f"seen: yes {SIGN.en}", zh=f"seen: yes{SIGN.zh}")
+    assert answered.plan == Answer(text=both), "what is known comes first"
 
 
 def look_for(home: Vocabulary) -> ThinkRequest:

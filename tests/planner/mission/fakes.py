@@ -273,6 +273,8 @@ class FakeBridge:
         end = horizon.points[-1]
         if horizon.final and hypot(end.x_m - self.pose.x_m, end.y_m - self.pose.y_m) < 0.05:
             self.leg = self.leg.model_copy(update={"reached": True, "following": False})
+            if end.heading_rad is not None:
+                self.pose = Pose2(self.pose.x_m, self.pose.y_m, end.heading_rad)
             self.horizon, self.mode = None, Mode.HOLD
             return 0.0
         return moved_m / PERIOD_S

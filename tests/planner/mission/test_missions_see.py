@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from planner.brain.errors import BrainDown
 from planner.brain.looking import Asked, Described, NotThere, Pointed
-from planner.mission.effects import AskEyes
+from planner.mission.effects import AskEyes, KeepPicture
 from planner.mission.eyedoor import EyeDoor
 from planner.mission.skills import Answer
 from planner.plan import (
@@ -23,6 +24,7 @@ from planner.plan import (
     Language,
     Look,
     StepPlan,
+    same,
 )
 from planner.vision.ports import Picture, PointRefused, Spot
 from planner.vision.records import Detection, Sight
@@ -102,6 +104,7 @@ class FakeLooker:
     def __init__(self, *, fails: bool = False) -> None:
         self._fails, self.asked = fails, list[tuple[str, str]]()
         self.shown: list[tuple[int, Pose2 | None, int]] = []
+        self.views: list[tuple[str, int]] = []
 
     @property
     def tag(self) -> BrainTag:
@@ -111,6 +114,7 @@ class FakeLooker:
         self.asked.append((asked.words, asked.goal))
         shown = asked.picture
         self.shown.append((shown.seq, shown.base_in_map, len(asked.detections)))
+        self.views += [(view.direction.en, view.picture.seq) for view in asked.views]
         if self._fails:
             raise BrainDown("503")
         return Described(SIGN, None, TAG)
@@ -156,16 +160,65 @@ def test_a_models_words_are_told_and_kept_apart_from_ours(tmp_path: Path, site: 
         goal = world.missions.goal(goal_id)
         assert goal.state is GoalState.SUCCEEDED
         assert goal.outcome is not None
-        assert (goal.outcome.code, goal.outcome.message) == (Code.SEEN, SIGN)
+        assert goal.outcome.code is Code.SEEN
+        assert goal.outcome.message.en == (
+            f"I see nothing that I know. The vision model, shown the picture ahead, adds: {SIGN.en}"
+        )
         assert goal.plan is not None
         step = goal.plan.steps[0]
-        assert step.read == SIGN
+        assert step.read is not None
+        assert step.read.zh.endswith(SIGN.zh)
         assert step.said is not None
         assert "sign" not in step.said.en
         assert looker.asked == [("what does the sign say?", goal_id)]
         assert eyes.attended == [("mission", True), ("mission", False)]
         assert world.brain.asked[0].runnable >= {"look", "find"}
         assert "go_to_point" not in world.brain.asked[0].runnable
+
+    run(story())
+
+
+def test_a_look_round_shows_a_model_the_picture_of_each_direction(
+    tmp_path: Path, site: Site
+) -> None:
+    async def story() -> None:
+        looker, plan = FakeLooker(), StepPlan(steps=(Look(question="look around"),))
+        world, eyes, goal_id = await seeing(tmp_path, site, plan, looker, "look around")
+        assert [name for name, _ in looker.views] == [
+            "ahead", "ahead on the left", "behind on the left", "behind", "behind on the right",
+            "ahead on the right",
+        ]  # fmt: skip
+        numbers = [number for _, number in looker.views]
+        assert numbers == sorted(set(numbers)), "each was taken where the robot then stood"
+        assert numbers[-1] <= eyes.seq
+        goal = world.missions.goal(goal_id)
+        assert goal.outcome is not None
+        assert goal.outcome.message.en.endswith(
+            f"The vision model, shown all directions, adds: {SIGN.en}"
+        )
+
+    run(story())
+
+
+def test_pictures_are_kept_for_few_goals_and_only_while_they_are_the_newest() -> None:
+    async def story() -> None:
+        eyes, looker = FakeEyes(LiveBridge(pose=START)), FakeLooker()
+        door, names = EyeDoor(eyes, looker), (same("ahead"), same("behind"))
+        ask = AskEyes("g1", 1, Language.EN, words="?", views=names, now=names[1])
+        for number in (0, 1):
+            eyes.seq = 10 + number
+            door.keep(KeepPicture("g1", number, eyes.seq))
+        assert (await door.ask(ask)).answer.shown == 2
+        assert looker.views == [("ahead", 10), ("behind", 11)]
+        assert (await door.ask(ask)).answer.shown == 1, "they are gone once they were shown"
+        for number, late in ((0, 0), (1, 5)):  # a newer picture shows another direction
+            door.keep(KeepPicture("g1", number, eyes.seq - late))
+        assert (await door.ask(ask)).answer.shown == 1
+        for goal in ("g1", "g2", "g3"):
+            for number in (0, 1):
+                door.keep(KeepPicture(goal, number, eyes.seq))
+        assert (await door.ask(ask)).answer.shown == 1, "pushed out by two others"
+        assert (await door.ask(replace(ask, id="g3"))).answer.shown == 2
 
     run(story())
 

@@ -104,6 +104,17 @@ async def test_a_picture_is_made_small_for_others(
 
 
 @story
+async def test_pictures_of_several_directions_become_one(
+    worker: VisionWorker, loop: asyncio.Runner
+) -> None:
+    header = read_header(await worker.sheet([(JPEG, "1 ahead"), (JPEG, "2 left")], 100))
+    assert header is not None
+    assert (header.kind, max(header.width, header.height) <= 100) == ("jpeg", True)
+    broken = worker.sheet([(JPEG, "1 ahead"), (b"no picture", "2 left")], 100)
+    assert await code_of(broken) == "picture_not_known"
+
+
+@story
 async def test_what_becomes_of_the_process_has_a_code_of_the_eyes(model: Path) -> None:
     worker = VisionWorker(VisionSettings(model=model), tiny_process.MODULE)
     await worker.start(LIMIT_S)

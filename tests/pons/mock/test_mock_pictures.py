@@ -12,7 +12,8 @@ import pytest
 
 from planner.brain import BrainDown, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain, EndpointLooker
-from planner.brain.looking import Asked, Described, NotSent, NotThere, Picture, Pointed
+from planner.brain.endpoint.looker import LayOut
+from planner.brain.looking import Asked, Described, NotSent, NotThere, Picture, Pointed, View
 from planner.brain.protocol import Observation
 from planner.brain.wary import think_warily
 from planner.budget import Ledger, Purse
@@ -39,7 +40,11 @@ def mock() -> Iterator[RunningMock]:
 
 
 def looking(
-    mock: RunningMock, home: Path, ask: Callable[[EndpointLooker], Awaitable[T]], **more: Any
+    mock: RunningMock,
+    home: Path,
+    ask: Callable[[EndpointLooker], Awaitable[T]],
+    lay_out: LayOut | None = None,
+    **more: Any,
 ) -> T:
     """Ask something of a looker, and close."""
 
@@ -47,7 +52,7 @@ def looking(
         given = {"url": mock.url, "name": "m", "timeout_s": 5.0, **more}
         model = EndpointBrain(ModelSettings.model_validate(given), home)
         try:
-            return await ask(model.looker())
+            return await ask(model.looker(None, lay_out))
         finally:
             await model.close()
 
@@ -66,6 +71,24 @@ def point(mock: RunningMock, home: Path, words: str = "the cup") -> Pointed | No
         return await looker.point(Asked(PLAIN, words, detections=[CUP], goal="g1"))
 
     return looking(mock, home, ask)
+
+
+def test_it_takes_what_was_found_in_any_picture_of_a_sheet_for_seen(
+    mock: RunningMock, tmp_path: Path
+) -> None:
+    mock.set()
+    names = [same("ahead"), same("left")]
+    views = tuple(View(PLAIN, n, [CUP] if n == names[1] else []) for n in names)
+
+    async def lay_out(pictures: Any, long_side: int) -> bytes:
+        return SIGNED.jpeg
+
+    async def ask(looker: EndpointLooker) -> Described:
+        return await looker.describe(Asked(PLAIN, "is there a cup?", goal="g1", views=views))
+
+    said = looking(mock, tmp_path, ask, lay_out)
+    assert said.seen is True
+    assert "red cup" in said.text.en
 
 
 @pytest.mark.parametrize("mode", ["json_schema", "tool", "json_object", "prompt"])

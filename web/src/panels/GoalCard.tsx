@@ -58,10 +58,10 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
   );
 }
 
-/** Say what a step that looked came to; a goal of one step says it as its outcome. */
+/** Say what a step came to, and beside it what a model read; a goal of one step says it as its outcome. */
 function Came({ step }: { step: Step }) {
-  const words = step.read ?? step.said ?? null;
-  return words && <span class="came">{say(words)}</span>;
+  const told = [step.said, step.read].filter((words) => words !== null && words !== undefined);
+  return told.length > 0 && <span class="came">{told.map(say).join(" ")}</span>;
 }
 
 function Question({ goal }: { goal: Goal }) {

@@ -15,11 +15,11 @@ from planner.brain import OutOfBudget, PlanRejected
 from planner.brain.endpoint import EndpointBrain, EndpointLooker
 from planner.brain.endpoint.dialects import FILE
 from planner.brain.endpoint.pictures import MAX_JPEG_BYTES, TOKENS
-from planner.brain.looking import Asked, Described, NotSent, NotThere, Picture, Pointed
+from planner.brain.looking import Asked, Described, NotSent, NotThere, Picture, Pointed, View
 from planner.brain.lookprompt import MAX_LISTED
 from planner.brain.reasons import REASONS, reason
 from planner.budget import Ledger, Purse
-from planner.plan import Language, Vocabulary
+from planner.plan import Bilingual, Language, Vocabulary
 from planner.settings import BudgetSettings, GoalLimits
 from planner.vision import Detection
 from tests.planner.brain.endpoint.servers import (
@@ -71,7 +71,7 @@ def test_the_picture_goes_with_the_question_as_data(tmp_path: Path) -> None:
     said = describe(server, tmp_path)
     assert (said.text.en, said.text.zh, said.seen) == ("A red cup.", "红色的杯子。", True)
     assert said.brain.name == "m"
-    assert (said.brain.prompt or "").startswith("look/1@")
+    assert (said.brain.prompt or "").startswith("look/2@")
     (body,) = server.bodies
     system, user = body["messages"]
     assert body["response_format"]["json_schema"]["name"] == "look"
@@ -188,6 +188,53 @@ def test_a_large_picture_is_made_smaller_first(tmp_path: Path) -> None:
     describe(server, tmp_path, picture(2048, 1000), shrink)
     url = server.bodies[0]["messages"][-1]["content"][1]["image_url"]["url"]
     assert base64.b64decode(url.partition(",")[2]) == jpeg(1024, 500)
+
+
+def sheet_of(server: Server, home: Path, lay_out: Any, **more: Any) -> Described:
+    """Ask about three directions, and close."""
+    names = [Bilingual(en=name, zh=name) for name in ("ahead", "left", "behind")]
+    views = tuple(View(picture(320 + n, 240), name, [CUP]) for n, name in enumerate(names))
+
+    async def once() -> Described:
+        model = brain(server, home, **more)
+        try:
+            asked = Asked(picture(), "a cup?", goal="g1", views=views)
+            return await model.looker(None, lay_out).describe(asked)
+        finally:
+            await model.close()
+
+    return asyncio.run(once())
+
+
+def test_several_directions_go_as_one_sheet_with_their_names(tmp_path: Path) -> None:
+    laid: list[tuple[list[tuple[bytes, str]], int]] = []
+
+    async def lay_out(pictures: Any, long_side: int) -> bytes:
+        laid.append((list(pictures), long_side))
+        return jpeg(1000, 700)
+
+    server = Server(wrote(SEES))
+    assert sheet_of(server, tmp_path, lay_out).seen is True
+    labels = ["1 ahead", "2 left", "3 behind"]
+    assert laid == [([(jpeg(320 + n, 240), each) for n, each in enumerate(labels)], 1024)]
+    words, image = server.bodies[0]["messages"][-1]["content"]
+    assert [each["number"] for each in json.loads(words["text"])["pictures"]] == [1, 2, 3]
+    assert base64.b64decode(image["image_url"]["url"].partition(",")[2]) == jpeg(1000, 700)
+
+
+def test_no_sheet_is_made_of_pictures_that_may_not_leave(tmp_path: Path) -> None:
+    async def lay_out(pictures: Any, long_side: int) -> bytes:
+        raise AssertionError("laid out in vain")
+
+    server = Server(wrote(SEES))
+    for how, more, why in (
+        (lay_out, {"url": AWAY, "allow_offhost": True}, "pictures_offhost"),
+        (None, {}, "bad_picture"),
+    ):
+        with pytest.raises(NotSent) as no:
+            sheet_of(server, tmp_path, how, **more)
+        assert no.value.why == why
+    assert server.requests == []
 
 
 @pytest.mark.parametrize(

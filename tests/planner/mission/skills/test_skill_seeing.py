@@ -186,7 +186,10 @@ def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() 
         answer=Answer(text=words),
     )  # fmt: skip
     assert isinstance(done, Done)
-    assert done.read == words
+    assert done.read == Bilingual(
+        en="The vision model, shown the picture ahead, adds: A sign: go to the kitchen.",
+        zh="视觉模型（看的是前方的画面）补充：牌子：去厨房。",
+    )
     assert done.said == Bilingual(en="I see 1 red cup.", zh="看到 1 个红色的杯子。")
 
 

@@ -8,13 +8,13 @@ import pytest
 
 from planner.brain.reasons import reason
 from planner.mission.skills import Scene
-from planner.mission.skills.act import Cannot, Done, Inquire
+from planner.mission.skills.act import UNSEEN, Cannot, Done, Inquire
 from planner.mission.skills.eyesight import Answer, Eyesight
 from planner.mission.skills.go_to_object import go_to_object
-from planner.mission.skills.look import ASKED, look
+from planner.mission.skills.look import ASKED, NO_DETECTOR, look
 from planner.mission.skills.notes import NOTHING
 from planner.mission.skills.pointing import ANSWER
-from planner.plan import Code, same
+from planner.plan import Bilingual, Code, same
 from planner.vision import Sight
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig
@@ -24,10 +24,10 @@ NONE = "no_detector"
 SEEN = "I see nothing that I know"
 
 
-def after(kind: str, stage: int, answer: Answer, **step: str) -> Scene:
+def after(kind: str, stage: int, answer: Answer, sight: Sight = UNSEEN, **step: str) -> Scene:
     """Return a scene in which the model was asked."""
     notes = NOTHING.but(stage=stage)
-    return scene(kind, step=step, notes=notes, eyes=EYES, answer=answer)
+    return scene(kind, step=step, notes=notes, eyes=EYES, answer=answer, sight=sight)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,11 @@ def test_nothing_is_excused_where_nothing_went_wrong(answer: Answer) -> None:
     assert act.said is not None
     assert act.said.en.startswith(SEEN)
     assert len(act.said.en) < len(SEEN) + 20
-    assert act.read == answer.text, "a model's words stand apart"
+    words = Bilingual(
+        en="The vision model, shown the picture ahead, adds: a sofa.",
+        zh="视觉模型（看的是前方的画面）补充：a sofa。",
+    )
+    assert act.read == (words if answer.text is not None else None), "they stand apart"
 
 
 def test_a_model_looks_alone_where_there_is_no_detector() -> None:
@@ -63,6 +67,12 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     act = look(ahead)
     assert isinstance(act, Inquire)
     assert (act.words, act.point) == ("what is there?", False)
+    told = look(after("look", ASKED, Answer(text=same("a man"), seen=True), text="有人吗？",
+                      sight=Sight(blind=NONE)))  # fmt: skip
+    assert isinstance(told, Done)
+    assert told.said == NO_DETECTOR, "without a detector nobody has seen that nobody is there"
+    assert told.read is not None
+    assert told.read.en == "The vision model, shown the picture ahead, says yes: a man."
     for other in (Sight(blind="camera_silent"), Sight()):
         assert not isinstance(look(replace(ahead, sight=other)), Inquire)
     there = scene(

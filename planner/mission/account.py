@@ -1,0 +1,260 @@
+"""Account for the steps of a goal that ends: what came of each, in their order, for a person. Pure.
+
+Law: "Arrived" is said of a place only where the last drive to it came there; what was said, asked
+and answered stands in it; so does what the detector saw, whatever a model says after it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from planner.mission.skills.words import angle, metres
+from planner.plan import Bilingual, Code, StepState, message, same
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from planner.mission.records import Facts, Mission
+    from planner.plan import StepRecord
+
+DRIVEN = frozenset({"go_to", "return_home", "come_back"})
+MOTION = DRIVEN | {"turn", "move", "patrol"}
+BACK = frozenset({"come_back", "return_home"})
+_OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
+_IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
+_THING = {
+    "find": ("finding “{}”", "寻找“{}”"),
+    "count": ("counting “{}”", "清点“{}”"),
+    "follow": ("following “{}”", "跟随“{}”"),
+    "go_to_object": ("going up to “{}”", "走到“{}”跟前"),
+}
+_INSTEAD = ("Instead: ", "改为：")
+
+
+def account(facts: Facts, mission: Mission, code: Code, said: Bilingual | None) -> Bilingual:
+    """Return what came of each step, and ``said`` where no step has said it yet.
+
+    Args:
+        facts: the site's names.
+        mission: as it stands at its end.
+        code: how it ends.
+        said: how it ends in words; None: the steps tell it all.
+    """
+    told = list(_told(facts, mission))
+    if said is not None and not any(each.en.endswith(said.en) for each in (*told, _joined(told))):
+        told.append(said)
+    left = _undone(facts, mission, code)
+    if left is not None:
+        told.append(left)
+    return _joined(told) if told else message(Code.DONE)
+
+
+def outcome_code(mission: Mission) -> Code:
+    """Return the code of a goal whose steps are all over: what its last step that counts came to.
+
+    Words and waits count for nothing; after a drive that failed nobody has arrived.
+    """
+    for step in reversed(mission.steps):
+        if step.kind in MOTION and step.state is StepState.FAILED:
+            return Code.DONE
+        if step.state is not StepState.SUCCEEDED:
+            continue
+        if step.said is not None:
+            return step.code or Code.SEEN
+        if step.kind in MOTION:
+            return Code.DONE if step.kind in ("turn", "move") else Code.ARRIVED
+    return Code.DONE
+
+
+def place_name(facts: Facts, mission: Mission, step: StepRecord | None) -> Bilingual:
+    """Name a step's destination for a person."""
+    if step is not None and step.kind == "come_back":
+        return Bilingual(en="where you gave the order", zh="下达指令的地方")
+    if step is not None and step.kind in ("turn", "move"):
+        return Bilingual(en="where I was to be", zh="要到达的位置")
+    wanted = facts.home if step is not None and step.kind == "return_home" else None
+    return _name(facts, wanted or (_place(mission, step) if step is not None else ""))
+
+
+def _place(mission: Mission, step: StepRecord) -> str:
+    """Return the place that a step is at: of a patrol the one whose turn it is, or the last."""
+    if step.places:
+        visited = len(step.places) if step.state is StepState.SUCCEEDED else mission.part
+        return step.places[min(visited, len(step.places) - 1)]
+    return step.place or ""
+
+
+def _name(facts: Facts, place: str) -> Bilingual:
+    target = facts.targets.get(place)
+    return target.name if target is not None else same(place or "?")
+
+
+def _told(facts: Facts, mission: Mission) -> Iterator[Bilingual]:
+    """Yield the sentences of the steps that were begun; arrivals in a row are one."""
+    steps, arrived, instead = mission.steps, list[Bilingual](), False
+    mended = _mended(mission)
+    for index, step in enumerate(steps):
+        if step.kind in DRIVEN and step.state is StepState.SUCCEEDED:
+            name = place_name(facts, mission, step)
+            if not _failed_later(facts, mission, index):
+                arrived.append(name)
+                continue
+            sentences = [Bilingual(en=f"Been to: {name.en}.", zh=f"去过：{name.zh}。")]
+        else:
+            sentences = list(_sentences(facts, step))
+        if arrived and sentences:
+            yield from _after(_arrived(arrived), instead=instead)
+            arrived, instead = [], False
+        for sentence in sentences:
+            yield from _after(sentence, instead=instead)
+            instead = False
+        instead = instead or (step.state is StepState.FAILED and index < mended)
+    if arrived:
+        yield from _after(_arrived(arrived), instead=instead)
+
+
+def _after(sentence: Bilingual, *, instead: bool) -> Iterator[Bilingual]:
+    """Yield a sentence; where a step had failed before it, as what was done in place of that."""
+    en, zh = _INSTEAD if instead else ("", "")
+    yield Bilingual(en=f"{en}{sentence.en}", zh=f"{zh}{sentence.zh}")
+
+
+def _mended(mission: Mission) -> int:
+    """Return before which step another plan has taken the place of each that failed."""
+    if mission.failure is None:
+        return len(mission.steps)
+    failed = [i for i, step in enumerate(mission.steps) if step.state is StepState.FAILED]
+    there = [i for i in failed if mission.steps[i].kind not in BACK]
+    return max(there or failed, default=0)
+
+
+def _failed_later(facts: Facts, mission: Mission, index: int) -> bool:
+    """Tell whether a later drive to the same place did not come there."""
+    name = place_name(facts, mission, mission.steps[index])
+    later = (s for s in mission.steps[index + 1 :] if s.kind in DRIVEN and s.state not in _IDLE)
+    last = [step for step in later if place_name(facts, mission, step) == name]
+    return bool(last) and last[-1].state is not StepState.SUCCEEDED
+
+
+def _arrived(names: Sequence[Bilingual]) -> Bilingual:
+    en, zh = ", then ".join(n.en for n in names), "，然后".join(n.zh for n in names)
+    return message(Code.ARRIVED, place=Bilingual(en=en, zh=zh))
+
+
+def _sentences(facts: Facts, step: StepRecord) -> Iterator[Bilingual]:
+    """Yield what came of one step; nothing of one that was not begun."""
+    if step.visited and step.places:
+        names = [_name(facts, place) for place in step.places[: step.visited]]
+        en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
+        yield Bilingual(en=f"Visited one after the other: {en}.", zh=f"依次去过：{zh}。")
+    if step.answer is not None:
+        yield _answered(step)
+    if step.said is not None and step.state in _OVER:
+        yield step.said
+        if step.read is not None:
+            yield step.read
+    elif step.state is StepState.SUCCEEDED:
+        yield from _done(step)
+    elif step.reason == "perhaps_said":
+        text = step.text or ""
+        yield Bilingual(
+            en=f"Whether I said “{text}” I can't tell: I was restarted meanwhile.",
+            zh=f"“{text}”是否已说出无法确定：其间程序重启过。",
+        )
+
+
+def _answered(step: StepRecord) -> Bilingual:
+    if step.kind != "ask":  # its question is in no record
+        return Bilingual(en=f"You answered “{step.answer}”.", zh=f"您的回答是“{step.answer}”。")
+    return Bilingual(
+        en=f"Asked: “{step.text}” Answer: “{step.answer}”.",
+        zh=f"问：“{step.text}”，答：“{step.answer}”。",
+    )
+
+
+def _done(step: StepRecord) -> Iterator[Bilingual]:
+    """Yield what a step did that has no words of its own."""
+    match step.kind:
+        case "turn" | "move":
+            yield _amount(step)
+        case "wait":
+            seconds = f"{step.seconds or 0.0:g}"
+            yield Bilingual(en=f"Waited {seconds} s.", zh=f"等待了 {seconds} 秒。")
+        case "say":
+            yield Bilingual(en=f"Said: “{step.text}”.", zh=f"已说：“{step.text}”。")
+        case "go_to_point":
+            yield Bilingual(
+                en="Arrived at the point of the picture.", zh="已到达画面中的那个位置。"
+            )
+
+
+def _amount(step: StepRecord) -> Bilingual:
+    """Say how far a turn or a move came, by odometry, and what was asked."""
+    turned = step.kind == "turn"
+    put = angle if turned else metres
+    asked = put((step.angle_rad if turned else step.distance_m) or 0.0)
+    came = put((step.turned_rad if turned else step.moved_m) or 0.0)
+    return Bilingual(
+        en=f"Done: {came.en} by odometry ({asked.en} asked).",
+        zh=f"已完成：里程计显示{came.zh}（要求{asked.zh}）。",
+    )
+
+
+def _undone(facts: Facts, mission: Mission, code: Code) -> Bilingual | None:
+    """Name the steps that nothing else accounts for; of a plan of one step its end is enough."""
+    if code is Code.CANCELLED or len(mission.steps) < 2:
+        return None
+    names = [n for step in mission.steps if (n := _left(facts, mission, step)) is not None]
+    if not names:
+        return None
+    en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
+    return Bilingual(en=f"Not done: {en}.", zh=f"没有做：{zh}。")
+
+
+def _left(facts: Facts, mission: Mission, step: StepRecord) -> Bilingual | None:
+    """Name a step that was not done and of which nothing was said; else None."""
+    said = step.said is not None or step.answer is not None or step.reason == "perhaps_said"
+    if step.state is StepState.SUCCEEDED or said or step.kind == "decide":
+        return None
+    if step.kind == "ask" and step.state is StepState.RUNNING:  # that nobody answered is told
+        return None
+    return _asked(facts, mission, step)
+
+
+def _asked(facts: Facts, mission: Mission, step: StepRecord) -> Bilingual:
+    """Name what a step asks for: ``going to the kitchen``, ``去厨房``."""
+    text = step.object or step.text or ""
+    if step.kind in _THING:
+        en, zh = _THING[step.kind]
+        return Bilingual(en=en.format(text), zh=zh.format(text))
+    match step.kind:
+        case "say":
+            return Bilingual(en=f"saying “{text}”", zh=f"说“{text}”")
+        case "ask":
+            return Bilingual(en=f"asking “{text}”", zh=f"问“{text}”")
+        case "look":
+            return Bilingual(en=f"looking (“{text}”)", zh=f"看（“{text}”）")
+        case "wait":
+            seconds = f"{step.seconds or 0.0:g}"
+            return Bilingual(en=f"waiting {seconds} s", zh=f"等待 {seconds} 秒")
+        case "turn":
+            put = angle(step.angle_rad or 0.0)
+            return Bilingual(en=f"turning {put.en}", zh=f"转动（{put.zh}）")
+        case "move":
+            put = metres(step.distance_m or 0.0)
+            return Bilingual(en=f"driving {put.en}", zh=put.zh)
+        case "patrol":
+            names = [_name(facts, place) for place in step.places[step.visited or 0 :]]
+            en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
+            return Bilingual(en=f"visiting {en}", zh=f"去{zh}")
+        case "go_to_point":
+            return Bilingual(en="going to the point of the picture", zh="去画面中的那个位置")
+        case _:
+            name = place_name(facts, mission, step)
+            return Bilingual(en=f"going to {name.en}", zh=f"去{name.zh}")
+
+
+def _joined(told: Sequence[Bilingual]) -> Bilingual:
+    """Return sentences as one text; what is said twice in a row is told once."""
+    kept = [each for at, each in enumerate(told) if at == 0 or each != told[at - 1]]
+    return Bilingual(en=" ".join(s.en for s in kept), zh="".join(s.zh for s in kept))
