@@ -10,8 +10,8 @@ from planner.api.operator import persons_act
 from planner.api.ports import Services
 from planner.api.problems import Problem
 from planner.api.requests import GoalOrder, Move, NewGoal, Reply
-from planner.brain.intents import stays_put
 from planner.mission.errors import MissionError
+from planner.mission.meaning import clears_no_hold
 from planner.plan import Goal
 
 STATUS = {
@@ -42,9 +42,10 @@ def _giving(router: APIRouter, services: Services) -> None:
     async def give(new: NewGoal, idempotency_key: IdempotencyKey = None) -> Goal:
         """Give a goal in words. What is understood but impossible ends refused.
 
-        A plain yes or no answers the question of a step, where only one asks.
+        A plain yes or no answers what waits for one (a step's question, a plan, a brain's only
+        offer), where nothing else can be meant.
         """
-        act = None if stays_put(new.text) else persons_act(services.robot, new.operator)
+        act = None if clears_no_hold(new.text) else persons_act(services.robot, new.operator)
         return await goals.submit(
             new.text,
             language=new.language,
@@ -56,7 +57,7 @@ def _giving(router: APIRouter, services: Services) -> None:
 
     @router.get("", operation_id="list_goals")
     async def listed(limit: Limit = 50) -> dict[str, Any]:
-        """List the newest goals, newest first."""
+        """List goals: those that are open first, then those that ended, each newest first."""
         return {"goals": goals.goals(limit)}
 
     @router.get("/{goal_id}", operation_id="get_goal")
@@ -92,8 +93,8 @@ def _acting(router: APIRouter, services: Services) -> None:
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: Reply) -> Goal:
-        """Answer a goal's question; an operator's act."""
-        act = None if stays_put(reply.text) else persons_act(services.robot, reply.operator)
+        """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
+        act = None if clears_no_hold(reply.text) else persons_act(services.robot, reply.operator)
         return await goals.answer(goal_id, reply.text, act=act)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")

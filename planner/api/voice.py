@@ -11,8 +11,8 @@ from planner.api.goals import IdempotencyKey
 from planner.api.operator import persons_act
 from planner.api.ports import Services
 from planner.api.problems import Problem
-from planner.brain.intents import stays_put
 from planner.brain.stoplane import is_stop
+from planner.mission.meaning import clears_no_hold
 from planner.plan import Bilingual, Goal, Language
 from planner.voice import BadRecording, Heard, VoiceFailure, read_wav
 
@@ -88,7 +88,7 @@ def routes(services: Services) -> APIRouter:
             confirm=confirm or not (heard.sure or is_stop(text)),
             replace=replace,
             idempotency_key=idempotency_key,
-            act=None if stays_put(text) else persons_act(services.robot, None),
+            act=None if clears_no_hold(text) else persons_act(services.robot, None),
         )
         return Spoken(
             transcript=text,

@@ -17,7 +17,7 @@ from planner.brain.protocol import Brain
 from planner.link import Identity, Link, StopResult
 from planner.mission.accept import language_of
 from planner.mission.ahead import RouteAhead
-from planner.mission.asking import asks, meant
+from planner.mission.asking import releases, takes_yes
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import (
@@ -42,14 +42,17 @@ from planner.mission.events import (
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Router
 from planner.mission.journal import MissionJournal
-from planner.mission.local import Local, current, to_resume
+from planner.mission.local import Local, current
 from planner.mission.loop import Clocks, Loop
+from planner.mission.meaning import agrees, meant
 from planner.mission.memory import Memory
-from planner.mission.records import MAX_OPEN, Book, Rules
+from planner.mission.queue import to_resume
+from planner.mission.records import Book, Rules
 from planner.mission.repeats import Repeats, body_of
 from planner.mission.shown import Shown
 from planner.mission.table import refusal
 from planner.mission.thinking import thinker
+from planner.mission.waiting import has_room
 from planner.plan import Goal, Language
 from planner.vision.ports import Eyes
 from planner.world import Site
@@ -129,7 +132,7 @@ class Missions(Shown):
     ) -> Goal:
         """Take a goal in and return it, usually still in planning. An order to stop stops first.
 
-        A plain yes or no answers the one question that a step asks, if only that can be meant.
+        A plain yes or no answers the one question, plan or offer that alone can be meant.
 
         Args:
             text: what the person said.
@@ -142,7 +145,7 @@ class Missions(Shown):
             answers: it may answer a question; never where ``confirm`` or ``replace`` is set.
 
         Raises:
-            QueueFull: 33 goals are open.
+            QueueFull: 33 goals are open, and none of them waits for an answer alone.
             IdempotencyConflict: the key came with another request before.
             JournalDown: it can't be written down, so it was not taken.
         """
@@ -153,13 +156,12 @@ class Missions(Shown):
         body = body_of(text, said, confirm, replace)
         if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
             return self.goal(known)
-        may_answer = answers and intent is None and not (confirm or replace)
+        may_answer = answers and not (confirm or replace)
         asking = meant(self._book, text) if may_answer else ()
-        waiting = sum(not m.ended for m in self._book.missions.values())
         local = bool(asking) or (intent is not None and not isinstance(intent, Replace))
-        if waiting >= MAX_OPEN and not local:
-            raise QueueFull(waiting)
-        operator = not local or isinstance(intent, GoOn) or len(asking) == 1
+        if not (local or has_room(self._book)):
+            raise QueueFull(sum(not m.ended for m in self._book.missions.values()))
+        operator = agrees(asking, text) if asking else not local or isinstance(intent, GoOn)
         act = act if operator else None  # what can't lead to motion clears no hold
         first = isinstance(intent, Replace) and intent.now
         taken_back = current(self._book) if first else None
@@ -169,7 +171,8 @@ class Missions(Shown):
         key = self._repeats.remember(idempotency_key, body, goal_id)
         self._loop.clear_hold(act)
         self._loop.accepted.note(goal_id, self._clocks.monotonic())
-        given = Submitted(goal_id, text, said, confirm, replace, first, operator, asking=asking)
+        given = Submitted(goal_id, text, said, confirm, replace, first, operator, asking=asking,
+                          source=source, local=local)  # fmt: skip
         self._loop.event(given, key)
         if taken_back is not None:
             self._loop.event(Cancel(taken_back))
@@ -207,7 +210,7 @@ class Missions(Shown):
         return await self._command(Confirm(goal_id), act)
 
     async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
-        """Answer a goal's question; an order to stop stops, whatever the goal's state.
+        """Answer a goal's question, or say yes or no to its plan; an order to stop always stops.
 
         What is said to the planner itself ("where are you", "hold on") is done beside the question,
         which stays open: no sentence that needs no proof is ever taken as the answer.
@@ -225,7 +228,7 @@ class Missions(Shown):
             raise error
         if isinstance(intent, TakeBack):
             return await self.cancel(goal_id)
-        own_question = asks(self._book.missions[goal_id])  # "go on" may be its answer
+        own_question = takes_yes(self._book.missions[goal_id])  # "go on" may be its answer
         if stays_put(text) or (isinstance(intent, GoOn) and not own_question):
             await self.submit(text, act=act)
             return self.goal(goal_id)
@@ -233,6 +236,7 @@ class Missions(Shown):
             taken_back = await self.cancel(goal_id)
             await self.submit(intent.rest, act=act, answers=False)
             return taken_back
+        act = act if releases(self._book.missions[goal_id], text) else None
         return await self._command(Reply(goal_id, text), act)
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal:
