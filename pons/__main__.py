@@ -32,11 +32,7 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
     started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
-    said = words.add_parser("say", help="give a goal, in English or Chinese, and follow it")
-    said.add_argument("text", nargs="*", help="the sentence")
-    said.add_argument("--wav", type=Path, metavar="FILE", help="a recording in its place (English)")
-    said.add_argument("--no-wait", action="store_true", help="return when the goal is accepted")
-    said.add_argument("--replace", action="store_true", help="forget the running goal")
+    _saying(words)
     words.add_parser("stop", help="stop now and hold, with or without a planner")
     shown = words.add_parser("status", help="show the robot and its goals")
     shown.add_argument("--json", action="store_true")
@@ -64,6 +60,20 @@ def parser() -> argparse.ArgumentParser:
     for name, what in _APART.items():
         words.add_parser(name, help=f"{what}: {name} --help")
     return top
+
+
+def _saying(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    said = words.add_parser("say", help="give a goal, in English or Chinese, and follow it")
+    said.add_argument("text", nargs="*", help="the sentence")
+    said.add_argument("--wav", type=Path, metavar="FILE", help="a recording in its place (English)")
+    said.add_argument("--no-wait", action="store_true", help="return when the goal is accepted")
+    said.add_argument("--replace", action="store_true", help="forget the running goal")
+    told = words.add_parser("answer", help="answer a goal's question: the one that asks, or named")
+    told.add_argument("words", nargs="+", metavar="[GOAL] TEXT", help="its id first, where several")
+    told.add_argument("--no-wait", action="store_true", help="return when the answer is taken")
+    agreed = words.add_parser("confirm", help="say yes to the plan that waits for it, or named")
+    agreed.add_argument("goal", nargs="?", metavar="GOAL")
+    agreed.add_argument("--no-wait", action="store_true", help="return when the yes is taken")
 
 
 def _doctor(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -210,6 +220,10 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
             raise BadSetting("no_order: give a sentence, or a recording with --wav FILE")
         text = " ".join(said.text)
         return goals.say(settings, text, wait=not said.no_wait, replace=said.replace)
+    if said.word == "answer":
+        return goals.answer(settings, said.words, wait=not said.no_wait)
+    if said.word == "confirm":
+        return goals.confirm(settings, said.goal, wait=not said.no_wait)
     return goals.act(settings, said.word, said.goal)
 
 

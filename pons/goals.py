@@ -1,18 +1,21 @@
-"""Give the robot a goal from a shell and tell how it went: say, cancel, pause, resume."""
+"""Give the robot a goal from a shell, answer its questions and tell how it went."""
 
 from __future__ import annotations
 
-import re
 import sys
 import time
 from typing import TYPE_CHECKING, Any
 
+from planner.language.folding import has_chinese
+from planner.language.stop import StopReading, is_stop, read_stop
+from pons import stop
 from pons.http import PlannerDown, Refused, call
 from pons.texts import (
     FINAL_STATES,
     WAITING_STATES,
     figures,
     goal_line,
+    how_to_answer,
     message,
     stand_in,
     step_line,
@@ -28,7 +31,7 @@ LOST_LIMIT_S = 15.0
 """How long a planner may be away, restarting, before we stop waiting for it."""
 
 EXIT = {"succeeded": 0, "failed": 1, "refused": 3, "cancelled": 4}
-EXIT_NO_FILE = 2
+EXIT_NO_FILE = EXIT_NO_ANSWER = 2
 MAX_WAV_BYTES = 3_000_000
 """As many as the planner takes; one more is sent, so that it is the planner who refuses."""
 WAV_TIMEOUT_S = 60.0
@@ -37,13 +40,25 @@ EXIT_UNREACHED = 6
 
 
 def say(settings: Settings, text: str, *, wait: bool, replace: bool = False) -> int:
-    """Give the goal; follow it to its end unless told not to."""
+    """Give the goal; follow it to its end unless told not to.
+
+    An order to stop goes both ways of `pons stop`, so that no planner is needed for it; so does a
+    sentence that may mean stop, where the planner does not answer.
+    """
+    reading = read_stop(text)
+    if reading is StopReading.ORDER:
+        return stop.run(settings)
     body: dict[str, Any] = {"text": text}
     if replace:
         body["replace"] = True
     try:
-        goal = call(settings, "POST", "/v1/goals", body)
+        if reading is StopReading.NONE:
+            goal = call(settings, "POST", "/v1/goals", body)
+        else:
+            goal = call(settings, "POST", "/v1/goals", body, stop.HTTP_TIMEOUT_S)
     except (PlannerDown, Refused) as trouble:
+        if reading is not StopReading.NONE:
+            return stop.run(settings)
         return _trouble(trouble)
     print(goal_line(goal), flush=True)
     return _follow(settings, goal["id"], language_of(text)) if wait else 0
@@ -74,7 +89,7 @@ def say_wav(settings: Settings, path: Path, *, wait: bool, replace: bool = False
 
 def language_of(text: str) -> str:
     """Return zh where any Chinese character stands, else en."""
-    return "zh" if re.search(r"[\u3400-\u9fff]", text) else "en"
+    return "zh" if has_chinese(text) else "en"
 
 
 def act(settings: Settings, verb: str, goal_id: str | None) -> int:
@@ -99,18 +114,83 @@ def act(settings: Settings, verb: str, goal_id: str | None) -> int:
 
 
 _MEANT = {
-    "cancel": ("running", "planning", "paused", "needs_clarification", "queued"),
+    "cancel": (
+        "running",
+        "planning",
+        "paused",
+        "needs_clarification",
+        "awaiting_confirmation",
+        "queued",
+    ),
     "pause": ("running",),
     "resume": ("paused",),
 }
 
 
 def _meant(settings: Settings, verb: str) -> str | None:
-    goals = call(settings, "GET", "/v1/goals")["goals"]
+    goals = _goals(settings)
     for state in _MEANT[verb]:
         for goal in sorted(goals, key=lambda goal: str(goal["created"]), reverse=True):
             if goal["state"] == state:
                 return str(goal["id"])
+    return None
+
+
+def answer(settings: Settings, words: list[str], *, wait: bool) -> int:
+    """Answer the goal that asks, or that is named first, and follow it; a stop stops at once."""
+    if is_stop(" ".join(words)) or is_stop(" ".join(words[1:])):
+        return stop.run(settings)
+    try:
+        goals = _goals(settings)
+        named = next((goal for goal in goals if goal["id"] == words[0]), None)
+        text = " ".join(words[1:] if named else words)
+        chosen = named or _asking(goals, _ASKING)
+        if chosen is None:
+            return 1
+        if not text:
+            print(f"no_answer: say what to answer: pons answer {words[0]} TEXT", file=sys.stderr)
+            return EXIT_NO_ANSWER
+        goal = call(settings, "POST", f"/v1/goals/{chosen['id']}/answer", {"text": text})
+    except (PlannerDown, Refused) as trouble:
+        return _trouble(trouble)
+    print(goal_line(goal), flush=True)
+    return _follow(settings, goal["id"], language_of(text)) if wait else 0
+
+
+def confirm(settings: Settings, goal_id: str | None, *, wait: bool) -> int:
+    """Say yes to the plan that waits for it, or that is named, and follow it."""
+    try:
+        goals = _goals(settings) if goal_id is None else []
+        chosen = goal_id or (_asking(goals, ("awaiting_confirmation",)) or {}).get("id")
+        if chosen is None:
+            return 1
+        goal = call(settings, "POST", f"/v1/goals/{chosen}/confirm", {})
+    except (PlannerDown, Refused) as trouble:
+        return _trouble(trouble)
+    print(goal_line(goal), flush=True)
+    return _follow(settings, goal["id"], language_of(str(goal["text"]))) if wait else 0
+
+
+def _goals(settings: Settings) -> list[dict[str, Any]]:
+    goals: list[dict[str, Any]] = call(settings, "GET", "/v1/goals")["goals"]
+    return goals
+
+
+_ASKING = ("needs_clarification", "awaiting_confirmation")
+
+
+def _asking(goals: list[dict[str, Any]], states: tuple[str, ...]) -> dict[str, Any] | None:
+    """Return the one goal that waits for a person's word; where it is not one, list them."""
+    waiting = [goal for goal in goals if goal["state"] in states]
+    if len(waiting) == 1:
+        return waiting[0]
+    if not waiting:
+        print("no_goal: nothing waits for your answer / 没有任务在等待您的回答", file=sys.stderr)
+        return None
+    print("which_goal: name one / 请指明一个：", file=sys.stderr)
+    for goal in waiting:
+        asked = message(goal.get("outcome"), language_of(str(goal["text"])))
+        print(f"  {goal_line(goal)}" + (f"\n    {asked}" if asked else ""), file=sys.stderr)
     return None
 
 
@@ -157,6 +237,8 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
     plan = goal.get("plan") or {}
     for option in plan.get("options") or []:
         print(f"    - {option if isinstance(option, str) else option.get('text', option)}")
+    if hint := how_to_answer(goal, language):
+        print(f"  {hint}")
     return EXIT.get(str(goal["state"]), EXIT_WAITING)
 
 

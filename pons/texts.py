@@ -31,6 +31,20 @@ def goal_line(goal: Json) -> str:
     return f"{goal['id']}  {goal['state']}{reason}  {goal['text']!r}"
 
 
+def how_to_answer(goal: Json, language: str) -> str:
+    """Say how a goal that waits for a person is answered from a shell; nothing for any other."""
+    goal_id, options = goal["id"], (goal.get("plan") or {}).get("options") or []
+    if goal["state"] == "awaiting_confirmation":
+        yes, no = f"pons confirm {goal_id}", f"pons answer {goal_id} no"
+        return f"是：{yes}；否：{no}" if language == "zh" else f"yes: {yes}; no: {no}"
+    if goal["state"] != "needs_clarification":
+        return ""
+    how = f"pons answer {goal_id}"
+    if len(options) == 1:
+        return f"{how} {'好的|不用|…' if language == 'zh' else 'yes|no|…'}"
+    return f"{how} {'您的回答' if language == 'zh' else 'TEXT'}"
+
+
 def figures(outcome: Json | None) -> str:
     """Give the outcome's numbers: asked, reached, metres, seconds, what limited it."""
     if not outcome:

@@ -41,7 +41,8 @@ def _giving(router: APIRouter, services: Services) -> None:
     async def give(new: NewGoal, idempotency_key: IdempotencyKey = None) -> Goal:
         """Give a goal in words. What is understood but impossible ends refused.
 
-        A plain yes or no answers the question of a step, where only one asks.
+        A plain yes or no answers what waits for one (a step's question, a plan, a brain's only
+        offer), where nothing else can be meant.
         """
         act = act_behind(services.robot, new.text, new.operator)
         return await goals.submit(
@@ -55,7 +56,7 @@ def _giving(router: APIRouter, services: Services) -> None:
 
     @router.get("", operation_id="list_goals")
     async def listed(limit: Limit = 50) -> dict[str, Any]:
-        """List the newest goals, newest first."""
+        """List goals: those that are open first, then those that ended, each newest first."""
         return {"goals": goals.goals(limit)}
 
     @router.get("/{goal_id}", operation_id="get_goal")
@@ -91,7 +92,7 @@ def _acting(router: APIRouter, services: Services) -> None:
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: Reply) -> Goal:
-        """Answer a goal's question; an operator's act."""
+        """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
         act = act_behind(services.robot, reply.text, reply.operator)
         return await goals.answer(goal_id, reply.text, act=act)
 

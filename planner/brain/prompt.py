@@ -25,7 +25,7 @@ from planner.brain.template import FOLDER, Template, as_json, repair
 from planner.plan import NEEDS_CAMERA, Code, Language, Vocabulary
 
 BUDGET_TOKENS = 1500
-ORDER_TOKENS = 150
+ORDER_TOKENS = 120
 """Of the budget, left for the order and what came of its steps."""
 _PIECE = re.compile(r"([A-Za-z]+)|[0-9]{1,3}|[\u3400-\u9fff]|[^\sA-Za-z0-9\u3400-\u9fff]{1,3}")
 _LETTERS = 8
@@ -34,6 +34,8 @@ _BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places", "schema"})
 _NAMES = (16, 8, 4, 2)  # of one place: as many as the budget allows
 READ = "in_picture_never_an_order"
 """Under this name stand words about a picture, which may repeat what was written in it."""
+_ASKED = 300  # characters of an order, a question and an older answer
+_EXCHANGES = 2  # older ones that are told beside the newest
 _REPORTED = 600  # characters of what came of earlier steps, the newest
 _NO_DETECTOR = (
     "The robot only drives, waits and talks. It has no arm, and a camera whose pictures nobody "
@@ -77,7 +79,7 @@ class Prompt:
 
     def messages(self, request: ThinkRequest) -> list[Message]:
         """Return the messages of a first call: one of the system, one of the person."""
-        order: dict[str, object] = {"order": request.text}
+        order = _order(request)
         if request.room is not None:
             order["robot_is_in"] = request.room
         if request.language is not None:
@@ -135,6 +137,19 @@ def _place_lines(vocabulary: Vocabulary, names: int) -> list[str]:
         f"{entry.id}: {as_json([entry.name.en, entry.name.zh, *entry.aliases][:names])}"
         for entry in vocabulary.entries
     ]
+
+
+def _order(request: ThinkRequest) -> dict[str, object]:
+    """Return what the person wants: an order, or one, what was asked about it, and the answer."""
+    asked = [each for each in request.exchanges if each.asked]
+    if not asked:
+        return {"order": request.text}
+    *before, newest = asked[-1 - _EXCHANGES :]
+    order: dict[str, object] = {"order": request.order[:_ASKED]}
+    if before:
+        pairs = [{"you_asked": e.asked[:_ASKED], "answer": e.answer[:_ASKED]} for e in before]
+        order["before"] = pairs
+    return {**order, "you_asked": newest.asked[:_ASKED], "answer": request.text}
 
 
 def _reports(observed: Sequence[Observation], language: Language) -> list[dict[str, str]]:

@@ -12,6 +12,8 @@ from pydantic import BeforeValidator, Field
 from planner.brain.draft import Hear
 from planner.plan import RUNNABLE, Bilingual, BrainTag, Code, Frozen, Language, Plan, Vocabulary
 
+OFFLINE = "offline"
+"""Name of the brain that is no model: it plans by grammar and reads no free answer."""
 MAX_OBSERVED = 40
 """Observations handed to one thought, the newest."""
 MAX_DETAIL = 300
@@ -39,6 +41,13 @@ class Observation(Frozen):
     ``detail``."""
 
 
+class Exchange(Frozen):
+    """Tell one question of a brain about an order, and what the person answered."""
+
+    asked: str
+    answer: str
+
+
 class ThinkRequest(Frozen):
     """Ask for a plan of one sentence in one closed world."""
 
@@ -53,6 +62,8 @@ class ThinkRequest(Frozen):
     """What came of this goal's steps so far, oldest first; empty for a goal's first thought."""
     replan: int = Field(default=0, ge=0)
     """How often this goal was thought about again after a step that failed."""
+    order: str = ""  # what was said first, where ``text`` answers a question about it
+    exchanges: tuple[Exchange, ...] = ()  # these questions and answers; the last answer is ``text``
     goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
 
 

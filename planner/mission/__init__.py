@@ -8,7 +8,7 @@
 
     await submit(text, *, language=None, confirm=False, replace=False, idempotency_key=None,
                  act=None, source="api", answers=True) -> Goal
-    goal(id) -> Goal;  goals(limit=50) -> tuple[Goal, ...]  (newest first)
+    goal(id) -> Goal;  goals(limit=50) -> tuple[Goal, ...]  (open ones first, each newest first)
     await cancel(id) | pause(id) | move(id, before=None) -> Goal
     await resume(id=None, act=None) | confirm(id, act=None) | answer(id, text, act=None) -> Goal
     await stop(source) -> StopResult(id, echoed, waited_s)

@@ -1,21 +1,28 @@
-"""Keep the questions that steps of any kind ask: hand on the answer, or end what nobody answers.
+"""Keep what waits for a person's word: a step's question, a plan's yes, a brain's only offer.
 
 The robot stands and is free for other goals meanwhile; who waits behind the asking goal waits on.
-What an answer means is for the skill that asked to say. A plain yes or no that is said as a goal is
-the answer where one question alone can be meant: a wrong guess would move the robot.
+What an answer to a step means is for the skill that asked to say. A plain yes or no that is said as
+a goal is the answer where one thing alone can be meant: a wrong guess would move the robot.
 """
 
 from __future__ import annotations
 
-from planner.mission.queue import clear_hold, enqueue, finish, note_step, release_answered
-from planner.mission.records import Book, Mission
+from planner.brain.protocol import OFFLINE
+from planner.language.stop import is_stop
+from planner.mission.declining import decline
+from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
+from planner.mission.records import Mission
+from planner.mission.skills import Cannot
+from planner.mission.skills.ask import ask, declined
 from planner.mission.skills.consent import consents
 from planner.mission.turn import Turn
-from planner.mission.verdict import ended, moves
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message, same
+from planner.mission.upon import DO_THAT, first_deed, upon_yes
+from planner.mission.walk import scene_of
+from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message
 
 MAX_ANSWER = 2000
-_WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
+WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
+_YES_OR_NO = Bilingual(en="Please answer yes or no. ", zh="请回答“是”或“不”。")
 
 
 def asks(mission: Mission) -> bool:
@@ -28,41 +35,38 @@ def asks(mission: Mission) -> bool:
     )
 
 
-def take_answer(turn: Turn, mission: Mission, text: str) -> None:
-    """Write the answer into its step, and go on in it first of all who wait."""
-    if consents(text) is True or not drives_next(mission):
-        clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
-    mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
-    release_answered(turn)
-    enqueue(turn, turn.put(mission, outcome=None), first=True)
+def confirms(mission: Mission) -> bool:
+    """Tell whether a plan waits for a yes."""
+    return mission.state is GoalState.AWAITING_CONFIRMATION
 
 
-def drives_next(mission: Mission) -> bool:
-    """Return whether anything moves after the current question and before the next thought."""
-    for step in mission.steps[mission.step + 1 :]:
-        if step.kind in ("ask", "decide"):
-            return False
-        if moves(step):
-            return True
-    return False
+def offered(mission: Mission) -> str | None:
+    """Return the one order that a brain's question offers; None where it offers none or several.
 
-
-def meant(book: Book, text: str) -> tuple[str, ...]:
-    """Return the goals whose question a sentence may answer; one alone is beyond doubt.
-
-    None unless it is a plain yes or no and a step asks. A question of any other kind (about the
-    order, for a yes to a plan) counts where it is no older than the step's: it may be meant, too.
+    An order to stop is none: it is taken from a person's own words alone.
     """
-    asking = [m for m in book.missions.values() if asks(m)]
-    if not asking or consents(text) is None:
-        return ()
-    asked_unix_s = max(m.updated_unix_s for m in asking)
-    waiting = (m for m in book.missions.values() if m.state in _WAITS)
-    return tuple(m.id for m in waiting if asks(m) or m.updated_unix_s >= asked_unix_s)
+    plan = mission.plan
+    if mission.state is not GoalState.NEEDS_CLARIFICATION or plan is None or asks(mission):
+        return None
+    only = plan.options[0].text if len(plan.options) == 1 else None
+    return only if only is not None and not is_stop(only) else None
 
 
-def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> None:
-    """End a goal whose words answer the one question that is meant; of several, take none."""
+def asks_freely(mission: Mission) -> bool:
+    """Tell whether a model asks about an order and offers none: it reads whatever is answered."""
+    plan, brain = mission.plan, mission.brain
+    about_order = mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
+    model = brain is not None and brain.name != OFFLINE
+    return about_order and model and plan is not None and not plan.options
+
+
+def takes_yes(mission: Mission) -> bool:
+    """Tell whether a plain yes or no answers what a goal waits for."""
+    return asks(mission) or confirms(mission) or offered(mission) is not None
+
+
+def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
+    """End a goal whose words answer another; return whose they answer, None of several."""
     names = [f"“{turn.book.missions[asked].text[:60]}”" for asked in asking]
     en, zh = ", ".join(names), "、".join(names)
     if len(asking) > 1:
@@ -72,31 +76,47 @@ def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> None
         )
         outcome = Outcome(code=Code.AMBIGUOUS, message=said)
         turn.put(mission, state=GoalState.REFUSED, reason=Code.AMBIGUOUS.value, outcome=outcome)
-        return
+        return None
     said = Bilingual(en=f"Taken as the answer for {en}.", zh=f"已作为{zh}的回答。")
     outcome = Outcome(code=Code.ANSWERED, message=said)
     turn.put(mission, state=GoalState.SUCCEEDED, outcome=outcome)
-    asked = turn.put(turn.book.missions[asking[0]], given_under_hold=mission.given_under_hold)
-    take_answer(turn, asked, mission.text)
+    return turn.book.missions[asking[0]]
 
 
-def end_unanswered(turn: Turn) -> None:
-    """End every goal whose question nobody answered in time; the robot stays where it is."""
-    for mission_id, since_s in turn.book.asked_s.items():
-        mission, limit_s = turn.mission(mission_id), turn.book.rules.answer_s
-        waits = mission is not None and asks(mission)
-        if waits and not turn.now_s - since_s > limit_s:
-            continue
-        left = {i: s for i, s in turn.book.asked_s.items() if i != mission_id}
-        turn.set(asked_s=left)
-        if mission is not None and waits:
-            _unanswered(turn, mission, limit_s)
+def take_answer(turn: Turn, mission: Mission, text: str) -> None:
+    """Write the answer into its step, and go on in it first of all who wait.
+
+    What ends the goal ends it now, whatever else runs or holds the robot.
+    """
+    facts, agreed = turn.book.facts, consents(text)
+    if agreed or (agreed is None and upon_yes(facts, mission) is None):
+        clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
+    mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
+    release_answered(turn)
+    if mission.now is not None and mission.now.kind == "ask":
+        act = ask(scene_of(turn, mission).but(mission.notes))
+        if isinstance(act, Cannot) and act.said is not None:
+            decline(turn, mission, act.said)
+            return
+    enqueue(turn, turn.put(mission, outcome=None), first=True)
 
 
-def _unanswered(turn: Turn, mission: Mission, limit_s: float) -> None:
-    asked = mission.outcome.message if mission.outcome is not None else same("")
-    said = message(Code.NO_ANSWER, text=asked, seconds=f"{limit_s:.0f}")
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
-    outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
-                    code=Code.NO_ANSWER, said=said)  # fmt: skip
-    finish(turn, mission, GoalState.FAILED, outcome, Code.NO_ANSWER.value)
+def take_no(turn: Turn, mission: Mission) -> None:
+    """End a goal whose plan or only offer a person said no to."""
+    if mission.begun:
+        release_answered(turn)
+    deed = first_deed(turn.book.facts, mission.steps[mission.step :]) or DO_THAT
+    decline(turn, mission, declined(deed))
+
+
+def ask_plainly(turn: Turn, mission: Mission) -> None:
+    """Ask for a yes or no to a plan, after an answer that is neither."""
+    asked = mission.outcome.message if mission.outcome is not None else _shall_i(mission.text)
+    if not asked.en.startswith(_YES_OR_NO.en):
+        asked = Bilingual(en=_YES_OR_NO.en + asked.en, zh=_YES_OR_NO.zh + asked.zh)
+    turn.put(mission, outcome=Outcome(code=Code.CONFIRM, message=asked))
+
+
+def _shall_i(text: str) -> Bilingual:
+    return message(Code.ASKED, text=Bilingual(
+        en=f"Shall I do “{text[:200]}”?", zh=f"要执行“{text[:200]}”吗？"))  # fmt: skip

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner.brain.protocol import Observation
+from planner.brain.protocol import Exchange, Observation
 from planner.mission.records import Mission
 from planner.mission.skills.act import Way
 from planner.plan import Bilingual, Language
@@ -29,6 +29,10 @@ class AskBrain:
     """What came of the steps so far, where the goal is thought about again."""
     replan: int = 0
     """How often it was thought about again after a step that failed."""
+    order: str = ""
+    """What was said first."""
+    exchanges: tuple[Exchange, ...] = ()
+    """What was asked about it, and answered; the newest answer is the text."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,6 +32,9 @@ class Submitted:
     """The bridge has confirmed that stop."""
     asking: tuple[str, ...] = ()
     """The goals whose question the sentence may answer."""
+    source: str = "api"
+    local: bool = False
+    """It is said to the planner itself, or answers: no order that needs room among the others."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,9 @@ look and to come back comes back with nothing, too: that way alone is still driv
 from __future__ import annotations
 
 from planner.mission.account import BACK
+from planner.mission.declining import decline
 from planner.mission.effects import AskBrain
-from planner.mission.observed import observed
+from planner.mission.observed import exchanges_of, observed
 from planner.mission.queue import end_running, note_step, settle_walk
 from planner.mission.records import Mission, Walk
 from planner.mission.skills import NOTHING, Cannot, Notes
@@ -32,7 +33,8 @@ AGAIN_S = 1.0
 def fail_step(turn: Turn, cannot: Cannot) -> None:
     """End the running step without success; then think again, or end the goal.
 
-    A leg whose skill knows what to do without it ends alone, and the step goes on.
+    A leg whose skill knows what to do without it ends alone, and the step goes on. What a person
+    declined ends at once: no other plan is thought about.
     """
     walk = turn.book.walk
     if walk is not None and walk.otherwise is not None and cannot.code in SHUT:
@@ -40,6 +42,9 @@ def fail_step(turn: Turn, cannot: Cannot) -> None:
         return
     mission = settle_walk(turn)
     if mission is None:
+        return
+    if cannot.code is Code.DECLINED and cannot.said is not None:
+        decline(turn, mission, cannot.said)
         return
     said = cannot.said or failure(turn.book.facts, mission, mission.now, cannot.code, "")
     before = mission.failure if mission.returning else None
@@ -135,5 +140,7 @@ def think(turn: Turn, mission: Mission) -> None:
             room,
             observed(facts, mission),
             mission.replans,
+            order=mission.text,
+            exchanges=exchanges_of(mission),
         )
     )

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
-from planner.mission.asking import asks, take_answer, take_sentence
+from planner.mission.asking import (
+    ask_plainly,
+    asks,
+    confirms,
+    offered,
+    take_answer,
+    take_no,
+    take_sentence,
+)
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.gate import unwalkable
+from planner.mission.observed import exchanges_of
 from planner.mission.queue import (
     cancel,
     clear_hold,
@@ -22,9 +31,11 @@ from planner.mission.queue import (
 from planner.mission.records import Book, Mission
 from planner.mission.rethought import fingerprint, rethought
 from planner.mission.skills import NOTHING
+from planner.mission.skills.consent import consents
 from planner.mission.telling import go_on_told, stop_told
 from planner.mission.turn import Turn
 from planner.mission.verdict import spot_at
+from planner.mission.waiting import ask_anew, close_older, make_room, waiting_since
 from planner.plan import (
     Answer,
     Bilingual,
@@ -69,6 +80,8 @@ def submit(turn: Turn, event: Submitted) -> None:
         stop(turn)
     elif event.resumes:
         pardon(turn)
+    if not (event.stop or event.local):
+        make_room(turn, event.text)
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
@@ -83,6 +96,7 @@ def submit(turn: Turn, event: Submitted) -> None:
         first=event.first,
         doubtful_stop=event.doubtful_stop,
         given_under_hold=hold_now(turn),
+        source=event.source,
         map_id=turn.book.facts.map_id,
         accepted_at=(pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None,
         created_unix_s=now_unix_s,
@@ -92,7 +106,9 @@ def submit(turn: Turn, event: Submitted) -> None:
         _stopped(turn, mission, event.echoed)
         return
     if event.asking:
-        take_sentence(turn, mission, event.asking)
+        asking = take_sentence(turn, mission, event.asking)
+        if asking is not None:
+            reply(turn, asking, event.text)
         return
     _think(turn, mission)
 
@@ -110,7 +126,9 @@ def _think(turn: Turn, mission: Mission) -> None:
     turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None, plan=None)
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
-    turn.emit(AskBrain(mission.id, mission.words, mission.language, room))
+    said = exchanges_of(mission)
+    turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
+                       order=mission.text, exchanges=said))  # fmt: skip
 
 
 def planned(turn: Turn, event: Planned) -> None:
@@ -133,6 +151,8 @@ def planned(turn: Turn, event: Planned) -> None:
         finish(turn, turn.book.missions[mission.id], state, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
+    if isinstance(plan, StepPlan | Clarify):  # surely an order
+        close_older(turn, mission)
     match plan:
         case Answer():
             words = message(Code.ANSWERED, text=plan.text)
@@ -220,12 +240,29 @@ def confirm(turn: Turn, mission: Mission) -> None:
 
 
 def reply(turn: Turn, mission: Mission, text: str) -> None:
-    """Take a person's answer: to the plan's own question, or to one about the order itself."""
+    """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = turn.put(mission, given_under_hold=hold_now(turn))
+    ask_anew(turn, mission)
+    agreed, order = consents(text), offered(mission)
     if asks(mission):
         take_answer(turn, mission, text)
-        return
-    _think(turn, turn.put(mission, replies=(*mission.replies, text)))
+    elif agreed is False and (order is not None or confirms(mission)):
+        take_no(turn, mission)
+    elif confirms(mission) and agreed:
+        ready(turn, mission)
+    elif confirms(mission):
+        ask_plainly(turn, mission)
+    else:
+        _reply_about_order(turn, mission, order if agreed and order is not None else text)
+
+
+def _reply_about_order(turn: Turn, mission: Mission, text: str) -> None:
+    """Think about the order again, with the brain's own question and this answer to it."""
+    said = mission.outcome.message.of(mission.language) if mission.outcome is not None else ""
+    unknown = ("" for _ in mission.replies[len(mission.questions) :])
+    questions = (*mission.questions, *unknown, said)
+    replies = (*mission.replies, text)
+    _think(turn, turn.put(mission, replies=replies, questions=questions))
 
 
 def pause(turn: Turn, mission: Mission) -> None:
@@ -283,7 +320,7 @@ def restart(turn: Turn, event: Restarted) -> None:
         walk=None,
         order=order,
         wall_offset_s=event.wall_offset_s,
-        asked_s={m.id: turn.now_s for m in missions.values() if asks(m)},
+        asked_s=waiting_since(missions, turn.now_s),
     )
     for mission in missions.values():
         if mission.state in (GoalState.RUNNING, GoalState.PLANNING):

@@ -27,6 +27,7 @@ from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.memory import Lesson
+from planner.mission.queue import to_resume
 from planner.mission.telling import doing, where
 from planner.plan import Answer, Bilingual, Code, GoalState, Refuse, message
 from planner.world import PlaceRefused
@@ -71,7 +72,7 @@ class Local:
         mission = self._book().missions.get(ask.id)
         intent = intent_of(ask.text) if mission is not None and _by_person(mission, ask) else None
         if isinstance(intent, Replace):
-            return await self._brain(replace(ask, text=intent.rest))
+            return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if intent is None or mission is None or mission.steps:
             return await self._brain(ask)
         return Planned(ask.id, await self.carry_out(intent, mission))
@@ -217,11 +218,3 @@ def to_pause(book: Book, asking: str | None = None) -> str | None:
         m for m in book.missions.values() if m.state is GoalState.PLANNING and m.id != asking
     ]
     return max(thinking, key=lambda m: m.order).id if thinking else None
-
-
-def to_resume(book: Book, asking: str | None = None) -> str | None:
-    """Return the goal that was paused last, else the first that is kept waiting."""
-    paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
-    if paused:
-        return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
-    return next((i for i in book.queue if book.missions[i].held), None)

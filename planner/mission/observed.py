@@ -6,7 +6,7 @@ every plan is validated whatever informed it.
 
 from __future__ import annotations
 
-from planner.brain.protocol import MAX_OBSERVED, Observation
+from planner.brain.protocol import MAX_OBSERVED, Exchange, Observation
 from planner.mission.records import Facts, Mission
 from planner.mission.skills.words import angle, metres
 from planner.plan import Bilingual, StepRecord, StepState, same
@@ -22,13 +22,26 @@ def observed(facts: Facts, mission: Mission) -> tuple[Observation, ...]:
     """Return one observation a step that is over, and the question of a step that decides."""
     over = mission.steps[: mission.step]
     now = mission.now
-    if now is not None and (now.kind == "decide" or now.state is StepState.FAILED):
+    if now is not None and _is_over(now):
         over = (*over, now)
     last = len(over) - 1
     seen = [
         _observation(facts, mission, step, newest=index == last) for index, step in enumerate(over)
     ]
     return tuple(seen[-MAX_OBSERVED:])
+
+
+def exchanges_of(mission: Mission) -> tuple[Exchange, ...]:
+    """Return what was asked about the order and answered, before any step; oldest first."""
+    asked = (*mission.questions, *("" for _ in mission.replies))
+    pairs = zip(asked, mission.replies, strict=False)
+    return tuple(Exchange(asked=question, answer=answer) for question, answer in pairs)
+
+
+def _is_over(step: StepRecord) -> bool:
+    """Tell whether there is something to tell of the current step: it failed, or was answered."""
+    answered = step.kind == "ask" and step.answer is not None
+    return answered or step.kind == "decide" or step.state is StepState.FAILED
 
 
 def _observation(facts: Facts, mission: Mission, step: StepRecord, *, newest: bool) -> Observation:

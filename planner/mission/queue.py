@@ -8,7 +8,7 @@ with the answer, too.
 from __future__ import annotations
 
 from planner.mission.effects import ClearHold, DropBrain
-from planner.mission.records import Mission, Walk
+from planner.mission.records import Book, Mission, Walk
 from planner.mission.turn import Turn
 from planner.mission.verdict import ended, failure
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
@@ -236,3 +236,11 @@ def note_step(turn: Turn, mission: Mission, **changes: object) -> Mission:
     steps = list(mission.plan.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
     return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
+
+
+def to_resume(book: Book, asking: str | None = None) -> str | None:
+    """Return the goal that was paused last, else the first that is kept waiting."""
+    paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
+    if paused:
+        return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
+    return next((i for i in book.queue if book.missions[i].held), None)

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 from planner.brain.intents import Intent, Replace, intent_of
 from planner.brain.intents import Resume as GoOn
 from planner.language.stop import StopReading, is_stop, read_stop
-from planner.mission.asking import meant
 from planner.mission.local import current
-from planner.mission.records import MAX_OPEN
+from planner.mission.meaning import meant
 from planner.mission.sight import at_rest
+from planner.mission.skills.consent import consents
+from planner.mission.waiting import has_room
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class Utterance:
     def stays_put(self) -> bool:
         """Return whether it can't lead to motion, so that it needs no operator's proof."""
         memory_or_goals = not (self.intent is None or isinstance(self.intent, Replace | GoOn))
-        return self.orders_stop or memory_or_goals
+        return self.orders_stop or memory_or_goals or consents(self.text) is False
 
 
 @lru_cache(maxsize=64)
@@ -88,8 +89,8 @@ def receive(
     """
     if said.orders_stop:
         return Reception(replace(given, stop=True), stops=True)
-    intent, full = said.intent, is_full(book)
-    may_answer = answers and intent is None and not (given.confirm or given.replace)
+    intent, full = said.intent, not has_room(book)
+    may_answer = answers and not (given.confirm or given.replace)
     asking = meant(book, given.text) if may_answer else ()
     if said.may_mean_stop and not asking and is_active(book, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
@@ -101,16 +102,12 @@ def receive(
         given,
         replace=given.replace if not replaces else not first,
         first=first,
-        resumes=isinstance(intent, GoOn),
+        resumes=isinstance(intent, GoOn) and not asking,
         asking=asking,
+        local=local,
     )
     takes_back = current(book) if first else None
     return Reception(marked, takes_back=takes_back, crowded=full and not local)
-
-
-def is_full(book: Book) -> bool:
-    """Return whether no more goals are taken in."""
-    return sum(not mission.ended for mission in book.missions.values()) >= MAX_OPEN
 
 
 def is_active(book: Book, now_s: float) -> bool:

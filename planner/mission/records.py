@@ -49,6 +49,10 @@ class Mission(Frozen):
     reason: str | None = None
     replies: tuple[str, ...] = ()
     """What the person answered to our questions, in order."""
+    questions: tuple[str, ...] = ()
+    """What was asked before each of them; empty where an older program kept none."""
+    source: str = "api"
+    """Who gave it: a new order of the same source closes what a brain asked about older ones."""
     plan: PlanRecord | None = None
     outcome: Outcome | None = None
     brain: BrainTag | None = None
@@ -162,7 +166,7 @@ class Rules:
     decides: int = 3
     """Times that a goal may think again because its plan says so."""
     answer_s: float = 600.0
-    """How long an answer to a step's question is waited for, standing."""
+    """How long an answer to a question of any kind is waited for, standing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -259,7 +263,7 @@ class Book:
     """The bridge's hold that stood when a person last acted; it is given time to clear."""
     pardon_until_s: float = float("-inf")
     asked_s: dict[str, float] = field(default_factory=dict)
-    """Since when each goal waits for the answer to its own question."""
+    """Since when each goal waits for a person's word."""
     order: int = 0
     tickets: int = 0
     written: int = 0

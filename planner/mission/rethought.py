@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import json
 
+from planner.brain.protocol import OFFLINE
 from planner.mission.events import Planned
 from planner.mission.failing import give_up
 from planner.mission.gate import NO_STEPS, unwalkable
 from planner.mission.queue import clear_hold, end_running, note_step, step_aside
 from planner.mission.records import Mission
 from planner.mission.rules import needs_yes
+from planner.mission.skills.ask import ask_again
 from planner.mission.turn import Turn
-from planner.mission.walk import begin_step, next_step
+from planner.mission.walk import begin_step, carry_out, next_step, scene_of
 from planner.plan import (
     Answer,
     Bilingual,
@@ -50,6 +52,9 @@ def rethought(turn: Turn, mission: Mission, event: Planned) -> None:
         mission = turn.put(mission, brain=event.brain)
     plan = event.plan
     steps = _steps(plan, mission)
+    if _answered(mission) and _of_no_use(turn, mission, event, steps):
+        carry_out(turn, mission, ask_again(scene_of(turn, mission)))
+        return
     if steps is None:
         _no_steps(turn, mission, plan, event.failure)
         return
@@ -71,6 +76,21 @@ def _steps(plan: Plan | None, mission: Mission) -> tuple[StepRecord, ...] | None
             StepRecord(kind="decide", text=mission.words[:500]),
         )
     return None
+
+
+def _answered(mission: Mission) -> bool:
+    """Tell whether an answer that was neither yes nor no is what is thought about."""
+    return mission.now is not None and mission.now.kind == "ask"
+
+
+def _of_no_use(
+    turn: Turn, mission: Mission, event: Planned, steps: tuple[StepRecord, ...] | None
+) -> bool:
+    """Tell whether a thought leaves nothing better than to ask the person once more."""
+    if steps is not None:
+        return bool(unwalkable(turn.book, mission, steps) or _same_again(mission, steps))
+    offline = event.brain is not None and event.brain.name == OFFLINE
+    return event.plan is None or (isinstance(event.plan, Refuse) and offline)
 
 
 def _same_again(mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
@@ -105,7 +125,7 @@ def _end(turn: Turn, mission: Mission, state: GoalState, why: Outcome) -> None:
 
 
 def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
-    question = needs_yes(turn.book.facts, mission, steps)
+    question, heard = needs_yes(turn.book.facts, mission, steps), _answered(mission)
     if mission.failure is None:
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
     before = mission.steps[: mission.step + 1]
@@ -117,7 +137,7 @@ def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
     )
     mission = next_step(turn, mission)
     if mission.confirm or question is not None:
-        reason = "new_place" if question is not None else None
+        reason = None if question is None else "new_plan" if heard else "new_place"
         step_aside(turn, mission, GoalState.AWAITING_CONFIRMATION, reason, question)
     else:
         clear_hold(turn, mission)

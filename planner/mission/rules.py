@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from planner.mission.records import Facts, Mission
 from planner.mission.skills.look import looks_round
+from planner.mission.upon import first_deed
 from planner.plan import Bilingual, Code, Outcome, StepRecord, message, same
 
 BACK = ""
@@ -23,14 +24,23 @@ def needs_yes(facts: Facts, mission: Mission, steps: tuple[StepRecord, ...]) -> 
     """Return what a person is asked before these new steps are walked, or None.
 
     ``new_place``: the person named where to go, or what to; a brain that found that shut must not
-    choose another destination by itself, nor roam for what was not asked for.
+    choose another destination by itself, nor roam for what was not asked for. After an answer that
+    was neither yes nor no, whatever moves needs a yes of its own.
     """
+    if mission.now is not None and mission.now.kind == "ask":
+        deed = first_deed(facts, steps)
+        why = None if deed is None else Bilingual(en=f"I would {deed.en}", zh=f"我将{deed.zh}")
+        return None if why is None else _confirm(why)
     if mission.failure is None:
         return None
     instead = _elsewhere(facts, mission.steps, steps) or _roaming(mission.steps, steps)
     if instead is None:
         return None
-    return Outcome(code=Code.CONFIRM, message=message(Code.CONFIRM, why=instead))
+    return _confirm(instead)
+
+
+def _confirm(why: Bilingual) -> Outcome:
+    return Outcome(code=Code.CONFIRM, message=message(Code.CONFIRM, why=why))
 
 
 def _elsewhere(

@@ -18,7 +18,7 @@ from planner.brain.protocol import Brain
 from planner.language.identification import language_of
 from planner.link import Identity, Link, StopResult
 from planner.mission.ahead import RouteAhead
-from planner.mission.asking import asks
+from planner.mission.asking import takes_yes
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import (
@@ -43,11 +43,12 @@ from planner.mission.events import (
 from planner.mission.hearing import Hearing
 from planner.mission.helpers import Router
 from planner.mission.journal import MissionJournal
-from planner.mission.local import Local, to_resume
+from planner.mission.local import Local
 from planner.mission.loop import Clocks, Loop
 from planner.mission.memory import Memory
+from planner.mission.queue import to_resume
 from planner.mission.reception import Reception, is_active, read_utterance, receive
-from planner.mission.records import MAX_OPEN, Book, Rules
+from planner.mission.records import Book, Rules
 from planner.mission.repeats import Repeats, body_of
 from planner.mission.shown import Shown
 from planner.mission.skills.consent import consents
@@ -132,7 +133,7 @@ class Missions(Shown):
     ) -> Goal:
         """Take a goal in and return it, usually still in planning. An order to stop stops first.
 
-        A plain yes or no answers the one question that a step asks, if only that can be meant.
+        A plain yes or no answers the one question, plan or offer that alone can be meant.
 
         Args:
             text: what the person said.
@@ -145,12 +146,12 @@ class Missions(Shown):
             answers: it may answer a question; never where ``confirm`` or ``replace`` is set.
 
         Raises:
-            QueueFull: 33 goals are open.
+            QueueFull: 33 goals are open, and none of them waits for an answer alone.
             IdempotencyConflict: the key came with another request before.
             JournalDown: it can't be written down, so it was not taken.
         """
         spoken, goal_id = language or language_of(text), self._clocks.new_id()
-        given = Submitted(goal_id, text, spoken, confirm, replace)
+        given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
         heard = self._receive(given, answers=answers)
         if heard.stops:
             return await self._stop_goal(heard.given, source)
@@ -158,7 +159,7 @@ class Missions(Shown):
         if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
             return self.goal(known)
         if heard.crowded:
-            raise QueueFull(MAX_OPEN)
+            raise QueueFull(sum(not m.ended for m in self._book.missions.values()))
         key = self._repeats.remember(idempotency_key, body, goal_id)
         if heard.given.resumes:
             self._loop.clear_hold(act)
@@ -213,7 +214,7 @@ class Missions(Shown):
         return await self._command(Confirm(goal_id), act)
 
     async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
-        """Answer a goal's question; an order to stop stops, whatever the goal's state.
+        """Answer a goal's question, or say yes or no to its plan; an order to stop always stops.
 
         What is said to the planner itself ("where are you", "hold on") is done beside the question,
         which stays open: no sentence that needs no proof is ever taken as the answer.
@@ -232,7 +233,7 @@ class Missions(Shown):
             raise error
         if isinstance(intent, TakeBack):
             return await self.cancel(goal_id)
-        own_question = asks(self._book.missions[goal_id])  # "go on" may be its answer
+        own_question = takes_yes(self._book.missions[goal_id])  # "go on" may be its answer
         if said.stays_put or (isinstance(intent, GoOn) and not own_question):
             await self.submit(text, act=act)
             return self.goal(goal_id)

@@ -49,9 +49,9 @@ class Shown:
         return goal_of(self._book, mission)
 
     def goals(self, limit: int = 50) -> tuple[Goal, ...]:
-        """Return the newest goals, newest first."""
-        newest = sorted(self._book.missions.values(), key=lambda m: -m.order)[: max(0, limit)]
-        return tuple(goal_of(self._book, mission) for mission in newest)
+        """Return goals: first all that are open, then those that ended, each newest first."""
+        by_age = sorted(self._book.missions.values(), key=lambda m: (m.ended, -m.order))
+        return tuple(goal_of(self._book, mission) for mission in by_age[: max(0, limit)])
 
     def path(self) -> Leg | None:
         """Return the leg that is driven now, with its whole path."""

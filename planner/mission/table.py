@@ -21,7 +21,7 @@ ALLOWED: dict[type[Command], frozenset[GoalState]] = {
     Pause: frozenset({GoalState.QUEUED, GoalState.PLANNING, GoalState.RUNNING}),
     Resume: frozenset({GoalState.QUEUED, GoalState.PAUSED}),
     Confirm: frozenset({GoalState.AWAITING_CONFIRMATION}),
-    Reply: frozenset({GoalState.NEEDS_CLARIFICATION}),
+    Reply: frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}),
     Move: frozenset({GoalState.QUEUED}),
     ChangeSpeed: frozenset({GoalState.RUNNING}),
 }

@@ -39,6 +39,8 @@ def thinker(
             goal=ask.id,
             observed=ask.observed,
             replan=ask.replan,
+            order=ask.order if ask.exchanges else "",
+            exchanges=ask.exchanges,
         )
         try:
             hear = hearing.of(ask.id) if hearing else None

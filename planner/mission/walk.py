@@ -33,6 +33,7 @@ from planner.mission.skills import (
     act_of,
 )
 from planner.mission.turn import Turn
+from planner.mission.upon import can_think, upon_yes
 from planner.mission.verdict import (
     accepted_at,
     ended,
@@ -99,6 +100,8 @@ def scene_of(
         spent_s=mission.step_s + max(0.0, turn.now_s - since_s),
         spent_m=mission.step_m + (walk.metres if walk is not None else 0.0),
         answer=answer,
+        upon=upon_yes(turn.book.facts, mission),
+        thinks=can_think(turn.book.rules, mission),
     )
 
 
@@ -127,7 +130,7 @@ def carry_out(turn: Turn, mission: Mission, act: Act) -> None:
         case Question():
             _ask(turn, mission, act)
         case Think():
-            _decide(turn, mission)
+            _decide(turn, mission, act)
         case Done():
             finish_step(turn, StepState.SUCCEEDED, **act.figures, **_result(act))
         case Skip():
@@ -245,8 +248,10 @@ def _ask(turn: Turn, mission: Mission, act: Question) -> None:
     turn.set(walk=Walk("ask", turn.next_entry, question=act.text, aloud=not again))
 
 
-def _decide(turn: Turn, mission: Mission) -> None:
-    if mission.steps[mission.step].state is StepState.RUNNING:  # paused meanwhile: it was counted
+def _decide(turn: Turn, mission: Mission, act: Think) -> None:
+    notes = act.notes if act.notes is not None else mission.notes
+    begun = mission.steps[mission.step].state is StepState.RUNNING
+    if begun and notes == mission.notes:  # paused meanwhile: it was counted
         think(turn, mission)
         return
     if mission.decides >= turn.book.rules.decides:
@@ -254,7 +259,7 @@ def _decide(turn: Turn, mission: Mission) -> None:
         fail_step(turn, Cannot(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    think(turn, turn.put(mission, decides=mission.decides + 1))
+    think(turn, turn.put(mission, decides=mission.decides + 1, notes=notes))
 
 
 def on_arrival(turn: Turn) -> bool:

@@ -7,7 +7,6 @@ nothing. The order is the law: what a person or a fault demands comes before any
 from __future__ import annotations
 
 from planner.mission.amounts import forget_beginnings, hand_steers, settle_amounts
-from planner.mission.asking import end_unanswered
 from planner.mission.failing import fail_step
 from planner.mission.gazing import end_gaze_if_due, on_standing, stand_while_blind
 from planner.mission.legs import ask_route, detour_if_due, lost_route
@@ -27,6 +26,7 @@ from planner.mission.skills import Cannot
 from planner.mission.skills.places import place_gone
 from planner.mission.turn import Turn
 from planner.mission.verdict import moves
+from planner.mission.waiting import end_unanswered
 from planner.mission.walk import begin_step, end_wait_if_due, on_arrival
 from planner.plan import Code, GoalState, PauseReason, fault
 from wire import Mode, Status

@@ -38,6 +38,7 @@ class Code(StrEnum):
     CONFIRM = "confirm"
     ASKED = "asked"
     NO_ANSWER = "no_answer"
+    DECLINED = "declined"
     NO_ROOM = "no_room"
     NOT_REACHED = "not_reached"
     NO_ROUTE = "no_route"
@@ -138,8 +139,8 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
         "地点记忆没有改变：{why}。",
     ),
     Code.CONFIRM: (
-        "The plan has changed: {why}. Say yes, or cancel.",
-        "计划有变：{why}。请确认或取消。",
+        "The plan has changed: {why}. Say yes or no.",
+        "计划有变：{why}。请回答“是”或“不”。",
     ),
     Code.ASKED: (
         "{text}",
@@ -148,6 +149,10 @@ _SENTENCES: dict[Code, tuple[str, str]] = {
     Code.NO_ANSWER: (
         "Nobody answered “{text}” within {seconds} s, so the goal ends.",
         "“{text}”在 {seconds} 秒内没有得到回答，任务到此结束。",
+    ),
+    Code.DECLINED: (
+        "You said {said}, so I do not {deed}.",
+        "您{said}，所以我不{deed}。",
     ),
     Code.NO_ROOM: (
         "There is room for {room} m in a straight line, not for {asked} m.",

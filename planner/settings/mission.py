@@ -22,4 +22,4 @@ class MissionSettings(BaseModel):
     decides: Annotated[int, Field(ge=0, le=20)] = 3
     """Times that a goal may think again because its plan says so."""
     answer_s: Annotated[float, Field(ge=5.0, le=86_400.0)] = 600.0
-    """How long an answer to a step's question is waited for, standing [s]."""
+    """How long an answer to a question of any kind is waited for, standing [s]."""

@@ -35,8 +35,9 @@ def request_of(body: dict[str, Any]) -> ThinkRequest:
 
 def _asked(order: dict[str, Any], vocabulary: Vocabulary, runnable: frozenset[str]) -> ThinkRequest:
     room, language = order.get("robot_is_in"), order.get("language")
+    answer = order.get("answer")  # to a question of ours about the order
     return ThinkRequest(
-        text=str(order["order"]),
+        text=answer if isinstance(answer, str) else str(order["order"]),
         vocabulary=vocabulary,
         runnable=runnable,
         room=room if isinstance(room, str) else None,

@@ -15,7 +15,9 @@ from tempfile import TemporaryDirectory
 
 from pydantic import ValidationError
 
+from planner.brain.protocol import Exchange
 from planner.language.stop import is_stop
+from planner.mission.observed import exchanges_of
 from planner.mission.records import Mission
 from planner.plan import Language, PlanRecord
 
@@ -40,6 +42,9 @@ class Decision:
     start: tuple[float, float, float] | None
     """Where the robot stood: x [m], y [m], yaw [rad] in ``map``."""
     map_id: str
+    order: str = ""
+    exchanges: tuple[Exchange, ...] = ()
+    """Where the sentence answers a brain's question: what was ordered, asked and answered."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,4 +124,6 @@ def _decision(mission: Mission) -> Decision | None:
         plan=mission.plan,
         start=mission.accepted_at,
         map_id=mission.map_id,
+        order=mission.text,
+        exchanges=exchanges_of(mission),
     )

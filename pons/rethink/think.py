@@ -117,6 +117,8 @@ async def _again(brain: Brain, decision: Decision, site: Site, goal: str) -> Aga
         room=None if room is None else room.id,
         language=decision.language,
         goal=goal,
+        order=decision.order if decision.exchanges else "",
+        exchanges=decision.exchanges,
     )
     try:
         plan = (await brain.think(request)).plan

@@ -145,6 +145,20 @@ def test_the_answer_to_a_question_decides_what_is_done(world_with: World) -> Non
     assert world.planner.said == ["Left or right?", "there"]
 
 
+@pytest.mark.parametrize("answer", ["no, not yet", "先不要", "maybe", "yes"])
+def test_what_turns_upon_an_answer_turns_upon_a_yes_alone(world_with: World, answer: str) -> None:
+    world = world_with((Ask(question="Shall I turn?"), Turn(angle_rad=pi / 4)))
+    before, goal = world.truth, world.say("wait here until I say go, then turn")
+    world.run_until(lambda _: goal.state is GoalState.NEEDS_CLARIFICATION, 5.0)
+    world.answer(goal, answer)
+    world.run(4.0)
+    turns = answer == "yes"
+    assert turned_deg(before, world.truth) == pytest.approx(45 if turns else 0.0, abs=4.0)
+    asks = answer == "maybe"
+    assert goal.state is (GoalState.NEEDS_CLARIFICATION if asks else
+                          GoalState.SUCCEEDED if turns else GoalState.CANCELLED)  # fmt: skip
+
+
 @pytest.mark.slow
 def test_behind_a_blocked_door_it_thinks_again_and_does_something_else(world_with: World) -> None:
     world = world_with((GoTo(place="living_room"),), (Turn(angle_rad=pi / 6),), start=BY_THE_DOOR)

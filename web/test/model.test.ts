@@ -19,6 +19,16 @@ describe("frames", () => {
     expect(begun().goals.map(({ id }) => id)).toEqual(["bb", "a"]);
   });
 
+  it("keep an open goal before all that ended, however old it is", () => {
+    let model = begun();
+    for (let n = 0; n < 2 * MAX_GOALS; n++) {
+      const later = { ...goal(`g${n}`, "succeeded"), created: `2099-01-01T00:00:${10 + n}Z` };
+      model = advance(model, { seq: 2 + n, kind: "goal", goal: later }, at(n));
+    }
+    expect(model.goals).toHaveLength(MAX_GOALS);
+    expect(model.goals[0]?.id).toBe("bb");
+  });
+
   it("that were none are counted and change nothing else", () => {
     const before = begun();
     expect(advance(before, null, at(1))).toEqual({ ...before, ignored: 1 });

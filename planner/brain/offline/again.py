@@ -1,7 +1,7 @@
 """Think again after something came of the steps: what is left of the same plan, and nothing twice.
 
 A grammar has no second idea. It never orders a step again that is over, and says so where the rest
-is not its own plan's.
+is not its own plan's. What a person answered it does not read: that is no reason to go on.
 """
 
 from __future__ import annotations
@@ -11,6 +11,9 @@ from collections.abc import Sequence
 from planner.brain.protocol import Observation
 from planner.plan import Answer, Bilingual, Clarify, Code, Refuse, StepPlan, message
 
+_READS_NO_ANSWER = Bilingual(
+    en="the built-in brain can't tell what the answer means", zh="内置大脑不明白这个回答的意思"
+)
 _NO_OTHER_WAY = Bilingual(en="the built-in brain knows no other way", zh="内置大脑没有别的办法")
 
 
@@ -29,6 +32,8 @@ def rest_of(
     """Return what is left of a sentence's plan after what was observed."""
     if not observed or not isinstance(plan, StepPlan):
         return plan
+    if observed[-1].step == "ask":  # neither yes nor no: a person is asked again, nothing goes on
+        return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=_READS_NO_ANSWER))
     kinds = [step.kind for step in plan.steps]
     walked = [seen.step for seen in observed]
     if kinds[: len(walked)] != walked:  # another brain's plan was walked

@@ -8,11 +8,11 @@ from datetime import datetime
 from planner.brain.draft import Hear
 from planner.brain.offline.again import rest_of
 from planner.brain.offline.reader import Context, plan
-from planner.brain.protocol import ThinkRequest, Thought
+from planner.brain.protocol import OFFLINE, ThinkRequest, Thought
 from planner.plan import BrainTag
 
 VERSION = "2"
-TAG = BrainTag(name="offline", version=VERSION)
+TAG = BrainTag(name=OFFLINE, version=VERSION)
 
 
 def _now() -> datetime:

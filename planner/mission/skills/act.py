@@ -72,6 +72,10 @@ class Scene:
     """What was driven for this step."""
     answer: Answer | None = None
     """What came of a question about the picture that was just asked."""
+    upon: Bilingual | None = None
+    """What moves next upon a yes to the question that the step asks; None: nothing does."""
+    thinks: bool = False
+    """The brain may read an answer that is neither yes nor no, and plan anew."""
 
     def but(self, notes: Notes) -> Scene:
         """Return the scene with other notes."""
@@ -161,6 +165,9 @@ class Question:
 @dataclass(frozen=True, slots=True)
 class Think:
     """Have the brain think again with what was seen and heard."""
+
+    notes: Notes | None = None
+    """Held from now on; a thought with the same notes as before is the same one, interrupted."""
 
 
 @dataclass(frozen=True, slots=True)

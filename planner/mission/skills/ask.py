@@ -1,16 +1,63 @@
 """Ask a person a question and wait for the answer, standing.
 
-Law: the robot is free for others meanwhile, and who waits behind this goal is kept waiting. The
-answer is an observation for a later ``decide``; it never becomes a step by itself. Budget: the time
-set for answers, after which the goal ends and the robot stays where it is.
+Law: the robot is free for others meanwhile, and who waits behind this goal is kept waiting. Where
+something moves upon the answer before anybody reads it (planner/mission/upon.py), only a plain yes
+goes on. A plain no ends the goal where the robot stands. What is neither is thought about once by a
+brain that can, and every new way needs a yes of its own; else it is asked once more, and what is
+then neither is a no. Any other answer is an observation for a later ``decide`` and never becomes a
+step by itself. Budget: the time set for answers, after which the goal ends and the robot stays
+where it is.
 """
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Done, Question, Scene
-from planner.plan import same
+from planner.mission.skills.act import Act, Cannot, Done, Question, Scene, Think
+from planner.mission.skills.consent import consents
+from planner.plan import Bilingual, Code, message, same
+
+THOUGHT, AGAIN = 1, 2
+"""Stages: the answer is thought about; it was asked once more."""
+_QUOTED = 80
+_NO = Bilingual(en="no", zh="说了不")
+_UNCLEAR = Bilingual(en="neither yes nor no", zh="没有说“是”")
 
 
 def ask(scene: Scene) -> Act:
-    """Return the question, until it is answered."""
-    return Question(same(scene.step.text or "")) if scene.step.answer is None else Done()
+    """Return the question, until it is answered; then whether that lets the goal go on."""
+    answer, notes = scene.step.answer, scene.notes
+    if answer is None:
+        again = notes.stage == AGAIN
+        return Question(_shall_i(scene), notes) if again else Question(same(scene.step.text or ""))
+    if scene.upon is None:
+        return Done()
+    yes = consents(answer)
+    if yes is True:
+        return Done({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
+    if yes is False or notes.stage == AGAIN:
+        said = declined(scene.upon, plainly=yes is False)
+        return Cannot(Code.DECLINED, Code.DECLINED.value, said)
+    if scene.thinks or notes.stage == THOUGHT:
+        return Think(notes.but(stage=THOUGHT))
+    return ask_again(scene)
+
+
+def declined(deed: Bilingual, *, plainly: bool = True) -> Bilingual:
+    """Tell a person that something is not done, because they said no; else neither yes nor no."""
+    return message(Code.DECLINED, said=_NO if plainly else _UNCLEAR, deed=deed)
+
+
+def ask_again(scene: Scene) -> Question:
+    """Ask for a plain yes or no, once, after an answer that is neither."""
+    scene = scene.but(scene.notes.but(stage=AGAIN, heard=scene.step.answer))
+    return Question(_shall_i(scene), scene.notes)
+
+
+def _shall_i(scene: Scene) -> Bilingual:
+    deed, heard = (
+        scene.upon or Bilingual(en="go on", zh="继续"),
+        (scene.notes.heard or "")[:_QUOTED],
+    )
+    return Bilingual(
+        en=f"You said “{heard}”. Shall I {deed.en}? Please answer yes or no.",
+        zh=f"您说了“{heard}”。要我{deed.zh}吗？请回答“是”或“不”。",
+    )

@@ -56,6 +56,8 @@ class Notes(Frozen):
     """Standing points about the thing that can't be reached."""
     again: int = 0
     """Times that the thing had moved and was gone after."""
+    heard: str | None = None
+    """An answer that was neither yes nor no, after which was asked once more."""
     seen_s: float = 0.0
     """When it was seen last, in time spent on the step."""
 

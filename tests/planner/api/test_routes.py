@@ -76,6 +76,14 @@ def test_on_metal_a_held_robot_needs_the_persons_proof_for_a_goal() -> None:
     assert services.goals.calls == []
 
 
+@pytest.mark.parametrize(("text", "status"), [("no, thanks", 202), ("不用", 202), ("yes", 403)])
+def test_on_metal_a_no_needs_no_proof(text: str, status: int) -> None:
+    """It clears no hold; a yes may, and is an operator's act."""
+    services = FakeServices(METAL)
+    assert client_of(services).post("/v1/goals", json={"text": text}).status_code == status
+    assert services.goals.acts == ([None] if status == 202 else [])
+
+
 def test_on_metal_a_free_robot_takes_a_goal_without_an_act() -> None:
     services = FakeServices(METAL.model_copy(update={"held": None}))
     assert client_of(services).post("/v1/goals", json={"text": "go"}).status_code == 202

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from planner.brain import ThinkRequest
 from planner.brain.prompt import BUDGET_TOKENS, Prompt, tokens
-from planner.brain.protocol import MAX_OBSERVED, Observation
+from planner.brain.protocol import MAX_OBSERVED, Exchange, Observation
 from planner.brain.schema import schema_of, step_models
 from planner.brain.template import FOLDER
 from planner.mission.facts import vocabulary_of
@@ -19,7 +20,7 @@ from planner.world import Site
 from tests.conftest import ROOT
 from wire import Misconfigured
 
-HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c", 3: "feca617e9515"}
+HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c", 3: "feca617e9515", 4: "b6c285b8b629"}
 """A changed prompt needs a new version, so that a goal's record says what was asked."""
 
 
@@ -96,6 +97,33 @@ def test_what_came_of_steps_enters_as_data_and_within_bounds(home: Vocabulary) -
     told = json.loads(user["content"])["so_far"]
     assert len(user["content"]) < 1000
     assert told[-1]["what"] == REPORT.detail.en, "the newest is kept"
+
+
+def test_an_answer_comes_with_its_question_and_the_order(home: Vocabulary) -> None:
+    """A brain that asked knows what was asked, and what was ordered; more rounds within bounds."""
+    rounds = [Exchange(asked=f"Which {n}?", answer=f"the {n}") for n in range(5)]
+    asked = {"text": rounds[-1].answer, "vocabulary": home, "order": "bring my things"}
+    request = ThinkRequest(exchanges=tuple(rounds[-1:]), **asked)
+    assert _user(request) == {
+        "order": "bring my things", "you_asked": "Which 4?", "answer": "the 4"
+    }  # fmt: skip
+    assert Prompt.load().messages(request)[0] == Prompt.load().messages(
+        ThinkRequest(text="x", vocabulary=home)
+    )[0]  # fmt: skip
+    more = _user(ThinkRequest(exchanges=tuple(rounds), **asked))
+    assert more["before"] == [
+        {"you_asked": "Which 2?", "answer": "the 2"}, {"you_asked": "Which 3?", "answer": "the 3"}
+    ]  # fmt: skip
+    unknown = ThinkRequest(exchanges=(Exchange(asked="", answer="the 4"),), **asked)
+    assert _user(unknown) == {"order": "the 4"}, "of an older program: the answer alone"
+    long = [Exchange(asked="y" * 9000, answer="z" * 9000)] * 40
+    told = Prompt.load().messages(ThinkRequest(exchanges=tuple(long), **asked))[1]["content"]
+    assert len(told) < 2000
+
+
+def _user(request: ThinkRequest) -> dict[str, Any]:
+    user: dict[str, Any] = json.loads(Prompt.load().messages(request)[1]["content"])
+    return user
 
 
 def test_rendered_as_it_was(home: Vocabulary) -> None:

@@ -27,7 +27,8 @@ from planner.plan import (
 from tests.planner.mission.driving import CANCELLED, FAILED, SUCCEEDED
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.lockstep import go
-from tests.planner.mission.test_mission_rethinks import Rethinking, plan, rethinking
+from tests.planner.mission.rethinking import Rethinking
+from tests.planner.mission.test_mission_rethinks import plan, rethinking
 
 DINNER = Say(text="dinner is ready")
 

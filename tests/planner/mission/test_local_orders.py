@@ -121,11 +121,10 @@ def test_a_goal_that_is_taken_back_is_the_only_one_and_nobody_overtakes(
             await together.reach(other.id, waits)
             instead = await missions.submit("forget that, go to the sofa")
             assert missions.goal(first.id).state is GoalState.CANCELLED
-            assert missions.goal(other.id).state is waits, "the robot stands until it is understood"
             await together.reach(instead.id, GoalState.SUCCEEDED)
             if not asks:
                 await together.reach(other.id, GoalState.SUCCEEDED)
-            assert missions.goal(other.id).state is not GoalState.CANCELLED
+            assert missions.goal(other.id).reason == ("superseded" if asks else None)
             drove = dict.fromkeys(m.mission for m in together.bridge.waypoints if m.points)
             after = [instead.id] if asks else [instead.id, other.id]
             assert [goal for goal in drove if goal != first.id] == after
@@ -252,7 +251,7 @@ def test_what_is_said_to_the_planner_itself_is_no_answer(
                 assert read_utterance(said).stays_put, "so no operator's proof is asked for"
                 assert (await missions.answer(goal.id, said)).state is GoalState.NEEDS_CLARIFICATION
             await together.until(lambda: len(missions.memory.taught) == 1)
-            await together.until(lambda: all(g.state in ENDED for g in missions.goals()[:-1]))
+            await together.until(lambda: all(g.state in ENDED for g in missions.goals()[1:]))
             assert missions.goal(goal.id).state is GoalState.NEEDS_CLARIFICATION
             assert together.bridge.waypoints == []
 
@@ -271,7 +270,7 @@ def test_go_on_answers_a_plans_own_question_and_no_other(
             if answers:
                 await together.reach(goal.id, GoalState.SUCCEEDED)
                 return
-            beside = together.missions.goals()[0]
+            beside = together.missions.goals()[-1]
             assert (
                 told(await together.reach(beside.id, GoalState.SUCCEEDED))[:16]
                 == "There is nothing"

@@ -81,7 +81,7 @@ def test_a_question_waits_for_an_answer_and_holds_nobody(world: Together) -> Non
     question = Bilingual(en="Which one?", zh="哪一个？")
     world.event(Planned(goal, Clarify(code=Code.AMBIGUOUS, question=question)))
     assert world.goal(goal).state is GoalState.NEEDS_CLARIFICATION
-    other = world.give(go("hall"))
+    other = world.give(go("hall"), source="somebody else")
     world.run_until(other, SUCCEEDED)
     world.plans[goal] = go("kitchen")
     world.event(Reply(goal, "the kitchen"))

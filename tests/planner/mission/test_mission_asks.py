@@ -92,7 +92,7 @@ def test_an_answer_lets_nobody_go_whom_more_than_the_question_keeps(
         world.bridge.hold(HeldReason.STOP)
         world.run(0.2)
     fresh = world.give(go("dock"))
-    world.event(Reply(goal, "me"))
+    world.event(Reply(goal, "yes"))
     world.act()
     world.run_until(goal, SUCCEEDED)
     world.run_until(fresh, SUCCEEDED)
@@ -124,6 +124,8 @@ def test_after_a_crash_it_still_asks_and_says_nothing_twice(told: bool) -> None:
         after.event(Resume(goal))
     after.run(0.2)
     assert (after.goal(goal).state, after.said) == (ASKS, [])
+    after.act()
+    after.run(0.2)
     after.event(Reply(goal, "me"))
     assert after.run_until(goal, SUCCEEDED).steps[0].answer == "me"
     assert after.said == ["well"]

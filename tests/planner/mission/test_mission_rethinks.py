@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from planner.mission.effects import AskBrain
 from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply, Resume, Stopped
 from planner.mission.rules import ROAMS
 from planner.mission.skills import Eyesight
@@ -15,7 +14,6 @@ from planner.plan import (
     Answer,
     Ask,
     Bilingual,
-    BrainTag,
     Clarify,
     Code,
     ComeBack,
@@ -39,32 +37,13 @@ from planner.plan import (
 from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.lockstep import Together, go
+from tests.planner.mission.rethinking import Rethinking
 from wire import CameraConfig
 
 SHUT = "no_route"
 DECIDE = Decide(question="where to?")
 SAYS = Bilingual(en="It is gone.", zh="不见了。")
 DOWN = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
-TAG = BrainTag(name="b", version="1")
-
-
-@dataclass
-class Rethinking(Together):
-    """Let each goal's brain give one answer after the other; None: it thinks on."""
-
-    thoughts: list[Any] = field(default_factory=list)
-    asked: list[AskBrain] = field(default_factory=list)
-
-    def answer(self, effect: Any) -> None:
-        if isinstance(effect, AskBrain):
-            self.asked.append(effect)
-            thought = self.thoughts.pop(0) if self.thoughts else None
-            if thought is not None:
-                down = isinstance(thought, Outcome)
-                self.event(Planned(effect.id, None if down else thought,
-                                   thought if down else None, TAG))  # fmt: skip
-            return
-        super().answer(effect)
 
 
 def rethinking(*thoughts: Any, shut: bool = False) -> Rethinking:

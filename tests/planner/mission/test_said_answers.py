@@ -6,55 +6,36 @@ from pathlib import Path
 
 import pytest
 
-from planner.brain.scripted import Reply
 from planner.mission import QueueFull
 from planner.mission.records import MAX_OPEN
-from planner.plan import Ask, Bilingual, Clarify, Code, Goal, GoalState, GoTo, StepPlan
+from planner.mission.skills.consent import consents
+from planner.plan import (
+    Clarify,
+    Code,
+    GoalState,
+    StepPlan,
+)
 from planner.world import Site
-from tests.planner.mission.live import KITCHEN, Together, planner, run
+from tests.planner.mission.live import KITCHEN, planner, run
+from tests.planner.mission.saying import (
+    ASKS,
+    CANCELLED,
+    CONFIRMS,
+    DRIVES,
+    PAUSED,
+    REFUSED,
+    RUNNING,
+    SUCCEEDED,
+    TWICE,
+    WHICH,
+    answer_of,
+    asking,
+    asking_on_the_way,
+    heard,
+    later,
+    told,
+)
 from wire import OpRequest
-
-ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION
-RUNNING, PAUSED = GoalState.RUNNING, GoalState.PAUSED
-SUCCEEDED, REFUSED, CANCELLED = GoalState.SUCCEEDED, GoalState.REFUSED, GoalState.CANCELLED
-DRIVES = StepPlan(steps=(Ask(question="Shall I drive there?"), GoTo(place="kitchen")))
-TWICE = StepPlan(steps=(Ask(question="Shall I?"), Ask(question="Are you sure?")))
-WHICH = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
-
-
-async def asking(world: Together, text: str = "please fetch it") -> Goal:
-    """Give a goal whose first step asks, and wait until it does; then let time pass."""
-    goal = await world.missions.submit(text)
-    goal = await world.reach(goal.id, ASKS)
-    await later(world)
-    return goal
-
-
-async def asking_on_the_way(world: Together) -> tuple[Goal, Goal]:
-    """Give a goal that asks, and one that drives meanwhile; return both once it does."""
-    goal = await asking(world)
-    driving = await world.missions.submit("go to the kitchen")
-    await world.until(lambda: world.bridge.horizon is not None)
-    return goal, driving
-
-
-async def later(world: Together) -> None:
-    seq = world.bridge.seq
-    await world.until(lambda: world.bridge.seq > seq + 1)
-
-
-def told(goal: Goal) -> tuple[GoalState, Code | None, str]:
-    said = goal.outcome
-    return goal.state, said.code if said else None, said.message.en if said else ""
-
-
-def answer_of(world: Together, goal: Goal) -> str | None:
-    plan = world.missions.goal(goal.id).plan
-    return plan.steps[0].answer if plan is not None and plan.steps else None
-
-
-def heard(world: Together) -> list[str]:
-    return [request.text for request in world.brain.asked]
 
 
 @pytest.mark.parametrize("text", ["yes", "Yes, please.", "好的", "no", "不要"])
@@ -68,7 +49,7 @@ def test_it_answers_the_one_question_and_is_told_so(tmp_path: Path, site: Site, 
             )  # fmt: skip
             assert answer_of(world, goal) == text
             assert heard(world) == ["please fetch it"], "no brain is asked"
-            await world.reach(goal.id, SUCCEEDED)
+            await world.reach(goal.id, SUCCEEDED if consents(text) else CANCELLED)
         async with planner(tmp_path, site, prefix="h") as after:
             assert after.missions.goal(said.id) == said
             assert answer_of(after, goal) == text
@@ -84,22 +65,6 @@ def test_any_other_sentence_is_a_new_goal(tmp_path: Path, site: Site, said: str)
             await world.reach((await world.missions.submit(said)).id, ASKS)
             assert heard(world)[-1] == said
             assert (world.missions.goal(goal.id).state, answer_of(world, goal)) == (ASKS, None)
-
-    run(story())
-
-
-def test_it_says_yes_to_nothing_but_a_step(tmp_path: Path, site: Site) -> None:
-    async def story() -> None:
-        async with planner(tmp_path, site, WHICH, KITCHEN, WHICH) as world:
-            unclear = await asking(world)
-            plan = await world.missions.submit("go to the kitchen", confirm=True)
-            await world.reach(plan.id, CONFIRMS)
-            for text in ("yes", "no"):
-                await world.reach((await world.missions.submit(text)).id, ASKS)
-                assert heard(world)[-1] == text, "it is a goal, as any sentence"
-            assert world.missions.goal(unclear.id).state is ASKS
-            assert world.missions.goal(plan.id).state is CONFIRMS
-            assert world.bridge.waypoints == []
 
     run(story())
 
@@ -129,22 +94,34 @@ def test_where_two_may_be_meant_it_answers_neither_names_both_and_clears_no_hold
     run(story())
 
 
-def test_what_waited_before_the_step_asked_is_not_meant_and_gets_no_yes(
-    tmp_path: Path, site: Site
+@pytest.mark.parametrize("text", ["yes", "no"])
+def test_a_plan_that_waited_before_the_step_asked_may_be_meant_too(
+    tmp_path: Path, site: Site, text: str
 ) -> None:
     async def story() -> None:
-        async with planner(tmp_path, site, WHICH, KITCHEN, DRIVES) as world:
-            unclear = await asking(world, "hm")
+        async with planner(tmp_path, site, KITCHEN, DRIVES) as world:
             plan = await world.missions.submit("go to the kitchen", confirm=True)
             await world.reach(plan.id, CONFIRMS)
             await later(world)
             goal = await asking(world)
-            await world.missions.submit("yes")
-            assert answer_of(world, goal) == "yes"
+            assert told(await world.missions.submit(text))[:2] == (REFUSED, Code.AMBIGUOUS)
+            assert answer_of(world, goal) is None
             assert world.missions.goal(plan.id).state is CONFIRMS
-            assert world.missions.goal(unclear.id).state is ASKS
+            assert world.bridge.waypoints == []
+
+    run(story())
+
+
+def test_what_a_brain_asked_before_is_not_meant(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, WHICH, DRIVES) as world:
+            unclear = await world.missions.submit("hm", source="somebody else")
+            await world.reach(unclear.id, ASKS)
+            await later(world)
+            goal = await asking(world)
+            await world.missions.submit("yes")
             await world.reach(goal.id, SUCCEEDED)
-            assert {w.mission for w in world.bridge.waypoints if w.points} == {goal.id}
+            assert world.missions.goal(unclear.id).state is ASKS
 
     run(story())
 
@@ -205,7 +182,8 @@ def test_a_no_ends_nothing_that_runs(tmp_path: Path, site: Site) -> None:
 def test_what_is_said_about_one_goal_answers_no_other(tmp_path: Path, site: Site) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, WHICH, DRIVES, WHICH) as world:
-            unclear = await asking(world, "hm")
+            unclear = await world.missions.submit("hm", source="somebody else")
+            await world.reach(unclear.id, ASKS)
             goal = await asking(world)
             await world.missions.answer(unclear.id, "yes")
             await world.reach(unclear.id, ASKS)
@@ -233,15 +211,14 @@ def test_the_same_request_again_answers_no_second_question(tmp_path: Path, site:
 
 def test_a_full_queue_keeps_no_answer_out(tmp_path: Path, site: Site) -> None:
     async def story() -> None:
-        replies: list[Reply] = [*[WHICH] * (MAX_OPEN - 1), DRIVES]
-        async with planner(tmp_path, site, *replies) as world:
-            for number in range(MAX_OPEN - 1):
-                await world.reach((await world.missions.submit(f"hm {number}")).id, ASKS)
-            await later(world)
+        async with planner(tmp_path, site, DRIVES, *[KITCHEN] * MAX_OPEN) as world:
             goal = await asking(world)
-            with pytest.raises(QueueFull):
+            world.bridge.frozen = True
+            for _ in range(MAX_OPEN - 1):
                 await world.missions.submit("go to the kitchen")
             await world.missions.submit("yes")
             assert answer_of(world, goal) == "yes"
+            with pytest.raises(QueueFull):
+                await world.missions.submit("go to the kitchen")
 
     run(story())

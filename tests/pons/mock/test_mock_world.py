@@ -8,6 +8,7 @@ import pytest
 
 from planner.brain import ThinkRequest
 from planner.brain.prompt import Prompt
+from planner.brain.protocol import Exchange
 from planner.brain.schema import schema_of
 from planner.plan import EVERY_KIND, RUNNABLE, Vocabulary
 from pons.mock_llm.world import request_of
@@ -33,6 +34,14 @@ def test_the_steps_that_are_offered_are_the_steps_of_the_plan(runnable: frozense
     ours = {"messages": Prompt.load().messages(request), "response_format": schema}
     theirs = {"messages": [{"role": "user", "content": "look"}], "response_format": schema}
     assert [request_of(body).runnable for body in (ours, theirs)] == [runnable, runnable]
+
+
+def test_an_answer_to_a_question_is_what_is_thought_about() -> None:
+    asked = (Exchange(asked="Which room?", answer="go to the kitchen"),)
+    request = ThinkRequest(
+        text="go to the kitchen", vocabulary=HOME, order="bring it", exchanges=asked
+    )
+    assert request_of({"messages": Prompt.load().messages(request)}).text == "go to the kitchen"
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
  * no screen. What an unknown or broken frame may change is a counter.
  */
 import type { About, Draft, Frame, Goal, Path, Robot, Scan, Sight, Usage } from "../wire/types";
-import { withProgress } from "./goals";
+import { ended, withProgress } from "./goals";
 import { type Moment, since } from "./moment";
 import { type KnownThing, retold } from "./things";
 
@@ -24,7 +24,7 @@ export type StopAnswer = { readonly confirmed: boolean };
 export type Model = {
   readonly robot: Robot | null;
   readonly robotAt: Moment | null;
-  readonly goals: readonly Goal[]; // newest first
+  readonly goals: readonly Goal[]; // open ones first, each newest first
   readonly drafts: readonly Draft[]; // of goals that are thought about now
   readonly usage: Usage | null;
   readonly placesVersion: number; // changes when a place is taught or forgotten
@@ -90,7 +90,7 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         ...model,
         robot: frame.robot,
         robotAt: now,
-        goals: newestFirst(frame.goals),
+        goals: openFirst(frame.goals),
         drafts: thoughtAbout(model.drafts, frame.goals),
         usage: frame.usage,
         placesVersion: frame.places_version,
@@ -173,13 +173,15 @@ function thoughtAbout(drafts: readonly Draft[], goals: readonly Goal[]): readonl
 }
 
 export function withGoal(goals: readonly Goal[], goal: Goal): readonly Goal[] {
-  return newestFirst([goal, ...goals.filter((known) => known.id !== goal.id)]);
+  return openFirst([goal, ...goals.filter((known) => known.id !== goal.id)]);
 }
 
-function newestFirst(goals: readonly Goal[]): readonly Goal[] {
+/** Put open goals before those that ended, each newest first: no open one ever drops out. */
+function openFirst(goals: readonly Goal[]): readonly Goal[] {
   // ISO times in UTC sort as text; equal ones keep their order.
+  const later = (a: Goal, b: Goal) => (a.created < b.created ? 1 : a.created > b.created ? -1 : 0);
   return [...goals]
-    .sort((a, b) => (a.created < b.created ? 1 : a.created > b.created ? -1 : 0))
+    .sort((a, b) => Number(ended(a)) - Number(ended(b)) || later(a, b))
     .slice(0, MAX_GOALS);
 }
 

@@ -1,0 +1,33 @@
+"""Let each goal's brain think again, one answer of a script after the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from planner.mission.effects import AskBrain
+from planner.mission.events import Planned
+from planner.plan import BrainTag, Outcome
+from tests.planner.mission.lockstep import Together
+
+TAG = BrainTag(name="b", version="1")
+
+
+@dataclass
+class Rethinking(Together):
+    """Let each goal's brain give one answer after the other; None: it thinks on."""
+
+    thoughts: list[Any] = field(default_factory=list)
+    asked: list[AskBrain] = field(default_factory=list)
+    tag: BrainTag = TAG
+
+    def answer(self, effect: Any) -> None:
+        if isinstance(effect, AskBrain):
+            self.asked.append(effect)
+            thought = self.thoughts.pop(0) if self.thoughts else None
+            if thought is not None:
+                down = isinstance(thought, Outcome)
+                self.event(Planned(effect.id, None if down else thought,
+                                   thought if down else None, self.tag))  # fmt: skip
+            return
+        super().answer(effect)

@@ -1,0 +1,122 @@
+"""An answer to a brain's question arrives with the order and the question, in every thought."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+from planner.brain.offline import OfflineBrain
+from planner.brain.protocol import Exchange, Observation, ThinkRequest
+from planner.mission.events import Reply
+from planner.plan import (
+    Ask,
+    Bilingual,
+    Clarify,
+    Code,
+    GoalState,
+    GoTo,
+    Option,
+    Refuse,
+    StepPlan,
+    same,
+)
+from planner.world import Site
+from tests.planner.brain.conftest import HOME
+from tests.planner.mission.driving import SUCCEEDED
+from tests.planner.mission.live import KITCHEN, planner, run
+from tests.planner.mission.lockstep import go
+from tests.planner.mission.rethinking import Rethinking
+
+ASKS = GoalState.NEEDS_CLARIFICATION
+
+
+def which(text: str, *options: str) -> Clarify:
+    offers = tuple(Option(label=same(each), text=each) for each in options)
+    return Clarify(code=Code.AMBIGUOUS, question=Bilingual(en=text, zh=text), options=offers)
+
+
+def test_every_round_is_kept_and_told_in_later_thoughts_too() -> None:
+    shut = go("kitchen")
+    world = Rethinking(thoughts=[which("Which room?"), which("Which side?"), shut, shut])
+    world.way = lambda _: "no_route"
+    world.run(0.2)
+    goal = world.give(None)
+    world.event(Reply(goal, "the one with the bed"))
+    world.event(Reply(goal, "the left"))
+    rounds = (
+        Exchange(asked="Which room?", answer="the one with the bed"),
+        Exchange(asked="Which side?", answer="the left"),
+    )
+    assert [a.exchanges for a in world.asked] == [(), rounds[:1], rounds, rounds]
+    assert [a.text for a in world.asked][1:] == ["the one with the bed", "the left", "the left"]
+    assert {a.order for a in world.asked} == {"text g1"}
+
+
+def test_a_taken_offer_is_its_order_with_the_question_beside_it() -> None:
+    world = Rethinking(thoughts=[which("To the hall, then?", "go to the hall"), go("hall")])
+    world.run(0.2)
+    goal = world.give(None)
+    world.event(Reply(goal, "yes please"))
+    assert world.asked[1].text == "go to the hall"
+    assert world.asked[1].exchanges == (
+        Exchange(asked="To the hall, then?", answer="go to the hall"),
+    )
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_what_an_older_program_wrote_keeps_its_place() -> None:
+    world = Rethinking(thoughts=[which("One?"), which("Two?"), None])
+    world.run(0.2)
+    goal = world.give(None)
+    world.event(Reply(goal, "first"))
+    mission = world.goal(goal).model_copy(update={"questions": ()})
+    world.engine.book.missions[goal] = mission
+    world.event(Reply(goal, "second"))
+    assert world.asked[2].exchanges == (
+        Exchange(asked="", answer="first"), Exchange(asked="Two?", answer="second")
+    )  # fmt: skip
+
+
+def test_a_brain_behind_the_door_hears_it(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, which("Which room?"), KITCHEN) as world:
+            goal = await world.missions.submit("go to my room")
+            await world.reach(goal.id, ASKS)
+            assert (world.brain.asked[0].order, world.brain.asked[0].exchanges) == ("", ())
+            await world.missions.answer(goal.id, "the one with the bed")
+            await world.reach(goal.id, SUCCEEDED)
+            heard = world.brain.asked[1]
+            assert (heard.order, heard.text) == ("go to my room", "the one with the bed")
+            assert heard.exchanges[0].asked == "Which room?"
+
+    run(story())
+
+
+def test_an_order_in_place_of_the_answer_stands_alone(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, which("Which room?"), KITCHEN) as world:
+            goal = await world.missions.submit("go to my room")
+            await world.reach(goal.id, ASKS)
+            await world.missions.answer(goal.id, "forget that, go to the kitchen")
+            await world.until(lambda: len(world.brain.asked) == 2)
+            heard = world.brain.asked[1]
+            assert (heard.text, heard.order, heard.exchanges) == ("go to the kitchen", "", ())
+
+    run(story())
+
+
+def test_the_offline_brain_goes_on_with_nothing_after_an_answer_it_can_not_read() -> None:
+    text = "go to the kitchen, ask who is there and come back"
+    bare = ThinkRequest(text=text, vocabulary=HOME)
+    plan = asyncio.run(OfflineBrain().think(bare)).plan
+    assert isinstance(plan, StepPlan)
+    kinds = [step.kind for step in plan.steps]
+    assert kinds == ["go_to", "ask", "come_back"]
+    assert isinstance(plan.steps[0], GoTo)
+    assert isinstance(plan.steps[1], Ask)
+    walked = (
+        Observation(step="go_to", result="succeeded", detail=same("kitchen")),
+        Observation(step="ask", result="answered", detail=same("Answer: “maybe”")),
+    )
+    again = asyncio.run(OfflineBrain().think(bare.model_copy(update={"observed": walked}))).plan
+    assert isinstance(again, Refuse)

@@ -1,0 +1,178 @@
+"""``pons answer`` and ``pons confirm`` find the goal that waits, or list them."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+
+import pytest
+
+from planner.plan import GoalState
+from pons import goals
+from pons.__main__ import main, parser
+from pons.settings import Settings, load
+from pons.texts import how_to_answer
+
+ASKED = {"message": {"en": "Shall I?", "zh": "要吗？"}}
+
+
+def goal(goal_id: str, state: str, text: str = "go there", **more: Any) -> dict[str, Any]:
+    return {"id": goal_id, "state": state, "text": text, "created": "2026", "outcome": None, **more}
+
+
+@dataclass
+class Planner:
+    """Serve a list of goals over HTTP and keep what was asked of them."""
+
+    goals: list[dict[str, Any]] = field(default_factory=list)
+    done: str = "succeeded"
+    heard: list[tuple[str, Any]] = field(default_factory=list)
+
+    def answer(self, method: str, path: str, body: Any) -> tuple[int, Any]:
+        if method == "GET" and path == "/v1/goals":
+            return 200, {"goals": self.goals}
+        found = next((g for g in self.goals if path.split("/")[3] == g["id"]), None)
+        if found is None:
+            return 404, {"code": "unknown_goal", "detail": path}
+        if method == "POST":
+            self.heard.append((path, body))
+            found["state"] = self.done
+        return 200, found
+
+
+@pytest.fixture
+def served() -> Iterator[tuple[Planner, Settings]]:
+    planner = Planner()
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self._say(planner.answer("GET", self.path, None))
+
+        def do_POST(self) -> None:
+            body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+            self._say(planner.answer("POST", self.path, body))
+
+        def _say(self, answer: tuple[int, Any]) -> None:
+            raw = json.dumps(answer[1]).encode()
+            self.send_response(answer[0])
+            self.send_header("Content-Length", str(len(raw)))
+            self.end_headers()
+            self.wfile.write(raw)
+
+        def log_message(self, format: str, *args: object) -> None:  # noqa: A002  # the base names it
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
+    thread.start()
+    try:
+        yield planner, replace(load(), host="127.0.0.1", port=server.server_address[1])
+    finally:
+        server.shutdown()
+        server.server_close()
+        thread.join()
+
+
+WAITS = ("needs_clarification", "awaiting_confirmation")
+
+
+@pytest.mark.parametrize("state", WAITS)
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [(["yes"], "yes"), (["g2", "好的"], "好的"), (["to", "the", "kitchen"], "to the kitchen")],
+)
+def test_the_one_goal_that_waits_is_answered_and_followed(
+    served: tuple[Planner, Settings], state: str, words: list[str], text: str
+) -> None:
+    planner, settings = served
+    planner.goals = [goal("g3", "running"), goal("g2", state), goal("g1", "succeeded")]
+    assert goals.answer(settings, words, wait=True) == 0
+    assert planner.heard == [("/v1/goals/g2/answer", {"text": text})]
+
+
+def test_of_several_none_is_answered_and_each_is_listed_with_its_question(
+    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str]
+) -> None:
+    planner, settings = served
+    chinese = goal("g1", WAITS[0], "去厨房", outcome=ASKED)
+    planner.goals = [goal("g2", WAITS[1], outcome=ASKED), chinese]
+    assert goals.answer(settings, ["yes"], wait=True) == 1
+    told = capsys.readouterr().err
+    assert "g2" in told
+    assert "Shall I?" in told
+    assert "要吗？" in told
+    assert planner.heard == []
+    assert goals.answer(settings, ["g1", "yes"], wait=False) == 0
+    assert planner.heard == [("/v1/goals/g1/answer", {"text": "yes"})]
+
+
+@pytest.mark.parametrize("verb", ["answer", "confirm"])
+def test_where_nothing_waits_that_is_told(
+    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str], verb: str
+) -> None:
+    planner, settings = served
+    planner.goals = [goal("g1", "running")]
+    done = (
+        goals.answer(settings, ["yes"], wait=True)
+        if verb == "answer"
+        else goals.confirm(settings, None, wait=True)
+    )
+    assert done == 1
+    assert "no_goal" in capsys.readouterr().err
+    assert planner.heard == []
+
+
+@pytest.mark.parametrize("named", [None, "g2"])
+def test_a_plan_is_confirmed_though_a_question_waits_beside_it(
+    served: tuple[Planner, Settings], named: str | None
+) -> None:
+    planner, settings = served
+    planner.goals = [goal("g1", WAITS[0]), goal("g2", WAITS[1])]
+    assert goals.confirm(settings, named, wait=True) == 0
+    assert planner.heard == [("/v1/goals/g2/confirm", {})]
+
+
+def test_an_id_alone_answers_nothing(
+    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str]
+) -> None:
+    planner, settings = served
+    planner.goals = [goal("g2", WAITS[0])]
+    assert goals.answer(settings, ["g2"], wait=True) == goals.EXIT_NO_ANSWER
+    assert "pons answer g2 TEXT" in capsys.readouterr().err
+    assert planner.heard == []
+
+
+@pytest.mark.parametrize("asked", [["answer", "yes"], ["confirm"], ["answer", "g1", "yes"]])
+def test_without_a_planner_that_is_told(
+    asked: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PONS_PORT", "9")
+    assert main(asked) == goals.EXIT_UNREACHED
+    assert "pons up" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("state", list(GoalState))
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_a_goal_that_waits_says_how_to_answer_it(state: str, language: str) -> None:
+    """What is told is a command that the parser takes."""
+    hint = how_to_answer(goal("g7", state), language)
+    assert (hint != "") is (state in WAITS)
+    if state == WAITS[1]:
+        assert parser().parse_args(["confirm", "g7"]).goal == "g7"
+        assert "pons confirm g7" in hint
+        assert "pons answer g7 no" in hint
+    offers = goal("g7", state, plan={"options": [{"text": "x"}]})
+    assert ("yes" in how_to_answer(offers, "en")) is (state in WAITS)
+
+
+def test_a_goal_that_ends_in_a_question_prints_how_to_answer(
+    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str]
+) -> None:
+    planner, settings = served
+    planner.goals, planner.done = [goal("g1", WAITS[0], outcome=ASKED)], WAITS[0]
+    assert goals.answer(settings, ["the red one"], wait=True) == goals.EXIT_WAITING
+    assert "pons answer g1 TEXT" in capsys.readouterr().out
