@@ -71,7 +71,7 @@ mutants: $(DEV) ## change bridge/core one thing at a time: do tests notice? hour
 laws: $(DEV) ## every law with 2 000 fresh examples, where `make test` tries 50; minutes
 	@HYPOTHESIS_PROFILE=laws $(BIN)/python -m pytest -q -n logical -m "hypothesis and not e2e" --timeout 600 $(ARGS)
 
-seeds: $(DEV) ## the laws of the step under 200 000 hostile scripts of 60 ticks, about 50 minutes on 2 cores
+seeds: $(DEV) ## the laws of the step under 200 000 hostile scripts of 60 ticks; an hour on 2 idle cores
 	@SEEDS=$${SEEDS:-200000} nice -n 10 $(BIN)/python -m pytest -v -n logical --timeout 600 \
 	  tests/bridge/core/test_step_laws.py -k so_many $(ARGS)
 
