@@ -16,7 +16,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants laws enumerate check fmt docs bench bench-long train lock clean
+.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long train lock clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -70,6 +70,10 @@ mutants: $(DEV) ## change bridge/core one thing at a time: do tests notice? hour
 
 laws: $(DEV) ## every law with 2 000 fresh examples, where `make test` tries 50; minutes
 	@HYPOTHESIS_PROFILE=laws $(BIN)/python -m pytest -q -n logical -m "hypothesis and not e2e" --timeout 600 $(ARGS)
+
+seeds: $(DEV) ## the laws of the step under 200 000 hostile scripts of 60 ticks; an hour on 2 idle cores
+	@SEEDS=$${SEEDS:-200000} nice -n 10 $(BIN)/python -m pytest -v -n logical --timeout 600 \
+	  tests/bridge/core/test_step_laws.py -k so_many $(ARGS)
 
 enumerate: $(DEV) ## every mode by all sets of up to three rows: 136 000 steps, minutes
 	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/test_enumerated.py $(ARGS)

@@ -1,7 +1,8 @@
 """Shape what is asked into what may be sent this tick: the only way a velocity changes.
 
 Owns rates: acceleration, deceleration and jerk at the wheels, and the memory they need, which is
-the last value really sent (before dead-zone feed-forward). ``sent = last + k (target - last)`` with
+the last value really sent (before dead-zone feed-forward) and never one that was measured: what an
+encoder says must not become a speed that wheels are told. ``sent = last + k (target - last)`` with
 one k, so v and w arrive together; limits hold at the wheels, because that is where torque is.
 Towards zero is deceleration whatever the sign; a wheel that reverses decelerates to zero first.
 
@@ -51,14 +52,6 @@ class LimiterState:
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-def seeded(measured: Twist2, base: Base, limits: Limits) -> LimiterState:
-    """Start from what the robot really does, on entering ACTIVE or TELEOP.
-
-    Held inside the limits: a robot that rolls faster than it may is braked from the limit.
-    """
-    return LimiterState(saturate(measured, base, limits))
-
-
 def shape(
     target: Twist2,
     memory: LimiterState,
@@ -74,7 +67,7 @@ def shape(
 
     Args:
         target: what is asked; anything not finite is standstill. Saturated here once more.
-        memory: this function's last answer, or :func:`seeded`.
+        memory: this function's last answer; at rest, as it is made, once torque was off.
         base: wheel geometry.
         limits: robot.toml's bounds.
         dt_s: time since the last tick; held within half a period and two.

@@ -1,6 +1,7 @@
 """Change the mode, by the table alone, and do what entering a mode means.
 
 The only writer of ``mode``. A stop that begins anywhere is planned here, so that it can be judged.
+No mode that has torque touches what was sent last: stop, follower and hand all go on from it.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.epoch import hold
-from bridge.core.limiter import LimiterState, Profile, seeded
+from bridge.core.limiter import LimiterState, Profile
 from bridge.core.modes import MOVING, POWERED, Request, after
 from bridge.core.state import SelfTest, Stopping
 from bridge.core.stopcurve import plan_stop
@@ -43,8 +44,6 @@ def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> boo
         _stand(tick, before, why)
     elif to in MOVING:
         s.stopping = None
-        base, limits = tick.config.robot.base, tick.config.robot.limits
-        s.motion.limiter = seeded(s.odometry.measured, base, limits)
     else:
         _power_down(tick, to, why)
     s.mode = to

@@ -8,9 +8,8 @@ Values that are no message (NaN, infinity, beyond bounds) never pass the codec: 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from random import Random
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from bridge.core import ArrivedAt, BridgeState, CoreConfig, Inbox, LoopFacts, OpArrived, RejectedAt
 from tests.bridge.core.fake_planner import MAP_ID
@@ -67,45 +66,42 @@ class Hostile:
         self.state, self.now_s = state, now_s
         rude = 1.0 - self.manners["people"]
         self.calm = self.manners["people"]
-        people = Inbox(
-            stops=self._some(0.1 * rude, self._stop),
-            ops=self._some(0.1, self._op),
-            teleop=self._some(0.3 if self.seed % 3 == 0 else 0.0, self._velocity),
-            estop_link=self._maybe(
+        people: dict[str, Any] = {
+            "stops": self._some(0.1 * rude, self._stop),
+            "ops": self._some(0.1, self._op),
+            "teleop": self._some(0.3 if self.seed % 3 == 0 else 0.0, self._velocity),
+            "estop_link": self._maybe(
                 0.1, lambda: EstopLink(seq=1, pressed=self.random.random() < rude)
             ),
-            recorder_ok=self._say(True, False),
-        )
+            "recorder_ok": self._say(True, False),
+        }
         self.calm = self.manners["orders"]
-        orders = replace(
-            people,
-            hellos=self._some(0.2, self._hello),
-            grants=self._some(0.2, self._grant),
-            heartbeats=self._some(0.4, self._heartbeat),
-            external=self._some(0.1 * (1.0 - self.calm), self._velocity),
-            waypoints=self._some(0.4, self._waypoints),
-            rejected=self._some(0.3 * (1.0 - self.calm), self._rejected),
-            arrived=(ArrivedAt("cmd/hello", 1),),
-        )
+        orders: dict[str, Any] = {
+            "hellos": self._some(0.2, self._hello),
+            "grants": self._some(0.2, self._grant),
+            "heartbeats": self._some(0.4, self._heartbeat),
+            "external": self._some(0.1 * (1.0 - self.calm), self._velocity),
+            "waypoints": self._some(0.4, self._waypoints),
+            "rejected": self._some(0.3 * (1.0 - self.calm), self._rejected),
+            "arrived": (ArrivedAt("cmd/hello", 1),),
+        }
         self.calm = self.manners["senses"]
-        senses = replace(
-            orders,
-            localization=self._maybe(0.3, self._localization),
-            scan=self._maybe(0.2, self._scan),
-        )
+        senses: dict[str, Any] = {
+            "localization": self._maybe(0.3, self._localization),
+            "scan": self._maybe(0.2, self._scan),
+        }
         self.calm = self.manners["drive"]
-        driven = replace(
-            senses,
-            drive=self._some(1.0, self._drive) if self.calm < 1.0 else (self._drive(),),
-        )
+        drive = self._some(1.0, self._drive) if self.calm < 1.0 else (self._drive(),)
         self.calm = self.manners["loop"]
-        inbox = replace(
-            driven,
-            loop=LoopFacts(late_s=self._say(0.0, 0.006, 10.0), missed_ticks=self._say(0, 2, 9999)),
-            real_time=self._say(True, False),
-            sensors_same_host=self._say(True, False),
-            localization_same_host=self._say(True, False),
-        )
+        loop: dict[str, Any] = {
+            "loop": LoopFacts(
+                late_s=self._say(0.0, 0.006, 10.0), missed_ticks=self._say(0, 2, 9999)
+            ),
+            "real_time": self._say(True, False),
+            "sensors_same_host": self._say(True, False),
+            "localization_same_host": self._say(True, False),
+        }
+        inbox = Inbox(**people, **orders, **senses, drive=drive, **loop)
         self.past = [*self.past[-8:], inbox]
         return inbox
 

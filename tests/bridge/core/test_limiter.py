@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from bridge.core.kinematics import fastest_rim, rim_speeds, saturate
-from bridge.core.limiter import LimiterState, Profile, seeded, shape, stopping_m, tick_length
+from bridge.core.limiter import LimiterState, Profile, shape, stopping_m, tick_length
 from wire.geometry import STILL, Twist2
 from wire.robot import Base, Limits
 
@@ -175,11 +175,6 @@ def test_a_stop_goes_on_from_the_deceleration_under_way() -> None:
 def test_a_stop_while_accelerating_never_speeds_up_first() -> None:
     rising = LimiterState(Twist2(0.3, 0.0), 0.5, 0.5)
     assert shape(STILL, rising, BASE, LIMITS, DT).sent.v_mps < 0.3
-
-
-def test_seeding_holds_what_is_measured_inside_the_limits() -> None:
-    assert seeded(Twist2(3.0, 0.0), BASE, LIMITS).sent == Twist2(0.5, 0.0)
-    assert seeded(Twist2(0.2, 0.1), BASE, LIMITS).sent == Twist2(0.2, 0.1)
 
 
 @pytest.mark.parametrize(

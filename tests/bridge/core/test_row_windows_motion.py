@@ -45,6 +45,17 @@ class TestRunaway:
         silent_for(world, 13)
         assert raised(world, "RUNAWAY.0")
 
+    def test_a_hand_that_takes_over_does_not_hide_one(self) -> None:
+        world = World().armed()
+        world.teleop(held=False)
+        silent_for(world, 3)
+        world.teleop(held=True)
+        world.drive.runs_on, world.drive.speeds = True, (5.0, 5.0)
+        silent_for(world, 1)
+        assert world.is_in(Mode.TELEOP)
+        silent_for(world, 11)
+        assert raised(world, "RUNAWAY.0")
+
     def test_flicker_one_to_one_does_not_hide_it(self) -> None:
         world = World().driving((5.0, 0.0))
         world.drive.runs_on = True
