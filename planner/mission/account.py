@@ -41,6 +41,9 @@ def account(facts: Facts, mission: Mission, code: Code, said: Bilingual | None) 
         said: how it ends in words; None: the steps tell it all.
     """
     told = list(_told(facts, mission))
+    asked = mission.now
+    if code is Code.DECLINED and asked is not None and told[-1:] == [_answered(asked)]:
+        told.pop()  # "You said no, so …" tells both
     if said is not None and not any(each.en.endswith(said.en) for each in (*told, _joined(told))):
         told.append(said)
     left = _undone(facts, mission, code)
@@ -202,7 +205,7 @@ def _amount(step: StepRecord) -> Bilingual:
 
 def _undone(facts: Facts, mission: Mission, code: Code) -> Bilingual | None:
     """Name the steps that nothing else accounts for; of a plan of one step its end is enough."""
-    if code is Code.CANCELLED or len(mission.steps) < 2:
+    if code in (Code.CANCELLED, Code.DECLINED) or len(mission.steps) < 2:
         return None
     names = [n for step in mission.steps if (n := _left(facts, mission, step)) is not None]
     if not names:

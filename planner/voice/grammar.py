@@ -63,11 +63,12 @@ _STOPS = ("stop", "stop now", "please stop")
 STOPS = _file(any_of(*_STOPS))
 """The grammar of the stops alone, for a second look at what was no whole order."""
 _OTHER_STOPS = (
-    *("don't move", "emergency stop", "freeze", "halt", "stand still", "stop moving"),
+    *("don't move", "emergency stop", "stand still", "stop moving"),
     *("stop stop", "stop stop stop", "robot stop", "hey robot stop"),
 )
 OTHER_STOPS = _file(any_of(*_OTHER_STOPS))
-"""Other ways to say stop, for a third look: beside the plain ones they would take their score."""
+"""Other ways to say stop, for a third look: beside the plain ones they would take their score. One
+short word alone ("freeze", "halt") is found in too many other sentences."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from planner.mission.events import Cancel, Move, Reply
+from typing import Any
+
+from planner.mission.events import Cancel, ChangeSpeed, Move, Reply
 from planner.mission.records import Book, Mission
 from planner.mission.reducer import advance
 from planner.mission.table import ALLOWED, refusal
@@ -17,7 +19,10 @@ def test_every_command_in_every_state_is_allowed_or_refused_with_what_exists() -
             mission = Mission(id="g1", order=1, text="x", language=Language.EN, state=state,
                               created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
             book = Book(FACTS, missions={"g1": mission})
-            command = Reply("g1", "x") if kind is Reply else kind("g1")  # type: ignore[call-arg]  # all others take an id
+            more: dict[str, Any] = {Reply: {"text": "x"}, ChangeSpeed: {"slower": True}}.get(
+                kind, {}
+            )
+            command = kind("g1", **more)
             error = refusal(book, command)
             assert (error is None) == (state in allowed)
             if error is not None:
