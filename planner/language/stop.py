@@ -27,6 +27,7 @@ from types import ModuleType
 
 from planner.language import stop_chinese as zh
 from planner.language import stop_english as en
+from planner.language import stop_english_orders as orders
 from planner.language.folding import fold, has_chinese, unmask
 
 MAX_READ = 400
@@ -127,8 +128,8 @@ def _is_order(seen: str) -> bool:
                 return bool(zh.ORDER.fullmatch(compact) or zh.QUIT.fullmatch(compact))
         else:
             words = " ".join(_GAP.sub(" ", clause).split()) if clause.isascii() else clause
-            if words and not en.ONLY_COURTESY.fullmatch(words):
-                return bool(en.ORDER.fullmatch(words) or en.QUIT.fullmatch(words))
+            if words and not orders.ONLY_COURTESY.fullmatch(words):
+                return bool(orders.ORDER.fullmatch(words) or orders.QUIT.fullmatch(words))
     return False
 
 
@@ -194,9 +195,9 @@ def _clauses(plain: str) -> str:
 def _mend(words: str) -> str:
     """Return the words with every stop word that has one wrong letter spelt right."""
     mended = _WORD.sub(lambda found: _spellings().get(found[0], found[0]), words)
-    rest = [w for w in mended.replace(",", " ").split() if not en.ONLY_COURTESY.fullmatch(w)]
-    if len(set(rest)) == 1 and rest[0] in en.ALONE:
-        return _WORD.sub(lambda found: en.ALONE.get(found[0], found[0]), mended)
+    rest = [w for w in mended.replace(",", " ").split() if not orders.ONLY_COURTESY.fullmatch(w)]
+    if len(set(rest)) == 1 and rest[0] in orders.ALONE:
+        return _WORD.sub(lambda found: orders.ALONE.get(found[0], found[0]), mended)
     return mended
 
 
@@ -205,11 +206,11 @@ def _spellings() -> dict[str, str]:
     """Return every spelling with one letter wrong, missing, doubled or swapped, with its word."""
     letters = "abcdefghijklmnopqrstuvwxyz"
     found: dict[str, str] = {}
-    for word in en.MENDED:
+    for word in orders.MENDED:
         cuts = [(word[:i], word[i:]) for i in range(len(word) + 1)]
         near = {a + b[1:] for a, b in cuts if b} | {a + c + b for a, b in cuts for c in letters}
         near |= {a + c + b[1:] for a, b in cuts if b for c in letters}
         near |= {a + b[1] + b[0] + b[2:] for a, b in cuts if len(b) > 1}
-        for spelling in near - en.OTHER_WORDS - set(en.MENDED):
+        for spelling in near - orders.OTHER_WORDS - set(orders.MENDED):
             found.setdefault(spelling, word)
     return found

@@ -41,9 +41,6 @@ def account(facts: Facts, mission: Mission, code: Code, said: Bilingual | None) 
         said: how it ends in words; None: the steps tell it all.
     """
     told = list(_told(facts, mission))
-    asked = mission.now
-    if code is Code.DECLINED and asked is not None and told[-1:] == [_answered(asked)]:
-        told.pop()  # "You said no, so …" tells both
     if said is not None and not any(each.en.endswith(said.en) for each in (*told, _joined(told))):
         told.append(said)
     left = _undone(facts, mission, code)

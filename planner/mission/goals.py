@@ -58,8 +58,6 @@ HOW_FAR_UNKNOWN = Bilingual(
     en="The map has changed since: how far this step had come is not known, so the goal ends.",
     zh="地图已更换：无法得知这一步完成了多少，任务到此结束。",
 )
-LEAST_SPEED_SHARE = 0.25
-"""Slower than that a robot blocks people's way for minutes; who wants less says stop."""
 LEGS_UNWRITTEN = 100
 """More legs than a planner can have streamed and not yet written when it died: the bridge latches
 what was reached by leg, so no number is ever streamed twice."""
@@ -274,15 +272,6 @@ def pause(turn: Turn, mission: Mission) -> None:
         pause_planning(turn, mission, reason)
     else:
         turn.put(mission, held=True, kept=True)
-
-
-def change_speed(turn: Turn, mission: Mission, *, slower: bool) -> None:
-    """Halve the speed cap of a running goal, or double it up to the whole; no lower than a quarter.
-
-    The bridge's own limits hold as ever: this can only make the robot slower than planned.
-    """
-    share = mission.speed_share / 2.0 if slower else mission.speed_share * 2.0
-    turn.put(mission, speed_share=min(1.0, max(LEAST_SPEED_SHARE, share)))
 
 
 def resume(turn: Turn, mission: Mission) -> None:

@@ -32,7 +32,6 @@ from planner.mission.events import (
 )
 from planner.mission.gazing import on_sight, on_told
 from planner.mission.goals import (
-    change_speed,
     confirm,
     pause,
     planned,
@@ -46,6 +45,7 @@ from planner.mission.known import on_known
 from planner.mission.legs import on_routed
 from planner.mission.queue import cancel, reorder
 from planner.mission.records import Book
+from planner.mission.speed import change_speed
 from planner.mission.table import refusal
 from planner.mission.turn import Turn
 from planner.mission.verdict import moves

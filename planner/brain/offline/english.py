@@ -115,10 +115,11 @@ _PURPOSE = (
 ENGLISH = Grammar(
     asked=re.compile(r"(?!)()"),  # "can you …" is a courtesy that needs no closing word
     vetoes=(
-        (Code.NEGATED, re.compile(f"{_NEGATION}|{EXCEPTIONS_EN}")),
-        (Code.CONDITIONAL, re.compile(_CONDITION)),
-        (Code.AMBIGUOUS, re.compile(r"\b(?:or|either|whichever)\b")),
-        (Code.OUT_OF_SCOPE, re.compile(_SCOPE)),
+        # ASCII: a Chinese character beside a word is no part of it ("跟着他or").
+        (Code.NEGATED, re.compile(f"{_NEGATION}|{EXCEPTIONS_EN}", re.ASCII)),
+        (Code.CONDITIONAL, re.compile(_CONDITION, re.ASCII)),
+        (Code.AMBIGUOUS, re.compile(r"\b(?:or|either|whichever)\b", re.ASCII)),
+        (Code.OUT_OF_SCOPE, re.compile(_SCOPE, re.ASCII)),
     ),
     joint=re.compile(r"(?!)()"),
     clause_end=re.compile(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from rapidfuzz.fuzz import partial_ratio
 
@@ -161,6 +161,7 @@ def test_random_text_names_where_it_goes(text: str) -> None:
     st.lists(st.sampled_from(WORDS), max_size=14) | st.lists(st.sampled_from(PARTS), max_size=7),
     st.sampled_from([" ", ""]),
 )
+@example(["find the cup", "跟着他", " or "], " ")
 @settings(max_examples=120)
 def test_random_orders_name_where_they_go(words: list[str], gap: str) -> None:
     assert_law(gap.join(words))

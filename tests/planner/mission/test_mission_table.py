@@ -19,10 +19,11 @@ def test_every_command_in_every_state_is_allowed_or_refused_with_what_exists() -
             mission = Mission(id="g1", order=1, text="x", language=Language.EN, state=state,
                               created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
             book = Book(FACTS, missions={"g1": mission})
-            more: dict[str, Any] = {Reply: {"text": "x"}, ChangeSpeed: {"slower": True}}.get(
-                kind, {}
-            )
-            command = kind("g1", **more)
+            given: dict[type, dict[str, Any]] = {
+                Reply: {"text": "x"},
+                ChangeSpeed: {"slower": True},
+            }
+            command = kind("g1", **given.get(kind, {}))
             error = refusal(book, command)
             assert (error is None) == (state in allowed)
             if error is not None:
