@@ -1,7 +1,7 @@
-"""Print docs/safety.md from the tables, so that it cannot say what the code does not do.
+"""Write docs/safety.md from the tables, so that it cannot say what the code does not do.
 
-``python -m bridge.core.docs`` prints it; with ``--write`` it replaces docs/safety.md, with
-``--check`` it fails if that file differs. Knows no tick.
+``python -m bridge.core.docs`` writes it; with ``--check`` it fails if that file differs, with
+``--print`` it prints it. Knows no tick.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _SOURCES = {"W": "waypoints", "T": "teleop", "X": "external"}
 _HEAD = """\
 # What the bridge watches, and what it does about it
 
-This page is printed from the bridge's tables by `python -m bridge.core.docs --write`; edit those.
+This page is printed from the bridge's tables by `python -m bridge.core.docs`; edit those.
 
 The bridge wakes every 10 ms, looks at everything below, and sends the drive exactly one command.
 It is protective software with measured behaviour, not a safety device: a planar lidar sees neither
@@ -189,13 +189,13 @@ def _sentences() -> str:
 
 
 def main(arguments: list[str]) -> int:
-    """Print, write or check the page."""
+    """Write, check or print the page."""
     page = safety_md()
-    if arguments == ["--write"]:
+    if not arguments:
         PATH.write_text(page, "utf-8")
     elif arguments == ["--check"]:
         if not (PATH.exists() and PATH.read_text("utf-8") == page):
-            print(f"{PATH} is not what the tables say; run python -m bridge.core.docs --write")
+            print(f"{PATH} is not what the tables say; run python -m bridge.core.docs")
             return 1
     else:
         print(page, end="")

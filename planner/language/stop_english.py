@@ -54,6 +54,8 @@ ELSE = _any(
     rf"|let \w+))* {_T}\b",
     r"\b(?:do|did) not (?:want|need|say|mean|tell|ask)(?: (?:you|it|him|the robot))?(?: to)?"
     rf" {_T}\b",
+    rf"\byou (?:do not|need not) (?:have to|need to) {_T}\b",
+    rf"\bno (?:reason|need|point) (?:to|in) {_T}\b",
     rf"\b(?:who|nobody|no one) (?:said|says|told|asked)(?: you)?(?: to)? {_T}\b",
     rf"\b{_BODY} (?!{_ROBOT})(?:\w+ )?\w+ (?:does|did|do|would|will|could|can) not {_T}\b",
     # words to be said, or said by others
@@ -116,11 +118,11 @@ PLAN_WITHIN = re.compile(rf"(?:^|, |\band (?:then )?){_POLITE}(?:{_BEGINS}|{_ASK
 """A clause, first or later, that orders or asks something."""
 _SOMEWHERE = (
     r"\b(?:to|into|towards?|through|past|along|forwards?|backwards?|back|straight|left|right|around"
-    r"|met(?:re|er)s?|degrees?|me|\d+|him|her|them|round)\b"
+    r"|met(?:re|er)s?|degrees?|me|\d+|him|her|them|round|down|up|until|the)\b"
 )
 ENDS_IN = re.compile(
     rf"^{_POLITE}{_BEGINS}\b(?!.*\bnot\b)(?=.*{_SOMEWHERE}).*?(?:\band(?: then)?|\bthen|, then"
-    rf"|, and(?: then)?) {_T}(?: (?:there|here))?(?: (?:for|at|in|by|near|next|beside|and|when"
+    rf"|, and(?: then)?) {_T}(?: (?:there|here))?(?: (?:for|at|in|by|near|next|beside|and|when|if"
     r"|until|once|before)\b.*)?$"
 )
 """An order to go somewhere that ends with standing there: "go to the kitchen and stop"."""
@@ -133,6 +135,7 @@ STRONG = _any(
     r"\b(?:do not|must not|to not|not to|never) (?:you |dare |even |ever |please |to )*"
     r"(?:move|budge|stir|twitch)\b(?! (?:to|into|the|my|this|that|from|it|towards?|away from)\b)",
     r"\bting ?(?:xia(?: ?lai)?|zhi|che|ba|le|yi ?xia)\b|\bbie ?dong\b|\bzhan ?zhu\b|^(?:ting ?)+$",
+    r"\bno (?:further|farther|closer|nearer)\b",
     r"\b(?:stand|hold|stay|keep|sit|remain|be|stood)"
     r" (?:completely |perfectly |very |absolutely )?still\b",
     r"\b(?:please|just|now|robot|no)*stop(?:now|it|please|moving|robot|that|there|right|the|all|pls"

@@ -46,7 +46,7 @@ def test_every_row_has_words_and_is_documented(row: Row) -> None:
 
 def test_every_transition_is_documented() -> None:
     page = PATH.read_text("utf-8")
-    assert page == safety_md(), "run python -m bridge.core.docs --write"
+    assert page == safety_md(), "run python -m bridge.core.docs"
     for (mode, _), to in TRANSITIONS.items():
         assert f"| {mode.value} |" in page
         assert f"| {to.value} |" in page

@@ -16,10 +16,10 @@ def test_it_is_printed_written_and_checked(
     page = tmp_path / "safety.md"
     monkeypatch.setattr(docs, "PATH", page)
     assert docs.main(["--check"]) == 1
-    assert "run python -m bridge.core.docs --write" in capsys.readouterr().out
-    assert docs.main(["--write"]) == 0
-    assert docs.main(["--check"]) == 0
+    assert "run python -m bridge.core.docs" in capsys.readouterr().out
     assert docs.main([]) == 0
+    assert docs.main(["--check"]) == 0
+    assert docs.main(["--print"]) == 0
     assert capsys.readouterr().out == page.read_text("utf-8")
 
 
