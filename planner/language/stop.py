@@ -84,7 +84,8 @@ _PIECE = re.compile(r"[a-z0-9']+|[^a-z0-9'\s]+")
 _NOISE = re.compile(r"\b(?:u+h+m*|u+m+|e+r+m*|a+h+|h+m+|like|well|um|eh)\b[ ,]*")
 _LETTERS = re.compile(r"\bs[\W_]+t[\W_]+o[\W_]+p\b")
 _HYPHEN = re.compile(r"(?<=\w)-(?=\w)")
-_LATIN = re.compile(r"[a-z']+")
+_GAP_ZH = re.compile(r"(?<![a-z0-9'])\s+|\s+(?![a-z0-9'])")
+_LATIN = re.compile(r"[a-z0-9']+|[,.!?;]")
 _DASHES = re.compile(r"[-—–]+")
 _MARKS_ZH = re.compile(r"[.;:。、…~\n?]+")
 _NOISE_ZH = re.compile(r"[呃嗯额]+|(?:那个|这个)(?=[,…。]|呃|嗯|$)")
@@ -161,7 +162,7 @@ def _in_english(plain: str) -> bool:
 
 
 def _in_chinese(plain: str) -> bool:
-    compact = _DASHES.sub("", _NOISE_ZH.sub("", "".join(plain.split())))
+    compact = _DASHES.sub("", _NOISE_ZH.sub("", _GAP_ZH.sub("", plain)))
     compact = _MARKS_ZH.sub(",", compact)
     for pattern, said in zh.SOUNDS:
         compact = pattern.sub(said, compact)
@@ -172,7 +173,7 @@ def _in_chinese(plain: str) -> bool:
         left = zh.ELSE.sub("_", compact)
         if zh.STRONG.search(left):
             return True
-    latin = _LATIN.findall(left)
+    latin = _LATIN.findall(left) if _WORD.search(left) else ()
     return bool(latin and _in_english(" ".join(latin))) or _means_stop_weakly(zh, left)
 
 

@@ -152,11 +152,9 @@ _ANY_VERB = (
     r"(?!stop|halt|pause|quit|wait|forget|worry|hesitate|freeze|brake|give up|mind|be|tell|say|ask"
     r"|let|know|look like|understand|you think)\w+"
 )
-_MOMENT = (
-    r"(?:a|one|two|just a|half a|for a)? ?(?:sec|secs|second|seconds|minute|moment|mo|tick|bit)"
-)
 _CALLS = (
-    r"(?:please |robot |hey |no |oh |uh |just |ok |okay |now |right |well |good |and |you |dude )*"
+    r"(?:(?:please|robot|hey|no|oh|uh|just|ok|okay|now|right|well|good|and|you|dude|can|could|would"
+    r"|will|must|should|have to|need to|i said|i want|to|let us) )*"
 )
 _END = r"(?: ,|$| now| please| i said| right| boy| robot| there)"
 DENIAL = _any(
@@ -182,19 +180,20 @@ DENIAL = _any(
     rf"(?:^|, ){_CALLS}stay(?: stay)*{_END}",
     r"\b(?:remain|wait) (?:right |just |exactly )?(?:there|where you|here|put)(?: ,| please| now|$"
     r"| you)|\b(?:remain|stay|wait|stand|hold) (?:right )?where you are\b",
-    rf"(?:^|, ){_CALLS}wait(?: wait)*(?: up| {_MOMENT}| there| for me| please| now| robot| a)*"
-    r"(?: ,|$| i\b| there is| do not| no\b| my| the| you)",
+    r"(?<!to )(?<!do you )(?<!i )\bwait\b(?! (?:here|there|in|at|by|until|till|outside|inside|near"
+    r"|with|\d|two|three|four|five|six|seven|eight|nine|ten|fifteen|twenty|thirty|forty|fifty"
+    r"|sixty|for (?!me\b|us\b|a (?:sec|second|minute|moment|bit)\b)))",
     r"\bh[ao]ng (?:on|about|fire|back)\b|\bhold on\b|\bstand ?by\b|\bgive over\b|\bleave off\b",
     rf"(?:^|, ){_CALLS}(?:a|one|just a|half a|gimme a|give me a) (?:sec|second|minute|moment|mo"
     r"|tick|break|bit(?= ,|$))\b",
     r"\btime ?out\b|\btake (?:a|five|5) ?(?:break|breather|rest)?$|\bsuspend\b|\bpause\b",
-    r"\bstand (?:down|back|there|right there|where|aside|fast|clear)\b|\bstay clear\b",
-    r"\bmake stand\b",
+    r"\bstand (?:down|back|there|right there|where|aside|fast|clear)\b|\bstay clear\b"
+    r"|\bmake stand\b",
     r"\b(?:nobody|everybody|everyone|no one) (?:move|moves|freeze|stand)\b",
     # off, away, over
     r"\b(?:cut|knock|pack|call|give|turn|shut|switch|power|kill|end|drop|leave|quit|park|nix)"
     r" (?:it|this|that|yourself|everything|the thing)(?: (?:out|off|in|up|down|a rest|be|alone"
-    r"|there|right there|now|please))*(?: ,|$| now| please| i said| right| or| before| at| and)",
+    rf"|there|right there)\b|{_END}| or| before| at| and)",
     r"\b(?:kill|cut|disable|disengage|switch off|turn off|shut off|shut down|power down|stall|lock"
     r"|unplug|deactivate) (?:the |your |all |that |its |this )*(?:power|engines?|motors?|wheels?"
     r"|drives?|motion|movement|robot|machine|system|thing|current|ignition)\b",

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from planner.brain.intents import Cancel, Pause, Replace, intent_of
 from planner.language.script_table import SIMPLIFIED, TRADITIONAL
 from planner.language.stop import MAX_READ, StopReading, is_stop, read_stop
 from pons.evals.cases import MissingSuite
@@ -295,3 +296,26 @@ def test_orders_of_others_are_there_or_told_missing() -> None:
 @example("\ud800stop")
 def test_any_text_is_read(text: str) -> None:
     assert read_stop(text) in StopReading
+
+
+PAUSES = st.sampled_from(
+    [
+        *("pause", "hold on", "hang on", "wait a moment", "just a second", "wait", "pause that"),
+        *("cancel", "never mind", "forget it", "cancel that", "call it off", "cancel the mission"),
+        *("暂停", "等一下", "等等", "稍等", "取消", "算了", "取消任务", "不用去了", "先别去了"),
+    ]
+)
+
+
+@given(EN_BEFORE | ZH_BEFORE, PAUSES, EN_AFTER | ZH_AFTER, MARKS)
+@at_least(200)
+def test_a_pause_or_a_cancel_is_heard_whatever_stands_around_it(
+    before: str, words: str, after: str, mark: str
+) -> None:
+    """By the planner's own reading, which pauses or cancels, or else by the lane, which stops."""
+    text = f"{before} {words}{after}{mark}".strip()
+    if after.startswith(" before"):
+        return  # "wait before you hit something" is advice
+    for written in (text, to_traditional(text)):
+        meant = isinstance(intent_of(written), Pause | Cancel | Replace)
+        assert meant or read_stop(written) is not NONE, written
