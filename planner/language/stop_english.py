@@ -11,7 +11,8 @@ import re
 
 
 def _any(*patterns: str) -> re.Pattern[str]:
-    return re.compile("|".join(patterns))
+    # Each begins at a word or a comma: asking that first spares trying all within words.
+    return re.compile(rf"(?<![a-z0-9])(?:{'|'.join(patterns)})")
 
 
 # Clear other meanings ---------------------------------------------------------------------------
