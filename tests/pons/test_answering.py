@@ -7,6 +7,7 @@ import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -176,3 +177,17 @@ def test_a_goal_that_ends_in_a_question_prints_how_to_answer(
     planner.goals, planner.done = [goal("g1", WAITS[0], outcome=ASKED)], WAITS[0]
     assert goals.answer(settings, ["the red one"], wait=True) == goals.EXIT_WAITING
     assert "pons answer g1 TEXT" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("words", ["停下", "uh robot there is a child please stop"])
+def test_a_stop_is_said_without_a_planner(
+    words: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """With neither planner nor bridge it says that nobody confirmed, and what to do."""
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    monkeypatch.setenv("PONS_PORT", "1")
+    assert goals.say(load(), words, wait=False) == 1
+    assert "no_bridge" in capsys.readouterr().err
