@@ -28,6 +28,7 @@ Note = tuple[float, float, str]
 Stop = Callable[[], float]
 """Stops; returns the moment on the monotonic clock."""
 LIMIT_S = 10.0
+SENTENCE = "uh robot, there is a child on the floor, could you please stop"
 _CLI = (
     "import sys, time; from pons import settings, stop; known = settings.load(); "
     "print('ready', flush=True); input(); print(time.monotonic(), flush=True); "
@@ -52,21 +53,28 @@ def notes_of(robot: Robot) -> list[Note]:
 
 @contextmanager
 def by_api(robot: Robot) -> Iterator[Stop]:
+    """Yield a stop by ``POST /v1/stop``."""
+    yield lambda: _post(robot, "/v1/stop", {"source": "bench"})
+
+
+@contextmanager
+def by_sentence(robot: Robot) -> Iterator[Stop]:
+    """Yield a stop by words that the stop lane must find in a sentence, given as a goal."""
+    yield lambda: _post(robot, "/v1/goals", {"text": SENTENCE})
+
+
+def _post(robot: Robot, path: str, body: dict[str, str]) -> float:
     """POST on a connection of its own, made on the spot: the planner closes idle ones."""
-
-    def stop() -> float:
-        connection = HTTPConnection(robot.settings.host, robot.settings.port, timeout=LIMIT_S)
-        try:
-            connection.connect()
-            sent_s = time.monotonic()
-            sort = {"Content-Type": "application/json"}
-            connection.request("POST", "/v1/stop", b'{"source": "bench"}', sort)
-            connection.getresponse().read()
-            return sent_s
-        finally:
-            connection.close()
-
-    yield stop
+    connection = HTTPConnection(robot.settings.host, robot.settings.port, timeout=LIMIT_S)
+    try:
+        connection.connect()
+        sent_s = time.monotonic()
+        sort = {"Content-Type": "application/json"}
+        connection.request("POST", path, json.dumps(body).encode(), sort)
+        connection.getresponse().read()
+        return sent_s
+    finally:
+        connection.close()
 
 
 @contextmanager
@@ -113,6 +121,7 @@ def by_socket(robot: Robot) -> Iterator[Stop]:
 
 WAYS: dict[str, Callable[[Robot], AbstractContextManager[Stop]]] = {
     "API": by_api,
+    "sentence": by_sentence,
     "CLI": by_cli,
     "WebSocket": by_socket,
 }
