@@ -158,6 +158,8 @@ def _in_english(plain: str) -> bool:
             return True
     if _LETTERS.search(plain):
         return True
+    if orders.REFUSES.fullmatch(left):
+        return True
     return _means_stop_weakly(en, left, denies=not en.DENIAL_WORDS.isdisjoint(left.split()))
 
 
@@ -173,6 +175,8 @@ def _in_chinese(plain: str) -> bool:
         left = zh.ELSE.sub("_", compact)
         if zh.STRONG.search(left):
             return True
+    if zh.REFUSES.fullmatch(left):
+        return True
     latin = _LATIN.findall(left) if _WORD.search(left) else ()
     return bool(latin and _in_english(" ".join(latin))) or _means_stop_weakly(zh, left)
 
@@ -181,7 +185,7 @@ def _means_stop_weakly(language: ModuleType, left: str, *, denies: bool = True) 
     """Return whether words that stop only in some company stand in theirs."""
     if language.PLAN.search(left):
         return False
-    if (denies and language.DENIAL.search(left)) or language.REFUSES.fullmatch(left):
+    if denies and language.DENIAL.search(left):
         return True
     return bool(language.SOFT.search(left)) and not language.PLAN_WITHIN.search(left)
 

@@ -94,13 +94,15 @@ ELSE = _any(
 )
 """A stop word in a clear other meaning."""
 
+_FOR = r"for (?!me\b|us\b|a (?:sec|second|minute|moment|bit)\b|god|good|heav|pity|cry)"
 _BEGINS = (
     r"(?:go(?! away)|drive|move|come(?! on)|head|walk|run|roll|navigate|travel|return|bring|fetch"
     r"|take(?! it easy)|find|look(?! out| ,)|search|seek|locate|count|follow|guide|lead|escort"
     r"|accompany|patrol|visit|check|tell|say|ask|announce|describe|turn(?! off| yourself| it off)"
     r"|rotate|spin|back(?! off)|reverse|greet|introduce|meet|answer|deliver|clean|open|show|explore"
     r"|inspect|enter|approach|carry|keep (?:going|driving|moving)|continue|resume|read"
-    r"|see (?:if|what)|wait (?:(?:here|there) (?:for|until|till|and)|in|at|for|by|until|till|\d)"
+    r"|see (?:if|what)|wait (?:(?:here|there) (?:for|until|till|and)|in|at|by|until|till|\d"
+    rf"|{_FOR})"
     r"|stay (?:in|at|with|near|by)"
     r"|get (?:to|me|the)|proceed|remember|learn|start|begin|drop by|swing|pop|step|give (?!it|up)"
     r"|play|speed up"
@@ -183,10 +185,11 @@ DENIAL = _any(
     r"| you)|\b(?:remain|stay|wait|stand|hold) (?:right )?where you are\b",
     r"(?<!to )(?<!do you )(?<!i )\bwait\b(?! (?:here|there|in|at|by|until|till|outside|inside|near"
     r"|with|\d|two|three|four|five|six|seven|eight|nine|ten|fifteen|twenty|thirty|forty|fifty"
-    r"|sixty|for (?!me\b|us\b|a (?:sec|second|minute|moment|bit)\b)))",
+    r"|sixty"
+    rf"|{_FOR}))",
     r"\bh[ao]ng (?:on|about|fire|back)\b|\bhold on\b|\bstand ?by\b|\bgive over\b|\bleave off\b",
-    rf"(?:^|, ){_CALLS}(?:a|one|just a|half a|gimme a|give me a) (?:sec|second|minute|moment|mo"
-    r"|tick|break|bit(?= ,|$))\b",
+    rf"(?:(?:^|, ){_CALLS}(?:a|one|half a|gimme a|give me a)|\bjust (?:a|one))"
+    r" (?:sec|second|minute|moment|mo|tick|break|bit(?= ,|$))\b",
     r"\btime ?out\b|\btake (?:a|five|5) ?(?:break|breather|rest)?$|\bsuspend\b|\bpause\b",
     r"\bstand (?:down|back|there|right there|where|aside|fast|clear)\b|\bstay clear\b"
     r"|\bmake stand\b",
@@ -205,11 +208,11 @@ DENIAL = _any(
     r"\beasy(?: ,|$| boy| there| now| does)|\bsteady(?: ,|$| on| there)|\bdisengage\b|\bbelay\b",
     r"\b(?:come|coming|get|put|bring|skid|grind|roll|slow)\b[^,]* (?:to )?(?:an? |the )?(?:\w+ )?"
     r"(?:stop|halt|standstill)\b",
-    r"\bput an? (?:stop|end) to\b|\bput [^,]* in park\b|\bin neutral\b",
+    r"\bput (?:an? (?:stop|end) to|[^,]* in park)\b|\bin neutral\b|\bcalling it off\b",
     r"\b(?:drop|end|finish|terminate|interrupt|scrub|scrap|scratch|cancel|abandon|kill)"
     r" (?:the|this|that|your|my|all|it|what|everything)\b",
-    r"\b(?:call off|cancel|terminate|terminated|disarm)\b|\bcalling it off\b",
-    r"\bnever ?mind\b|\bforget (?:it|that|about|the|this)\b|\bchanged my mind\b|\bdo not bother\b",
+    r"\b(?:call off|cancel|terminated?|disarm)\b|\bchanged my mind\b|\bdo not bother\b",
+    r"\bnever ?mind\b|\bforget (?:it|that|about|the|this)\b",
 )
 """Words that stop in a sentence that does not begin as an order to do something."""
 DENIAL_WORDS = frozenset(
@@ -340,11 +343,3 @@ SOFT = _any(
     r"|instantly|or else)\b",
 )
 """Warnings and urgency: they stop where no clause of the sentence orders something."""
-_CRY = (
-    r"(?:no+|nope|nah|nuh|uh|oh|hey|oi+|robot|please|my|god|ow+|ouch|help(?: me)?|ar+g+h+|a+h+"
-    r"|ee+k|na|whoops|oops|pons)"
-)
-REFUSES = re.compile(
-    rf"(?:{_CRY}[ ,]*)*(?:no+|nope|nah|ow+|ouch|help(?: me)?|ar+g+h+|ee+k)(?:[ ,]*{_CRY})*[ ,]*"
-)
-"""A sentence of nothing but "no", or a cry."""

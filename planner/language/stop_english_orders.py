@@ -82,6 +82,15 @@ QUIT = re.compile(
     rf"|leave (?:me|us|him|her|them|it) alone{_GOES_ON})"
 )
 
+_CRY = (
+    r"(?:no+|nope|nah|nuh|uh|oh|hey|oi+|robot|please|my|god|ow+|ouch|help(?: me)?|ar+g+h+|a+h+"
+    r"|ee+k|na|whoops|oops|pons)"
+)
+REFUSES = re.compile(
+    rf"(?:{_CRY}[ ,]*)*(?:no+|nope|nah|ow+|ouch|help(?: me)?|ar+g+h+|ee+k)(?:[ ,]*{_CRY})*[ ,]*"
+)
+"""A sentence of nothing but "no", or a cry."""
+
 # Misspellings ----------------------------------------------------------------------------------
 
 MENDED = ("stop", "freeze", "halt", "brake", "abort", "whoa", "cease", "pause", "cancel")

@@ -58,6 +58,8 @@ def spoken(draw: st.DrawFn, meaning: bool) -> str:
     english = word.isascii() or "’" in word
     befores, afters = (BEFORE_EN, AFTER_EN) if english else (BEFORE_ZH, AFTER_ZH)
     before, after = draw(st.sampled_from(befores)), draw(st.sampled_from(afters))
+    if word.startswith("uh"):
+        before = ""  # "uh uh-huh" may begin with "uh-uh", a no
     again = draw(st.sampled_from(("", " ", ", ") if english else ("", "，", " ")))
     gap = draw(st.booleans())
     said = f"{before}{word}{again or ' '}{word}{after}" if gap else f"{before}{word}{after}"
