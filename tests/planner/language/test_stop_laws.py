@@ -156,13 +156,13 @@ def chinese(draw: st.DrawFn) -> str:
 
 
 @given(english() | chinese())
-@at_least(300)
+@at_least(100)
 def test_a_stop_is_heard_whatever_stands_around_it(text: str) -> None:
     assert read_stop(text) is not NONE
 
 
 @given(english() | chinese(), st.sampled_from([str.upper, str.title, widen, to_traditional]))
-@at_least(200)
+@at_least(80)
 def test_case_width_and_script_change_nothing(text: str, write: object) -> None:
     assert callable(write)
     assert read_stop(write(text)) is read_stop(text)
@@ -176,7 +176,7 @@ def test_case_width_and_script_change_nothing(text: str, write: object) -> None:
     st.sampled_from(["swap", "drop", "double", "change"]),
     st.sampled_from(["{}", "{}!", "please {}", "{} now", "hey robot {}", "{} {}"]),
 )
-@at_least(300)
+@at_least(100)
 def test_one_wrong_letter_in_the_word_is_forgiven(
     word: str, at: int, letter: str, slip: str, around: str
 ) -> None:
@@ -308,7 +308,7 @@ PAUSES = st.sampled_from(
 
 
 @given(EN_BEFORE | ZH_BEFORE, PAUSES, EN_AFTER | ZH_AFTER, MARKS)
-@at_least(200)
+@at_least(80)
 def test_a_pause_or_a_cancel_is_heard_whatever_stands_around_it(
     before: str, words: str, after: str, mark: str
 ) -> None:

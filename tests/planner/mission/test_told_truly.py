@@ -289,7 +289,7 @@ plans = st.lists(steps, min_size=1, max_size=4).map(lambda all_: plan(*all_))
 ends = plans | st.just(Answer(text=NOTHING)) | st.none()
 
 
-@at_least(100)
+@at_least(40)
 @given(
     first=plans,
     others=st.lists(ends, max_size=3),
