@@ -22,7 +22,6 @@ from __future__ import annotations
 import re
 import unicodedata
 from enum import Enum
-from functools import lru_cache
 from types import ModuleType
 
 from planner.language import stop_chinese as zh
@@ -58,8 +57,8 @@ _HELPERS = (
     "was",
 )
 _WHOLE = {
-    **{f"{verb}{mark}": f"{verb} not" for verb in _HELPERS for mark in ("n't", "nt", "n''t")},
-    **dict.fromkeys(("can't", "cant", "cannot", "ca n't"), "can not"),
+    **{f"{verb}{mark}": f"{verb} not" for verb in _HELPERS for mark in ("n't", "nt")},
+    **dict.fromkeys(("can't", "cant", "cannot"), "can not"),
     **dict.fromkeys(("won't", "wont"), "will not"),
     **dict.fromkeys(("let's", "lets"), "let us"),
     **{f"{who}'s": f"{who} is" for who in ("that", "it", "he", "she", "there", "what", "who")},
@@ -199,14 +198,13 @@ def _clauses(plain: str) -> str:
 
 def _mend(words: str) -> str:
     """Return the words with every stop word that has one wrong letter spelt right."""
-    mended = _WORD.sub(lambda found: _spellings().get(found[0], found[0]), words)
+    mended = _WORD.sub(lambda found: _SPELLINGS.get(found[0], found[0]), words)
     rest = [w for w in mended.replace(",", " ").split() if not orders.ONLY_COURTESY.fullmatch(w)]
     if len(set(rest)) == 1 and rest[0] in orders.ALONE:
         return _WORD.sub(lambda found: orders.ALONE.get(found[0], found[0]), mended)
     return mended
 
 
-@lru_cache(maxsize=1)
 def _spellings() -> dict[str, str]:
     """Return every spelling with one letter wrong, missing, doubled or swapped, with its word."""
     letters = "abcdefghijklmnopqrstuvwxyz"
@@ -219,3 +217,7 @@ def _spellings() -> dict[str, str]:
         for spelling in near - orders.OTHER_WORDS - set(orders.MENDED):
             found.setdefault(spelling, word)
     return found
+
+
+_SPELLINGS = _spellings()
+"""Made at the import, so that no sentence waits for it."""
