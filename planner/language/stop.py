@@ -66,6 +66,9 @@ _WHOLE = {
     **{f"{who}'re": f"{who} are" for who in ("you", "they", "we")},
     **{f"{who}'ll": f"{who} will" for who in ("you", "i", "it", "he", "she", "they", "we")},
     **dict.fromkeys(("i'm", "im"), "i am"),
+    **dict.fromkeys(("dinnae", "dinna", "didnae"), "do not"),
+    "cannae": "can not",
+    "haud": "hold",
     "u": "you",
 }
 """Contractions, with and without their mark, and the words that they stand for."""
@@ -169,12 +172,12 @@ def _in_chinese(plain: str) -> bool:
         compact = pattern.sub(said, compact)
     left = compact = compact.strip(",")
     if zh.STRONG.search(compact):
-        if zh.LATER.search(compact):
+        if zh.LATER.search(compact) and not zh.ALONE.search(compact):
             return False
         left = zh.ELSE.sub("_", compact)
         if zh.STRONG.search(left):
             return True
-    if zh.REFUSES.fullmatch(left):
+    if zh.REFUSES.fullmatch(left) or zh.ALONE.search(compact):
         return True
     latin = _LATIN.findall(left) if _WORD.search(left) else ()
     return bool(latin and _in_english(" ".join(latin))) or _means_stop_weakly(zh, left)

@@ -101,8 +101,8 @@ _BEGINS = (
     r"|accompany|patrol|visit|check|tell|say|ask|announce|describe|turn(?! off| yourself| it off)"
     r"|rotate|spin|back(?! off)|reverse|greet|introduce|meet|answer|deliver|clean|open|show|explore"
     r"|inspect|enter|approach|carry|keep (?:going|driving|moving)|continue|resume|read"
-    r"|see (?:if|what)|wait (?:(?:here|there) (?:for|until|till|and)|in|at|by|until|till|\d"
-    rf"|{_FOR})"
+    r"|see (?:if|what)|wait (?:(?:here|there) (?:for(?! (?:me|us)\b)|until|till|and)|in|at|by"
+    rf"|until|till|\d|{_FOR})"
     r"|stay (?:in|at|with|near|by)"
     r"|get (?:to|me|the)|proceed|remember|learn|start|begin|drop by|swing|pop|step|give (?!it|up)"
     r"|play|speed up"
@@ -138,8 +138,8 @@ STRONG = _any(
     r"\b(?:do not|must not|to not|not to|never) (?:you |dare |even |ever |please |to )*"
     r"(?:move|budge|stir|twitch)\b(?! (?:to|into|the|my|this|that|from|it|towards?|away from)\b)",
     r"\bting ?(?:xia(?: ?lai)?|zhi|che|ba|le|yi ?xia)\b|\bbie ?dong\b|\bzhan ?zhu\b|^(?:ting ?)+$",
-    r"\bno (?:further|farther|closer|nearer)\b",
-    r"\b(?:stand|hold|stay|keep|sit|remain|be|stood)"
+    r"\bno (?:further|farther|closer|nearer)\b|\b(?:mind|consider|start|try) stopping\b",
+    r"\b(?:stand(?:ing)?|hold(?:ing)?|stay(?:ing)?|keep(?:ing)?|sit|remain|be|stood)"
     r" (?:completely |perfectly |very |absolutely )?still\b",
     r"\b(?:please|just|now|robot|no)*stop(?:now|it|please|moving|robot|that|there|right|the|all|pls"
     r"|stop)+\b",
@@ -182,7 +182,7 @@ DENIAL = _any(
     r"\bstay (?:right |just |exactly )?(?:there|put|where|here|back|away|down|as you are|off)\b",
     rf"(?:^|, ){_CALLS}stay(?: stay)*{_END}",
     r"\b(?:remain|wait) (?:right |just |exactly )?(?:there|where you|here|put)(?: ,| please| now|$"
-    r"| you)|\b(?:remain|stay|wait|stand|hold) (?:right )?where you are\b",
+    r"| you| for (?:me|us)\b)|\b(?:remain|stay|wait|stand|hold) (?:right )?where you are\b",
     r"(?<!to )(?<!do you )(?<!i )\bwait\b(?! (?:here|there|in|at|by|until|till|outside|inside|near"
     r"|with|\d|two|three|four|five|six|seven|eight|nine|ten|fifteen|twenty|thirty|forty|fifty"
     r"|sixty"

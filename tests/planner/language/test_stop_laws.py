@@ -220,6 +220,23 @@ def test_what_nobody_sees_changes_nothing(text: str, unseen: str) -> None:
             "please s-t-o-p",
         ),
         *("\u202estop", "стоп", "別過來", "停止任務", "幫我停下來", "快stop啦", "stop呀 唔好再走"),
+        *(
+            "去哪儿啊你，停下",
+            "到了到了，停",
+            "不不不停下",
+            "能别动了吗",
+            "把速度降到零",
+            "站一站嘛",
+        ),
+        *(
+            "怎么还在动，不是叫你停了吗",
+            "停在你现在的位置",
+            "保持静止",
+            "刹一下车",
+            "请在原地稍候，不要前进",
+        ),
+        *("你往哪儿走呢快停住", "你先停在那边等干了再说", "嫑动", "你在原地等着"),
+        *("would you mind stopping there, dear?", "wait there for me", "haud on, dinnae move"),
         *("ting xia", "挺下来", "战住", "赞停", "stooooop", "STAHP", "sotp!!", "煞車", "唔好郁"),
     ],
 )
