@@ -29,6 +29,12 @@ NOT_HEARD = Bilingual(
     "kitchen.",
     zh="没有听到能确认的英文指令，不会开始新的动作。中文目前请用文字输入。",
 )
+NO_ANSWER_HEARD = Bilingual(
+    en="I heard no answer, so my question still waits and I begin nothing. Say: yes please, or: "
+    "no please don't.",
+    zh="没有听清回答，问题仍在等待，不会开始新的动作。请用英语说 yes please "
+    "或 no please don't，或用文字回答。",
+)
 _BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
@@ -82,7 +88,8 @@ def routes(services: Services) -> APIRouter:
         heard = await _heard(services, await request.body())
         if not (heard.understood or _may_be_stop(services, heard)):
             response.status_code = 200
-            outcome = SpokenOutcome(code="not_heard", message=NOT_HEARD)
+            told = NO_ANSWER_HEARD if services.goals.awaits_answer() else NOT_HEARD
+            outcome = SpokenOutcome(code="not_heard", message=told)
             return Spoken(transcript=heard.transcript, confidence=heard.confidence, outcome=outcome)
         text = heard.transcript
         goal = await services.goals.submit(
@@ -111,7 +118,8 @@ def _may_be_stop(services: Services, heard: Heard) -> bool:
 
 async def _heard(services: Services, data: bytes) -> Heard:
     try:
-        return await services.ears.hear(read_wav(data))
+        sound = read_wav(data)
+        return await services.ears.hear(sound, awaits_answer=services.goals.awaits_answer())
     except BadRecording as bad:
         raise Problem(STATUS.get(bad.code, 400), bad.code, bad.detail) from None
     except VoiceFailure as failure:

@@ -179,6 +179,10 @@ class Missions(Shown):
         active = is_active(self._book, self._clocks.monotonic())
         return said.orders_stop or (said.may_mean_stop and active)
 
+    def awaits_answer(self) -> bool:
+        """Return whether a question waits for a yes or no."""
+        return any(takes_yes(mission) for mission in self._book.missions.values())
+
     def _receive(self, given: Submitted, *, answers: bool = True) -> Reception:
         said, now_s = read_utterance(given.text), self._clocks.monotonic()
         return receive(self._book, said, given, now_s, answers=answers)

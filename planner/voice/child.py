@@ -34,7 +34,9 @@ def main(parent: Parent) -> int:
 def _answer(sphinx: Sphinx, asked: Frame) -> Frame:
     head, pcm = asked
     try:
-        return asdict(sphinx.hear(pcm, int(head["rate_hz"]), int(head["channels"]))), b""
+        rate_hz, channels = int(head["rate_hz"]), int(head["channels"])
+        heard = sphinx.hear(pcm, rate_hz, channels, awaits_answer=head["awaits_answer"] is True)
+        return asdict(heard), b""
     except (RuntimeError, ValueError, KeyError) as error:
         return {"failed": f"{type(error).__name__}: {error}"}, b""
 

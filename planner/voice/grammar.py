@@ -69,6 +69,15 @@ _OTHER_STOPS = (
 OTHER_STOPS = _file(any_of(*_OTHER_STOPS))
 """Other ways to say stop, for a third look: beside the plain ones they would take their score. One
 short word alone ("freeze", "halt") is found in too many other sentences."""
+_ANSWERS = (
+    *("yes", "yes please", "go ahead", "please do"),
+    *("no", "no thanks", "no thank you", "no please don't"),
+)
+_NEAR_ANSWERS = ("guess", "chess", "bless you", "your head")
+"""Words that sound like a yes: without them six of seven voices' "guess" was heard as one. What
+sounds like a no may be one: a no moves nothing."""
+ANSWERS = _file(any_of(*_ANSWERS, *_NEAR_ANSWERS))
+"""The grammar of yes and no, looked for only while a question waits for one of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +94,11 @@ class Language:
     def is_order(self, transcript: str) -> bool:
         """Tell whether a transcript is an order from its first word to its last."""
         return self.orders.fullmatch(f"{transcript} ") is not None
+
+
+def is_answer(transcript: str) -> bool:
+    """Tell whether a transcript is a yes or no, and not a word that sounds like one."""
+    return transcript in _ANSWERS
 
 
 def is_stop(transcript: str) -> bool:

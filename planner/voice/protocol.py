@@ -45,8 +45,8 @@ class VoiceFailure(Exception):
 class Recogniser(Protocol):
     """Hear recordings, one at a time, without holding the event loop."""
 
-    async def hear(self, sound: Sound) -> Heard:
-        """Return what was heard.
+    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Heard:
+        """Return what was heard; ``awaits_answer`` says that a question waits for a yes or no.
 
         Raises:
             VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.

@@ -20,7 +20,15 @@ from planner.voice.apart import Apart
 from planner.voice.common import COMMON
 from planner.voice.dictionary import Dictionary
 from planner.voice.doubt import Decoded, confidence, long_pauses, stop_confidence
-from planner.voice.grammar import OTHER_STOPS, STOPS, Language, is_stop, language_of
+from planner.voice.grammar import (
+    ANSWERS,
+    OTHER_STOPS,
+    STOPS,
+    Language,
+    is_answer,
+    is_stop,
+    language_of,
+)
 from planner.voice.protocol import Heard
 from planner.voice.samples import FRAME, prepare, quiet
 
@@ -34,6 +42,8 @@ _BEYOND_DOUBT = 0.75
 """Said by synthetic voices the other stops reach 0.86 to 0.88; other sentences stay below 0.55."""
 _FRAMES_A_LETTER = 17
 """Of 10 ms: "halt" spoken slowly takes 12, and 30 where it is found in "what a nice day it is"."""
+_ANSWER_TAIL_FRAMES = 62
+"""Of 10 ms after its last word: by ten synthetic voices at most 61, a longer sentence has more."""
 _JOINTS = frozenset({"and", "then", "the"})
 _NEVER = -1e9
 
@@ -50,7 +60,8 @@ class Sphinx:
         known = Dictionary(Path(pocketsphinx.get_model_path(_DICTIONARY)))
         self.language: Language = language_of(names, known.__contains__)
         named = {*chain.from_iterable(name.split() for name in self.language.names)}
-        spoken = {*COMMON, *_WORD.findall(self.language.jsgf), *_WORD.findall(STOPS + OTHER_STOPS)}
+        forms = self.language.jsgf + STOPS + OTHER_STOPS + ANSWERS
+        spoken = {*COMMON, *_WORD.findall(forms)}
         with TemporaryDirectory() as folder:  # a decoder reads its words from files alone
             (sounds := Path(folder) / "words.dict").write_text(known.cut(spoken), "utf-8")
             (likely := Path(folder) / "words.arpa").write_text(
@@ -62,11 +73,16 @@ class Sphinx:
         self._decoder.add_jsgf_string("orders", self.language.jsgf)
         self._decoder.add_jsgf_string("stops", STOPS)
         self._decoder.add_jsgf_string("other_stops", OTHER_STOPS)
+        self._decoder.add_jsgf_string("answers", ANSWERS)
         self._free.add_allphone_file("phones", None)
         self._free.add_lm("words", model)
 
-    def hear(self, pcm: bytes, rate_hz: int, channels: int) -> Heard:
+    def hear(
+        self, pcm: bytes, rate_hz: int, channels: int, *, awaits_answer: bool = False
+    ) -> Heard:
         """Return what was said and how sure that is. Same bytes, same answer, whatever came before.
+
+        A yes or no is looked for only where ``awaits_answer`` says that a question waits for one.
 
         Raises:
             OSError: the system gives no process, or one crashed.
@@ -75,6 +91,13 @@ class Sphinx:
         if samples is None:
             return Heard("", 0.0, understood=False)
         frames = len(samples) / (2 * FRAME)
+        heard, words = self._order_or_stop(samples, frames)
+        if awaits_answer and not heard.understood and words is not None:
+            return self._answer(samples, frames, words) or heard
+        return heard
+
+    def _order_or_stop(self, samples: bytes, frames: float) -> tuple[Heard, Decoded | None]:
+        """Return what the orders and the stops make of it, and the everyday words found in it."""
         with (
             Apart(lambda: _decode(self._free, "words", samples)) as spoken,
             Apart(lambda: self._order(samples)) as bound,
@@ -82,7 +105,8 @@ class Sphinx:
             order = bound.result()
             if order is None or not self.language.is_order(order.text):
                 heard = Heard("" if order is None else order.text, 0.0, understood=False)
-                return self._other_stop(samples, frames, spoken.result()) or heard
+                free = spoken.result()
+                return self._other_stop(samples, frames, free) or heard, free
             stop = is_stop(order.text)
             phones = self._phones(samples) if stop or not _silent_between(order, samples) else None
             free = spoken.result()
@@ -92,7 +116,9 @@ class Sphinx:
         else:
             sure = 0.0 if words is None else confidence(order, phones, words, frames)
         heard = Heard(order.text, round(sure, 3), understood=sure >= _SURE)
-        return heard if heard.understood else self._other_stop(samples, frames, free) or heard
+        if not heard.understood:
+            heard = self._other_stop(samples, frames, free) or heard
+        return heard, free
 
     def _other_stop(self, samples: bytes, frames: float, words: Decoded | None) -> Heard | None:
         """Look once more at what was no order for other ways to say stop, or return None.
@@ -109,6 +135,25 @@ class Sphinx:
         if confidence(stop, phones, words, frames) < _BEYOND_DOUBT or sure < _SURE:
             return None
         return Heard(stop.text, round(sure, 3), understood=True)
+
+    def _answer(self, samples: bytes, frames: float, words: Decoded) -> Heard | None:
+        """Return the yes or no that was said and nothing else, or None.
+
+        A yes drives, so it is believed only where it fits as well as any sounds would, everyday
+        words are far behind and nothing was said after it (docs/adr/0013).
+        """
+        with Apart(lambda: _decode(self._decoder, "answers", samples)) as bound:
+            answer = bound.result()
+        if answer is None or not is_answer(answer.text):
+            return None
+        ends = max((end for word, *_, end in answer.words if not word.startswith("<")), default=0)
+        if not frames - ends <= _ANSWER_TAIL_FRAMES:
+            return None
+        phones = self._phones(samples)
+        sure = confidence(answer, phones, words, frames)
+        if sure < _BEYOND_DOUBT or stop_confidence(answer, phones, frames) < _SURE:
+            return None
+        return Heard(answer.text, round(sure, 3), understood=True)
 
     def _phones(self, samples: bytes) -> Decoded:
         with Apart(lambda: _decode(self._free, "phones", samples)) as sounds:

@@ -63,8 +63,8 @@ class VoiceWorker:
             await asyncio.gather(before, return_exceptions=True)
         await self._warm()
 
-    async def hear(self, sound: Sound) -> Heard:
-        """Return what was heard.
+    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Heard:
+        """Return what was heard; ``awaits_answer`` says that a question waits for a yes or no.
 
         Raises:
             VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.
@@ -75,7 +75,7 @@ class VoiceWorker:
         self._waiting += 1
         try:
             async with self._turn:
-                return await self._hear(sound)
+                return await self._hear(sound, awaits_answer=awaits_answer)
         finally:
             self._waiting -= 1
 
@@ -94,10 +94,15 @@ class VoiceWorker:
         except VoiceFailure as failure:
             log.warning("no spoken orders: %s", failure)
 
-    async def _hear(self, sound: Sound) -> Heard:
+    async def _hear(self, sound: Sound, *, awaits_answer: bool) -> Heard:
         process = await self._ready()
         self._number += 1
-        head = {"number": self._number, "rate_hz": sound.rate_hz, "channels": sound.channels}
+        head = {
+            "number": self._number,
+            "rate_hz": sound.rate_hz,
+            "channels": sound.channels,
+            "awaits_answer": awaits_answer,
+        }
         try:
             async with asyncio.timeout(HEAR_S):
                 answer, _ = await exchange(process, pack(head, sound.pcm))

@@ -46,9 +46,13 @@ class FakeGoals:
         self.acts: list[OpRequest | None] = []
         self.stops: list[str] = []
         self.leg: Leg | None = None
+        self.asks = False
 
     def hears_stop(self, text: str) -> bool:
         return is_stop(text)
+
+    def awaits_answer(self) -> bool:
+        return self.asks
 
     async def submit(
         self,
@@ -156,8 +160,10 @@ class FakeEars:
     def __init__(self) -> None:
         self.heard: Heard | VoiceFailure = Heard("go to the kitchen", 0.9, understood=True)
         self.sounds: list[Sound] = []
+        self.awaited: list[bool] = []
 
-    async def hear(self, sound: Sound) -> Heard:
+    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Heard:
+        self.awaited.append(awaits_answer)
         self.sounds.append(sound)
         if isinstance(self.heard, VoiceFailure):
             raise self.heard

@@ -91,6 +91,14 @@ def test_what_is_heard_but_not_surely_waits_for_a_yes(
     ]
 
 
+def test_a_yes_or_no_is_looked_for_while_a_question_waits_for_one(
+    client: TestClient, services: FakeServices
+) -> None:
+    for services.goals.asks in (False, True):
+        assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
+    assert services.ears.awaited == [False, True]
+
+
 def test_a_spoken_stop_carries_no_act_that_clears_a_hold() -> None:
     services = FakeServices(STATUS)  # held
     services.ears.heard = Heard("stop now", 0.6, understood=True)

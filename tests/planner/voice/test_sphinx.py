@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import psutil
 import pytest
 
+from planner.mission.skills.consent import consents
 from planner.voice import read_wav
 from planner.voice.protocol import Heard
 from tests.planner.voice.speech import AUDIO, needs_clips, needs_espeak, speak, wav
@@ -27,9 +28,9 @@ def ears() -> Sphinx:
     return Sphinx(NAMES)
 
 
-def hear(ears: Sphinx, data: bytes) -> Heard:
+def hear(ears: Sphinx, data: bytes, *, awaits_answer: bool = False) -> Heard:
     sound = read_wav(data)
-    heard = ears.hear(sound.pcm, sound.rate_hz, sound.channels)
+    heard = ears.hear(sound.pcm, sound.rate_hz, sound.channels, awaits_answer=awaits_answer)
     assert isinstance(heard, Heard)
     return heard
 
@@ -92,6 +93,35 @@ def test_hearing_leaves_no_process_and_no_pipe(ears: Sphinx) -> None:
 @pytest.mark.parametrize("voice", ["en-us", "en-gb+f2"])
 def test_other_sentences_move_nothing(ears: Sphinx, text: str, voice: str) -> None:
     assert not hear(ears, speak(text, voice)).sure
+
+
+@needs_espeak
+@pytest.mark.parametrize("text", ["yes please", "please do", "no please don't"])
+@pytest.mark.parametrize("voice", ["en-us", "en-gb-x-rp"])
+def test_a_yes_or_no_is_heard_only_where_a_question_waits(
+    ears: Sphinx, text: str, voice: str
+) -> None:
+    recording = speak(text, voice)
+    heard = hear(ears, recording, awaits_answer=True)
+    assert (heard.transcript, heard.sure) == (text, True)
+    assert hear(ears, recording).transcript != text
+
+
+@needs_espeak
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("go to the kitchen", "stop", "what a nice day it is", "yes it is cold today"),
+        *("please do not go there", "go ahead without me and tell her", "no I said the sofa"),
+        *("please go to the sofa", "sure it is not broken", "are you sure", "I do not know yet"),
+    ],
+)
+@pytest.mark.parametrize("voice", ["en-us", "en-gb+f2"])
+def test_other_sentences_answer_no_question(ears: Sphinx, text: str, voice: str) -> None:
+    recording = speak(text, voice)
+    asked = hear(ears, recording, awaits_answer=True)
+    assert consents(asked.transcript) is None
+    assert asked == hear(ears, recording)
 
 
 @needs_clips
