@@ -46,10 +46,12 @@ def build(
     lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] | None = None,
     *,
     page: Path = pages.BUILT,
+    authority: bytes = b"",
 ) -> FastAPI:
     """Return the application; documentation pages that load scripts from elsewhere stay off.
 
-    ``page`` is the folder of the built page; where it is not built, ``/`` says so.
+    ``page`` is the folder of the built page; where it is not built, ``/`` says so. ``authority`` is
+    the certificate that /ca.crt gives out.
     """
     app = FastAPI(
         title="Pons",
@@ -63,7 +65,7 @@ def build(
         app.include_router(part.routes(services))
     problems.install(app)
     app.add_exception_handler(MissionError, _mission)
-    app.include_router(pages.routes(page))
+    app.include_router(pages.routes(page, authority))
     app.add_middleware(Guard, access=access)
     return app
 
