@@ -25,9 +25,10 @@ MACHINE = socket.gethostname().partition(".")[0].lower()
 @pytest.fixture(scope="module")
 def robot(browser: Browser) -> Iterator[System]:
     assert browser.is_connected()
-    settings = {"PONS_TLS": "1", "PONS_HOST": "0.0.0.0", "PONS_OPERATOR_TOKEN": TOKEN}
-    with new_home() as home, System(Path(home), **settings).running() as system:
-        yield system
+    with new_home() as home:
+        system = System(Path(home), PONS_TLS="1", PONS_HOST="0.0.0.0", PONS_OPERATOR_TOKEN=TOKEN)
+        with system.running():
+            yield system
 
 
 @pytest.mark.e2e
@@ -67,6 +68,7 @@ def test_the_page_is_secure_by_the_machines_name_and_may_use_the_microphone(
         )
         try:
             page = own.new_page()
+            page.set_default_timeout(60_000)  # this browser starts beside a robot and another one
             sockets: list[str] = []
             page.on("websocket", lambda opened: sockets.append(opened.url))
             page.goto(f"https://{MACHINE}.local:{robot.port}/#token={TOKEN}")
