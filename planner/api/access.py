@@ -35,6 +35,8 @@ LOOPBACK_NAMES = frozenset({"127.0.0.1", "localhost", "::1"})
 AUTHORITY_PATH = "/ca.crt"
 """The certificate that a device must trust before anybody types a token there."""
 SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
+TYPED_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
+"""The methods that change something; no route takes any other, and the router says so (405)."""
 STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
 
@@ -89,7 +91,8 @@ class Access:
             token = _offered(headers.get("sec-websocket-protocol", ""))
         role = self._role(token)
         if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
-            _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
+            if method in TYPED_METHODS:
+                _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
             if role is not Role.OPERATOR:
                 raise NotAllowed(403, "operator_needed", f"a viewer may not {method} {path}")
         return role
