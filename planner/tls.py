@@ -56,6 +56,7 @@ def context(certificate: Path | None, key: Path | None) -> ssl.SSLContext | None
     _check_private(key)
     made = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
     made.minimum_version = ssl.TLSVersion.TLSv1_2
+    made.options |= ssl.OP_NO_RENEGOTIATION  # else a client may have keys agreed upon for ever
     made.set_ciphers(CIPHERS)
     try:
         made.load_cert_chain(certificate, key, password=_refuse_passphrase)

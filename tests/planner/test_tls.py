@@ -123,4 +123,5 @@ def test_old_protocols_and_weak_ciphers_are_not_spoken(pems: Path) -> None:
     context = tls.context(pems / "one.pem", pems / "one.pem")
     assert context is not None
     assert context.minimum_version == ssl.TLSVersion.TLSv1_2
+    assert context.options & ssl.OP_NO_RENEGOTIATION
     assert all("GCM" in c["name"] or "CHACHA20" in c["name"] for c in context.get_ciphers())
