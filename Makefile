@@ -16,7 +16,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long train lock clean
+.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -98,6 +98,9 @@ train: $(RUNTIME) ## draw homes, fit the default detector anew and score it (two
 
 lock: $(DEV) ## resolve the dependencies anew into requirements.lock and requirements-dev.lock
 	@scripts/lock.sh
+
+audit: $(DEV) ## ask for known vulnerabilities of the locked packages; says aloud when it can't
+	@scripts/audit.sh
 
 clean: ## remove .venv and caches; keeps .pons (recordings, missions, keys)
 	@rm -rf .venv web/node_modules web/dist build dist *.egg-info .coverage .coverage.* htmlcov

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import uvicorn
 
+from planner import tls
 from planner.api import Access
 from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.app import Planner, Where, application
@@ -36,16 +37,20 @@ def main(arguments: list[str] | None = None) -> int:
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     given = _options(arguments)
     try:
-        access = _access(given.host)
+        secure = tls.context(given.tls_cert, given.tls_key)
+        authority = tls.authority(given.tls_ca)
+        access = _access(given.host, speaks_tls=secure is not None)
         planner = Planner(Where(given.home, given.robot, given.site))
     except (Misconfigured, SiteError) as wrong:
         print(f"planner: {wrong}", file=sys.stderr)
         return REFUSED
     server = uvicorn.Server(
         uvicorn.Config(
-            application(planner, access),
+            application(planner, access, authority),
             host=given.host,
             port=given.port,
+            loop="planner.tls:ServerLoop",
+            ssl_context_factory=(lambda _config, _default: secure) if secure is not None else None,
             log_level="warning",
             access_log=False,
             server_header=False,
@@ -54,6 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
             ws_per_message_deflate=False,  # squeezing small frames costs more than sending them
         )
     )
+    tls.mark(given.home, speaks_tls=secure is not None)
     signal.signal(signal.SIGTERM, partial(_end, planner))
     server.run()
     if planner.detector.refused is not None:
@@ -79,10 +85,15 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--site", type=Path, required=True, help="folder of a site")
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=8420)
+    parser.add_argument("--tls-cert", type=Path, metavar="FILE", help="serve https with this (PEM)")
+    parser.add_argument(
+        "--tls-key", type=Path, metavar="FILE", help="its key; may be the same file"
+    )
+    parser.add_argument("--tls-ca", type=Path, metavar="FILE", help="given out as /ca.crt")
     return parser.parse_args(arguments)
 
 
-def _access(host: str) -> Access:
+def _access(host: str, *, speaks_tls: bool) -> Access:
     """Read who may ask from the owner's environment.
 
     Raises:
@@ -104,6 +115,7 @@ def _access(host: str) -> Access:
         origins=frozenset(_listed("PONS_ALLOWED_ORIGINS")),
         operator_token=operator,
         viewer_token=viewer,
+        speaks_tls=speaks_tls,
     )
 
 

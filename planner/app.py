@@ -154,7 +154,7 @@ def _brain(model: EndpointBrain | None, settings: Settings) -> Brain:
     return FallbackBrain(model, OfflineBrain(), rest_s=settings.model.rest_s)
 
 
-def application(planner: Planner, access: Access) -> FastAPI:
+def application(planner: Planner, access: Access, authority: bytes = b"") -> FastAPI:
     """Return the application that runs this planner while it serves."""
 
     @asynccontextmanager
@@ -167,7 +167,7 @@ def application(planner: Planner, access: Access) -> FastAPI:
             watch.cancel()
             await planner.close()
 
-    app = build(planner, access, lifespan)
+    app = build(planner, access, lifespan, authority=authority)
     warm_up(app)
     return app
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -30,8 +31,10 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--site", type=Path, help="folder of a site (PONS_SITE)")
     started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
+    started.add_argument("--tls", action="store_true", help="serve https (PONS_TLS=1); docs/tls.md")
     started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
+    words.add_parser("tls", help="make or renew the certificate; say what devices must trust")
     _saying(words)
     words.add_parser("stop", help="stop now and hold, with or without a planner")
     shown = words.add_parser("status", help="show the robot and its goals")
@@ -199,6 +202,7 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         port = port_of(said.port) if said.port is not None else None
         given = {"site": said.site, "robot": said.robot, "port": port, "metal": said.metal}
         chosen = {name: value for name, value in given.items() if value is not None}
+        chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
         return up.run(replace(settings, **chosen), planner=not said.no_planner)
     if said.word in _TOOLS:
         return _tool(settings, said)
@@ -228,7 +232,7 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
 
 
 _TOOLS = frozenset(
-    {"doctor", "why", "braking", "fence", "places", "calibrate", "fault", "replay", "detect"}
+    {"doctor", "why", "braking", "fence", "places", "calibrate", "fault", "replay", "detect", "tls"}
 )
 
 
@@ -242,6 +246,10 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
 
             return exam.run(settings, said.model, as_json=said.json, yes=said.yes)
         return doctor.run(settings, as_json=said.json, jitter=said.jitter)
+    if said.word == "tls":
+        from pons import tls
+
+        return tls.run(settings)
     if said.word == "why":
         from pons import why
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import http.client
 import json
 import os
+import ssl
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pons.settings import Settings
 
+AUTHORITY = Path("tls") / "ca.crt"
 MAX_REPLY_BYTES = 4_000_000
 DEFAULT_TIMEOUT_S = 5.0
 
@@ -47,7 +50,7 @@ def call(
         PlannerDown: no connection, no answer in time, or no JSON.
         Refused: a problem+json answer, with its stable code.
     """
-    connection = http.client.HTTPConnection(settings.host, settings.port, timeout=timeout_s)
+    connection = _connection(settings, timeout_s)
     try:
         sent = {"Content-Type": "application/json", **(headers or {})} if method != "GET" else {}
         if token := os.environ.get("PONS_OPERATOR_TOKEN"):
@@ -57,11 +60,35 @@ def call(
         connection.request(method, path, body=payload, headers=sent)
         answer = connection.getresponse()
         status, raw = answer.status, answer.read(MAX_REPLY_BYTES)
+    except ssl.SSLCertVerificationError as error:
+        known = settings.authority or settings.home / AUTHORITY
+        why = f"the certificate is not trusted ({error.verify_message}); PONS_CA names the file "
+        why += f"of the authority to trust, else {known}"
+        raise PlannerDown(f"{settings.url}: {why}") from None
     except (OSError, http.client.HTTPException) as error:
         raise PlannerDown(f"{settings.url}{path}: {str(error) or type(error).__name__}") from None
     finally:
         connection.close()
     return _judge(status, raw)
+
+
+def _connection(settings: Settings, timeout_s: float) -> http.client.HTTPConnection:
+    """Return the connection, not yet open; over TLS, judged by this robot's own authority.
+
+    Raises:
+        PlannerDown: the file named as the authority holds no certificate.
+    """
+    host, port = settings.dialled, settings.port
+    if not settings.tls:
+        return http.client.HTTPConnection(host, port, timeout=timeout_s)
+    file = settings.authority or settings.home / AUTHORITY
+    there = settings.authority is not None or os.access(file, os.R_OK)  # else the system's own
+    try:
+        trusted = ssl.create_default_context(cafile=str(file) if there else None)
+    except OSError as error:
+        why = f"no authority's certificate in {file}: {error.strerror or error}"
+        raise PlannerDown(f"{settings.url}: {why}") from None
+    return http.client.HTTPSConnection(host, port, timeout=timeout_s, context=trusted)
 
 
 def _judge(status: int, raw: bytes) -> Any:

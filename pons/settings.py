@@ -12,6 +12,9 @@ from pathlib import Path
 CHECKOUT = Path(__file__).resolve().parents[1]
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 8420
+PLANNER_MARK = Path("run") / "planner.tls"
+"""There while this home's planner speaks TLS (planner/tls.py)."""
+_HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,11 +28,21 @@ class Settings:
     port: int
     metal: Path | None = None
     """What the simulated robot is really like, where robot.toml is to be wrong about it."""
+    tls: bool = False
+    """Whether the planner is asked, and by ``pons up`` started, over TLS."""
+    authority: Path | None = None
+    """The certificate to judge the planner's by, in place of ``$PONS_HOME/tls/ca.crt``."""
+
+    @property
+    def dialled(self) -> str:
+        """Return the host to ask: a planner that listens everywhere is asked here."""
+        return _HERE.get(self.host, self.host)
 
     @property
     def url(self) -> str:
         """Return the base URL of page and API."""
-        return f"http://{self.host}:{self.port}"
+        host = f"[{self.dialled}]" if ":" in self.dialled else self.dialled
+        return f"{'https' if self.tls else 'http'}://{host}:{self.port}"
 
 
 class BadSetting(Exception):
@@ -37,20 +50,37 @@ class BadSetting(Exception):
 
 
 def load() -> Settings:
-    """Read PONS_HOME, PONS_ROBOT, PONS_SITE, PONS_HOST, PONS_PORT and PONS_METAL.
+    """Read PONS_HOME, _ROBOT, _SITE, _HOST, _PORT, _METAL, _TLS and _CA.
 
     Raises:
-        BadSetting: the port is no port.
+        BadSetting: the port is no port, or PONS_TLS neither 0 nor 1.
     """
     given = os.environ
+    home = Path(given.get("PONS_HOME", ".pons")).absolute()
     return Settings(
-        home=Path(given.get("PONS_HOME", ".pons")).absolute(),
+        home=home,
         robot=Path(given.get("PONS_ROBOT", CHECKOUT / "robot.toml")).absolute(),
         site=Path(given.get("PONS_SITE", CHECKOUT / "sites" / "home")).absolute(),
         host=given.get("PONS_HOST", DEFAULT_HOST),
         port=port_of(given.get("PONS_PORT", str(DEFAULT_PORT))),
         metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,
+        tls=_tls(given.get("PONS_TLS", ""), home),
+        authority=Path(ca).absolute() if (ca := given.get("PONS_CA")) else None,
     )
+
+
+def _tls(text: str, home: Path) -> bool:
+    if text in ("0", "1"):
+        return text == "1"
+    if text:
+        raise BadSetting(f"bad_tls: PONS_TLS is {text!r}; expected 1 for https or 0 for http")
+    return os.path.exists(home / PLANNER_MARK)  # noqa: PTH110  # Path's raises in a closed folder
+
+
+def allowed_hosts() -> set[str]:
+    """Return the names, beside the planner's address, that its owner lets it be asked by."""
+    given = os.environ.get("PONS_ALLOWED_HOSTS", "")
+    return {word.strip() for word in given.split(",") if word.strip()}
 
 
 def port_of(text: str) -> int:

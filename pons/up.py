@@ -20,11 +20,13 @@ from typing import TYPE_CHECKING
 from pons.homelock import HomeLock, HomeTaken
 from pons.http import PlannerDown, Refused, call
 from pons.processes import REFUSED_TO_START, Child
+from pons.settings import allowed_hosts
 from wire import Misconfigured, RobotDescription, load_robot
 
 if TYPE_CHECKING:
     from types import FrameType
 
+    from pons.authority import Issued
     from pons.settings import Settings
 
 POLL_S = 0.05
@@ -41,12 +43,20 @@ class CannotStart(Exception):
 class Supervisor:
     """Own the children of one ``pons up``."""
 
-    def __init__(self, settings: Settings, robot: RobotDescription, *, planner: bool) -> None:
+    def __init__(
+        self,
+        settings: Settings,
+        robot: RobotDescription,
+        *,
+        planner: bool,
+        issued: Issued | None = None,
+    ) -> None:
+        self._trust = issued.told() if issued else ()
         self._settings = settings
         self._robot = robot
         self._planner = planner
         self._ending = threading.Event()
-        self._children = children(settings, robot, planner=planner)
+        self._children = children(settings, robot, planner=planner, issued=issued)
         self._said_ready = False
         self._armed = not robot.drive.virtual  # on metal a person arms
         self._next_arm_s = 0.0
@@ -98,6 +108,8 @@ class Supervisor:
     def _say_ready(self, after_s: float) -> None:
         if self._planner:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
+            for line in self._trust:
+                say(line)
             say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
         else:
             socket_path = self._settings.home / "run" / "bridge.sock"
@@ -142,18 +154,28 @@ def arm_direct(settings: Settings) -> bool:
         return False
 
 
-def children(settings: Settings, robot: RobotDescription, *, planner: bool = True) -> list[Child]:
+def children(
+    settings: Settings,
+    robot: RobotDescription,
+    *,
+    planner: bool = True,
+    issued: Issued | None = None,
+) -> list[Child]:
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
     common = ["--home", str(settings.home), "--robot", str(settings.robot)]
     common += ["--site", str(settings.site)]
     wanted = [("bridge", common)]
     if planner:
-        wanted.append(("planner", [*common, *_address(settings)]))
+        secured = issued.planner_arguments() if issued else []
+        wanted.append(("planner", [*common, *_address(settings), *secured]))
     if robot.drive.virtual:
         metal = ["--metal", str(settings.metal)] if settings.metal else []
         wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
     found = [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
+    for child in found:
+        if child.name == "planner" and issued:
+            child.environment |= issued.planner_environment(allowed_hosts())
     if robot.drive.virtual and robot.camera.kind == "sim":
         arguments = ["sim.camera", *common]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
@@ -222,14 +244,24 @@ def run(settings: Settings, *, planner: bool = True) -> int:
         with HomeLock(settings.home):
             if planner:
                 _check_port(settings)
-            return _supervise(settings, robot, planner=planner)
-    except (CannotStart, HomeTaken) as why:
+            issued = _certify(settings) if planner and settings.tls else None
+            return _supervise(settings, robot, planner=planner, issued=issued)
+    except (CannotStart, HomeTaken, Misconfigured) as why:
         print(f"pons up: {why}", file=sys.stderr)
         return REFUSED_TO_START
 
 
-def _supervise(settings: Settings, robot: RobotDescription, *, planner: bool) -> int:
-    supervisor = Supervisor(settings, robot, planner=planner)
+def _certify(settings: Settings) -> Issued:
+    """Return this robot's certificate; the library that makes it is loaded for this alone."""
+    from pons.tls import prepare
+
+    return prepare(settings)
+
+
+def _supervise(
+    settings: Settings, robot: RobotDescription, *, planner: bool, issued: Issued | None
+) -> int:
+    supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _handler(supervisor))
     say(f"starting {robot.id} in {settings.site.name} (state in {settings.home})")

@@ -32,7 +32,11 @@ class NotAllowed(Exception):
 
 
 LOOPBACK_NAMES = frozenset({"127.0.0.1", "localhost", "::1"})
+AUTHORITY_PATH = "/ca.crt"
+"""The certificate that a device must trust before anybody types a token there."""
 SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
+TYPED_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
+"""The methods that change something; no route takes any other, and the router says so (405)."""
 STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
 
@@ -60,6 +64,8 @@ class Access:
     origins: frozenset[str] = frozenset()
     operator_token: str = ""
     viewer_token: str = ""
+    speaks_tls: bool = False
+    """A page that came without TLS may then not ask: who is on the path could have written it."""
 
     @property
     def loopback(self) -> bool:
@@ -85,7 +91,8 @@ class Access:
             token = _offered(headers.get("sec-websocket-protocol", ""))
         role = self._role(token)
         if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
-            _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
+            if method in TYPED_METHODS:
+                _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
             if role is not Role.OPERATOR:
                 raise NotAllowed(403, "operator_needed", f"a viewer may not {method} {path}")
         return role
@@ -100,9 +107,10 @@ class Access:
         if origin is None or origin in self.origins:
             return
         parts = urlsplit(origin)
-        if parts.scheme in ("http", "https") and parts.netloc == host:
+        schemes = ("https",) if self.speaks_tls else ("http", "https")  # a proxy may add the TLS
+        if parts.scheme in schemes and parts.netloc == host:
             return
-        known = ", ".join(sorted({f"http://{host}", *self.origins}))
+        known = ", ".join(sorted({f"{schemes[0]}://{host}", *self.origins}))
         raise NotAllowed(403, "foreign_origin", f"origin {origin[:80]!r}; allowed: {known}")
 
     def _role(self, token: str) -> Role:
@@ -126,7 +134,7 @@ def is_loopback(host: str) -> bool:
 
 
 def _is_page(path: str) -> bool:
-    return path == "/" or path.startswith("/assets/")
+    return path in ("/", AUTHORITY_PATH) or path.startswith("/assets/")
 
 
 def _bearer(authorization: str) -> str:

@@ -9,6 +9,7 @@ from starlette.responses import JSONResponse
 
 from planner.api import (
     camera,
+    contract,
     events,
     fence,
     goals,
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from contextlib import AbstractAsyncContextManager
     from pathlib import Path
+    from typing import Any
 
     from planner.api.access import Access
 
@@ -40,18 +42,30 @@ API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."
 
 
+class Api(FastAPI):
+    """Be FastAPI with a contract that tells the problems too."""
+
+    def openapi(self) -> dict[str, Any]:
+        """Return the contract, made once."""
+        if self.openapi_schema is None:
+            contract.with_problems(super().openapi())
+        return super().openapi()
+
+
 def build(
     services: Services,
     access: Access,
     lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] | None = None,
     *,
     page: Path = pages.BUILT,
+    authority: bytes = b"",
 ) -> FastAPI:
     """Return the application; documentation pages that load scripts from elsewhere stay off.
 
-    ``page`` is the folder of the built page; where it is not built, ``/`` says so.
+    ``page`` is the folder of the built page; where it is not built, ``/`` says so. ``authority`` is
+    the certificate that /ca.crt gives out.
     """
-    app = FastAPI(
+    app = Api(
         title="Pons",
         version=API_VERSION,
         description=DESCRIPTION,
@@ -63,7 +77,7 @@ def build(
         app.include_router(part.routes(services))
     problems.install(app)
     app.add_exception_handler(MissionError, _mission)
-    app.include_router(pages.routes(page))
+    app.include_router(pages.routes(page, authority))
     app.add_middleware(Guard, access=access)
     return app
 

@@ -26,6 +26,10 @@ _HEADERS = (
     (b"x-frame-options", b"DENY"),
     (b"cross-origin-resource-policy", b"same-origin"),
     (
+        b"permissions-policy",
+        b"microphone=(self), camera=(), display-capture=(), geolocation=(), payment=(), usb=()",
+    ),
+    (
         b"content-security-policy",
         (
             b"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
@@ -33,6 +37,10 @@ _HEADERS = (
         ),
     ),
 )
+
+
+_UNSTORED = (b"cache-control", b"no-store")
+"""What no route says otherwise of is true for this moment, and may be the owner's alone."""
 
 
 class Guard:
@@ -75,12 +83,20 @@ class Guard:
                 raise HTTPException(413, f"the body passed {most} bytes, which is the cap")
             return message
 
-        async def sending(message: Message) -> None:
-            if message["type"] == "http.response.start":
-                message["headers"] = [*message.get("headers", ()), *_HEADERS]
-            await send(message)
+        await self._app(scope, counting_receive, _dressed(send))
 
-        await self._app(scope, counting_receive, sending)
+
+def _dressed(send: Send) -> Send:
+    """Return a way to send on which each answer gets the security headers."""
+
+    async def sending(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            given = list(message.get("headers", ()))
+            kept = any(name.lower() == b"cache-control" for name, _ in given)
+            message["headers"] = [*given, *_HEADERS, *(() if kept else (_UNSTORED,))]
+        await send(message)
+
+    return sending
 
 
 async def _refuse(refusal: NotAllowed, scope: Scope, receive: Receive, send: Send) -> None:
@@ -89,4 +105,4 @@ async def _refuse(refusal: NotAllowed, scope: Scope, receive: Receive, send: Sen
                     "reason": refusal.code})  # fmt: skip
         return
     problem = response(refusal.status, refusal.code, refusal.detail)
-    await problem(scope, receive, send)
+    await problem(scope, receive, _dressed(send))

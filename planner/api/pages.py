@@ -18,12 +18,16 @@ from fastapi import APIRouter, Header
 from starlette.exceptions import HTTPException
 from starlette.responses import HTMLResponse, Response
 
+from planner.api.access import AUTHORITY_PATH
+
 log = logging.getLogger(__name__)
 
 BUILT = Path(__file__).resolve().parents[2] / "web" / "dist"
 MAX_PAGE_BYTES = 8_000_000
 FOREVER = "public, max-age=31536000, immutable"
 ANEW = "no-cache"
+CERTIFICATE_TYPE = "application/x-x509-ca-cert"
+"""A phone that is sent this offers to install it."""
 
 TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -75,8 +79,8 @@ class Asset:
         return Response(self.plain, 200, headers, self.media_type)
 
 
-def routes(folder: Path) -> APIRouter:
-    """Return the page's routes."""
+def routes(folder: Path, authority: bytes = b"") -> APIRouter:
+    """Return the page's routes, and the one of the authority's certificate."""
     router = APIRouter(include_in_schema=False)
     assets = load(folder)
     index = assets.get("index.html")
@@ -93,6 +97,12 @@ def routes(folder: Path) -> APIRouter:
         if found is None:
             raise HTTPException(404, "the built page has no such file")
         return found.answer(accepts, known)
+
+    @router.get(AUTHORITY_PATH, response_model=None)
+    async def certificate() -> Response:
+        if not authority:
+            raise HTTPException(404, "this planner gives out no authority's certificate")
+        return Response(authority, 200, {"cache-control": ANEW}, CERTIFICATE_TYPE)
 
     return router
 

@@ -67,6 +67,7 @@ class System:
     def __init__(self, home: Path, site: Path = TWO_ROOM, **settings: str) -> None:
         self.home, self.site, self.port = home, site, free_port()
         self._settings = settings
+        self.scheme = "https" if settings.get("PONS_TLS") == "1" else "http"
         self.arguments: tuple[str, ...] = ()
         self.up: subprocess.Popen[bytes] | None = None
 
@@ -137,7 +138,7 @@ class System:
     def _greeted(self) -> bool:
         assert self.up is not None
         assert self.up.poll() is None, f"pons up ended: {self.said()}"
-        return f"http://127.0.0.1:{self.port}" in self.said()
+        return f"{self.scheme}://127.0.0.1:{self.port}" in self.said()
 
     def processes(self) -> list[psutil.Process]:
         """Return every living process that was started for this home, however deep."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from packaging.utils import canonicalize_name
 
 LOCKS = ("requirements.lock", "requirements-dev.lock")
 PIN = re.compile(r"^(?P<name>[a-z0-9._-]+)==(?P<version>\S+)(?P<marker> ;.*?)? \\$")
+IMPORT = re.compile(r"^\s*(?:import|from) ([a-zA-Z0-9_]+)", re.MULTILINE)
 HASH = re.compile(r"^    --hash=sha256:[0-9a-f]{64}( \\)?$")
 
 
@@ -71,3 +73,28 @@ def test_lock_satisfies_pyproject(repository: Path, name: str, extras: tuple[str
 def test_development_runs_on_the_versions_that_users_get(repository: Path) -> None:
     runtime, dev = (pins(repository / name) for name in LOCKS)
     assert {name: dev.get(name) for name in runtime} == runtime
+
+
+FOR_OTHERS = {
+    "httptools": "uvicorn's parser",
+    "uvloop": "uvicorn's loop",
+    "websockets": "uvicorn's WebSocket",
+}
+"""What no file of ours imports, and the package that does."""
+COME_ALONG = {"starlette", "pydantic-core", "pons", "pons-robot"}
+"""What fastapi and pydantic are faces of, and ourselves."""
+PARTS = ("rank", "wire", "planner", "localization", "bridge", "sim", "pons")
+
+
+def test_each_package_that_running_needs_is_imported_or_named_with_its_user(
+    repository: Path,
+) -> None:
+    sources = (
+        path.read_text("utf-8") for part in PARTS for path in (repository / part).rglob("*.py")
+    )
+    imported = {name for text in sources for name in IMPORT.findall(text)}
+    by_import = packages_distributions()
+    used = {canonicalize_name(one) for name in imported for one in by_import.get(name, [])}
+    needed = {canonicalize_name(requirement.name) for requirement in wanted(repository)}
+    assert needed - used == set(FOR_OTHERS) - used
+    assert used - needed <= COME_ALONG, "imported, but pyproject.toml does not ask for it"

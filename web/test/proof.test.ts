@@ -1,12 +1,16 @@
 import { utf8ToBytes } from "@noble/hashes/utils.js";
-import { afterEach, describe, expect, it } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { forgetKey, hasKey, mac, prove, proveGoal, setKey } from "../src/net/proof";
 import { status } from "./examples";
 
 const METAL = { ...status, drive: { ...status.drive, virtual: false, kind: "serial" } };
 const HELD = { ...METAL, held: { reason: "stop", id: "s1" } };
 
-afterEach(forgetKey);
+beforeEach(() => vi.stubGlobal("isSecureContext", true));
+afterEach(() => {
+  forgetKey();
+  vi.unstubAllGlobals();
+});
 
 describe("mac", () => {
   // Both made by wire/proof.py: sign(key, kind, robot, nonce, id).mac; tests/web holds Python to it.
@@ -44,6 +48,16 @@ describe("prove", () => {
   it("asks for the key on metal", () => {
     expect(() => prove("arm", METAL)).toThrow("operator_key_needed");
     expect(() => proveGoal(HELD)).toThrow("operator_key_needed");
+  });
+
+  it("takes no key and signs nothing on a page that came in clear", () => {
+    vi.stubGlobal("isSecureContext", false);
+    expect(setKey("0123456789abcdef")).toBe(false);
+    expect(hasKey.value).toBe(false);
+    expect(() => prove("arm", METAL)).toThrow("operator_key_insecure");
+    expect(() => proveGoal(HELD)).toThrow("operator_key_insecure");
+    expect(prove("estop", METAL)).toBeNull();
+    expect(prove("arm", status)).toBeNull();
   });
 
   it("signs with the key that was typed, for this nonce, under a new id each time", () => {

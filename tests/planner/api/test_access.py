@@ -58,6 +58,28 @@ def test_the_page_itself_may_ask() -> None:
     assert LOCAL.judge("GET", "/v1/events", asked, websocket=True) is Role.OPERATOR
 
 
+def test_over_tls_a_page_that_came_without_it_may_not_ask() -> None:
+    secure = Access("127.0.0.1", speaks_tls=True)
+    asked = headers(origin="https://127.0.0.1:8420")
+    assert secure.judge("GET", "/v1/events", asked, websocket=True) is Role.OPERATOR
+    with pytest.raises(NotAllowed) as refused:
+        secure.judge("GET", "/v1/events", headers(origin="http://127.0.0.1:8420"), websocket=True)
+    assert refused.value.code == "foreign_origin"
+    assert "https://127.0.0.1:8420" in refused.value.detail
+
+
+def test_behind_a_proxy_that_adds_the_tls_its_page_may_ask() -> None:
+    token = "Bearer op-secret"
+    asked = headers("robot.lan", origin="https://robot.lan", authorization=token, **JSON)
+    assert OPEN.judge("POST", "/v1/goals", asked) is Role.OPERATOR
+
+
+def test_the_authoritys_certificate_is_seen_before_any_token_is_typed() -> None:
+    assert OPEN.judge("GET", "/ca.crt", headers("robot.lan")) is Role.VIEWER
+    with pytest.raises(NotAllowed):
+        OPEN.judge("POST", "/ca.crt", headers("robot.lan", **JSON))
+
+
 @pytest.mark.parametrize("content_type", ["", "text/plain", "application/x-www-form-urlencoded"])
 def test_a_change_of_state_needs_json(content_type: str) -> None:
     with pytest.raises(NotAllowed) as refused:

@@ -58,6 +58,16 @@ def test_every_answer_carries_a_strict_policy(client: TestClient) -> None:
         assert "*" not in policy
 
 
+def test_the_authoritys_certificate_is_given_out_where_there_is_one(client: TestClient) -> None:
+    assert client.get("/ca.crt").json()["code"] == "unknown_route"
+    pem = b"-----BEGIN CERTIFICATE-----"
+    app = build(FakeServices(), Access("127.0.0.1"), authority=pem)
+    with TestClient(app, base_url=BASE) as other:
+        answer = other.get("/ca.crt")
+    assert answer.content == pem
+    assert answer.headers["content-type"] == "application/x-x509-ca-cert"
+
+
 def test_files_are_squeezed_for_who_takes_it(client: TestClient) -> None:
     plain = client.get("/assets/index-abc123.js", headers={"accept-encoding": "identity"})
     assert "content-encoding" not in plain.headers

@@ -19,6 +19,8 @@ export const en = {
 
   "token.title": "This planner asks for a token",
   "token.text": "It is in the owner's settings. It is kept until this tab is closed.",
+  "token.insecure":
+    "This page came without https: others on this network can read what you type here.",
   "token.label": "Token",
   "token.use": "Use it",
 
@@ -380,6 +382,8 @@ export const en = {
   "error.planner_silent": "The planner does not answer.",
   "error.operator_key_needed":
     "This robot is not simulated. Type the operator's key first, under Robot.",
+  "error.operator_key_insecure":
+    "This page came without https, so it does not ask for the operator's key: others on this network could read it. Start the planner with TLS (pons up --tls), or run pons arm or pons reset at the robot.",
   "error.other": "{code}: {detail}",
 } as const;
 

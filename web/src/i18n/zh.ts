@@ -21,6 +21,7 @@ export const zh: Record<Key, string> = {
 
   "token.title": "此规划器需要令牌",
   "token.text": "令牌在所有者的设置中，仅保留到此标签页关闭。",
+  "token.insecure": "本页未使用 https：同一网络上的其他人可以看到您在此输入的内容。",
   "token.label": "令牌",
   "token.use": "使用",
 
@@ -378,5 +379,7 @@ export const zh: Record<Key, string> = {
 
   "error.planner_silent": "规划器没有应答。",
   "error.operator_key_needed": "这不是仿真机器人。请先在“机器人”页输入操作员密钥。",
+  "error.operator_key_insecure":
+    "本页未使用 https，因此不询问操作员密钥：同一网络上的其他人可能看到它。请用 TLS 启动规划器（pons up --tls），或在机器人上运行 pons arm 或 pons reset。",
   "error.other": "{code}：{detail}",
 };

@@ -1,7 +1,9 @@
 /**
  * Make the proof that a person meant a request: HMAC-SHA-256 over kind, robot, nonce and id, each
- * preceded by its length, as wire/proof.py does. WebCrypto is missing on plain HTTP from another
- * machine, so this is a kept library's.
+ * preceded by its length, as wire/proof.py does.
+ *
+ * Only a page that came by https, or from the robot's own machine, takes the key: any other may have
+ * been written by whoever is on the path.
  */
 import { hmac } from "@noble/hashes/hmac.js";
 import { sha256 } from "@noble/hashes/sha2.js";
@@ -22,9 +24,12 @@ export const MIN_KEY_BYTES = 16;
 let key: Uint8Array | null = null;
 export const hasKey = signal(false);
 
+/** Say whether this page may ask for the operator's key. */
+export const mayAskKey = (): boolean => globalThis.isSecureContext;
+
 export function setKey(typed: string): boolean {
   const bytes = utf8ToBytes(typed.trim());
-  key = bytes.length >= MIN_KEY_BYTES ? bytes : null;
+  key = mayAskKey() && bytes.length >= MIN_KEY_BYTES ? bytes : null;
   hasKey.value = key !== null;
   return hasKey.value;
 }
@@ -52,10 +57,12 @@ export const needsKey = (status: Status | null): boolean =>
 /**
  * Return the proof for one request, or null where none is needed.
  *
- * Throws ApiError `operator_key_needed` where metal moves and no key was typed.
+ * Throws ApiError where metal moves: `operator_key_insecure` where this page may not ask for the key,
+ * `operator_key_needed` where none was typed.
  */
 export function prove(kind: Act, status: Status | null): OperatorProof | null {
   if (!needsKey(status) || status === null || kind === "disarm" || kind === "estop") return null;
+  if (!mayAskKey()) throw new ApiError("operator_key_insecure", "");
   if (key === null) throw new ApiError("operator_key_needed", "");
   const id = newId("page");
   return {

@@ -6,7 +6,7 @@ import { signal } from "@preact/signals";
 import { useCallback, useEffect, useRef } from "preact/hooks";
 import { t } from "../i18n";
 import type { Act } from "../net/api";
-import { hasKey, needsKey, setKey } from "../net/proof";
+import { hasKey, mayAskKey, needsKey, setKey } from "../net/proof";
 import { order } from "../state/acts";
 import { shownStatus } from "../state/store";
 
@@ -72,8 +72,9 @@ function Question({ kind, close }: { kind: Act; close: () => void }) {
   );
 }
 
-/** Take the operator's key for this page's memory. */
+/** Take the operator's key for this page's memory, or say where it can be given instead. */
 export function KeyBox() {
+  if (!mayAskKey()) return <p class="fine key-insecure">{t("error.operator_key_insecure")}</p>;
   return (
     <form onSubmit={(event) => event.preventDefault()}>
       <label class="field">

@@ -23,7 +23,10 @@ export function TokenForm({ used }: { used: () => void }) {
             value={typed.value}
             onInput={(event) => (typed.value = event.currentTarget.value)}
           />
-          <small>{t("token.text")}</small>
+          <small>
+            {t("token.text")}
+            {!globalThis.isSecureContext && ` ${t("token.insecure")}`}
+          </small>
         </label>
         <button type="submit" class="main">
           {t("token.use")}
