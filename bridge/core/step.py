@@ -40,17 +40,17 @@ if TYPE_CHECKING:
 
 
 def initial(config: CoreConfig, now_s: float) -> BridgeState:
-    """Return the state before the first tick: BOOT, disabled, first epoch and first nonce.
+    """Return the state before the first tick: BOOT, disabled, first epoch, no nonce yet.
 
     Args:
-        config: what the steps to come will be given; all chance of a run is in its ``boot``.
+        config: what the steps to come will be given.
         now_s: this host's monotonic clock.
     """
     return BridgeState(
         now_s=now_s,
         started_s=now_s,
         mode_since_s=now_s,
-        operator=Operator(nonce_no=1, nonce_made_s=now_s),
+        operator=Operator(nonce_made_s=now_s),
         learnt=config.learnt,
         braking_trouble=config.braking_trouble,
     )

@@ -58,7 +58,8 @@ NOBODY: dict[str, object] = dict.fromkeys(
         (Ownership(), NOBODY),
         (Grants(), {"mission": None, "metres": 0.0, "seconds": 0.0, "book": (),
                     "operator_metres": 0.0, "operator_seconds": 0.0, "since_arm": False}),
-        (Operator(), {"nonce_no": 0, "nonce_made_s": 0.0, "old_nonce_no": None, "old_until_s": 0.0,
+        (Operator(), {"nonce_no": 0, "nonce_tag": "", "nonce_made_s": 0.0, "old_nonce_no": None,
+                      "old_tag": "", "old_until_s": 0.0,
                       "answers": (), "accepted": (), "refusals": ()}),
         (Leg(), {"mission": None, "leg": 0, "reached": False, "goal": None, "refusal": None,
                  "horizon": None, "path": None, "sent_s": 0.0}),
@@ -90,7 +91,7 @@ NOBODY: dict[str, object] = dict.fromkeys(
                    "drive": (), "scan": None, "imu": None, "estop_link": None, "fences": (),
                    "fence_done": None, "rejected": (), "arrived": (), "loop": LOOP,
                    "real_time": False, "recorder_ok": False, "recorder_says": "",
-                   "sensors_same_host": True, "localization_same_host": True}),
+                   "sensors_same_host": True, "localization_same_host": True, "chance": ""}),
     ],
 )  # fmt: skip
 def test_a_new_record_has_seen_and_allows_nothing(new: object, says: dict[str, object]) -> None:
@@ -113,7 +114,7 @@ def test_a_new_state_stands_in_boot_at_its_own_time() -> None:
     assert (new.fence_asked, new.braking_trouble, new.learnt) == (None, None, Learnt())
     first = initial(config(), 7.0)
     assert (first.started_s, first.mode_since_s) == (7.0, 7.0)
-    assert first.operator == Operator(nonce_no=1, nonce_made_s=7.0)
+    assert first.operator == Operator(nonce_made_s=7.0)
 
 
 def test_a_fence_is_asked_for_before_it_is_written_and_a_ramp_begins_at_its_start() -> None:
