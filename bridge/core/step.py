@@ -71,6 +71,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     tick = Tick(config, s, inbox, now_s, now_s - state.now_s)
     s.now_s = now_s
     s.tick += 1
+    drive_out.forget_after_gap(tick)
     senses.sense(tick)
     _listen(tick)
     detect(tick)
