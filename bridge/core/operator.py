@@ -1,9 +1,9 @@
 """Obey people: stops, arm, disarm, estop, reset, resume. Stops are levels and never refused.
 
 One id gets one verdict; repeats change nothing. Arm, reset and resume need a proof whose HMAC fits
-(judged where the bytes were read) under a nonce that still counts (judged here). Nobody can foretell
-a nonce, so that no proof can be collected for later: it is made of the chance that the shell drew
-for the tick that first shows it.
+(judged where the bytes were read) under a nonce that still counts (judged here). Nobody can
+foretell a nonce, so that no proof can be collected for later: it is made of the chance that the
+shell drew for the tick that first shows it.
 """
 
 from __future__ import annotations

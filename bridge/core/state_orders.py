@@ -45,6 +45,9 @@ class Grants:
     """Other missions' remainders, oldest first."""
     operator_metres: float = 0.0
     operator_seconds: float = 0.0
+    hand_metres: float = 0.0
+    hand_seconds: float = 0.0
+    """What a hand on the stick may still drive before a person acts and signs."""
     since_arm: bool = False
     """A grant was given since arming: the brain's death then disarms."""
 
