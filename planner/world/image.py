@@ -91,9 +91,8 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
     width, height = int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
     _check_size(width, height, where)
     import cv2
-    import numpy as np
 
-    pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
+    pixels = cv2.imread(str(where), cv2.IMREAD_GRAYSCALE)
     if pixels is None or pixels.shape != (height, width):
         raise SiteError("map_image_malformed", f"{where}: the PNG cannot be decoded")
     return GreyImage(width, height, pixels.tobytes())

@@ -91,7 +91,8 @@ class _UniqueKeys(yaml.SafeLoader):
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         """Refuse aliases: ten lines of them name more values than any memory holds."""
         if self.check_event(yaml.AliasEvent):
-            line = self.peek_event().start_mark.line + 1
+            event = self.peek_event()  # type: ignore[no-untyped-call]  # PyYAML says no types
+            line = event.start_mark.line + 1
             raise ValueError(f"line {line}: an alias (*); write the value out")
         return super().compose_node(parent, index)
 
