@@ -9,7 +9,7 @@ from dataclasses import replace
 from math import cos, hypot, sin
 
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from bridge.core import Inbox, senses
@@ -109,7 +109,7 @@ def test_jumps_that_take_no_grant_disarm_nobody() -> None:
     assert not raised(world, "POSE_JUMP.1")
 
 
-@at_least(10)
+@settings(max_examples=10)
 @given(st.integers(0, 2**32))
 @example(2)
 def test_the_noise_of_an_honest_localizer_is_no_drift(seed: int) -> None:
