@@ -10,12 +10,14 @@ from bridge.core.fence import Fence, Zone, build_fence
 from wire.errors import Misconfigured
 from wire.fence import FenceFile, flaw
 from wire.fingerprint import fingerprint
+from wire.plain_file import read_plain_file
 from wire.robot import explain
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 NAME = "fence.json"
+MOST_BYTES = 4_000_000
 
 
 def load_fence(path: Path) -> tuple[Fence, str]:
@@ -25,7 +27,7 @@ def load_fence(path: Path) -> tuple[Fence, str]:
         Misconfigured: the file is missing, or wrong as for :func:`parse_fence`.
     """
     try:
-        data = path.read_bytes()
+        data = read_plain_file(path, MOST_BYTES)
     except OSError as error:
         raise Misconfigured("fence_missing", f"{path}: {error.strerror}") from None
     return parse_fence(data, str(path)), fingerprint(data)

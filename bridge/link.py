@@ -92,6 +92,7 @@ class Link:
         *,
         real_time: bool,
         recorder_ok: bool,
+        chance: str,
         fence_done: FenceDone | None = None,
         recorder_says: str = "",
     ) -> Inbox:
@@ -121,6 +122,7 @@ class Link:
             real_time=real_time,
             recorder_ok=recorder_ok,
             recorder_says=recorder_says,
+            chance=chance,
         )
 
     def publish(self, decision: Decision) -> None:

@@ -7,6 +7,7 @@ adds is that whatever ends the loop, the drive is halted.
 from __future__ import annotations
 
 import logging
+import secrets
 import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 log = logging.getLogger("bridge")
 
 EXIT_LEFT = 0
+CHANCE_BYTES = 8
+"""Drawn for each tick, 1.3 us: nonces are made of it."""
 EXIT_BROKEN = 70
 """EX_SOFTWARE of sysexits.h: the step raised, which it never may."""
 
@@ -105,4 +108,5 @@ class Shell:
             real_time=self._real_time,
             recorder_ok=not unrecorded,
             recorder_says=unrecorded,
+            chance=secrets.token_hex(CHANCE_BYTES),
         )

@@ -45,7 +45,12 @@ class BridgeSide:
 
     def turn(self, now_s: float) -> Decision:
         """Drain, step, drive, tell: the shell's tick."""
-        inbox = self._link.drain(self._drive.read(), ON_TIME, real_time=True, recorder_ok=True)
+        chance = (
+            f"{self.state.tick:016x}"  # foretold by all, so that runs repeat: nobody signs here
+        )
+        inbox = self._link.drain(
+            self._drive.read(), ON_TIME, real_time=True, recorder_ok=True, chance=chance
+        )
         decision = self._step(self.config, self.state, inbox, now_s)
         self._drive.write(decision.command)
         self._link.publish(decision)

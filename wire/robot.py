@@ -16,11 +16,13 @@ from pydantic import BaseModel, Field, ValidationError, model_validator
 from wire.base import Record
 from wire.errors import Misconfigured
 from wire.fingerprint import fingerprint
+from wire.plain_file import read_plain_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+MOST_BYTES = 1_000_000
 HIDDEN_BEYOND_M = 0.05
 """What comes so near the robot's disc stops it (the bridge's margin); a test holds both equal."""
 PEAK_TIMES = 10.0
@@ -254,7 +256,8 @@ def load_robot(path: Path) -> RobotDescription:
             the message names every such key, what came and what is allowed.
     """
     try:
-        return RobotDescription.model_validate(tomllib.loads(path.read_text("utf-8")), strict=True)
+        text = read_plain_file(path, MOST_BYTES).decode("utf-8")
+        return RobotDescription.model_validate(tomllib.loads(text), strict=True)
     except OSError as error:
         raise Misconfigured("robot_toml_missing", f"{path}: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

@@ -7,30 +7,52 @@ from typing import TYPE_CHECKING
 
 from wire.errors import Misconfigured
 from wire.fingerprint import map_id
+from wire.plain_file import read_plain_file
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+MOST_MAP_BYTES = 100_000
+MOST_IMAGE_BYTES = 80_000_000
+"""64 million pixels of one byte (8000 x 8000), and a head."""
+
 # One key of a flat file: a YAML parser would be the only use of YAML in the processes that ask.
 _IMAGE = re.compile(rb"^image:[ \t]*['\"]?([^'\"#\r\n]+?)['\"]?[ \t]*(?:#.*)?\r?$", re.MULTILINE)
+
+
+def image_in(site_dir: Path, name: str) -> Path:
+    """Return the path of a map's image, which lies in the folder of its site.
+
+    Raises:
+        ValueError: it lies elsewhere, by its name or by a link, or has a name that no file has.
+    """
+    image = site_dir / name
+    if not image.resolve().is_relative_to(site_dir.resolve()):
+        raise ValueError(f"it is not in the site's folder {site_dir}")
+    return image
 
 
 def read_map_id(site_dir: Path) -> str:
     """Return the fingerprint of the site's map.yaml and its image.
 
     Raises:
-        Misconfigured: ``map_missing`` or ``map_image_missing``, naming the file.
+        Misconfigured: ``map_missing``, ``map_image_missing`` or ``map_image_outside``, naming the
+            file.
     """
     path = site_dir / "map.yaml"
     try:
-        text = path.read_bytes()
+        text = read_plain_file(path, MOST_MAP_BYTES)
     except OSError as error:
         raise Misconfigured("map_missing", f"{path}: {error.strerror}") from None
     named = _IMAGE.search(text)
     if named is None:
         raise Misconfigured("map_image_missing", f"{path}: no line 'image: FILE'")
-    image = site_dir / named[1].decode("utf-8", "replace")
+    name = named[1].decode("utf-8", "replace")
     try:
-        return map_id(text, image.read_bytes())
-    except (OSError, ValueError) as error:
-        raise Misconfigured("map_image_missing", f"{image}: {error}") from None
+        image = image_in(site_dir, name)
+    except ValueError as error:
+        raise Misconfigured("map_image_outside", f"{path}: image {name!r}: {error}") from None
+    try:
+        return map_id(text, read_plain_file(image, MOST_IMAGE_BYTES))
+    except OSError as error:
+        raise Misconfigured("map_image_missing", f"{image}: {error.strerror}") from None

@@ -146,6 +146,8 @@ class BoxReader:
                 raise BadRecording("recording_damaged", text)
 
     def _unpacked(self, chunk: Chunk) -> bytes:
+        if chunk.size > MOST_BYTES:
+            raise ValueError(f"a chunk of {chunk.size} bytes, packed")
         self._file.seek(chunk.at)
         body = self._file.read(chunk.size)
         _, _, size, crc = _CHUNK_HEAD.unpack_from(body)
@@ -153,7 +155,7 @@ class BoxReader:
         packed = body[at + 8 :]
         if size > MOST_BYTES or compression not in {"", "zstd"}:
             raise ValueError(f"a chunk of {size} bytes in {compression!r}")
-        data = zstandard.decompress(packed, max_output_size=size) if compression else packed
+        data = _unpacked(packed, size) if compression else packed
         if len(data) != size or (crc and zlib.crc32(data) != crc):
             raise ValueError("its checksum does not fit")
         return data
@@ -174,6 +176,14 @@ class BoxReader:
                 (channel,) = struct.unpack_from("<H", data, at)
                 self._topic_of[channel], _ = _text(data, at + 4)
             at = end
+
+
+def _unpacked(packed: bytes, size: int) -> bytes:
+    """Unpack one frame, whose own word on its size outranks ours inside the library."""
+    said = zstandard.frame_content_size(packed)
+    if said not in {-1, size}:  # -1: it does not say
+        raise ValueError(f"a frame of {said} bytes in a chunk of {size}")
+    return zstandard.decompress(packed, max_output_size=size)
 
 
 def _records(file: IO[bytes], size: int) -> Iterator[tuple[int, int, int]]:

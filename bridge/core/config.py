@@ -21,7 +21,7 @@ class CoreConfig:
     map_id: str
     """The map that the fence was drawn on; hello and waypoints must name it."""
     boot: str
-    """This run's nonce, [A-Za-z0-9]{1,32}: prefix of epochs and nonces, and the odom_id."""
+    """This run's name, [A-Za-z0-9]{1,32}: prefix of epochs and nonces, and the odom_id."""
     period_s: float = 0.01
     learnt: Learnt = UNLEARNT
     """What earlier runs learnt of this robot's brakes: the state goes on from there."""

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 DETECTORS = (
     detect_brain.brain,
     detect_brain.commands,
+    detect_brain.hand,
     flood.judge,
     detect_senses.lidar,
     detect_place.blind,

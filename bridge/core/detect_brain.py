@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.grants import spent
+from bridge.core.grants import hand_spent, spent
 from bridge.core.modes import POWERED
+from wire import Mode
 
 if TYPE_CHECKING:
     from bridge.core.latch import Dirty
@@ -15,6 +16,7 @@ LATE_S, LOST_S, GONE_S = 0.15, 0.3, 5.0
 USED_S = 1.0
 EXTERNAL_S = 0.25
 BAD_TRIPS = 5.0
+HAND_SHOWN_S = 1.0
 
 
 def brain(tick: Tick, dirty: Dirty) -> None:
@@ -54,3 +56,14 @@ def commands(tick: Tick, dirty: Dirty) -> None:
         what = spent(s.grants)
         if what is not None:
             dirty.append(("BUDGET.0", f"{what} are spent"))
+
+
+def hand(tick: Tick, dirty: Dirty) -> None:
+    """Judge what a hand on the stick may still drive, while it drives or asks to."""
+    s = tick.s
+    pressed_s = s.stick.pressed_s
+    asks = pressed_s is not None and tick.now_s - pressed_s <= HAND_SHOWN_S
+    if s.mode is Mode.TELEOP or (s.mode in POWERED and asks):
+        what = hand_spent(s.grants)
+        if what is not None:
+            dirty.append(("HAND_BUDGET.0", f"{what} are spent"))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.ages import sensor_age_s
 from bridge.core.arming import pressed
-from bridge.core.senses import pose_trouble
+from bridge.core.senses import JUMPS, JUMPS_WITHIN_S, pose_trouble
 
 if TYPE_CHECKING:
     from bridge.core.latch import Dirty
@@ -49,8 +49,12 @@ def pose(tick: Tick, dirty: Dirty) -> None:
         evidence = pose_trouble(tick) or "no pose"
         dirty.append(("POSE_LOST.0", evidence))
         dirty.append(("POSE_LOST.1", evidence))
-    if tick.s.pose.jumped_s == tick.now_s:
+    jumped = tick.s.pose.jumped_s == tick.now_s
+    if jumped:
         dirty.append(("POSE_JUMP.0", "localization displaced the robot"))
+    at_s = tick.s.pose.drift.jumps_at_s
+    if jumped and len(at_s) == JUMPS and tick.now_s - at_s[0] <= JUMPS_WITHIN_S:
+        dirty.append(("POSE_JUMP.1", f"{JUMPS} times within {JUMPS_WITHIN_S:.0f} s"))
 
 
 def drive(tick: Tick, dirty: Dirty) -> None:
@@ -70,6 +74,9 @@ def drive(tick: Tick, dirty: Dirty) -> None:
         dirty.append(("DRIVER_NACK.0", f"{memory.behind} commands behind"))
         if behind_s > NACK_LONG_S:
             dirty.append(("DRIVER_NACK.1", f"{memory.behind} commands behind"))
+    if memory.ahead > 0:
+        evidence = f"it echoes a command {memory.ahead} ahead of the newest sent"
+        dirty.append(("DRIVE_FOREIGN.0", evidence))
     if memory.reborn_s == tick.now_s:
         dirty.append(("DRIVE_REBOOT.0", f"now {newest.boot_id}"))
 

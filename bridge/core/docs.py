@@ -71,7 +71,9 @@ passes gives back a quarter of a tick), a gate shows `blocked` and holds; what e
 in a row in which the way that is asked for then is free for 0.3 m, of bumpers and of the fence.
 Where there is a fence and no pose, nothing but a hand on the stick passes.
 
-A hand on the stick may cross the fence at 0.2 m/s; each crossing is an event, `outside_fence`.
+A hand on the stick may cross the fence at 0.2 m/s; each crossing is an event, `outside_fence`. Its
+messages bear no proof, so what it may drive is metered by itself: 50 m and 600 s after an
+operator's signed arm or resume, a metre outside the fence as ten (`HAND_BUDGET`).
 Bumpers shut the way that they face, the cliff sensor the way ahead; away from them at most 0.1 m/s
 and 0.3 rad/s pass.
 

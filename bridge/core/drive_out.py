@@ -56,6 +56,16 @@ def followed(tick: Tick) -> tuple[Twist2, bool]:
     return answer.target, answer.at_end
 
 
+def forget_after_gap(tick: Tick) -> None:
+    """Begin at zero after a gap in which the drive has timed out: it stands, or is coming to.
+
+    A loop that was frozen for seconds would otherwise ramp down a speed that nobody has any more.
+    """
+    if not tick.dt_s <= tick.config.robot.drive.timeout_s:
+        tick.s.motion.limiter = LimiterState()
+        tick.s.motion.left = tick.s.motion.right = AT_REST
+
+
 def shaped(tick: Tick, asked: Twist2) -> LimiterState:
     """Return what is sent: asked, then caps, gate and rates. Zero is the target unless moving."""
     s = tick.s

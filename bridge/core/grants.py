@@ -1,6 +1,7 @@
 """Meter motion: what a mission may still use, and what was driven since a person last acted.
 
-What is left belongs to the mission id and survives epochs; no later grant adds to it.
+What is left belongs to the mission id and survives epochs; no later grant adds to it. A hand on the
+stick is a person's, but its messages bear no proof and may be anybody's: it has a meter of its own.
 """
 
 from __future__ import annotations
@@ -23,8 +24,12 @@ if TYPE_CHECKING:
 
 OPERATOR_METRES = 500.0
 OPERATOR_SECONDS = 3600.0
+HAND_METRES = 50.0
+HAND_SECONDS = 600.0
+"""Through a large flat and back; 50 m at 0.2 m/s take 250 s."""
+OUTSIDE_COUNTS = 10.0
 METERED = frozenset({"W", "X"})
-"""Whose motion is metered; a hand on the stick is the operator's own."""
+"""Whose motion is metered by mission; a hand on the stick is metered by itself."""
 
 
 def hear_grant(tick: Tick, grant: Grant) -> None:
@@ -58,15 +63,24 @@ def hear_grant(tick: Tick, grant: Grant) -> None:
 
 def operator_acted(grants: Grants) -> Grants:
     """Refill what may be driven between two acts of a person."""
-    return replace(grants, operator_metres=OPERATOR_METRES, operator_seconds=OPERATOR_SECONDS)
+    return replace(
+        grants,
+        operator_metres=OPERATOR_METRES,
+        operator_seconds=OPERATOR_SECONDS,
+        hand_metres=HAND_METRES,
+        hand_seconds=HAND_SECONDS,
+    )
 
 
 def meter(tick: Tick, before: BridgeState) -> None:
-    """Take one tick's way and time off what is left, if a planner or another brain caused it.
+    """Take one tick's way and time off what is left to who caused it.
 
     The way of a stop counts too, or a planner that is stopped again and again would go further than
     granted. Its time does not: a robot that must stop uses nothing up.
     """
+    if before.mode is Mode.TELEOP or (before.stopping and before.stopping.source == "T"):
+        _meter_hand(tick, before)
+        return
     if before.mode is Mode.ACTIVE:
         used_s = tick.dt_s
     elif before.mode is Mode.STOPPING and before.stopping is not None:
@@ -85,8 +99,30 @@ def meter(tick: Tick, before: BridgeState) -> None:
         grants.book,
         max(0.0, grants.operator_metres - moved_m),
         max(0.0, grants.operator_seconds - used_s),
+        grants.hand_metres,
+        grants.hand_seconds,
         grants.since_arm,
     )
+
+
+def _meter_hand(tick: Tick, before: BridgeState) -> None:
+    """Meter a hand on the stick; its ramp to standstill counts as the ways of other stops do."""
+    grants, s = tick.s.grants, tick.s
+    counts = OUTSIDE_COUNTS if s.watch.outside else 1.0
+    moved_m = counts * (s.odometry.travelled_m - before.odometry.travelled_m)
+    used_s = tick.dt_s if before.mode is Mode.TELEOP else 0.0
+    s.grants = replace(
+        grants,
+        hand_metres=max(0.0, grants.hand_metres - moved_m),
+        hand_seconds=max(0.0, grants.hand_seconds - used_s),
+    )
+
+
+def hand_spent(grants: Grants) -> str | None:
+    """Name what a hand on the stick has used up; None if nothing is."""
+    if not grants.hand_metres > 0.0:
+        return "hand's metres"
+    return None if grants.hand_seconds > 0.0 else "hand's seconds"
 
 
 def spent(grants: Grants) -> str | None:

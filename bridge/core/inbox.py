@@ -102,6 +102,9 @@ class Inbox:
     sensors_same_host: bool = True
     """Drive, lidar and IMU stamp with this host's monotonic clock: stamps may age them further."""
     localization_same_host: bool = True
+    chance: str = ""
+    """16 hex digits that the shell drew for this tick alone, after all in here had arrived: what a
+    nonce made in this tick is made of. By the time it is recorded it can't be foretold any more."""
 
 
 EMPTY = Inbox()

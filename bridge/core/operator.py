@@ -1,7 +1,9 @@
 """Obey people: stops, arm, disarm, estop, reset, resume. Stops are levels and never refused.
 
 One id gets one verdict; repeats change nothing. Arm, reset and resume need a proof whose HMAC fits
-(judged where the bytes were read) under a nonce that still counts (judged here).
+(judged where the bytes were read) under a nonce that still counts (judged here). Nobody can
+foretell a nonce, so that no proof can be collected for later: it is made of the chance that the
+shell drew for the tick that first shows it.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from bridge.core.latch import clear_on_arm, clear_on_reset
 from bridge.core.modes import Fact, Request
 from bridge.core.transition import go
 from bridge.core.verdicts import settle, verdict_on
-from wire import HeldReason
+from wire import HeldReason, Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,14 +32,26 @@ _PROVEN = frozenset({"arm", "reset", "resume"})
 _ACCEPTED = 16
 
 
-def nonce_text(tick: Tick, number: int) -> str:
-    """Return a nonce as it is on the wire."""
-    return f"{tick.config.boot}.{number}"
+def nonce_text(tick: Tick) -> str:
+    """Return the nonce that counts now, as it is on the wire: boot, number and chance."""
+    operator = tick.s.operator
+    return f"{tick.config.boot}.{operator.nonce_no}.{operator.nonce_tag}"
+
+
+def old_nonce_text(tick: Tick) -> str | None:
+    """Return the nonce before, while what was signed under it may still arrive."""
+    operator = tick.s.operator
+    if operator.old_nonce_no is None or not tick.now_s <= operator.old_until_s:
+        return None
+    return f"{tick.config.boot}.{operator.old_nonce_no}.{operator.old_tag}"
 
 
 def renew_nonce(tick: Tick) -> None:
     """Change the nonce every 60 s, so that a proof once made does not lie about for long."""
-    if not tick.now_s - tick.s.operator.nonce_made_s < NONCE_S:
+    operator = tick.s.operator
+    if operator.nonce_no == 0:
+        _void_nonces(tick)  # the run's first: there is none before it
+    elif not tick.now_s - operator.nonce_made_s < NONCE_S:
         _next_nonce(tick)
 
 
@@ -96,13 +110,9 @@ def bad_proof(
         yield "bad_proof", "the proof is missing or not made with this robot's operator key"
         return
     operator = tick.s.operator
-    if nonce == nonce_text(tick, operator.nonce_no):
-        number = operator.nonce_no
-    elif (
-        operator.old_nonce_no is not None
-        and tick.now_s <= operator.old_until_s
-        and nonce == nonce_text(tick, operator.old_nonce_no)
-    ):
+    if nonce == nonce_text(tick) and operator.nonce_tag:
+        number: int | None = operator.nonce_no
+    elif nonce == old_nonce_text(tick) and operator.old_tag:
         number = operator.old_nonce_no
     else:
         yield "old_nonce", "the proof was made for a nonce that no longer counts; sign anew"
@@ -129,7 +139,7 @@ def _void_nonces(tick: Tick) -> None:
     A request is repeated until it is echoed, so one that was signed before may come after.
     """
     _next_nonce(tick)
-    tick.s.operator = replace(tick.s.operator, old_nonce_no=None)
+    tick.s.operator = replace(tick.s.operator, old_nonce_no=None, old_tag="")
 
 
 def _next_nonce(tick: Tick) -> None:
@@ -137,8 +147,10 @@ def _next_nonce(tick: Tick) -> None:
     tick.s.operator = replace(
         operator,
         nonce_no=operator.nonce_no + 1,
+        nonce_tag=tick.inbox.chance,
         nonce_made_s=tick.now_s,
         old_nonce_no=operator.nonce_no,
+        old_tag=operator.nonce_tag,
         old_until_s=tick.now_s + OLD_NONCE_S,
     )
 
@@ -153,11 +165,14 @@ def _arm(tick: Tick, request_id: str) -> None:
 
 
 def _disarm(tick: Tick, _request_id: str) -> None:
+    _void_nonces(tick)
     go(tick, Request.DISARM, Request.DISARM)
 
 
 def _estop(tick: Tick, _request_id: str) -> None:
     tick.s.buttons = replace(tick.s.buttons, ordered=True)
+    if tick.s.mode is Mode.ESTOPPED:
+        _void_nonces(tick)  # latched already: what is said again ends a reset signed before it
     estop(tick, "estop")
 
 

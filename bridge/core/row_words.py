@@ -29,6 +29,10 @@ WORDS: dict[str, tuple[str, str]] = {
         "The distance or time allowed is used up; a new goal or a resume is needed.",
         "允许的距离或时间已用完，需要新的目标或由人恢复。",
     ),
+    "HAND_BUDGET": (
+        "The distance or time for driving by hand is used up; let go of the stick, then resume.",
+        "手动驾驶的距离或时间已用完，请松开手柄，再由人恢复。",
+    ),
     "LIDAR_STALE": (
         "The lidar sends nothing new; the robot holds.",
         "激光雷达没有新数据，机器人停住。",
@@ -47,8 +51,8 @@ WORDS: dict[str, tuple[str, str]] = {
         "机器人不知道自己的位置，停住。",
     ),
     "POSE_JUMP": (
-        "The position jumped; the route must be made anew.",
-        "定位发生跳变，需要重新规划路线。",
+        "The position jumped; the route must be made anew (after three jumps: arm).",
+        "定位发生跳变，需要重新规划路线（连续三次后需重新上电）。",
     ),
     "STUCK": ("The wheels should turn but the robot does not move.", "机器人被卡住，无法移动。"),
     "RUNAWAY": (
@@ -60,6 +64,10 @@ WORDS: dict[str, tuple[str, str]] = {
     "DRIVER_NACK": (
         "The drive does not take commands; the robot stops.",
         "驱动没有执行指令，机器人停车。",
+    ),
+    "DRIVE_FOREIGN": (
+        "The drive follows another's commands; stopped. Restart the drive, then reset.",
+        "驱动在执行他人的指令，已停车。请重启驱动，然后复位。",
     ),
     "DRIVE_REBOOT": ("The drive has restarted; arm to go on.", "驱动已重启，请重新上电后继续。"),
     "OVERCURRENT": (

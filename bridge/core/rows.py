@@ -107,6 +107,9 @@ ROWS: tuple[Row, ...] = (
     _row("BUDGET", "the mission's grant or the operator's 500 m and 3600 s are spent; a new "
          "mission or an operator act clears it",
          _do("at once", _HOLD2, "WX", clean_s=0.0)),
+    _row("HAND_BUDGET", "the 50 m and 600 s that a hand on the stick may drive after an operator's "
+         "signed act are spent, a metre outside the fence as ten; arm or resume gives them anew",
+         _do("at once", _HOLD2, "T", clean_s=0.0)),
     _row("LIDAR_STALE", "age of the newest scan over 250 ms, or 5 equal scans while the robot "
          "moved 0.02 m",
          _do("at once", _HOLD2, "WTX", clean_s=1.0),
@@ -122,9 +125,11 @@ ROWS: tuple[Row, ...] = (
     _row("POSE_LOST", "localization older than 300 ms, poor, or of another odom_id; an external "
          "brain is held too, because without a pose no fence and no zone can hold it",
          _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2)),
-    _row("POSE_JUMP", "the robot displaced over 0.1 m or 5 degrees between two localizations; "
-         "route and grant anew",
-         _do("once", _HOLD2, "W", _GRANT)),
+    _row("POSE_JUMP", "the robot displaced over 0.1 m or 5 degrees between two localizations, or "
+         "over 0.2 m or 10 degrees by many, less 0.1 m and 0.05 rad per metre driven and 0.1 rad "
+         "per radian turned; route and grant anew",
+         _do("once", _HOLD2, "W", _GRANT),
+         _do("takes a grant 3 times in 60 s", _STOP1, "WX", _REARM)),
     _row("STUCK", "told to move and measured still, or one wheel is, or an open leg makes no way; "
          "seen in one tick, so that its 2 s are all of the hold; a stop takes 0.9 s",
          _do("1 s; 5 s without progress; the grant is taken", _HOLD2, "WTX", clean_s=2.0),
@@ -138,7 +143,10 @@ ROWS: tuple[Row, ...] = (
          _do("80 ms", _HOLD2), _do("250 ms", _FAST1, ALL, _REARM)),
     _row("DRIVER_NACK", "states arrive whose echo is behind by",
          _do("100 ms", _HOLD2), _do("500 ms", _STOP1, ALL, _RESET)),
-    _row("DRIVE_REBOOT", "the drive's boot id changed; encoder deltas are zeroed anew",
+    _row("DRIVE_FOREIGN", "the drive echoes a command that this bridge has not sent",
+         _do("at once", _FAST1, ALL, _RESET)),
+    _row("DRIVE_REBOOT", "the drive's boot id changed, or after 250 ms of silence it counts from a "
+         "lower number; encoder deltas are zeroed anew",
          _do("at once", _STOP1, ALL, _REARM)),
     _row("OVERCURRENT", "peak or I2t of the motor current",
          _do("100 ms", _STOP1, ALL, _RESET)),

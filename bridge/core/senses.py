@@ -16,12 +16,13 @@ from bridge.core.learnt import in_force
 from bridge.core.obstaclegate import sight_m
 from bridge.core.odometry import advance
 from bridge.core.scanpicture import ScanPicture
-from bridge.core.state_senses import PoseMemory
+from bridge.core.state_senses import Drift, PoseMemory
 from bridge.core.tick import STANDING_MPS, STANDING_RADPS
 from wire import compose, wrap
 from wire.geometry import MAX_COORDINATE_M
 
 if TYPE_CHECKING:
+    from bridge.core.odometry import OdometryState
     from bridge.core.tick import Tick
     from wire import DriveState, Localization, Pose2, Scan
 
@@ -29,6 +30,19 @@ POOR_QUALITY = 0.5
 POSE_OLD_S = 0.3
 JUMP_M = 0.1
 JUMP_RAD = radians(5.0)
+DRIFT_M = 0.2
+"""Localizers that share no noise with us wander by 0.1 m around a robot that stands."""
+DRIFT_RAD = radians(10.0)
+FORGIVEN_M_PER_M = 0.1
+"""Wheels on carpet, before calibration, measure a way wrong by a twentieth."""
+FORGIVEN_RAD_PER_M = 0.05
+FORGIVEN_RAD_PER_RAD = 0.1
+JUMPS = 3
+JUMPS_WITHIN_S = 60.0
+DRIVE_LOST_S, SCAN_LOST_S = 0.25, 0.25
+"""So long a silence holds the robot by a row of its own; what comes then may count anew."""
+SEQ_AHEAD = 1_000
+"""No sender that lives skips so many: who does counts for itself."""
 BASELINE_SCANS = 20
 SEES_SHARE = 0.1
 """In homes nine beams of ten come back, under a cover next to none: fewer teach nothing normal."""
@@ -46,7 +60,13 @@ def sense(tick: Tick) -> None:
     if inbox.imu is not None:
         pose = s.pose  # every tick: a replace would take three times as long
         s.pose = PoseMemory(
-            pose.localization, pose.received_s, pose.jumped_s, inbox.imu, tick.now_s, pose.good
+            pose.localization,
+            pose.received_s,
+            pose.jumped_s,
+            inbox.imu,
+            tick.now_s,
+            pose.good,
+            pose.drift,
         )
     if inbox.estop_link is not None:
         s.buttons = replace(
@@ -91,9 +111,13 @@ def _hear_drive(tick: Tick, state: DriveState) -> None:
     drive = s.drive
     last = drive.newest
     reborn = last is not None and last.boot_id != state.boot_id
-    if last is not None and not reborn and not state.seq > last.seq:
-        tick.drop("drive_state_old")
-        return
+    if last is not None and not reborn:
+        told = order_of(state.seq - last.seq, tick.now_s, drive.received_s, DRIVE_LOST_S)
+        if told == "again":
+            reborn = True  # that it counts anew says that it lives anew, whatever it is called
+        elif told:
+            tick.drop(f"drive_state_{told}")
+            return
     if reborn:
         drive.reborn_s = tick.now_s
     if reborn or last is None:
@@ -101,6 +125,7 @@ def _hear_drive(tick: Tick, state: DriveState) -> None:
     s.odometry = advance(s.odometry, state, tick.config.robot.base, rezero=reborn)
     drive.newest, drive.received_s = state, tick.now_s
     echoed = state.echo_seq if state.echo_boot == tick.config.boot else 0
+    drive.ahead = max(0, echoed - s.command_seq)
     drive.behind = max(0, s.command_seq - max(echoed, drive.behind_base))
     measured = s.odometry.measured
     if abs(measured.v_mps) < STANDING_MPS and abs(measured.w_radps) < STANDING_RADPS:
@@ -119,9 +144,11 @@ def _hear_scan(tick: Tick, scan: Scan) -> None:
     s = tick.s
     lidar = s.lidar
     last = lidar.newest
-    if last is not None and last.boot_id == scan.boot_id and not scan.seq > last.seq:
-        tick.drop("scan_old")
-        return
+    if last is not None and last.boot_id == scan.boot_id:
+        told = order_of(scan.seq - last.seq, tick.now_s, lidar.received_s, SCAN_LOST_S)
+        if told not in {"", "again"}:
+            tick.drop(f"scan_{told}")
+            return
     equal = last is not None and last.ranges_m == scan.ranges_m
     taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
     robot = tick.config.robot
@@ -140,6 +167,21 @@ def _hear_scan(tick: Tick, scan: Scan) -> None:
         baseline_scans=scans,
         baseline_returns=mean + (picture.returns - mean) / scans if learns else mean,
     )
+
+
+def order_of(further: int, now_s: float, received_s: float | None, lost_s: float) -> str:
+    """Say what a number tells that is so much further than the last: nothing, old, ahead, again.
+
+    After a silence any number counts, or a single false one would shut out for ever whom it
+    pretended to be; until then one that is far ahead is not believed.
+    """
+    if further == 0:
+        return "old"
+    if received_s is None or not now_s - received_s <= lost_s:
+        return "" if further > 0 else "again"
+    if further < 0:
+        return "old"
+    return "" if further <= SEQ_AHEAD else "ahead"
 
 
 def sees(picture: ScanPicture) -> bool:
@@ -171,15 +213,48 @@ def _hear_localization(tick: Tick, new: Localization) -> None:
 
 
 def _judge_jump(tick: Tick, last: Localization, new: Localization) -> None:
-    """See whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p."""
+    """See whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p.
+
+    By one message, or by many that add up to more than odometry may have been wrong.
+    """
     s = tick.s
     here = s.odometry.base_in_odom
     before, after = compose(last.odom_in_map, here), compose(new.odom_in_map, here)
-    jump_m = hypot(after.x_m - before.x_m, after.y_m - before.y_m)
-    jump_rad = abs(wrap(after.yaw_rad - before.yaw_rad))
-    if jump_m <= JUMP_M and jump_rad <= JUMP_RAD:
+    x_m, y_m = after.x_m - before.x_m, after.y_m - before.y_m
+    yaw_rad = wrap(after.yaw_rad - before.yaw_rad)
+    drift = _drifted(s.pose.drift, x_m, y_m, yaw_rad, s.odometry)
+    jump_m, drift_m = hypot(x_m, y_m), hypot(drift.x_m, drift.y_m)
+    small = jump_m <= JUMP_M and abs(yaw_rad) <= JUMP_RAD
+    if small and drift_m <= DRIFT_M and abs(drift.yaw_rad) <= DRIFT_RAD:
+        s.pose = replace(s.pose, drift=drift)
         return
-    s.pose = replace(s.pose, jumped_s=tick.now_s)
+    at_s = s.pose.drift.jumps_at_s
+    if s.grants.mission is not None:
+        at_s = (*at_s[-(JUMPS - 1) :], tick.now_s)
+    settled = replace(drift, x_m=0.0, y_m=0.0, yaw_rad=0.0, jumps_at_s=at_s)
+    s.pose = replace(s.pose, jumped_s=tick.now_s, drift=settled)
     s.grants = shelved(s.grants)
     s.leg = replace(s.leg, horizon=None, path=None)
-    tick.say("pose_jump", f"{jump_m:.2f} m {jump_rad:.2f} rad")
+    if small:
+        tick.say("pose_drift", f"{drift_m:.2f} m {abs(drift.yaw_rad):.2f} rad bit by bit")
+    else:
+        tick.say("pose_jump", f"{jump_m:.2f} m {abs(yaw_rad):.2f} rad")
+
+
+def _drifted(had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState) -> Drift:
+    """Add one correction, and forgive what odometry may have been wrong since the last."""
+    moved_m = odometry.travelled_m - had.travelled_m
+    turned_rad = odometry.turned_rad - had.turned_rad
+    x_m, y_m, yaw_rad = had.x_m + x_m, had.y_m + y_m, had.yaw_rad + yaw_rad
+    off_m, off_rad = hypot(x_m, y_m), abs(yaw_rad)
+    forgiven_rad = FORGIVEN_RAD_PER_M * moved_m + FORGIVEN_RAD_PER_RAD * turned_rad
+    kept = max(0.0, 1.0 - FORGIVEN_M_PER_M * moved_m / off_m) if off_m > 0.0 else 0.0
+    kept_yaw = max(0.0, 1.0 - forgiven_rad / off_rad) if off_rad > 0.0 else 0.0
+    return Drift(
+        kept * x_m,
+        kept * y_m,
+        kept_yaw * yaw_rad,
+        odometry.travelled_m,
+        odometry.turned_rad,
+        had.jumps_at_s,
+    )

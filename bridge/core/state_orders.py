@@ -45,6 +45,9 @@ class Grants:
     """Other missions' remainders, oldest first."""
     operator_metres: float = 0.0
     operator_seconds: float = 0.0
+    hand_metres: float = 0.0
+    hand_seconds: float = 0.0
+    """What a hand on the stick may still drive before a person acts and signs."""
     since_arm: bool = False
     """A grant was given since arming: the brain's death then disarms."""
 
@@ -62,8 +65,12 @@ class Operator:
     """Remember nonces and verdicts."""
 
     nonce_no: int = 0
+    """Counts from 1; 0 before the first tick."""
+    nonce_tag: str = ""
+    """The chance of the tick that made it; without any, no proof counts."""
     nonce_made_s: float = 0.0
     old_nonce_no: int | None = None
+    old_tag: str = ""
     old_until_s: float = 0.0
     answers: tuple[Answered, ...] = ()
     """Verdicts on requests by id: one id, one verdict."""

@@ -17,6 +17,8 @@ class DriveMemory:
     received_s: float | None = None
     behind: int = 0
     """Commands sent since the one echoed, judged when a state is received."""
+    ahead: int = 0
+    """By how much its echo names a command that this bridge has not sent yet."""
     behind_base: int = 0
     """The command seq before which no echo can be asked for (start of this drive's life)."""
     reborn_s: float | None = None
@@ -42,6 +44,24 @@ class LidarMemory:
 
 
 @value
+class Drift:
+    """Remember where localization has moved the robot to, as far as odometry does not explain it.
+
+    Each correction adds the displacement of the robot's place in ``map``; each metre and radian
+    that the robot moved takes some off.
+    """
+
+    x_m: float = 0.0
+    y_m: float = 0.0
+    yaw_rad: float = 0.0
+    travelled_m: float = 0.0
+    """Odometer readings at the newest correction."""
+    turned_rad: float = 0.0
+    jumps_at_s: tuple[float, ...] = ()
+    """When a jump took a grant away, the last three times."""
+
+
+@value
 class PoseMemory:
     """Remember what says where ``odom`` lies in ``map``, and the gyro."""
 
@@ -53,6 +73,7 @@ class PoseMemory:
     imu_received_s: float | None = None
     good: Localization | None = None
     """The newest that was good: what a jump is measured from."""
+    drift: Drift = Drift()
 
 
 @dataclass(frozen=True, slots=True)

@@ -50,7 +50,7 @@ def build(tick: Tick) -> Status:
         mode=s.mode,
         action=action,
         epoch=tick.epoch,
-        nonce=nonce_text(tick, s.operator.nonce_no),
+        nonce=nonce_text(tick),
         owner=s.ownership.owner,
         held=s.held,
         grant=_grant(tick),

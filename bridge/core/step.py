@@ -40,17 +40,17 @@ if TYPE_CHECKING:
 
 
 def initial(config: CoreConfig, now_s: float) -> BridgeState:
-    """Return the state before the first tick: BOOT, disabled, first epoch and first nonce.
+    """Return the state before the first tick: BOOT, disabled, first epoch, no nonce yet.
 
     Args:
-        config: what the steps to come will be given; all chance of a run is in its ``boot``.
+        config: what the steps to come will be given.
         now_s: this host's monotonic clock.
     """
     return BridgeState(
         now_s=now_s,
         started_s=now_s,
         mode_since_s=now_s,
-        operator=Operator(nonce_no=1, nonce_made_s=now_s),
+        operator=Operator(nonce_made_s=now_s),
         learnt=config.learnt,
         braking_trouble=config.braking_trouble,
     )
@@ -71,6 +71,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     tick = Tick(config, s, inbox, now_s, now_s - state.now_s)
     s.now_s = now_s
     s.tick += 1
+    drive_out.forget_after_gap(tick)
     senses.sense(tick)
     _listen(tick)
     detect(tick)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.ages import sent_at
 from bridge.core.epoch import hold, turn
+from bridge.core.grants import hand_spent
 from bridge.core.manners import bad, good
 from bridge.core.modes import Fact, Request
 from bridge.core.state_orders import Stick
@@ -91,6 +92,9 @@ def _take_over(tick: Tick, new: Velocity, sent_s: float) -> None:
     s = tick.s
     if new.source_id not in s.stick.ready or tick.stopped:
         tick.drop("stick_not_ready")
+        return
+    if tick.powered and hand_spent(s.grants) is not None:
+        tick.drop("hand_spent")
         return
     if not go(tick, Request.TELEOP, f"teleop {new.source_id}"):
         tick.drop("teleop_not_now")

@@ -48,7 +48,8 @@ def fold_words(text: str) -> str:
 def unmask(text: str) -> str:
     """Return folded text as a person sees it: nothing unseen in it, look-alike letters Latin.
 
-    For the stop lane alone: a Russian word is no English one to anybody else.
+    For the stop lane, and for names that must not be mistaken for another: a Russian word is no
+    English one to anybody else.
     """
     decomposed = unicodedata.normalize("NFD", text)
     seen = "".join(c for c in decomposed if unicodedata.category(c) not in _UNSEEN or c in "\t\n\r")

@@ -17,11 +17,13 @@ from typing import Any, Protocol, TypeVar
 
 from planner.brain.intents import name_reads_as_order
 from planner.brain.offline.normalise import squash
+from planner.language.folding import fold, unmask
 from planner.link import Aged
 from planner.mission.facts import facts_of, vocabulary_of
 from planner.mission.helpers import Router
 from planner.mission.records import Facts
 from planner.mission.sight import standing
+from planner.mission.skills.consent import consents
 from planner.plan import Vocabulary
 from planner.route import RouteFailure, RouteRequest
 from planner.world import (
@@ -242,7 +244,11 @@ class Memory:
             owner = _owner(name, others)
             if owner is not None:
                 raise PlaceRefused("place_name_taken", f"{name!r} names {owner.id!r}")
-            if name_reads_as_order(name, vocabulary):
+            alike = _drawn_alike(name, others)
+            if alike is not None:
+                raise PlaceRefused("place_name_taken", f"{name!r} looks like {alike.id!r}")
+            answers = any(consents(said) is not None for said in (name, unmask(fold(name))))
+            if answers or name_reads_as_order(name, vocabulary):
                 raise PlaceRefused("place_name_reserved", f"got {name!r}")
 
     def _check_room(self) -> None:
@@ -325,6 +331,12 @@ def _owner(name: str, places: tuple[Place, ...]) -> Place | None:
     """Return the place that answers to a name, as a sentence is read, or None."""
     wanted = squash(name)
     return next((place for place in places if wanted in map(squash, place.spoken)), None)
+
+
+def _drawn_alike(name: str, places: tuple[Place, ...]) -> Place | None:
+    """Return the place whose name a person could not tell from this one, or None."""
+    seen = unmask(squash(name))
+    return next((p for p in places if seen in {unmask(squash(said)) for said in p.spoken}), None)
 
 
 def _answers(kept: TaughtPlace, name: str) -> bool:

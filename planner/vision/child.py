@@ -16,6 +16,7 @@ from planner.kept import Frame, Parent, run
 from planner.vision.detect import (
     Detector,
     Wanted,
+    bound_memory,
     depth_at,
     lay_out,
     scaled,
@@ -40,6 +41,7 @@ def main(parent: Parent, settings: str) -> int:
 def _detector(settings: dict[str, Any]) -> Detector | None:
     if settings["path"] is None:
         return None
+    bound_memory(settings["provider"])
     min_score: float | None = settings.pop("min_score")
     paths = {
         name: None if settings[name] is None else Path(settings[name])

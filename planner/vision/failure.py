@@ -21,6 +21,10 @@ REFUSALS = MappingProxyType(
             "模型版本高于已安装的 onnxruntime",
         ),
         "model_broken": ("onnxruntime can't load the model", "onnxruntime 无法加载该模型"),
+        "model_too_hungry": (
+            "the model takes more memory than a detector may",
+            "该模型占用的内存超过允许的上限",
+        ),
         "model_not_detector": ("the model is not an object detector", "该模型不是目标检测模型"),
         "model_input_odd": ("the model wants an input we can't give", "无法提供模型要求的输入"),
         "model_size_open": (

@@ -12,6 +12,7 @@ REASONS = MappingProxyType(
         "unknown_key": "文件中有未知的键",
         "value_malformed": "文件中的值不合要求",
         "map_image_missing": "地图图像不存在",
+        "map_image_outside": "地图图像不在站点文件夹内",
         "map_image_malformed": "地图图像无法读取",
         "map_image_too_large": "地图图像过大",
         "map_rotated": "不支持旋转的地图原点",

@@ -6,13 +6,16 @@ our own sites are PGM.
 
 from __future__ import annotations
 
+import errno
 import re
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from planner.world.errors import SiteError
+from wire.plain_file import read_plain_file
+from wire.site_map import MOST_IMAGE_BYTES
 
-MAX_FILE_BYTES = 300_000_000
 MAX_PIXELS = 64_000_000
 """8000 x 8000: a map of 400 m x 400 m at 0.05 m."""
 
@@ -38,14 +41,13 @@ def read_image(path: Path) -> tuple[bytes, GreyImage]:
         SiteError: ``map_image_missing``, ``map_image_malformed`` or ``map_image_too_large``.
     """
     try:
-        too_large = path.stat().st_size > MAX_FILE_BYTES
-        data = b"" if too_large else path.read_bytes()
+        data = read_plain_file(path, MOST_IMAGE_BYTES)
     except OSError as error:
+        if error.errno == errno.EFBIG:
+            raise SiteError("map_image_too_large", f"{path}: {error.strerror}") from error
         others = ", ".join(sorted(p.name for p in path.parent.glob("*.p[gn][mg]"))) or "none"
         text = f"the map's image {path} cannot be read ({error.strerror}); images there: {others}"
         raise SiteError("map_image_missing", text) from error
-    if too_large:
-        raise SiteError("map_image_too_large", f"{path}: over {MAX_FILE_BYTES} bytes")
     return data, decode(data, path)
 
 
@@ -68,8 +70,8 @@ def _decode_pgm(head: re.Match[bytes], body: bytes, where: Path) -> GreyImage:
     _check_size(width, height, where)
     if not 1 <= white <= 255:
         raise SiteError("map_image_malformed", f"{where}: white is {white}; expected 1 to 255")
-    raw = body if head[1] == b"P5" else _plain_values(body, where)
     wanted = width * height
+    raw = body if head[1] == b"P5" else _plain_values(body, wanted, where)
     if len(raw) < wanted or max(raw[:wanted]) > white:
         text = f"{where}: {width} x {height} pixels up to {white} announced, {len(raw)} bytes came"
         raise SiteError("map_image_malformed", text)
@@ -77,9 +79,9 @@ def _decode_pgm(head: re.Match[bytes], body: bytes, where: Path) -> GreyImage:
     return GreyImage(width, height, raw[:wanted].translate(scale))
 
 
-def _plain_values(body: bytes, where: Path) -> bytes:
-    try:
-        return bytes(int(text) for text in body.split())
+def _plain_values(body: bytes, wanted: int, where: Path) -> bytes:
+    try:  # one at a time: a list of them all takes forty times the file
+        return bytes(int(text[0]) for text in islice(re.finditer(rb"\S+", body), wanted))
     except ValueError as error:
         raise SiteError("map_image_malformed", f"{where}: {error}") from error
 

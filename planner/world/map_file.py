@@ -17,6 +17,7 @@ from planner.world.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from planner.world.image import GreyImage, read_image
 from planner.world.records import Record, parse_yaml, read_bytes
 from wire.fingerprint import map_id
+from wire.site_map import image_in
 
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 Ordinate = Annotated[float, Field(ge=-10_000.0, le=10_000.0)]
@@ -47,12 +48,16 @@ def load_map(path: Path) -> LoadedMap:
     """Load map.yaml at ``path`` and the image it points to.
 
     Raises:
-        SiteError: ``map_image_missing``, ``map_rotated``, ``map_mode_unsupported`` and the codes
+        SiteError: ``map_image_outside``, ``map_rotated``, ``map_mode_unsupported`` and the codes
             of :mod:`planner.world.records` and :mod:`planner.world.image`.
     """
     text = read_bytes(path)
     record = parse_yaml(text, MapRecord, path)
-    data, image = read_image(path.parent / record.image)
+    try:
+        where = image_in(path.parent, record.image)
+    except ValueError as error:
+        raise SiteError("map_image_outside", f"{path}: image {record.image!r}: {error}") from error
+    data, image = read_image(where)
     _check_supported(record, path)
     return LoadedMap(_grid(record, image), map_id(text, data))
 

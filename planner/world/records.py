@@ -6,6 +6,7 @@ that is silently dropped is a limit that somebody believes in.
 
 from __future__ import annotations
 
+import errno
 import json
 from pathlib import Path
 from typing import Any, TypeVar
@@ -14,6 +15,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from planner.world.errors import SiteError
+from wire.plain_file import read_plain_file
 
 MAX_TEXT_BYTES = 4_000_000
 """A site of a thousand places is a tenth of this; more is a mistake or an attack on memory."""
@@ -35,12 +37,11 @@ def read_bytes(path: Path) -> bytes:
         SiteError: ``site_file_missing`` or ``value_malformed`` when it is too long.
     """
     try:
-        data = path.read_bytes()
+        return read_plain_file(path, MAX_TEXT_BYTES)
     except OSError as error:
+        if error.errno == errno.EFBIG:
+            raise SiteError("value_malformed", f"{path}: {error.strerror}") from error
         raise SiteError("site_file_missing", f"cannot read {path}: {error.strerror}") from error
-    if len(data) <= MAX_TEXT_BYTES:
-        return data
-    raise SiteError("value_malformed", f"{path} has {len(data)} bytes; at most {MAX_TEXT_BYTES}")
 
 
 def parse_yaml(data: bytes, model: type[R], where: Path) -> R:
@@ -85,7 +86,15 @@ def _checked(value: object, model: type[R], where: Path) -> R:
 
 
 class _UniqueKeys(yaml.SafeLoader):
-    """Load plain YAML, and refuse a key that is given twice."""
+    """Load plain YAML, and refuse a key that is given twice and what is not written out."""
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        """Refuse aliases: ten lines of them name more values than any memory holds."""
+        if self.check_event(yaml.AliasEvent):
+            event = self.peek_event()  # type: ignore[no-untyped-call]  # PyYAML says no types
+            line = event.start_mark.line + 1
+            raise ValueError(f"line {line}: an alias (*); write the value out")
+        return super().compose_node(parent, index)
 
 
 def _mapping(loader: _UniqueKeys, node: yaml.MappingNode) -> dict[Any, Any]:

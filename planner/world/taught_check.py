@@ -15,19 +15,33 @@ from wire.geometry import Pose2
 MAX_CHARACTERS = 40
 _MARKS = frozenset(" -'’·")
 _CLASSES = ("L", "N", "Mn", "Mc")
+_BESIDE_ANY = frozenset(
+    {"cjk", "hiragana", "katakana", "katakana-hiragana", "hangul", "bopomofo", "modifier"}
+)
+"""None of their letters is drawn as a Latin one, and names have both: A区."""
 
 
 def plain_name(name: str) -> str:
     """Return a name as it is kept: one width, single spaces.
 
     Raises:
-        PlaceRefused: ``place_name_malformed``: empty, too long, or with what is no part of a name.
+        PlaceRefused: ``place_name_malformed``: empty, too long, or with what is no part of a name;
+            ``place_name_mixed``: with letters of two alphabets, one of which is drawn as the other.
     """
     kept = " ".join(fold_width(name[: 4 * MAX_CHARACTERS]).split())
     short = 1 <= len(kept) <= MAX_CHARACTERS and len(name) <= 4 * MAX_CHARACTERS
     if not (short and any(map(str.isalpha, kept)) and all(map(_in_a_name, kept))):
         raise PlaceRefused("place_name_malformed", f"got {name[:MAX_CHARACTERS]!r}")
+    alphabets = {_alphabet(char) for char in kept if char.isalpha()} - _BESIDE_ANY
+    if len(alphabets) > 1:
+        found = ", ".join(sorted(alphabets))
+        raise PlaceRefused("place_name_mixed", f"got {name[:MAX_CHARACTERS]!r}: {found}")
     return kept
+
+
+def _alphabet(char: str) -> str:
+    """Return the alphabet of a letter, by the first word of its name in Unicode."""
+    return unicodedata.name(char, "unknown").partition(" ")[0].lower()
 
 
 def _in_a_name(char: str) -> bool:

@@ -12,9 +12,13 @@ REASONS = MappingProxyType(
             "a name has 1 to 40 letters, digits, spaces, hyphens or apostrophes",
             "名称应为 1 至 40 个文字、数字、空格、连字符或撇号",
         ),
+        "place_name_mixed": (
+            "that name mixes the letters of two alphabets; write it in one",
+            "这个名称混用了两种字母，请只用一种",
+        ),
         "place_name_reserved": (
-            "that name would be read as an order; choose another",
-            "这个名称会被当成指令，请换一个",
+            "that name would be read as an order or an answer; choose another",
+            "这个名称会被当成指令或回答，请换一个",
         ),
         "place_name_taken": ("another place has that name", "已有别的地点使用这个名称"),
         "places_full": ("no more places can be taught here", "这张地图上可记住的地点已满"),

@@ -15,19 +15,29 @@ from pydantic import ValidationError
 from sim.site.check import check
 from sim.site.spec import Home
 from wire import Misconfigured
+from wire.plain_file import read_plain_file
 from wire.robot import explain
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 SPEC_FILE = "home.yaml"
+MOST_BYTES = 4_000_000
 
 
 _BOOL = "tag:yaml.org,2002:bool"
 
 
 class _OnceLoader(yaml.SafeLoader):
-    """Build plain values, refusing a repeated key."""
+    """Build plain values, refusing a repeated key and what is not written out."""
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        """Refuse aliases: ten lines of them name more values than any memory holds."""
+        if self.check_event(yaml.AliasEvent):
+            event = self.peek_event()  # type: ignore[no-untyped-call]  # PyYAML says no types
+            line = event.start_mark.line + 1
+            raise yaml.YAMLError(f"line {line}: an alias (*); write the value out")
+        return super().compose_node(parent, index)
 
 
 def _mapping_once(loader: _OnceLoader, node: yaml.MappingNode) -> dict[Any, Any]:
@@ -79,7 +89,7 @@ def load_home(site_dir: Path) -> Home:
     """
     path = site_dir / SPEC_FILE
     try:
-        text = path.read_text("utf-8")
+        text = read_plain_file(path, MOST_BYTES).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise Misconfigured("home_missing", f"{path}: {error}") from None
     home = parse_home(text, str(path))

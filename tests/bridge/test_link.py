@@ -38,6 +38,7 @@ from wire.keys import STATUS as STATUS_KEY
 from wire.session import Session, open_session
 
 HEARD = [key for key in KEYS if Party.BRIDGE in key.receivers and key.path != "drive/state"]
+CHANCE = "c" * 16
 HOSTILE = (
     b"",
     b"{}",
@@ -65,7 +66,7 @@ class Ends:
         return self.other.publisher(key)._publisher  # raw bytes past the codec
 
     def drain(self) -> Inbox:
-        return self.link.drain((), ON_TIME, real_time=True, recorder_ok=True)
+        return self.link.drain((), ON_TIME, real_time=True, recorder_ok=True, chance=CHANCE)
 
 
 @pytest.fixture
@@ -160,6 +161,7 @@ def refused(ends: Ends, key: Key[Any]) -> bool:
         arrived=inbox.arrived,
         real_time=True,
         recorder_ok=True,
+        chance=CHANCE,
     )
     assert {stop.id for stop in inbox.stops} <= {"hello", "last-word"}  # our own, still on its way
     return any(item.key == key.path for item in inbox.rejected)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -51,6 +52,7 @@ class Diary:
         real_time: bool,
         recorder_ok: bool,
         recorder_says: str,
+        chance: str,
     ) -> Inbox:
         self.words.append("drain")
         self.inboxes.append(
@@ -59,6 +61,7 @@ class Diary:
                 real_time=real_time,
                 recorder_ok=recorder_ok,
                 recorder_says=recorder_says,
+                chance=chance,
             )
         )
         assert drive == ()
@@ -128,6 +131,18 @@ def test_the_core_is_told_how_the_loop_goes(shell: Shell, diary: Diary) -> None:
     shell.tick(Tick(100.044, 0.0, 0), CONFIG.period_s)
     inbox = diary.inboxes[-1]
     assert (inbox.recorder_ok, inbox.recorder_says) == (False, "disk_full: no space left")
+
+
+def test_each_tick_is_given_chance_of_its_own_that_nobody_can_foretell(
+    shell: Shell, diary: Diary
+) -> None:
+    for number in range(100):
+        shell.tick(Tick(100.0 + number * 0.01, 0.0, 0), CONFIG.period_s)
+    drawn = [inbox.chance for inbox in diary.inboxes]
+    assert len(set(drawn)) == 100
+    assert all(re.fullmatch(r"[0-9a-f]{16}", one) for one in drawn)
+    bits = sum(int(one, 16).bit_count() for one in drawn)
+    assert 2_800 < bits < 3_600, "10 sigma of 6 400 fair coins"
 
 
 def test_lateness_of_a_second_counts_skipped_periods(shell: Shell, diary: Diary) -> None:

@@ -10,7 +10,7 @@ from wire import SimFault
 NOTICED = {
     "drive_deaf": "DRIVER_NACK.0",
     "drive_off": "ENC_STALE.0",
-    "encoder_stuck": "YAW_DISAGREE.0",
+    "encoder_stuck": "POSE_JUMP.0",
     "encoder_garbage": "RUNAWAY.0",
     "encoder_delayed": "ENC_STALE.0",
     "encoder_intermittent": "ENC_STALE.0",

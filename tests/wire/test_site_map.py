@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -34,4 +35,32 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
         read_map_id(tmp_path)
     (tmp_path / "map.yaml").write_bytes(b"image: gone.pgm\n")
     with pytest.raises(Misconfigured, match=r"map_image_missing: .*gone\.pgm"):
+        read_map_id(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["../outside.pgm", "/etc/hostname", "link.pgm", "a/../../o.pgm"])
+def test_an_image_outside_the_sites_folder_is_refused(tmp_path: Path, name: str) -> None:
+    site = tmp_path / "site"
+    site.mkdir()
+    (tmp_path / "outside.pgm").write_bytes(b"secret")
+    (site / "link.pgm").symlink_to(tmp_path / "outside.pgm")
+    (site / "map.yaml").write_text(f"image: {name}\n")
+    with pytest.raises(Misconfigured, match=r"map_image_outside: .*map\.yaml: image"):
+        read_map_id(site)
+
+
+@pytest.mark.timeout(10)
+def test_what_is_no_file_or_too_large_is_refused_at_once(tmp_path: Path) -> None:
+    (tmp_path / "map.yaml").write_bytes(b"image: map.pgm\n")
+    os.mkfifo(tmp_path / "map.pgm")
+    with pytest.raises(Misconfigured, match=r"map_image_missing: .*not a regular file"):
+        read_map_id(tmp_path)
+    (tmp_path / "map.pgm").unlink()
+    with (tmp_path / "map.pgm").open("wb") as file:
+        file.truncate(2 << 30)
+    with pytest.raises(Misconfigured, match=r"map_image_missing: .*more than 80000000 bytes"):
+        read_map_id(tmp_path)
+    with (tmp_path / "map.yaml").open("wb") as file:
+        file.truncate(2 << 30)
+    with pytest.raises(Misconfigured, match=r"map_missing: .*more than 100000 bytes"):
         read_map_id(tmp_path)

@@ -22,6 +22,7 @@ from planner.vision.detect.session import (
     RUN_ERRORS,
     Array,
     Session,
+    is_starved,
     kind_of,
     last_words,
     senseless,
@@ -85,6 +86,8 @@ def _tried(session: Session, taken: Input, beside: dict[str, Array]) -> Sequence
     try:
         outputs = session.run({taken.name: _grey(taken), **beside})
     except RUN_ERRORS as error:
+        if is_starved(error):
+            raise VisionFailure("model_too_hungry", "on a trial picture") from None
         text = f"it failed on a trial picture: {last_words(error)}"
         raise VisionFailure("model_broken", text) from None
     if not any(kind_of(found) == FRACTIONS for found in outputs):

@@ -7,6 +7,7 @@ twice the processor, so spinning is off and the threads are counted.
 from __future__ import annotations
 
 import re
+import resource
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
@@ -43,6 +44,9 @@ have a base of their own. That costs one picture, never the process."""
 QUIET = 3
 """Errors alone: warnings of a stranger's graph tell its owner nothing."""
 MAX_WORDS = 240
+MOST_BYTES = 3 << 30
+"""A detector of 1 GB, its copy while it is made ready, and a picture: more is a mistake or an
+attack, for a graph of a few bytes may ask for any number of them."""
 SAMPLES = 1000
 FRACTIONS, NUMBERS = "f", frozenset("fiub")
 """Letters of numpy's kinds."""
@@ -172,7 +176,28 @@ def _refusal(path: Path, file: OnnxFile, error: Exception) -> VisionFailure:
         knows = f", which knows operators to {most[1]}" if most is not None else f": {text}"
         detail = f"{path.name} needs {needs}; onnxruntime is {ort.__version__}{knows}"
         return VisionFailure("model_too_new", detail)
+    if is_starved(error):
+        return VisionFailure("model_too_hungry", f"{path.name}: at most {MOST_BYTES} bytes")
     return VisionFailure("model_broken", f"{path.name}: {text}")
+
+
+def bound_memory(provider: str | None = None) -> None:
+    """Bound what this process may hold, where the CPU alone thinks: drivers of others map far more.
+
+    Raises:
+        VisionFailure: ``provider_unavailable``.
+    """
+    if providers_.choose(ort.get_available_providers(), provider).names == (providers_.CPU,):
+        _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+        most = MOST_BYTES if hard == resource.RLIM_INFINITY else min(MOST_BYTES, hard)
+        resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
+
+
+def is_starved(error: Exception) -> bool:
+    """Tell whether memory was refused, by what onnxruntime and C++ say of it."""
+    text = str(error).lower()
+    spoken = ("bad_alloc", "bad allocation", "failed to allocate", "out of memory")
+    return isinstance(error, MemoryError) or any(words in text for words in spoken)
 
 
 def last_words(error: Exception) -> str:

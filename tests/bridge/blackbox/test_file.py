@@ -5,14 +5,17 @@ from __future__ import annotations
 import errno
 import fcntl
 import resource
+import struct
+import tracemalloc
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
+import zstandard
 
 from bridge.blackbox import file as file_module
 from bridge.blackbox.file import BoxFile
-from bridge.blackbox.reader import BadRecording, BoxReader
+from bridge.blackbox.reader import MAGIC, MOST_BYTES, BadRecording, BoxReader, _unpacked
 from bridge.blackbox.topics import Topic, topics
 from tests.bridge.recorded import SCHEMAS
 
@@ -201,3 +204,44 @@ def test_a_file_is_never_written_over(tmp_path: Path) -> None:
     with pytest.raises(FileExistsError):
         BoxFile(tmp_path / "a.mcap", TOPICS)
     assert (tmp_path / "a.mcap").read_bytes() == b"somebody's"
+
+
+@pytest.mark.parametrize("said", [1 << 26, 999])
+def test_a_frame_that_unpacks_to_more_than_its_chunk_says_is_never_unpacked(
+    said: int, tmp_path: Path
+) -> None:
+    """A frame's own word on its size outranks a limit given to the library: 1 GB came out once."""
+    path = tmp_path / "a.mcap"
+    packed = zstandard.compress(bytes(said))
+    name = b"zstd"
+    body = struct.pack("<QQQI", 0, 0, 1_000, 0) + struct.pack("<I", len(name)) + name
+    body += struct.pack("<Q", len(packed)) + packed
+    path.write_bytes(MAGIC + struct.pack("<BQ", 0x06, len(body)) + body)
+    tracemalloc.start()
+    try:
+        with BoxReader(path) as box:
+            box.complete = True
+            with pytest.raises(BadRecording, match=f"a frame of {said} bytes in a chunk of 1000"):
+                box.read(box.chunks[0])
+        assert tracemalloc.get_traced_memory()[1] < 8_000_000
+    finally:
+        tracemalloc.stop()
+
+
+def test_a_chunk_too_large_to_be_one_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    length = MOST_BYTES + 1
+    with path.open("wb") as file:
+        file.write(MAGIC + struct.pack("<BQ", 0x06, length))
+        file.truncate(len(MAGIC) + 9 + length)
+    with BoxReader(path) as box:
+        box.complete = True
+        with pytest.raises(BadRecording, match="bytes, packed"):
+            box.read(box.chunks[0])
+
+
+def test_a_frame_that_does_not_say_its_size_is_bounded_by_its_chunk() -> None:
+    silent = zstandard.ZstdCompressor(write_content_size=False)
+    assert _unpacked(silent.compress(bytes(100)), 100) == bytes(100)
+    with pytest.raises(zstandard.ZstdError):
+        _unpacked(silent.compress(bytes(1 << 20)), 100)

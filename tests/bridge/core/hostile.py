@@ -101,7 +101,8 @@ class Hostile:
             "sensors_same_host": self._say(True, False),
             "localization_same_host": self._say(True, False),
         }
-        inbox = Inbox(**people, **orders, **senses, drive=drive, **loop)
+        chance = f"{self.random.getrandbits(64):016x}"
+        inbox = Inbox(**people, **orders, **senses, drive=drive, **loop, chance=chance)
         self.past = [*self.past[-8:], inbox]
         return inbox
 
@@ -136,7 +137,8 @@ class Hostile:
 
     def _op(self) -> OpArrived:
         operator = self.state.operator
-        nonce = f"{self.config.boot}.{self._say(operator.nonce_no, 0, operator.nonce_no - 1)}"
+        number = self._say(operator.nonce_no, 0, operator.nonce_no - 1)
+        nonce = f"{self.config.boot}.{number}.{self._say(operator.nonce_tag, '', operator.old_tag)}"
         proof = Proof(nonce=nonce.replace("-", ""), mac="0" * 64)
         request = OpRequest(id=self._id(), source="op", proof=self._say(proof, None))
         calm: tuple[OpKind, ...] = ("arm", "resume", "reset")

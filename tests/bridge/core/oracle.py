@@ -25,6 +25,7 @@ TABLE: dict[str, tuple[str, str, float | None]] = {
     "CMD_BAD.0": ("HOLD2", "WTX", None),
     "CMD_FLOOD.0": ("HOLD2", "WTX", None),
     "BUDGET.0": ("HOLD2", "WX", None),
+    "HAND_BUDGET.0": ("HOLD2", "T", None),
     "LIDAR_STALE.0": ("HOLD2", "WTX", None),
     "LIDAR_STALE.1": ("STOP1", "WTX", None),
     "LIDAR_BLIND.0": ("HOLD2", "WTX", None),
@@ -35,6 +36,7 @@ TABLE: dict[str, tuple[str, str, float | None]] = {
     "POSE_LOST.0": ("HOLD2", "WX", None),
     "POSE_LOST.1": ("CAP", "T", 0.4),
     "POSE_JUMP.0": ("HOLD2", "W", None),
+    "POSE_JUMP.1": ("STOP1", "WX", None),
     "STUCK.0": ("HOLD2", "WTX", None),
     "STUCK.1": ("STOP1", "WTX", None),
     "RUNAWAY.0": ("FAST1", "", None),
@@ -44,6 +46,7 @@ TABLE: dict[str, tuple[str, str, float | None]] = {
     "ENC_STALE.1": ("FAST1", "", None),
     "DRIVER_NACK.0": ("HOLD2", "", None),
     "DRIVER_NACK.1": ("STOP1", "", None),
+    "DRIVE_FOREIGN.0": ("FAST1", "", None),
     "DRIVE_REBOOT.0": ("STOP1", "", None),
     "OVERCURRENT.0": ("STOP1", "", None),
     "BATTERY.0": ("CAP", "", 0.6),
@@ -54,7 +57,7 @@ TABLE: dict[str, tuple[str, str, float | None]] = {
     "NOT_RT.0": ("CAP", "", 0.4),
     "ESTOP.0": ("FAST1", "", None),
 }
-NEEDS_RESET = {"RUNAWAY.0", "RUNAWAY.1", "DRIVER_NACK.1", "OVERCURRENT.0"}
+NEEDS_RESET = {"RUNAWAY.0", "RUNAWAY.1", "DRIVER_NACK.1", "DRIVE_FOREIGN.0", "OVERCURRENT.0"}
 
 
 def acts(stage: str, letters: str) -> bool:

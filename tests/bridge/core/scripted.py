@@ -79,6 +79,8 @@ class World:
     recorder_ok: bool = True
     recorder_says: str = ""
     real_time: bool = True
+    chance: str = ""
+    """What the shell draws; the number of the tick where a test draws nothing."""
     extra: Inbox = EMPTY
     """Added to the next tick's inbox: stops, ops, teleop, rejected, loop."""
     last: Decision | None = None
@@ -253,6 +255,7 @@ class World:
             "recorder_ok": self.recorder_ok,
             "recorder_says": self.recorder_says,
             "real_time": self.real_time,
+            "chance": self.chance or f"{self.ticks:016x}",
         }
         if not self.drive_silent:
             said["drive"] = (state,)

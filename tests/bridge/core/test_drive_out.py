@@ -5,10 +5,11 @@ from __future__ import annotations
 import pytest
 
 from bridge.core.kinematics import wheels_of
+from bridge.core.modes import MOVING
 from bridge.core.wheelcontrol import AT_REST, Wheel
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
-from wire import Mode, RobotDescription
+from wire import STILL, Mode, RobotDescription
 
 
 def test_the_dead_zone_is_fed_forward_once_and_not_remembered() -> None:
@@ -98,3 +99,23 @@ def test_standing_powered_with_a_wheel_that_creeps_tells_nothing() -> None:
     world.run(0.5)
     assert world.is_in(Mode.HOLD)
     assert (told(world), wheel(world)) == (0.0, AT_REST)
+
+
+@pytest.mark.parametrize("start", ["active", "teleop", "stopping_by_person", "stopping_by_row"])
+def test_after_a_freeze_nothing_is_ramped_down(start: str) -> None:
+    """A bridge that froze for 3 s once told a robot that stood to go on at 0.07 m/s."""
+    timeout_s = RobotDescription().drive.timeout_s
+    for gap_s, begins_anew in ((timeout_s - 0.001, False), (timeout_s + 0.001, True), (3.0, True)):
+        world = reached(start)
+        had = world.sent
+        assert had.v_mps > 0.1
+        for _ in range(round(gap_s / 0.01) - 1):
+            world.drive.tick(world.now_s)
+        decision = world.tick(gap_s)
+        assert decision.command is not None
+        if begins_anew:
+            assert world.sent == STILL
+            assert decision.command.left_radps == decision.command.right_radps == 0.0
+            assert world.mode not in MOVING
+        else:
+            assert abs(world.sent.v_mps - had.v_mps) < 0.05

@@ -93,8 +93,9 @@ def renewed(tick: Tick) -> object:
 
 
 def old_nonce(tick: Tick) -> object:
-    tick.s.operator = replace(tick.s.operator, old_nonce_no=0, old_until_s=tick.now_s)
-    text = operator.nonce_text(tick, 0)
+    old = {"old_nonce_no": 0, "old_tag": "c", "old_until_s": tick.now_s}
+    tick.s.operator = replace(tick.s.operator, **old)  # type: ignore[arg-type]  # names of its fields
+    text = operator.old_nonce_text(tick)
     return list(operator.bad_proof(tick, "arm", "a1", text, authentic=True))
 
 

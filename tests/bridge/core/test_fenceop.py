@@ -185,8 +185,8 @@ def test_half_a_second_of_standing_is_long_enough() -> None:
         tick = tick_of(reached("disarmed"))
         tick.s.drive.still_since_s = tick.now_s - still_s
         tick.robot_in_map = tick.s.odometry.base_in_odom
-        hear_fence(tick, FenceArrived("f1", "cli", nonce_text(tick, tick.s.operator.nonce_no),
-                                      authentic=True, text=TEXT))  # fmt: skip
+        arrived = FenceArrived("f1", "cli", nonce_text(tick), authentic=True, text=TEXT)
+        hear_fence(tick, arrived)
         codes = [item.answer.code for item in tick.s.operator.answers if item.answer.id == "f1"]
         assert codes == (["not_standing"] if refused else [])
         assert (tick.s.fence_asked is None) is refused

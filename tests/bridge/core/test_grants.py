@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import pytest
 from pydantic import ValidationError
 
-from bridge.core.grants import OPERATOR_METRES, OPERATOR_SECONDS
+from bridge.core.fence import build_fence
+from bridge.core.grants import HAND_METRES, HAND_SECONDS, OPERATOR_METRES, OPERATOR_SECONDS
 from bridge.core.state_orders import MAX_MISSIONS
-from tests.bridge.core.fake_planner import FakePlanner
-from tests.bridge.core.scripted import World
+from tests.bridge.core.fake_planner import MAP_ID, FakePlanner
+from tests.bridge.core.scripted import World, config
 from tests.bridge.core.test_external_brain import drive_for, external_world
 from wire import Grant, Mode
 
@@ -93,7 +94,7 @@ def test_stopping_again_and_again_drives_no_further_than_the_operator_cap() -> N
     assert world.is_in(Mode.HOLD)
 
 
-def test_a_hand_on_the_stick_is_the_operator_and_uses_nothing_up() -> None:
+def test_a_hand_on_the_stick_uses_nothing_of_a_planner_up() -> None:
     world = World().armed()
     before = left(world)
     world.teleop(held=False)
@@ -108,6 +109,80 @@ def test_a_hand_on_the_stick_is_the_operator_and_uses_nothing_up() -> None:
         before.operator_metres,
         before.operator_seconds,
     )
+
+
+def steer(world: World, v_mps: float, seconds: float) -> None:
+    """Steer by hand, as a stick does that a person holds."""
+    for _ in range(round(seconds / 0.05)):
+        world.teleop(v_mps, held=True)
+        world.run(0.05)
+
+
+def test_a_hand_stands_when_its_metres_are_spent_and_a_signed_act_renews_them() -> None:
+    world = World().armed()
+    assert (left(world).hand_metres, left(world).hand_seconds) == (HAND_METRES, HAND_SECONDS)
+    world.state.grants = replace(left(world), hand_metres=0.5)
+    world.teleop(held=False)
+    world.tick()
+    at_m = way_m(world)
+    steer(world, 0.3, 4.0)
+    assert left(world).hand_metres == 0.0
+    assert 0.5 <= way_m(world) - at_m <= 0.5 + 0.12, "and the ramp"
+    assert world.is_in(Mode.HOLD)
+    assert "HAND_BUDGET.0" in world.rows(), "said while the stick is held"
+    stood_m = way_m(world)
+    world.teleop(held=False)
+    world.tick()
+    steer(world, 0.3, 1.0)
+    assert world.is_in(Mode.HOLD)
+    assert way_m(world) == pytest.approx(stood_m, abs=1e-3)
+    world.op("resume", authentic=False)
+    world.run(0.1)
+    assert left(world).hand_metres == 0.0
+    world.op("resume")
+    world.run(0.1)
+    assert left(world).hand_metres == HAND_METRES
+    world.teleop(held=False)
+    world.tick()
+    steer(world, 0.3, 1.0)
+    assert world.is_in(Mode.TELEOP)
+    assert "HAND_BUDGET.0" not in world.rows()
+    assert way_m(world) > stood_m + 0.1
+
+
+def test_a_hand_stands_when_its_seconds_are_spent() -> None:
+    world = World().armed()
+    world.state.grants = replace(left(world), hand_seconds=0.5)
+    world.teleop(held=False)
+    world.tick()
+    steer(world, 0.0, 0.4)
+    assert world.is_in(Mode.TELEOP)
+    steer(world, 0.0, 0.4)
+    assert "HAND_BUDGET.0" in world.rows()
+    assert not world.is_in(Mode.TELEOP)
+    world.run(1.1)
+    assert "HAND_BUDGET.0" not in world.rows(), "nobody asks any more"
+
+
+def test_a_metre_outside_the_fence_counts_ten_of_the_hands() -> None:
+    outline = ((-1.0, -1.0), (0.5, -1.0), (0.5, 1.0), (-1.0, 1.0))
+    world = World(core=replace(config(), fence=build_fence(MAP_ID, (outline,))), planner=None)
+    world.ready().arm()
+    world.teleop(held=False)
+    world.tick()
+    for _ in range(200):
+        steer(world, 0.3, 0.05)
+        if world.state.watch.outside:
+            break
+    had, at_m = left(world).hand_metres, way_m(world)
+    steer(world, 0.3, 1.0)
+    used_m = had - left(world).hand_metres
+    assert used_m == pytest.approx(10.0 * (way_m(world) - at_m))
+    assert used_m > 1.0
+    steer(world, 0.3, 30.0)
+    assert left(world).hand_metres == 0.0
+    assert world.here.x_m < 0.5 + 0.1 * HAND_METRES + 0.3
+    assert "HAND_BUDGET.0" in world.rows()
 
 
 def test_another_brain_is_metered_like_a_planner_and_ends_with_its_grant() -> None:

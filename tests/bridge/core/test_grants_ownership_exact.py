@@ -38,7 +38,8 @@ def test_a_grant_puts_the_last_one_in_the_book_and_takes_its_own_rest_out() -> N
     grants.hear_grant(tick, grant(tick))
     assert tick.s.grants == Grants(
         "new", 1.0, 2.0, (MissionLeft("other", 7.0, 8.0), MissionLeft("m1", 3.0, 4.0)),
-        had.operator_metres, had.operator_seconds, since_arm=True,
+        had.operator_metres, had.operator_seconds, had.hand_metres, had.hand_seconds,
+        since_arm=True,
     )  # fmt: skip
     assert tick.s.operator.refusals == ()
     assert tick.s.rows == {}

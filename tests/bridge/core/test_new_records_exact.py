@@ -37,6 +37,8 @@ FOLLOW = {"along_m": 0.0, "turning": False, "settled": False, "heading_done": Fa
 LEARNT = {"lag_more_s": 0.0, "decel_share": 1.0, "lag_at_mps": 0.0, "share_at_mps": 0.0,
           "lag_better": 0, "lag_worst_s": 0.0, "share_better": 0, "share_worst": 1.0,
           "stops": 0}  # fmt: skip
+DRIFT = {"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0, "travelled_m": 0.0, "turned_rad": 0.0,
+         "jumps_at_s": ()}  # fmt: skip
 LOOP = {"late_s": 0.0, "missed_ticks": 0, "late_p50_us": 0.0, "late_max_us": 0.0,
         "step_max_us": 0.0, "record_gaps": 0}  # fmt: skip
 NOBODY: dict[str, object] = dict.fromkeys(
@@ -57,19 +59,22 @@ NOBODY: dict[str, object] = dict.fromkeys(
         (FollowState(), FOLLOW),
         (Ownership(), NOBODY),
         (Grants(), {"mission": None, "metres": 0.0, "seconds": 0.0, "book": (),
-                    "operator_metres": 0.0, "operator_seconds": 0.0, "since_arm": False}),
-        (Operator(), {"nonce_no": 0, "nonce_made_s": 0.0, "old_nonce_no": None, "old_until_s": 0.0,
+                    "operator_metres": 0.0, "operator_seconds": 0.0, "hand_metres": 0.0,
+                    "hand_seconds": 0.0, "since_arm": False}),
+        (Operator(), {"nonce_no": 0, "nonce_tag": "", "nonce_made_s": 0.0, "old_nonce_no": None,
+                      "old_tag": "", "old_until_s": 0.0,
                       "answers": (), "accepted": (), "refusals": ()}),
         (Leg(), {"mission": None, "leg": 0, "reached": False, "goal": None, "refusal": None,
                  "horizon": None, "path": None, "sent_s": 0.0}),
         (Stick(), {"released": (), "ready": (), "source_id": None, "pressed_s": None, "seq": -1,
                    "v_mps": 0.0, "w_radps": 0.0, "received_s": 0.0, "sent_s": 0.0}),
-        (DriveMemory(), {"newest": None, "received_s": None, "behind": 0, "behind_base": 0,
+        (DriveMemory(), {"newest": None, "received_s": None, "behind": 0, "ahead": 0,
+                         "behind_base": 0,
                          "reborn_s": None, "still_since_s": None, "moving_since_s": None}),
         (LidarMemory(), {"newest": None, "received_s": None, "picture": None, "equal": 0,
                          "equal_from_m": 0.0, "baseline_scans": 0, "baseline_returns": 0.0}),
         (PoseMemory(), {"localization": None, "received_s": None, "jumped_s": None, "imu": None,
-                        "imu_received_s": None, "good": None}),
+                        "imu_received_s": None, "good": None, "drift": DRIFT}),
         (ButtonMemory(), {"link_pressed": False, "link_received_s": None, "pressed_s": None,
                           "ordered": False}),
         (LoopMemory(), {"late_at_s": (), "capped_s": None, "gaps_at_s": (), "missed": 0,
@@ -90,7 +95,7 @@ NOBODY: dict[str, object] = dict.fromkeys(
                    "drive": (), "scan": None, "imu": None, "estop_link": None, "fences": (),
                    "fence_done": None, "rejected": (), "arrived": (), "loop": LOOP,
                    "real_time": False, "recorder_ok": False, "recorder_says": "",
-                   "sensors_same_host": True, "localization_same_host": True}),
+                   "sensors_same_host": True, "localization_same_host": True, "chance": ""}),
     ],
 )  # fmt: skip
 def test_a_new_record_has_seen_and_allows_nothing(new: object, says: dict[str, object]) -> None:
@@ -113,7 +118,7 @@ def test_a_new_state_stands_in_boot_at_its_own_time() -> None:
     assert (new.fence_asked, new.braking_trouble, new.learnt) == (None, None, Learnt())
     first = initial(config(), 7.0)
     assert (first.started_s, first.mode_since_s) == (7.0, 7.0)
-    assert first.operator == Operator(nonce_no=1, nonce_made_s=7.0)
+    assert first.operator == Operator(nonce_made_s=7.0)
 
 
 def test_a_fence_is_asked_for_before_it_is_written_and_a_ramp_begins_at_its_start() -> None:

@@ -41,7 +41,8 @@ NUMBERS: dict[str, dict[str, float]] = {
     "flood": {"WINDOW_S": 0.25, "SLACK": 1.2, "ONE_MORE": 1, "FULL_S": 1.0},
     "freespace": {"MARGIN_M": 0.05, "REACH_M": 2.0},
     "gate": {"SHUT_S": 0.5, "FREE_SCANS": 5, "TELEOP_FENCE_MPS": 0.2, "UNKNOWN_MPS": 0.2},
-    "grants": {"OPERATOR_METRES": 500.0, "OPERATOR_SECONDS": 3600.0},
+    "grants": {"OPERATOR_METRES": 500.0, "OPERATOR_SECONDS": 3600.0, "HAND_METRES": 50.0,
+               "HAND_SECONDS": 600.0, "OUTSIDE_COUNTS": 10.0},
     "horizon": {"FIRST_WITHIN_M": 0.5, "MIN_GAP_M": 0.05, "MAX_GAP_M": 0.25, "MIN_END_GAP_M": 0.01,
                 "MIN_SPEED_MPS": 0.05},
     "limiter": {"PERIOD_S": 0.01},
@@ -52,7 +53,10 @@ NUMBERS: dict[str, dict[str, float]] = {
     "pursuit": {"REACHED_M": 0.1, "REACHED_RAD": 0.1},
     "selftest": {"FRESH_S": 0.25, "STILL_S": 0.5, "MOVING_S": 1.0, "PATIENCE_S": 0.3},
     "senses": {"POOR_QUALITY": 0.5, "POSE_OLD_S": 0.3, "JUMP_M": 0.1, "JUMP_RAD": radians(5),
-               "BASELINE_SCANS": 20, "SEES_SHARE": 0.1},
+               "BASELINE_SCANS": 20, "SEES_SHARE": 0.1, "DRIFT_M": 0.2, "DRIFT_RAD": radians(10),
+               "FORGIVEN_M_PER_M": 0.1, "FORGIVEN_RAD_PER_M": 0.05, "FORGIVEN_RAD_PER_RAD": 0.1,
+               "JUMPS": 3, "JUMPS_WITHIN_S": 60.0, "DRIVE_LOST_S": 0.25, "SCAN_LOST_S": 0.25,
+               "SEQ_AHEAD": 1_000},
     "state_orders": {"MAX_MISSIONS": 64},
     "stick": {"CAUSAL_S": 0.4, "RECEIPT_S": 0.25, "NEUTRAL_MPS": 0.02, "NEUTRAL_RADPS": 0.05},
     "stopcurve": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
@@ -66,15 +70,17 @@ NUMBERS: dict[str, dict[str, float]] = {
 CLEARS = {
     "BRAIN_LOST.0": "ON_GRANT", "POSE_JUMP.0": "ON_GRANT", "BRAIN_GONE.0": "ON_REARM",
     "LIDAR_STALE.1": "ON_REARM", "LIDAR_BLIND.1": "ON_REARM", "STUCK.1": "ON_REARM",
+    "POSE_JUMP.1": "ON_REARM",
     "ENC_STALE.1": "ON_REARM", "DRIVE_REBOOT.0": "ON_REARM", "BATTERY.1": "ON_REARM",
     "LOOP_LATE.2": "ON_REARM", "RUNAWAY.0": "ON_RESET", "RUNAWAY.1": "ON_RESET",
-    "DRIVER_NACK.1": "ON_RESET", "OVERCURRENT.0": "ON_RESET", "ESTOP.0": "ON_RESET",
-    "NOT_RT.0": "REBOOT",
+    "DRIVER_NACK.1": "ON_RESET", "DRIVE_FOREIGN.0": "ON_RESET", "OVERCURRENT.0": "ON_RESET",
+    "ESTOP.0": "ON_RESET", "NOT_RT.0": "REBOOT",
 }  # fmt: skip
 """All others clear by themselves,"""
 CLEAN_S = {
-    "BUDGET.0": 0.0, "SPEED_ZONE.0": 0.0, "LIDAR_STALE.0": 1.0, "LIDAR_BLIND.0": 2.0,
-    "STUCK.0": 2.0, "YAW_DISAGREE.0": 2.0, "BATTERY.0": 5.0, "LOOP_LATE.0": 2.0,
+    "BUDGET.0": 0.0, "HAND_BUDGET.0": 0.0, "SPEED_ZONE.0": 0.0, "LIDAR_STALE.0": 1.0,
+    "LIDAR_BLIND.0": 2.0, "STUCK.0": 2.0, "YAW_DISAGREE.0": 2.0, "BATTERY.0": 5.0,
+    "LOOP_LATE.0": 2.0,
 }  # fmt: skip
 """after so long, or half a second."""
 

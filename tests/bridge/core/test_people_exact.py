@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bridge.core import operator, stick
+from bridge.core import Inbox, operator, stick
 from bridge.core.arming import ready_lacks, reset_lacks
 from bridge.core.rows import STAGES
 from bridge.core.state import RowUp
@@ -28,6 +28,7 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
 ) -> None:
     tick = at("disarmed")
     tick.s.operator = replace(tick.s.operator, nonce_made_s=tick.now_s - age_s)
+    tick.inbox = Inbox(chance="c" * 16)
     before = tick.s.operator
     operator.renew_nonce(tick)
     after = tick.s.operator
@@ -35,15 +36,18 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
         replace(
             before,
             nonce_no=before.nonce_no + 1,
+            nonce_tag="c" * 16,
             nonce_made_s=tick.now_s,
             old_nonce_no=before.nonce_no,
+            old_tag=before.nonce_tag,
             old_until_s=tick.now_s + 10.0,
         )
         if renewed
         else before
     )
     if renewed:
-        old = operator.nonce_text(tick, before.nonce_no)
+        old = f"b0.{before.nonce_no}.{before.nonce_tag}"
+        assert operator.old_nonce_text(tick) == old
         for more_s, codes in ((10.0 - EPS, []), (EPS * 2, ["old_nonce"])):
             tick.now_s += more_s
             told = operator.bad_proof(tick, "arm", "a1", old, authentic=True)
@@ -52,6 +56,7 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
 
 def test_a_proof_is_used_once_under_either_nonce() -> None:
     tick = at("disarmed")
+    tick.inbox = Inbox(chance="c" * 16)
     operator.renew_nonce(tick)
     tick.now_s += 60.0
     operator.renew_nonce(tick)
@@ -59,7 +64,7 @@ def test_a_proof_is_used_once_under_either_nonce() -> None:
     assert old is not None
     operator.use_nonce(tick, "arm", "a1")
     assert {f"{now} arm a1", f"{old} arm a1"} <= set(tick.s.operator.accepted)
-    text = operator.nonce_text(tick, now)
+    text = operator.old_nonce_text(tick)
     for request_id, codes in (("a1", ["repeated"]), ("a2", [])):
         told = operator.bad_proof(tick, "arm", request_id, text, authentic=True)
         assert [code for code, _ in told] == codes

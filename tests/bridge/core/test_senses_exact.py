@@ -60,12 +60,12 @@ def test_a_reading_counts_once_and_another_life_begins_anew(
     drive = tick.s.drive
     before, base = drive.newest, drive.behind_base
     assert before is not None
-    drive.reborn_s, drive.received_s = 1.0, 2.0
+    drive.reborn_s, drive.received_s = 1.0, NOW_S - 0.1
     state = state_of(tick, boot_id=boot_id, seq=before.seq + later)
     tick.inbox = replace(tick.inbox, drive=(state,))
     senses.sense(tick)
     assert drive.newest is (state if heard else before)
-    assert drive.received_s == (NOW_S if heard else 2.0)
+    assert drive.received_s == (NOW_S if heard else NOW_S - 0.1)
     assert drive.reborn_s == (NOW_S if reborn else 1.0)
     assert drive.behind_base == (tick.s.command_seq if reborn else base)
     assert tick.reasons == ([] if heard else ["drive_state_old"])

@@ -18,9 +18,9 @@ from tests.bridge.core.test_quick_core import tick_of
 from wire import IDENTITY, STILL, Mode
 
 
-def test_a_run_begins_in_its_first_epoch_with_its_first_nonce() -> None:
+def test_a_run_begins_in_its_first_epoch_without_a_nonce() -> None:
     state = initial(config(), 7.0)
-    assert (state.epoch_no, state.operator.nonce_no, state.tick, state.command_seq) == (1, 1, 0, 0)
+    assert (state.epoch_no, state.operator.nonce_no, state.tick, state.command_seq) == (1, 0, 0, 0)
     assert state.now_s == state.started_s == state.mode_since_s == 7.0
     assert state.operator.nonce_made_s == 7.0
     assert state.mode is Mode.BOOT

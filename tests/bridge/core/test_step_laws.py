@@ -104,6 +104,8 @@ def check_sent(core: CoreConfig, before: BridgeState, decision: Decision) -> Non
     """
     drive, base, limits = core.robot.drive, core.robot.base, core.robot.limits
     now, had = decision.state.motion.limiter, before.motion.limiter
+    if decision.state.now_s - before.now_s > drive.timeout_s:
+        had = LimiterState()  # the drive has zeroed itself meanwhile
     stop = decision.state.stopping
     if stop is not None and (before.stopping is None or stop.plan is not before.stopping.plan):
         assert stop.plan.start == had.sent, "a stop begins at what was sent last"

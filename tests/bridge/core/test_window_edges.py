@@ -140,6 +140,7 @@ EDGES = (
     Edge("ENC_STALE.1", 0.25, set_world(drive_silent=True), driven),
     Edge("DRIVER_NACK.0", 0.1, set_drive(deaf=True)),
     Edge("DRIVER_NACK.1", 0.5, set_drive(deaf=True)),
+    Edge("DRIVE_FOREIGN.0", 0.0, set_drive(deaf=True, echo_seq=10**6)),
     Edge("DRIVE_REBOOT.0", 0.0, set_drive(boot_id="d1", angles=(0.0, 0.0))),
     Edge("OVERCURRENT.0", 0.1, set_drive(current_a=31.0)),
     Edge("BATTERY.0", 2.0, set_drive(battery=0.15)),
@@ -244,6 +245,29 @@ def stuck_before(seconds: float) -> Do:
     return act
 
 
+def jumped_before(seconds: float) -> Do:
+    """Let a jump have taken a grant twice, the first time so long ago when it is the third time."""
+
+    def act(world: World) -> None:
+        first_s = world.now_s + 0.07 - seconds
+        drift = replace(world.state.pose.drift, jumps_at_s=(first_s, first_s + 1.0))
+        world.state.pose = replace(world.state.pose, drift=drift)
+        jump(0.105, 0.0)(world)
+
+    return act
+
+
+def by_hand(metres: float) -> Do:
+    def act(world: World) -> None:
+        world.state.grants = replace(world.state.grants, hand_metres=metres)
+        world.teleop(held=False)
+        world.tick()
+        world.teleop(held=True)
+        world.run(0.1)
+
+    return act
+
+
 VALUES: tuple[tuple[str, Do, Do], ...] = (
     ("LOOP_LATE.0", late(0.006, 4), late(0.006, 5)),
     ("LOOP_LATE.0", late(0.005, 9), late(0.0051, 5)),
@@ -254,6 +278,8 @@ VALUES: tuple[tuple[str, Do, Do], ...] = (
     ("LOOP_LATE.2", gaps(0.11, 3, 4.95), gaps(0.11, 3, 4.8)),
     ("POSE_JUMP.0", jump(0.095, 0.0), jump(0.105, 0.0)),
     ("POSE_JUMP.0", jump(0.0, radians(4.9)), jump(0.0, radians(5.1))),
+    ("POSE_JUMP.1", jumped_before(60.5), jumped_before(59.5)),
+    ("HAND_BUDGET.0", by_hand(0.5), by_hand(0.0)),
     ("POSE_LOST.0", for_s(0.3, set_world(quality=0.5)), for_s(0.3, set_world(quality=0.49))),
     ("YAW_DISAGREE.0", for_s(1.0, set_world(gyro_off_radps=0.29)),
      for_s(1.0, set_world(gyro_off_radps=0.31))),

@@ -126,6 +126,14 @@ def test_a_name_whose_place_was_renamed_gets_an_id_of_its_own(tmp_path: Path) ->
         (("stop",), "place_name_reserved"),
         ((None, "别去"), "place_name_reserved"),
         (("corner", "继续"), "place_name_reserved"),
+        (("yes",), "place_name_reserved"),
+        (("OK",), "place_name_reserved"),
+        (("no thanks",), "place_name_reserved"),
+        ((None, "好的"), "place_name_reserved"),
+        ((None, "没问题"), "place_name_reserved"),
+        (("уеѕ",), "place_name_reserved"),  # all of it Cyrillic
+        (("kit\u0441hen",), "place_name_mixed"),
+        (("\u03bfffice",), "place_name_mixed"),
         ((SITE.places[0].name.en.upper(),), "place_name_taken"),
         ((None, SITE.places[1].name.zh), "place_name_taken"),
     ],
@@ -135,6 +143,22 @@ def test_a_name_that_is_none_is_refused(
 ) -> None:
     assert refused(memory(tmp_path), *names) == code
     assert not (tmp_path / FILE).exists()
+
+
+def test_a_name_that_looks_like_another_is_refused(tmp_path: Path) -> None:
+    kept = memory(tmp_path)
+    teach(kept, "сосоа")  # Cyrillic, all of it: drawn as cocoa is
+    assert refused(kept, "cocoa") == "place_name_taken"
+    teach(kept, "nook")
+    assert refused(kept, "nоок".replace("n", "\u0578")) == "place_name_mixed"
+    assert refused(kept, "n\u034fook") == "place_name_taken", "with what nobody sees in it"
+
+
+@pytest.mark.parametrize(
+    "name", ["кухня", "A区", "Καθιστικό", "書き物机", "yes room", "okay corner"]
+)
+def test_a_name_in_one_alphabet_or_beside_chinese_is_taught(tmp_path: Path, name: str) -> None:
+    assert teach(memory(tmp_path), name).name.en == name
 
 
 @pytest.mark.parametrize(

@@ -141,6 +141,18 @@ async def test_a_refused_model_is_refused_at_start_with_its_code(tmp_path: Path)
 
 
 @story
+@pytest.mark.parametrize("floats", [1 << 30])
+async def test_a_graph_of_a_few_bytes_that_asks_for_all_memory_is_refused(
+    tmp_path: Path, floats: int
+) -> None:
+    path = tiny.hungry(tmp_path / "m.onnx", floats)
+    assert path.stat().st_size < 1_000
+    worker = VisionWorker(VisionSettings(model=path))
+    assert await code_of(worker.start(LIMIT_S)) == "model_too_hungry"
+    assert worker.pid is None
+
+
+@story
 async def test_without_a_model_pictures_are_still_made_small() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("planner.vision.worker.DEFAULT_MODEL", Path("nowhere.onnx"))

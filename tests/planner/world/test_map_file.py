@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -128,6 +130,50 @@ def test_what_is_no_map_yaml_is_refused(tmp_path: Path, text: bytes) -> None:
     path = tmp_path / "map.yaml"
     path.write_bytes(text)
     assert refusal(path).code in {"yaml_malformed", "value_malformed", "unknown_key"}
+
+
+def test_an_alias_is_refused_before_it_is_followed(tmp_path: Path) -> None:
+    """Nine lines of nine aliases each once took more than 40 s and all memory."""
+    lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 10)]
+    path = tmp_path / "map.yaml"
+    path.write_text("\n".join(lines))
+    error = refusal(path)
+    assert error.code == "yaml_malformed"
+    assert "line 2: an alias (*); write the value out" in error.message["en"]
+
+
+@pytest.mark.parametrize("name", ["../map.pgm", "/dev/zero", "../../../../etc/passwd"])
+def test_a_picture_outside_the_sites_folder_is_refused(tmp_path: Path, name: str) -> None:
+    (tmp_path / "site").mkdir()
+    (tmp_path / "map.pgm").write_bytes(IMAGE)
+    error = refusal(write(tmp_path / "site", {"image": name}))
+    assert error.code == "map_image_outside"
+    assert name in error.message["en"]
+
+
+@pytest.mark.timeout(10)
+def test_a_picture_that_is_a_pipe_or_far_too_large_is_refused(tmp_path: Path) -> None:
+    path = write(tmp_path, {})
+    with (tmp_path / "map.pgm").open("wb") as file:
+        file.truncate(2 << 30)
+    assert refusal(path).code == "map_image_too_large"
+    (tmp_path / "map.pgm").unlink()
+    os.mkfifo(tmp_path / "map.pgm")
+    error = refusal(path)
+    assert error.code == "map_image_missing"
+    assert "not a regular file" in error.message["en"]
+
+
+def test_plain_numbers_are_read_one_at_a_time_and_no_more_than_wanted(tmp_path: Path) -> None:
+    image = b"P2 3 2 255\n" + b"0 205 254 254 254 0 " + b"7 " * 500_000 + b"x"
+    path = write(tmp_path, {}, image)
+    tracemalloc.start()
+    try:
+        assert load_map(path).grid == load_map(write(tmp_path, {})).grid
+        assert tracemalloc.get_traced_memory()[1] < 8_000_000
+    finally:
+        tracemalloc.stop()
 
 
 def test_yaml_makes_no_objects(tmp_path: Path) -> None:

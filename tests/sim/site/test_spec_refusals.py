@@ -39,6 +39,7 @@ KEEP_OUT = "dock: dock\nfence: {{keep_outs: [{{id: rug, box: [{}]}}]}}\n"
 REFUSALS = [
     ("home_syntax", "dock: dock\n", "dock: dock\ndock: other\n"),
     ("home_syntax", "version: 1", "version: 1: 2"),
+    ("home_syntax", "dock: dock\n", "dock: &name dock\nsite: *name\n"),  # before it is followed
     ("home_invalid", "dock: dock\n", "dock: dock\nfurnace: 1\n"),
     ("home_invalid", "version: 1", "version: 2"),
     ("home_invalid", "height_m: 0.5", "height_m: 0.1"),

@@ -82,6 +82,23 @@ def live(path: Path, base: Array, by: Array, weights: Array, metadata: Mapping[s
     return write(path, made, metadata)
 
 
+def hungry(path: Path, floats: int) -> Path:
+    """Write a model that asks for so many numbers while it is made ready."""
+    made = helper.make_graph(
+        [
+            helper.make_node("ConstantOfShape", ["many"], ["ones"]),
+            helper.make_node("ReduceSum", ["ones"], ["sum"]),
+            helper.make_node("GlobalAveragePool", ["images"], ["means"]),
+            helper.make_node("Add", ["means", "sum"], ["output0"]),
+        ],
+        "hungry",
+        [helper.make_tensor_value_info("images", TensorProto.FLOAT, (1, 3, SIDE, SIDE))],
+        [helper.make_tensor_value_info("output0", TensorProto.FLOAT, None)],
+        [numpy_helper.from_array(np.array([floats], np.int64), "many")],
+    )
+    return write(path, made, {})
+
+
 PRIMARIES = ("first", "second", "third")
 BRIGHT = 0.6
 """From which mean on, as a share of white, :func:`of_bytes` sees a channel."""
