@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from pons.settings import Settings
 
 MAX_REPLY_BYTES = 4_000_000
+"""Lists end below a quarter of it (planner/api/listing.py)."""
 DEFAULT_TIMEOUT_S = 5.0
 
 

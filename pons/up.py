@@ -70,6 +70,7 @@ class Supervisor:
 
     def _tend(self, now_s: float) -> None:
         for child in self._children:
+            child.bound_log()
             status = child.died(now_s)
             if status == REFUSED_TO_START:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
@@ -153,7 +154,10 @@ def children(settings: Settings, robot: RobotDescription, *, planner: bool = Tru
     if robot.drive.virtual:
         metal = ["--metal", str(settings.metal)] if settings.metal else []
         wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
-    found = [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
+    found = [
+        Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
+        for name, more in wanted
+    ]
     if robot.drive.virtual and robot.camera.kind == "sim":
         arguments = ["sim.camera", *common]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
