@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 MAX_FROM_CLIENT = 1_000
 SNAPSHOT_S = 1.0
 """Between two snapshots that one socket asks for; what is asked meanwhile is one more, later."""
+APART_S = 0.01
+"""Between two snapshots of all sockets: each holds the loop for some milliseconds, and where many
+pages open at once a stop comes in between."""
 A_SECOND, AT_ONCE = 20.0, 100
 """Messages of one socket that are no stop; who sends more is no page of ours, and is closed."""
 MOST_SOCKETS, MOST_OF_AN_ADDRESS = 128, 64
@@ -61,7 +64,7 @@ class Seats:
 def routes(services: Services) -> APIRouter:
     """Return the event stream."""
     router = APIRouter(tags=["events"])
-    feed, seats = Feed(services), Seats()
+    feed, seats, turns = Feed(services), Seats(), asyncio.Lock()
 
     @router.websocket("/v1/events")
     async def events(socket: WebSocket) -> None:
@@ -71,20 +74,20 @@ def routes(services: Services) -> APIRouter:
             await socket.send_denial_response(problems.response(503, "too_many_sockets", detail))
             return
         try:
-            await _attend(services, feed, socket)
+            await _attend(services, feed, socket, turns)
         finally:
             seats.give_back(address)
 
     return router
 
 
-async def _attend(services: Services, feed: Feed, socket: WebSocket) -> None:
+async def _attend(services: Services, feed: Feed, socket: WebSocket, turns: asyncio.Lock) -> None:
     offered = socket.scope.get("subprotocols", ())
     await socket.accept(subprotocol=SUBPROTOCOL if SUBPROTOCOL in offered else None)
     queue = services.goals.subscribe()
     listener = feed.listen()
     try:
-        await serve(services, socket, queue, listener)
+        await serve(services, socket, queue, listener, turns)
     finally:
         feed.leave(listener)
 
@@ -94,9 +97,10 @@ async def serve(
     socket: WebSocket,
     changes: AsyncIterator[tuple[int, dict[str, Any]]],
     listener: Listener,
+    turns: asyncio.Lock,
 ) -> None:
     """Run one connection until either side ends it."""
-    sender, wanted = _Sender(socket), asyncio.Event()
+    sender, wanted = _Sender(socket, turns), asyncio.Event()
     tasks = [
         asyncio.create_task(_begin(services, sender, listener)),
         asyncio.create_task(_changes(sender, changes)),
@@ -116,13 +120,19 @@ async def serve(
 class _Sender:
     """Number what is sent; several tasks share one socket."""
 
-    def __init__(self, socket: WebSocket) -> None:
-        self._socket = socket
+    def __init__(self, socket: WebSocket, turns: asyncio.Lock) -> None:
+        self._socket, self._turns = socket, turns
         self._seq = 0
         self._lock = asyncio.Lock()
 
     async def send(self, kind: str, content: dict[str, Any]) -> None:
         await self.send_body(text_of(kind, content))
+
+    async def show(self, services: Services) -> None:
+        """Send a snapshot, in this socket's turn."""
+        async with self._turns:
+            await asyncio.sleep(APART_S)
+        await self.send("snapshot", snapshot(services))
 
     async def send_body(self, body: Body) -> None:
         async with self._lock:
@@ -146,7 +156,7 @@ def snapshot(services: Services) -> dict[str, Any]:
 
 async def _begin(services: Services, sender: _Sender, listener: Listener) -> None:
     """Send the snapshot, then what all watch; a bridge that is silent shows by its ages."""
-    await sender.send("snapshot", snapshot(services))
+    await sender.show(services)
     while True:
         for body in await listener.take():
             await sender.send_body(body)
@@ -162,7 +172,7 @@ async def _show_again(services: Services, sender: _Sender, wanted: asyncio.Event
     while True:
         await wanted.wait()
         wanted.clear()
-        await sender.send("snapshot", snapshot(services))
+        await sender.show(services)
         await asyncio.sleep(SNAPSHOT_S)
 
 

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 MOST_BYTES = 900_000
 GOAL_BYTES = 24_000
 """33 goals may be open, and of those none is left out."""
+PLAIN_BYTES = 3_000
+"""A goal so small is shown as it is, which is quicker."""
 TEXT_CHARACTERS = (300, 60, 12)
 """Of each text; the next smaller where the goal would still be larger than ``GOAL_BYTES``."""
 
@@ -33,8 +35,10 @@ def listed(goals: Iterable[Goal]) -> list[dict[str, Any]]:
 
 
 def _view(goal: Goal) -> tuple[dict[str, Any], int]:
-    whole = goal.model_dump(mode="json")
-    view, size = whole, 0
+    whole, size = goal.model_dump(mode="json"), len(goal.model_dump_json().encode())
+    if size <= PLAIN_BYTES and len(goal.text) <= TEXT_CHARACTERS[0]:
+        return whole, size
+    view = whole
     for most in TEXT_CHARACTERS:
         view = _shortened(whole, most)
         size = len(json.dumps(view, ensure_ascii=False).encode())
