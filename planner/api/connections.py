@@ -163,10 +163,12 @@ class HttpConnection(HttpToolsProtocol):
         if answering is not None:
             answering.disconnected = True
             answering.message_event.set()
-        begun = bool(self.pipeline) or (answering is not None and answering.response_started)
-        if not begun:
+        answered = self._in_body and cycle is not None and cycle.response_complete
+        begun = answering is not None and answering.response_started
+        silent = answered or begun or bool(self.pipeline)
+        if not silent:
             self.transport.write(_answer(status, code, detail))
-        if not begun and self.transport.can_write_eof():
+        if not silent and self.transport.can_write_eof():
             self.flow.resume_reading()
             self.transport.write_eof()
             self._await(self._bounds.linger_s)

@@ -42,8 +42,9 @@ class Bounds:
     Cookies of every service on a host's other ports come along, hence not less."""
     fields: int = 100
     chunks: int = 4_096
-    body_bytes: int = 4 * 1024 * 1024
-    """Routes take less (``planner.api.guard``); this ends what is sent on after their answer."""
+    body_bytes: int = 128 * 1024 * 1024
+    """Routes take less (``planner.api.guard``). What is sent on after their answer is thrown away,
+    so that the answer is read by who sends first and reads later; this ends it."""
     pipelined: int = 8
     an_address: int = 128
     """A proxy in front of us is one address."""

@@ -17,7 +17,7 @@ from tests.planner.api.serving import Served, answer_of, eventually, read_all, r
 
 QUICK = Bounds(request_s=0.4, stalled_s=0.4, linger_s=0.3)
 SMALL = replace(QUICK, request_s=5.0, an_address=8, all=12, burst=30)
-PATIENT = replace(QUICK, request_s=30.0)
+PATIENT = replace(QUICK, request_s=30.0, body_bytes=4_000_000)
 GOAL = b"POST /v1/goals HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
 HEAD = b"POST /v1/stop HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n"
 
@@ -179,6 +179,19 @@ def test_a_body_that_goes_on_after_its_answer_ends(patient: Served) -> None:
 
         with pytest.raises(ConnectionError):
             goes_on()
+
+
+def test_who_sends_all_before_reading_reads_the_answer(patient: Served) -> None:
+    body = b"a" * 3_000_000
+    head = GOAL + f"Connection: close\r\nContent-Length: {len(body)}\r\n\r\n".encode()
+    status, said = patient.ask(head + body)
+    assert (status, said["code"]) == (413, "body_too_large")
+
+
+def test_after_an_answer_comes_no_second_one(quick: Served) -> None:
+    with quick.connect() as asking:
+        asking.sendall(GOAL.replace(b"goals", b"x") + b"Content-Length: 9000\r\n\r\n{")
+        assert read_all(asking).count(b"HTTP/1.1") == 1
 
 
 def test_requests_that_pile_up_unanswered_are_bounded(patient: Served) -> None:
