@@ -154,9 +154,8 @@ def test_goals_have_a_rate_and_stops_have_none(client: TestClient, services: Fak
 
 def test_one_address_takes_no_goals_from_another(services: FakeServices) -> None:
     hasty, other = client_of(services), client_of(services)
-    for _ in range(AT_ONCE + 20):
-        last = hasty.post("/v1/goals", json={"text": "go"})
-    assert last.status_code == 429
+    answers = [hasty.post("/v1/goals", json={"text": "go"}) for _ in range(AT_ONCE + 20)]
+    assert 429 in [answer.status_code for answer in answers]
     assert other.post("/v1/goals", json={"text": "go"}).status_code == 202
 
 
