@@ -124,17 +124,20 @@ class _Sender:
         self._socket, self._turns = socket, turns
         self._seq = 0
         self._lock = asyncio.Lock()
+        self._begun = asyncio.Event()
 
     async def send(self, kind: str, content: dict[str, Any]) -> None:
         await self.send_body(text_of(kind, content))
 
     async def show(self, services: Services) -> None:
-        """Send a snapshot, in this socket's turn."""
+        """Send a snapshot, in this socket's turn; whatever else there is follows the first one."""
         async with self._turns:
             await asyncio.sleep(APART_S)
+        self._begun.set()
         await self.send("snapshot", snapshot(services))
 
     async def send_body(self, body: Body) -> None:
+        await self._begun.wait()
         async with self._lock:
             self._seq += 1
             await self._socket.send_text(f'{{"seq":{self._seq},{body}')
