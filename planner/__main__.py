@@ -16,6 +16,7 @@ import uvicorn
 from planner import tls
 from planner.api import Access
 from planner.api.access import LOOPBACK_NAMES, is_loopback
+from planner.api.connections import protocol
 from planner.app import Planner, Where, application
 from planner.world import SiteError
 from rank import nice
@@ -54,6 +55,7 @@ def main(arguments: list[str] | None = None) -> int:
             log_level="warning",
             access_log=False,
             server_header=False,
+            http=protocol(),
             timeout_graceful_shutdown=2,
             ws_max_size=4_096,
             ws_per_message_deflate=False,  # squeezing small frames costs more than sending them
@@ -99,11 +101,16 @@ def _access(host: str, *, speaks_tls: bool) -> Access:
     Raises:
         Misconfigured: reachable from outside without a token, or with a short one.
     """
-    operator = os.environ.get("PONS_OPERATOR_TOKEN", "")
-    viewer = os.environ.get("PONS_VIEWER_TOKEN", "")
+    # Taken out, so that no worker process inherits them.
+    operator = os.environ.pop("PONS_OPERATOR_TOKEN", "")
+    viewer = os.environ.pop("PONS_VIEWER_TOKEN", "")
     for name, token in (("PONS_OPERATOR_TOKEN", operator), ("PONS_VIEWER_TOKEN", viewer)):
-        if token and len(token) < MIN_TOKEN_CHARACTERS:
-            detail = f"{name} has {len(token)} characters; at least {MIN_TOKEN_CHARACTERS}"
+        given = len("".join(token.split()))
+        if token and (token != token.strip() or given < MIN_TOKEN_CHARACTERS):
+            detail = (
+                f"{name} has {given} characters that are no blanks, expected at least "
+                f"{MIN_TOKEN_CHARACTERS} and no blank at either end"
+            )
             raise Misconfigured("token_too_short", detail)
     if not is_loopback(host) and not operator:
         detail = f"{host} can be reached from outside; set PONS_OPERATOR_TOKEN, or bind 127.0.0.1"

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 AUTHORITY = Path("tls") / "ca.crt"
 MAX_REPLY_BYTES = 4_000_000
+"""Lists end below a quarter of it (planner/api/listing.py)."""
 DEFAULT_TIMEOUT_S = 5.0
 
 

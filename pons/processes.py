@@ -5,6 +5,7 @@ Told the time; knows nothing of what the child does.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -18,6 +19,11 @@ if TYPE_CHECKING:
 
 FIRST_PAUSE_S = 0.5
 LONGEST_PAUSE_S = 10.0
+MAX_LOG_BYTES = 10_000_000
+KEPT_LOGS = 2
+"""Older files beside each log: NAME.log.1 is the newer."""
+TOKENS = ("PONS_OPERATOR_TOKEN", "PONS_VIEWER_TOKEN")
+"""The planner's alone among the children."""
 STEADY_S = 30.0
 """A child that lived so long starts with the shortest pause again."""
 REFUSED_TO_START = 2
@@ -46,6 +52,8 @@ class Child:
     arguments: list[str]
     log: Path
     environment: dict[str, str] = field(default_factory=dict)
+    knows_tokens: bool = False
+    """It inherits what opens the planner's door."""
     waits_for_ready: bool = False
     """Nothing needs it to be ready, and its start would make the others' slower."""
     process: subprocess.Popen[bytes] | None = None
@@ -57,6 +65,11 @@ class Child:
 
     def start(self, now_s: float) -> None:
         """Start it in a process group of its own, bound to this process, logging to its file."""
+        inherited = {
+            name: value
+            for name, value in os.environ.items()
+            if self.knows_tokens or name not in TOKENS
+        }
         command = [sys.executable, "-m", "pons.child", str(os.getpid()), *self.arguments]
         with self.log.open("ab") as log:
             self.log_began = log.tell()
@@ -66,10 +79,37 @@ class Child:
                 stdout=log,
                 stderr=log,
                 start_new_session=True,
-                env={**os.environ, **self.environment},
+                env={**inherited, **self.environment},
             )
         self.starts += 1
         self.started_s = now_s
+
+    def bound_log(self, most_bytes: int = MAX_LOG_BYTES) -> None:
+        """Keep the log's end in older files once it is too long, and cut it.
+
+        The file is copied and cut, not renamed or read from a pipe: whoever writes holds it open,
+        and a bridge must neither wait for its log's reader nor die of its end. It writes at the
+        file's end, wherever that is. A line written between copy and cut is lost.
+        """
+        try:
+            size = self.log.stat().st_size
+            if size <= most_bytes:
+                return
+            for number in range(KEPT_LOGS, 1, -1):
+                older = self._older(number - 1)
+                if older.exists():
+                    older.replace(self._older(number))
+            with self.log.open("rb") as log, self._older(1).open("wb") as kept:
+                log.seek(size - most_bytes)
+                kept.write(log.read(most_bytes))
+        except OSError:
+            pass  # a full disk: then all the more
+        with contextlib.suppress(OSError):
+            os.truncate(self.log, 0)
+            self.log_began = 0
+
+    def _older(self, number: int) -> Path:
+        return self.log.with_name(f"{self.log.name}.{number}")
 
     def died(self, now_s: float) -> int | None:
         """Return the exit status of a death not yet noticed and plan the next start."""

@@ -80,6 +80,7 @@ class Supervisor:
 
     def _tend(self, now_s: float) -> None:
         for child in self._children:
+            child.bound_log()
             status = child.died(now_s)
             if status == REFUSED_TO_START:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
@@ -172,7 +173,10 @@ def children(
     if robot.drive.virtual:
         metal = ["--metal", str(settings.metal)] if settings.metal else []
         wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
-    found = [Child(name, [name, *more], logs / f"{name}.log") for name, more in wanted]
+    found = [
+        Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
+        for name, more in wanted
+    ]
     for child in found:
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())

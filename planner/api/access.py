@@ -24,8 +24,9 @@ class Role(StrEnum):
 class NotAllowed(Exception):
     """The request is refused; ``code`` is stable, ``status`` is HTTP's."""
 
-    def __init__(self, status: int, code: str, detail: str) -> None:
+    def __init__(self, status: int, code: str, detail: str, *, guessed: bool = False) -> None:
         super().__init__(f"{code}: {detail}")
+        self.guessed = guessed  # a token came, and a wrong one
         self.status = status
         self.code = code
         self.detail = detail
@@ -40,6 +41,10 @@ TYPED_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
 STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
 
+
+FORWARDED = ("forwarded", "via")
+FORWARDED_PREFIX = "x-forwarded-"
+"""What a proxy adds. Behind one, everybody comes from loopback."""
 
 JSON_TYPES = frozenset({"application/json"})
 BODY_TYPES = {
@@ -84,6 +89,7 @@ class Access:
         host = headers.get("host", "")
         self._check_host(host)
         self._check_origin(headers.get("origin"), host)
+        self._check_proxy(path, headers)
         if method in SAFE_METHODS and not websocket and _is_page(path):
             return Role.VIEWER  # the page holds no secret, and a browser asks for it without token
         token = _bearer(headers.get("authorization", ""))
@@ -98,7 +104,7 @@ class Access:
         return role
 
     def _check_host(self, host: str) -> None:
-        name = urlsplit(f"//{host}").hostname or ""
+        name = _hostname(f"//{host}")
         if name not in self.hosts:
             known = ", ".join(sorted(self.hosts))
             raise NotAllowed(403, "foreign_host", f"host {host[:80]!r}; allowed: {known}")
@@ -106,21 +112,38 @@ class Access:
     def _check_origin(self, origin: str | None, host: str) -> None:
         if origin is None or origin in self.origins:
             return
-        parts = urlsplit(origin)
+        scheme, _, rest = origin.partition("://")
         schemes = ("https",) if self.speaks_tls else ("http", "https")  # a proxy may add the TLS
-        if parts.scheme in schemes and parts.netloc == host:
+        if scheme in schemes and rest == host and _hostname(origin):
             return
         known = ", ".join(sorted({f"{schemes[0]}://{host}", *self.origins}))
         raise NotAllowed(403, "foreign_origin", f"origin {origin[:80]!r}; allowed: {known}")
 
+    def _check_proxy(self, path: str, headers: dict[str, str]) -> None:
+        """Refuse what a proxy hands on where no token tells its askers apart; never a stop."""
+        if not self._trusts_loopback or path in STOPPING_PATHS:
+            return
+        for name in headers:
+            if name in FORWARDED or name.startswith(FORWARDED_PREFIX):
+                detail = (
+                    f"the header {name[:80]!r} says that a proxy stands in front, so anybody may "
+                    "ask; set PONS_OPERATOR_TOKEN for the planner"
+                )
+                raise NotAllowed(403, "proxy_without_token", detail)
+
+    @property
+    def _trusts_loopback(self) -> bool:
+        return self.loopback and not self.operator_token
+
     def _role(self, token: str) -> Role:
-        if self.loopback and not self.operator_token:
+        if self._trusts_loopback:
             return Role.OPERATOR
         if _same(token, self.operator_token):
             return Role.OPERATOR
         if _same(token, self.viewer_token):
             return Role.VIEWER
-        raise NotAllowed(401, "token_needed", "send Authorization: Bearer with a valid token")
+        detail = "send Authorization: Bearer with a valid token"
+        raise NotAllowed(401, "token_needed", detail, guessed=bool(token))
 
 
 def is_loopback(host: str) -> bool:
@@ -131,6 +154,14 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+def _hostname(address: str) -> str:
+    """Return an address's host; empty where it is none."""
+    try:
+        return urlsplit(address).hostname or ""
+    except ValueError:
+        return ""
 
 
 def _is_page(path: str) -> bool:

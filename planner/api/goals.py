@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Header, Query
+from fastapi import APIRouter, Header, Query, Request
 
+from planner.api.crowd import address_of
+from planner.api.listing import listed
 from planner.api.operator import act_behind, persons_act
 from planner.api.ports import Services
 from planner.api.problems import Problem
-from planner.api.requests import GoalOrder, Move, NewGoal, Reply
+from planner.api.rates import Rates
+from planner.api.requests import MAX_GOAL_CHARACTERS, GoalOrder, Move, NewGoal, Reply
 from planner.mission.errors import MissionError
-from planner.plan import Goal
+from planner.plan import Bilingual, Goal
 
 STATUS = {
     "unknown_goal": 404,
@@ -22,6 +25,14 @@ STATUS = {
     "journal_unavailable": 503,
 }
 
+A_SECOND, AT_ONCE = 2.0, 50
+"""Goals and answers of one address. A person is slower; each costs a thought and a line on disk."""
+STOPPED_BUT_LONG = Bilingual(
+    en="The robot was told to stop. The order is too long to be read whole: at most 4,000 "
+    "characters.",
+    zh="已让机器人停止。指令太长，无法完整读取：最多 4000 个字符。",
+)
+
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", max_length=200)]
 Limit = Annotated[int, Query(ge=1, le=200)]
 
@@ -29,21 +40,53 @@ Limit = Annotated[int, Query(ge=1, le=200)]
 def routes(services: Services) -> APIRouter:
     """Return the routes below /v1/goals."""
     router = APIRouter(prefix="/v1/goals", tags=["goals"])
-    _giving(router, services)
-    _acting(router, services)
+    door = Door(services)
+    _giving(router, services, door)
+    _acting(router, services, door)
     return router
 
 
-def _giving(router: APIRouter, services: Services) -> None:
+class Door:
+    """Let a sentence in that is no longer than an order and comes in time; a stop always."""
+
+    def __init__(self, services: Services) -> None:
+        self._services = services
+        self._rates = Rates(A_SECOND, AT_ONCE)
+
+    async def judge(self, text: str, request: Request) -> None:
+        """Pass a sentence. One that is too long to be kept may still stop the robot.
+
+        Raises:
+            Problem: ``goal_too_long`` or ``too_many_goals``.
+        """
+        stops, length = self._services.goals.hears_stop(text), len(text)
+        if not length <= MAX_GOAL_CHARACTERS:
+            detail = f"{length} characters; at most {MAX_GOAL_CHARACTERS} are taken"
+            if not stops:
+                raise Problem(422, "goal_too_long", detail)
+            await self._services.goals.stop("api")
+            said = STOPPED_BUT_LONG.model_dump()
+            raise Problem(422, "goal_too_long", f"{detail}; the robot was stopped", message=said)
+        if stops:
+            return
+        address = address_of(request.client.host) if request.client else ""
+        wait_s = self._rates.wait_s(address)
+        if wait_s is not None:
+            detail = f"at most {AT_ONCE} at once, then {A_SECOND:g} a second; wait {wait_s:.1f} s"
+            raise Problem(429, "too_many_goals", detail)
+
+
+def _giving(router: APIRouter, services: Services, door: Door) -> None:
     goals = services.goals
 
     @router.post("", status_code=202, operation_id="give_goal")
-    async def give(new: NewGoal, idempotency_key: IdempotencyKey = None) -> Goal:
+    async def give(new: NewGoal, request: Request, idempotency_key: IdempotencyKey = None) -> Goal:
         """Give a goal in words. What is understood but impossible ends refused.
 
         A plain yes or no answers what waits for one (a step's question, a plan, a brain's only
         offer), where nothing else can be meant.
         """
+        await door.judge(new.text, request)
         act = act_behind(services.robot, new.text, new.operator)
         return await goals.submit(
             new.text,
@@ -55,9 +98,12 @@ def _giving(router: APIRouter, services: Services) -> None:
         )
 
     @router.get("", operation_id="list_goals")
-    async def listed(limit: Limit = 50) -> dict[str, Any]:
-        """List goals: those that are open first, then those that ended, each newest first."""
-        return {"goals": goals.goals(limit)}
+    async def several(limit: Limit = 50) -> dict[str, Any]:
+        """List goals: those that are open first, then those that ended, each newest first.
+
+        Long texts are shortened, and what would make more than 0.9 MB is left out.
+        """
+        return {"goals": listed(goals.goals(limit))}
 
     @router.get("/{goal_id}", operation_id="get_goal")
     async def one(goal_id: str) -> Goal:
@@ -65,7 +111,7 @@ def _giving(router: APIRouter, services: Services) -> None:
         return goals.goal(goal_id)
 
 
-def _acting(router: APIRouter, services: Services) -> None:
+def _acting(router: APIRouter, services: Services, door: Door) -> None:
     goals = services.goals
 
     @router.post("/{goal_id}/cancel", operation_id="cancel_goal")
@@ -91,8 +137,9 @@ def _acting(router: APIRouter, services: Services) -> None:
         return await goals.confirm(goal_id, act=act)
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
-    async def answer(goal_id: str, reply: Reply) -> Goal:
+    async def answer(goal_id: str, reply: Reply, request: Request) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
+        await door.judge(reply.text, request)
         act = act_behind(services.robot, reply.text, reply.operator)
         return await goals.answer(goal_id, reply.text, act=act)
 

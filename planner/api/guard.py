@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from starlette.exceptions import HTTPException
 
 from planner.api.access import Access, NotAllowed
+from planner.api.guesses import Guesses
 from planner.api.problems import response
 from planner.voice import MAX_BYTES
 
@@ -49,6 +50,7 @@ class Guard:
     def __init__(self, app: ASGIApp, access: Access) -> None:
         self._app = app
         self._access = access
+        self._guesses = Guesses()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket"):
@@ -63,6 +65,8 @@ class Guard:
                 scope.get("method", "GET"), scope["path"], headers, websocket=websocket
             )
         except NotAllowed as refusal:
+            if refusal.guessed:
+                await self._guesses.slow(scope.get("client"))
             await _refuse(refusal, scope, receive, send)
             return
         scope["state"] = {**scope.get("state", {}), "role": role}

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, StrictBool
 
 from planner.plan import Language
 from wire import Proof
 from wire.geometry import Mps, Radps
 from wire.scalars import Name
 
-MAX_GOAL_CHARACTERS = 200_000
-"""Longer than any order that is read, so that a long one gets an outcome that says so."""
+MAX_GOAL_CHARACTERS = 4_000
+"""Of a goal and of an answer; lists, snapshots and the journal keep them many times over."""
+MAX_TEXT_CHARACTERS = 200_000
+"""Of any text: a longer one than a goal may be is still searched for a stop."""
 
 
 class Body(BaseModel):
@@ -28,14 +30,23 @@ class OperatorProof(Body):
     proof: Proof
 
 
+Text = Annotated[
+    str,
+    Field(
+        max_length=MAX_TEXT_CHARACTERS,
+        description=f"At most {MAX_GOAL_CHARACTERS} characters; longer ones may only stop",
+    ),
+]
+
+
 class NewGoal(Body):
     """Give a goal in words."""
 
-    text: Annotated[str, Field(max_length=MAX_GOAL_CHARACTERS)]
+    text: Text
     language: Language | None = None
-    confirm: bool = False
+    confirm: StrictBool = False
     """Show the plan and wait for a yes before the first step."""
-    replace: bool = False
+    replace: StrictBool = False
     """Once understood, end the running goal (where none runs, the one that thinks or asks) and go
     first; what is paused or queued keeps its place."""
     operator: OperatorProof | None = None
@@ -51,7 +62,7 @@ class GoalOrder(Body):
 class Reply(Body):
     """Answer a goal's question."""
 
-    text: Annotated[str, Field(max_length=MAX_GOAL_CHARACTERS)]
+    text: Text
     operator: OperatorProof | None = None
 
 
@@ -78,6 +89,6 @@ class Steer(Body):
     """Steer by hand while ``dead_man`` is held; send at 20 Hz."""
 
     source: Name
-    v_mps: Mps
-    w_radps: Radps
-    dead_man: bool
+    v_mps: Annotated[Mps, Field(strict=True)]
+    w_radps: Annotated[Radps, Field(strict=True)]
+    dead_man: StrictBool

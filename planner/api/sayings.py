@@ -72,6 +72,40 @@ SAYINGS = {
         zh="目前没有记录行驶数据，因此不能解锁。运行 `pons arm` 可查看原因。",
     ),
     "voice_timed_out": _AGAIN,
+    "foreign_host": Bilingual(
+        en="This address of the robot is not one that the planner knows; PONS_ALLOWED_HOSTS "
+        "adds one.",
+        zh="规划器不认识您访问机器人所用的地址；可用 PONS_ALLOWED_HOSTS 添加。",
+    ),
+    "foreign_origin": Bilingual(
+        en="Another site's page may not speak to the robot.",
+        zh="其他网站的页面不能向机器人发送请求。",
+    ),
+    "proxy_without_token": Bilingual(
+        en="A proxy stands in front of the robot and no token is set, so anybody could drive it. "
+        "Set PONS_OPERATOR_TOKEN for the planner; stop works without.",
+        zh="机器人前面有代理服务器而未设置令牌，任何人都可能驾驶它。请为规划器设置 "
+        "PONS_OPERATOR_TOKEN；停止指令不受影响。",
+    ),
+    "goal_too_long": Bilingual(
+        en="This is too long for an order: at most 4,000 characters. Say it shorter.",
+        zh="指令太长：最多 4000 个字符。请说得简短些。",
+    ),
+    "too_many_goals": Bilingual(
+        en="Too many orders came at once. Wait a moment; stop always works.",
+        zh="指令过于频繁，请稍候再试；停止指令始终有效。",
+    ),
+    "too_many_sockets": Bilingual(
+        en="Too many pages watch this robot. Close some of them; stop still works.",
+        zh="观看这台机器人的页面太多，请关闭一些；停止指令不受影响。",
+    ),
+    "headers_too_large": Bilingual(
+        en="The request's headers are too large; clearing this site's cookies may help.",
+        zh="请求头过大；清除该网站的 Cookie 可能有帮助。",
+    ),
+    "request_timeout": Bilingual(
+        en="The request did not arrive in time.", zh="请求未能及时送达。"
+    ),
     "body_too_large": Bilingual(
         en="What was sent is too large.", zh="发送的内容过大。"
     ),

@@ -1,17 +1,18 @@
 """Serve a route whatever its body is: for what stops the robot, an odd body is no reason to refuse.
 
-A hurried ``curl -d '{}'`` without a content type, half a JSON, a megabyte of noise or a connection
-that breaks off: each still stops, as if the body had been empty.
+A hurried ``curl -d '{}'`` without a content type, half a JSON, a megabyte of noise, a connection
+that breaks off, or a body that does not come: each still stops, as if the body had been empty.
 """
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING, Any
 
 from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from starlette.responses import Response
     from starlette.types import Message
 
+BODY_S = 0.5
+"""How long a stop waits for the rest of its body, which says no more than who asks."""
 _OF_THE_BODY = frozenset({b"content-type", b"content-length", b"transfer-encoding"})
 
 
@@ -30,6 +33,11 @@ class Unrefused(APIRoute):
         handle = super().get_route_handler()
 
         async def answered(request: Request) -> Response:
+            try:
+                async with asyncio.timeout(BODY_S):
+                    await request.body()  # kept by the request
+            except (TimeoutError, ClientDisconnect, HTTPException):
+                return await handle(_bare(request))
             try:
                 return await handle(request)
             except (RequestValidationError, HTTPException):

@@ -8,6 +8,7 @@ Knows no event loop: ``JournalWriter`` calls it from its one thread.
 from __future__ import annotations
 
 import json
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,8 +22,14 @@ from planner.mission.records import MAX_ENDED, Mission
 from planner.plan import ENDED
 from wire import Misconfigured
 
+log = logging.getLogger(__name__)
+
 SCHEMA = "1"
 MAX_KEYS = 10_000
+MAX_KEPT = 2_000
+"""Ended goals on disk, with all their transitions; older ones are removed, open ones never."""
+PRUNE_EVERY, PRUNE_MOST = 100, 500
+"""After so many goals that ended, so many are removed at most: the writer is not held up."""
 
 _meta = sa.MetaData()
 _transitions = sa.Table(
@@ -88,6 +95,7 @@ class MissionJournal:
         """
         self._engine = sa.create_engine(url)
         self._queue: tuple[str, ...] | None = None  # as it is on disk; None: not known
+        self._ended = 0  # since the journal was last pruned
         self._put_mission = _upsert_of(_missions, self._engine.dialect.name)
         self._put_fact = _upsert_of(_facts, self._engine.dialect.name)
         self._put_key = _upsert_of(_keys, self._engine.dialect.name, _keys.c.key)
@@ -117,6 +125,10 @@ class MissionJournal:
                 # A request that got a 503 for a slow disk comes again, with its key, as a new goal.
                 self._put_key(connection, {"key": key.key, "body": key.body, "goal": key.goal})
         self._queue = queue
+        self._ended += sum(m.state in ENDED for entry in entries for m in entry.missions)
+        if self._ended >= PRUNE_EVERY:
+            self._ended = 0
+            self._prune()
 
     def load(self) -> Kept:
         """Read what a new process needs: all open missions, the newest ended ones, the keys.
@@ -145,6 +157,21 @@ class MissionJournal:
     def close(self) -> None:
         """Give the connections back."""
         self._engine.dispose()
+
+    def _prune(self) -> None:
+        """Remove the oldest goals that ended beyond those kept; a failure leaves them for later."""
+        ended = sa.select(_missions.c.id).where(_missions.c.ended.is_(True))
+        kept = ended.order_by(_missions.c.order.desc()).limit(MAX_KEPT)
+        oldest = ended.where(_missions.c.id.not_in(kept)).order_by(_missions.c.order)
+        newest_key = sa.select(sa.func.max(_keys.c.seq)).scalar_subquery()
+        try:
+            with self._engine.begin() as connection:
+                gone = connection.execute(oldest.limit(PRUNE_MOST)).scalars().all()
+                connection.execute(sa.delete(_transitions).where(_transitions.c.mission.in_(gone)))
+                connection.execute(sa.delete(_missions).where(_missions.c.id.in_(gone)))
+                connection.execute(sa.delete(_keys).where(_keys.c.seq <= newest_key - MAX_KEYS))
+        except sa.exc.SQLAlchemyError as error:
+            log.warning("the journal was not pruned: %s", str(error).splitlines()[0][:200])
 
     def _append(
         self, connection: sa.Connection, entry: Journal, before: tuple[str, ...] | None

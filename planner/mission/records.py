@@ -34,7 +34,7 @@ from wire import Pose2, Status
 MAX_OPEN = 33
 """Goals that have not ended: one running and 32 that wait."""
 MAX_ENDED = 200
-"""Ended goals kept at hand; the journal keeps all."""
+"""Ended goals kept at hand; the journal keeps ten times as many."""
 
 
 class Mission(Frozen):

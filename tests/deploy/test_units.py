@@ -46,6 +46,10 @@ def test_the_bridge_is_watched_and_may_be_real_time(repository: Path) -> None:
     assert "RestrictRealtime" not in bridge
 
 
+def test_the_planner_has_files_for_a_crowd_at_its_door() -> None:
+    assert services()["planner"]["Service"]["LimitNOFILE"] == ["65536"]
+
+
 @pytest.mark.parametrize("name", [name for name in PROCESSES if name != "bridge"])
 def test_nobody_else_may_be_real_time(name: str) -> None:
     service = services()[name]["Service"]

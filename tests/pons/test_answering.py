@@ -17,6 +17,7 @@ from pons import goals
 from pons.__main__ import main, parser
 from pons.settings import Settings, load
 from pons.texts import how_to_answer
+from tests.planner.api.serving import served as real_planner
 
 ASKED = {"message": {"en": "Shall I?", "zh": "要吗？"}}
 
@@ -191,3 +192,15 @@ def test_a_stop_is_said_without_a_planner(
     monkeypatch.setenv("PONS_PORT", "1")
     assert goals.say(load(), words, wait=False) == 1
     assert "no_bridge" in capsys.readouterr().err
+
+
+def test_a_sentence_that_is_too_long_is_told_to_be_in_both_languages(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with real_planner() as planner:
+        settings = replace(load(), host="127.0.0.1", port=planner.port)
+        assert goals.say(settings, "go " * 2_000, wait=False) == goals.EXIT_UNREACHED
+    told = capsys.readouterr().err
+    assert "goal_too_long: 6000 characters; at most 4000" in told
+    assert "too long for an order" in told
+    assert "指令太长" in told

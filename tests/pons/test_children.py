@@ -25,4 +25,5 @@ def test_the_simulated_camera_waits_until_the_rest_is_ready(
     found = children(settings, robot)
     assert [child.name for child in found] == expected
     assert [child.name for child in found if child.waits_for_ready] == expected[4:]
+    assert [child.name for child in found if child.knows_tokens] == ["planner"]
     assert all(child.arguments[0] in (child.name, f"sim.{child.name}") for child in found)

@@ -14,7 +14,7 @@ import psutil
 import pytest
 
 from pons.child import BEHIND
-from pons.processes import FIRST_PAUSE_S, LONGEST_PAUSE_S, STEADY_S, Backoff, Child
+from pons.processes import FIRST_PAUSE_S, LONGEST_PAUSE_S, STEADY_S, TOKENS, Backoff, Child
 from sim.camera.__main__ import NICE
 from tests.rank.standing import leads_its_session, stand_of
 
@@ -23,6 +23,8 @@ STUBBORN = (
     "import signal, time\nsignal.signal(signal.SIGTERM, signal.SIG_IGN)\n"
     "print('deaf', flush=True)\ntime.sleep(60)\n"
 )
+LOUD = "import time\nwhile True:\n    print('loud ' * 40, flush=True)\n    time.sleep(0.0001)\n"
+SHOWING = "import os\nprint(sorted(n for n in os.environ if n.endswith('_TOKEN')), flush=True)\n"
 FAILING = "import sys\nprint('my last words')\nsys.exit(7)\n"
 PARENT = """
 import sys, time
@@ -37,7 +39,9 @@ time.sleep(60)
 
 @pytest.fixture
 def modules(tmp_path: Path) -> Path:
-    for name, body in (("sleeper", SLEEPER), ("stubborn", STUBBORN), ("failing", FAILING)):
+    bodies = {"sleeper": SLEEPER, "stubborn": STUBBORN, "failing": FAILING, "loud": LOUD,
+              "showing": SHOWING}  # fmt: skip
+    for name, body in bodies.items():
         (tmp_path / f"{name}.py").write_text(body)
     return tmp_path
 
@@ -157,3 +161,45 @@ def test_a_killed_parent_takes_its_child_along(modules: Path) -> None:
     parent.wait()
     parent.stdout.close()
     assert gone(pid)
+
+
+@pytest.mark.parametrize("child", ["loud"], indirect=True)
+def test_a_log_that_floods_fills_no_disk_and_its_writer_lives(child: Child) -> None:
+    most, seen = 20_000, []
+    child.start(0.0)
+    for _ in range(6):
+        end_s = time.monotonic() + 10.0
+        while child.log.stat().st_size <= most and time.monotonic() < end_s:
+            time.sleep(0.01)
+        child.bound_log(most)
+        seen.append(child.log.stat().st_size)
+    files = sorted(path.name for path in child.log.parent.glob("log*"))
+    assert files == ["log", "log.1", "log.2"]
+    assert max(seen) < most
+    assert all(child.log.with_name(name).stat().st_size <= most for name in files[1:])
+    assert child.process is not None
+    assert child.process.poll() is None
+    assert child.last_words(1).startswith("loud")
+    assert b"\0" not in child.log.read_bytes(), "it writes at the end, not where it was"
+
+
+def test_a_short_log_is_left_alone(tmp_path: Path) -> None:
+    child = Child("quiet", ["quiet"], tmp_path / "log")
+    child.bound_log()
+    child.log.write_text("a line\n")
+    child.bound_log()
+    assert [path.name for path in tmp_path.iterdir()] == ["log"]
+
+
+@pytest.mark.parametrize("child", ["showing"], indirect=True)
+@pytest.mark.parametrize("knows", [True, False])
+def test_only_the_planner_inherits_the_tokens(
+    child: Child, knows: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in TOKENS:
+        monkeypatch.setenv(name, "a good and long token")
+    child.knows_tokens = knows
+    child.start(0.0)
+    assert child.process is not None
+    child.process.wait()
+    assert child.last_words() == str(sorted(TOKENS) if knows else [])

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from contextvars import ContextVar
 from functools import cache
+from itertools import count
 from typing import TYPE_CHECKING, Any, cast
 
 from starlette.testclient import TestClient
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 BASE = "http://127.0.0.1:8420"
 LOCAL = Access("127.0.0.1")
+_ADDRESSES = count()
 _AT_HAND: ContextVar[FakeServices] = ContextVar("services of the request's test")
 
 
@@ -54,7 +56,7 @@ def _routes(access: Access) -> FastAPI:
 
 
 def client_of(services: FakeServices, access: Access = LOCAL) -> TestClient:
-    """Return a client of these services; two at once do not meet."""
+    """Return a client of these services, with an address of its own; two at once do not meet."""
     own: list[FastAPI] = []
 
     async def app(scope: Scope, receive: Receive, send: Send) -> None:
@@ -65,4 +67,4 @@ def client_of(services: FakeServices, access: Access = LOCAL) -> TestClient:
 
     if services.site is not two_room():
         raise ValueError("routes that are built once show the site of two rooms alone")
-    return TestClient(app, base_url=BASE)
+    return TestClient(app, base_url=BASE, client=(f"10.0.0.{next(_ADDRESSES)}", 50_000))

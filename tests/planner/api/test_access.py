@@ -133,3 +133,53 @@ def test_an_empty_token_opens_nothing() -> None:
 )  # fmt: skip
 def test_loopback_is_told_from_the_rest(host: str, expected: bool) -> None:
     assert is_loopback(host) is expected
+
+
+@pytest.mark.parametrize("host", ["[", "[::1", "[abc]", "a[b", "ℂ℀", "\x00", "@", ":"])
+@pytest.mark.parametrize("path", ["/", "/v1/stop", "/v1/events"])
+def test_a_malformed_host_is_a_foreign_one(host: str, path: str) -> None:
+    with pytest.raises(NotAllowed) as refused:
+        LOCAL.judge("GET", path, headers(host), websocket=path == "/v1/events")
+    assert (refused.value.status, refused.value.code) == (403, "foreign_host")
+
+
+@pytest.mark.parametrize("origin", ["http://[", "http://[::1", "http://", "://", "[", "http:[", ""])
+def test_a_malformed_origin_is_a_foreign_one(origin: str) -> None:
+    with pytest.raises(NotAllowed) as refused:
+        LOCAL.judge("POST", "/v1/stop", headers(origin=origin))
+    assert (refused.value.status, refused.value.code) == (403, "foreign_origin")
+
+
+PROXIED = ["X-Forwarded-For", "x-forwarded-proto", "X-Forwarded-Host", "Forwarded", "Via"]
+
+
+@pytest.mark.parametrize("name", PROXIED)
+@pytest.mark.parametrize(
+    ("path", "websocket"),
+    [("/", False), ("/v1/goals", False), ("/v1/robot", False), ("/v1/events", True)],
+)
+def test_without_a_token_nobody_asks_through_a_proxy(name: str, path: str, websocket: bool) -> None:
+    asked = {**headers(**JSON), name.lower(): "203.0.113.9"}
+    with pytest.raises(NotAllowed) as refused:
+        LOCAL.judge("GET", path, asked, websocket=websocket)
+    assert (refused.value.status, refused.value.code) == (403, "proxy_without_token")
+    assert "PONS_OPERATOR_TOKEN" in refused.value.detail
+
+
+@pytest.mark.parametrize("path", ["/v1/stop", "/v1/estop", "/v1/disarm"])
+def test_a_stop_comes_through_any_proxy(path: str) -> None:
+    asked = {**headers(), "x-forwarded-for": "203.0.113.9"}
+    assert LOCAL.judge("POST", path, asked) is Role.OPERATOR
+
+
+def test_with_a_token_a_proxy_may_stand_in_front() -> None:
+    behind = Access("127.0.0.1", operator_token="op-secret")
+    asked = headers(authorization="Bearer op-secret", x_forwarded_for="203.0.113.9", **JSON)
+    assert behind.judge("POST", "/v1/goals", asked) is Role.OPERATOR
+
+
+@pytest.mark.parametrize(("authorization", "guessed"), [("", False), ("Bearer wrong", True)])
+def test_a_wrong_token_is_told_from_none(authorization: str, guessed: bool) -> None:
+    with pytest.raises(NotAllowed) as refused:
+        OPEN.judge("GET", "/v1/robot", headers("robot.lan", authorization=authorization))
+    assert refused.value.guessed is guessed

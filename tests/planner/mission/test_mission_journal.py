@@ -16,7 +16,17 @@ import sqlalchemy as sa
 from sqlalchemy.dialects.postgresql.base import PGDialect
 
 from planner.mission.effects import Journal
-from planner.mission.journal import GoalKey, MissionJournal, _facts, _in_one, _keys, _upsert_of
+from planner.mission.journal import (
+    MAX_KEPT,
+    PRUNE_EVERY,
+    PRUNE_MOST,
+    GoalKey,
+    MissionJournal,
+    _facts,
+    _in_one,
+    _keys,
+    _upsert_of,
+)
 from planner.mission.records import MAX_ENDED, Mission
 from planner.mission.writer import JournalWriter, Wanted
 from planner.plan import Code, GoalState, Language, Outcome, message
@@ -50,6 +60,44 @@ def test_the_newest_record_comes_back_and_every_transition_stays(tmp_path: Path)
         states = connection.execute(sa.text("select mission, state from transitions order by seq"))
         assert [tuple(r) for r in states] == [("a", "queued"), ("a", "running"), ("b", "queued")]
     engine.dispose()
+
+
+def test_the_oldest_goals_that_ended_leave_the_disk_and_no_open_one_does(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    open_ = tuple(mission(f"open{n}", n) for n in range(5))
+    journal.write((Journal(1, open_, ("open0",)),))
+    for batch in range(0, MAX_KEPT + 4 * PRUNE_EVERY, PRUNE_EVERY):
+        ended = tuple(
+            mission(f"e{n}", 10 + n, GoalState.SUCCEEDED) for n in range(batch, batch + PRUNE_EVERY)
+        )
+        keys = tuple(GoalKey(f"k{n}", "f", f"e{n}") for n in range(batch, batch + PRUNE_EVERY))
+        journal.write((Journal(2 + batch, ended, ("open0",)),), keys)
+    kept = journal.load()
+    journal.close()
+    assert kept.missions[:5] == open_
+    assert kept.missions[-1].id == f"e{MAX_KEPT + 4 * PRUNE_EVERY - 1}"
+    engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
+    with engine.connect() as connection:
+        for table, column in (("missions", "id"), ("transitions", "mission")):
+            found = connection.execute(sa.text(f"select {column} from {table}")).scalars().all()
+            ended_ids = [name for name in found if name.startswith("e")]
+            assert len(ended_ids) == MAX_KEPT
+            assert "e0" not in ended_ids
+            assert sum(name.startswith("open") for name in found) == 5
+    engine.dispose()
+
+
+def test_a_journal_of_an_older_program_is_pruned_bit_by_bit(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    many = MAX_KEPT + 2 * PRUNE_MOST
+    crowd = tuple(mission(f"e{n}", n, GoalState.SUCCEEDED) for n in range(many))
+    journal.write((Journal(1, crowd, ()),))
+    engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
+    with engine.connect() as connection:
+        left = connection.execute(sa.text("select count(*) from missions")).scalar()
+    engine.dispose()
+    journal.close()
+    assert left == many - PRUNE_MOST
 
 
 def test_the_queue_is_written_when_it_changes_within_a_batch_and_after_a_failure(

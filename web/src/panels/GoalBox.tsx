@@ -6,8 +6,6 @@ import { give, said } from "../state/acts";
 import { isBusy, places } from "../state/store";
 import { Talk } from "../talk/Talk";
 
-const MAX_CHARACTERS = 2000;
-
 const wide = matchMedia("(min-width: 821px)").matches; // a phone's view has no room for all names
 
 const text = signal("");
@@ -44,7 +42,6 @@ export function GoalBox() {
             type="text"
             autocomplete="off"
             enterkeyhint="send"
-            maxLength={MAX_CHARACTERS}
             placeholder={t("goal.placeholder")}
             value={text.value}
             onInput={(event) => (text.value = event.currentTarget.value)}

@@ -1,0 +1,90 @@
+"""A goal's words are bounded in length and rate, and its numbers in kind; a stop in neither."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from planner.api.goals import AT_ONCE
+from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
+
+
+@pytest.fixture
+def services() -> FakeServices:
+    return FakeServices()
+
+
+@pytest.fixture
+def client(services: FakeServices) -> Iterator[TestClient]:
+    with client_of(services) as made:
+        yield made
+
+
+def code(answer: Any) -> str:
+    assert answer.headers["content-type"] == "application/problem+json"
+    return str(answer.json()["code"])
+
+
+@pytest.mark.parametrize("path", ["/v1/goals", "/v1/goals/g1/answer"])
+def test_a_sentence_of_4_000_characters_is_taken_and_a_longer_one_refused(
+    client: TestClient, services: FakeServices, path: str
+) -> None:
+    assert client.post(path, json={"text": "去" * 4_000}).is_success
+    answer = client.post(path, json={"text": "去" * 4_001})
+    assert (answer.status_code, code(answer)) == (422, "goal_too_long")
+    assert "4001 characters; at most 4000" in answer.json()["detail"]
+    assert set(answer.json()["message"]) == {"en", "zh"}
+    assert len(services.goals.calls) == 1
+    assert services.goals.stops == []
+
+
+@pytest.mark.parametrize("text", ["stop! " + "a" * 100_000, "停！" + "啊" * 5_000])
+def test_a_stop_that_is_too_long_for_a_goal_stops(
+    client: TestClient, services: FakeServices, text: str
+) -> None:
+    answer = client.post("/v1/goals", json={"text": text})
+    assert (answer.status_code, code(answer)) == (422, "goal_too_long")
+    assert services.goals.stops == ["api"]
+    assert "told to stop" in answer.json()["message"]["en"]
+
+
+def test_goals_have_a_rate_and_stops_have_none(client: TestClient) -> None:
+    refused: list[str] = []
+    for number in range(AT_ONCE + 40):
+        path = "/v1/goals" if number % 2 else "/v1/goals/g1/answer"
+        answer = client.post(path, json={"text": "go to the kitchen"})
+        refused += [code(answer)] if answer.status_code == 429 else []
+        for stop in ("stop", "快停下"):
+            assert client.post(path, json={"text": stop}).is_success
+    assert refused
+    assert set(refused) == {"too_many_goals"}
+
+
+def test_one_address_takes_no_goals_from_another(services: FakeServices) -> None:
+    hasty, other = client_of(services), client_of(services)
+    answers = [hasty.post("/v1/goals", json={"text": "go"}) for _ in range(AT_ONCE + 20)]
+    assert 429 in [answer.status_code for answer in answers]
+    assert other.post("/v1/goals", json={"text": "go"}).status_code == 202
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("dead_man", "yes"), ("dead_man", 1), ("dead_man", "true"), ("v_mps", "0.1"),
+     ("w_radps", "0"), ("v_mps", True)],
+)  # fmt: skip
+def test_steering_takes_nothing_for_what_it_is_not(
+    client: TestClient, services: FakeServices, key: str, value: object
+) -> None:
+    body = {"source": "page-1", "v_mps": 0, "w_radps": 0.1, "dead_man": True}
+    assert client.post("/v1/teleop", json={**body, key: value}).status_code == 422
+    assert services.robot.steers == []
+    assert client.post("/v1/teleop", json=body).status_code == 202
+
+
+@pytest.mark.parametrize("key", ["confirm", "replace"])
+def test_an_option_of_a_goal_is_true_or_false(client: TestClient, key: str) -> None:
+    assert client.post("/v1/goals", json={"text": "go", key: "yes"}).status_code == 422
