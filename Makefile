@@ -8,6 +8,7 @@ MAKEFLAGS += --no-print-directory
 BIN := .venv/bin
 RUNTIME := .venv/.installed
 DEV := .venv/.installed-dev
+ATTACK := .venv/.installed-attack
 PAGE := web/dist/index.html
 PAGE_DEV := web/node_modules/.pons-dev
 PAGE_SOURCES := $(shell find web/src web/index.html web/vite.config.ts web/package-lock.json -type f)
@@ -16,7 +17,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long train lock audit clean
+.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -93,10 +94,13 @@ bench: $(RUNTIME) ## measure and print a table (at most 10 min)
 bench-long: $(RUNTIME) ## measure what takes longer; resumable, appends to one file
 	@exec $(BIN)/python -m bench --long $(ARGS)
 
+attack: $(ATTACK) ## attack the API, files and decoders; fails where a goal is missed (at most 10 min); ARGS=--long
+	@exec $(BIN)/python -m attack $(ARGS)
+
 train: $(RUNTIME) ## draw homes, fit the default detector anew and score it (two hours; train/README.md)
 	@exec nice -n 10 $(BIN)/python -m train $(ARGS)
 
-lock: $(DEV) ## resolve the dependencies anew into requirements.lock and requirements-dev.lock
+lock: $(DEV) ## resolve the dependencies anew into requirements.lock and its companions
 	@scripts/lock.sh
 
 audit: $(DEV) ## ask for known vulnerabilities of the locked packages; says aloud when it can't
@@ -114,6 +118,10 @@ $(RUNTIME): requirements.lock pyproject.toml scripts/venv.sh scripts/install.sh
 
 $(DEV): requirements-dev.lock $(RUNTIME)
 	@scripts/install.sh requirements-dev.lock
+	@touch $@
+
+$(ATTACK): requirements-attack.lock $(RUNTIME)
+	@scripts/install.sh requirements-attack.lock
 	@touch $@
 
 $(PAGE): $(PAGE_SOURCES) scripts/page.sh | $(RUNTIME)

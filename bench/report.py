@@ -58,11 +58,16 @@ def number(value: float) -> str:
 
 def table(rows: Iterable[Row]) -> str:
     """Return rows as an aligned table."""
-    lines = [HEAD, *(row.cells() for row in rows)]
-    widths = [max(len(line[column]) for line in lines) for column in range(len(HEAD))]
+    return aligned(HEAD, [row.cells() for row in rows])
+
+
+def aligned(head: Sequence[str], body: Sequence[Sequence[str]]) -> str:
+    """Return lines of cells under a head, each column as wide as its widest cell."""
+    lines = [head, *body]
+    widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
     rule = tuple("-" * width for width in widths)
     texts = [
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in (lines[0], rule, *lines[1:])
+        for line in (head, rule, *body)
     ]
     return "\n".join(texts)

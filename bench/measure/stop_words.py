@@ -11,7 +11,7 @@ import time
 from bench.lab import Lab
 from bench.report import Row, row_of
 from planner.language.stop import StopReading, read_stop
-from pons.evals.cases import MissingSuite
+from pons.evals.cases import Case, MissingSuite
 from pons.evals.suites import load
 
 NAME = "stop_words"
@@ -26,7 +26,7 @@ STOPPING = frozenset({"no", "negation", "stop"})
 
 def measure(lab: Lab) -> list[Row]:
     """Read every sentence of the suites; the best of a few readings counts, for others run too."""
-    cases = []
+    cases: list[Case] = []
     for name in SUITES:
         try:
             (suite,) = load(name)

@@ -14,15 +14,15 @@ from pathlib import Path
 
 from planner.world.errors import SiteError
 from wire.plain_file import read_plain_file
+from wire.png import SIGNATURE, chunks_fit
 from wire.site_map import MOST_IMAGE_BYTES
 
 MAX_PIXELS = 64_000_000
 """8000 x 8000: a map of 400 m x 400 m at 0.05 m."""
 
 _PGM_HEAD = re.compile(
-    rb"(P[25])(?:\s|#[^\n]*\n)+(\d+)(?:\s|#[^\n]*\n)+(\d+)(?:\s|#[^\n]*\n)+(\d+)\s"
+    rb"(P[25])(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})\s"
 )
-_PNG_MAGIC = b"\x89PNG\r\n\x1a\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ def decode(data: bytes, where: Path) -> GreyImage:
     Raises:
         SiteError: ``map_image_malformed`` or ``map_image_too_large``.
     """
-    if data.startswith(_PNG_MAGIC):
+    if data.startswith(SIGNATURE):
         return _decode_png(data, where)
     head = _PGM_HEAD.match(data)
     if head is None:
@@ -90,6 +90,9 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
     # The header says the size before anything is unpacked: a small file may hold a huge picture.
     width, height = int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
     _check_size(width, height, where)
+    if not chunks_fit(data):
+        text = f"{where}: {len(data)} bytes came, and its chunks speak of more"
+        raise SiteError("map_image_malformed", text)
     import cv2
 
     pixels = cv2.imread(str(where), cv2.IMREAD_GRAYSCALE)

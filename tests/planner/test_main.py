@@ -37,13 +37,13 @@ def test_a_token_has_sixteen_characters_that_are_no_blanks(
     monkeypatch.setenv("PONS_OPERATOR_TOKEN", "a good and long token")
     monkeypatch.setenv(name, token)
     with pytest.raises(Misconfigured, match="token_too_short"):
-        _access("127.0.0.1")
+        _access("127.0.0.1", speaks_tls=False)
 
 
 def test_no_worker_inherits_the_tokens(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PONS_OPERATOR_TOKEN", "a good and long token")
     monkeypatch.setenv("PONS_VIEWER_TOKEN", "another good and long one")
-    access = _access("0.0.0.0")  # the very case
+    access = _access("0.0.0.0", speaks_tls=False)  # the very case
     assert (access.operator_token, access.viewer_token) == (
         "a good and long token",
         "another good and long one",

@@ -11,7 +11,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-LOCKS = ("requirements.lock", "requirements-dev.lock")
+LOCKS = ("requirements.lock", "requirements-dev.lock", "requirements-attack.lock")
 PIN = re.compile(r"^(?P<name>[a-z0-9._-]+)==(?P<version>\S+)(?P<marker> ;.*?)? \\$")
 IMPORT = re.compile(r"^\s*(?:import|from) ([a-zA-Z0-9_]+)", re.MULTILINE)
 HASH = re.compile(r"^    --hash=sha256:[0-9a-f]{64}( \\)?$")
@@ -55,7 +55,11 @@ def test_every_pin_has_hashes(repository: Path, name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "extras"),
-    [("requirements.lock", ("install",)), ("requirements-dev.lock", ("install", "dev"))],
+    [
+        ("requirements.lock", ("install",)),
+        ("requirements-dev.lock", ("install", "dev")),
+        ("requirements-attack.lock", ("install", "attack")),
+    ],
 )
 def test_lock_satisfies_pyproject(repository: Path, name: str, extras: tuple[str, ...]) -> None:
     locked = pins(repository / name)
@@ -71,7 +75,7 @@ def test_lock_satisfies_pyproject(repository: Path, name: str, extras: tuple[str
 
 
 def test_development_runs_on_the_versions_that_users_get(repository: Path) -> None:
-    runtime, dev = (pins(repository / name) for name in LOCKS)
+    runtime, dev, _ = (pins(repository / name) for name in LOCKS)
     assert {name: dev.get(name) for name in runtime} == runtime
 
 
@@ -98,3 +102,8 @@ def test_each_package_that_running_needs_is_imported_or_named_with_its_user(
     needed = {canonicalize_name(requirement.name) for requirement in wanted(repository)}
     assert needed - used == set(FOR_OTHERS) - used
     assert used - needed <= COME_ALONG, "imported, but pyproject.toml does not ask for it"
+
+
+def test_attacks_run_on_the_versions_that_tests_have(repository: Path) -> None:
+    _, dev, attack = (pins(repository / name) for name in LOCKS)
+    assert {name: found for name, found in attack.items() if dev.get(name, found) != found} == {}

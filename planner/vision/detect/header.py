@@ -1,7 +1,7 @@
 """Read a picture's size from its first bytes, before anything is unpacked. JPEG and PNG alone.
 
 A picture of 50 000 x 50 000 is a few bytes as JPEG and gigabytes in memory, so its own header is
-asked first. Sources: ITU-T T.81 annex B (markers), PNG specification (IHDR, IEND).
+asked first. Sources: ITU-T T.81 annex B (markers), PNG specification (IHDR).
 """
 
 from __future__ import annotations
@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+from wire.png import SIGNATURE, chunks_fit
+
 PNG_HEAD_BYTES = 33
-PNG_END = b"IEND\xaeB`\x82"
 PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 2, 6: 4}
 """By colour type; a palette unpacks to three."""
 PALETTE, PALETTE_BITS = 3, 8
@@ -34,12 +34,12 @@ class PictureHeader:
     bits: int
     """Per channel."""
     whole: bool
-    """Its end is there."""
+    """Its end is there, and nothing within speaks of more than came."""
 
 
 def read_header(data: bytes) -> PictureHeader | None:
     """Return a picture's header; None where these bytes begin no JPEG and no PNG."""
-    if data.startswith(PNG_SIGNATURE):
+    if data.startswith(SIGNATURE):
         return _png(data)
     if data.startswith(b"\xff\xd8\xff"):
         return _jpeg(data)
@@ -54,7 +54,7 @@ def _png(data: bytes) -> PictureHeader | None:
     if channels is None:
         return None
     bits = PALETTE_BITS if data[25] == PALETTE else data[24]
-    return PictureHeader("png", width, height, channels, bits, data.rfind(PNG_END) > 0)
+    return PictureHeader("png", width, height, channels, bits, chunks_fit(data))
 
 
 def _jpeg(data: bytes) -> PictureHeader | None:

@@ -194,12 +194,24 @@ def test_yaml_makes_no_objects(tmp_path: Path) -> None:
         (b"P5 3 2 100\n" + PIXELS, "map_image_malformed"),
         (b"P5 0 2 255\n", "map_image_too_large"),
         (b"P5 99999 99999 255\n" + PIXELS, "map_image_too_large"),
+        (b"P5 " + b"9" * 5000 + b" 2 255\n" + PIXELS, "map_image_malformed"),
         (b"\x89PNG\r\n\x1a\n" + b"\0\0\0\rIHDR" + b"\0\0\0\1" * 2, "map_image_malformed"),
         (b"\x89PNG\r\n\x1a\n" + b"\0\0\0\rIHDR" + b"\x7f\0\0\0" * 2, "map_image_too_large"),
     ],
 )
 def test_a_broken_picture_is_refused(tmp_path: Path, image: bytes, code: str) -> None:
     assert refusal(write(tmp_path, {}, image)).code == code
+
+
+def test_a_png_chunk_that_claims_two_gigabytes_is_refused_before_it_is_allotted(
+    tmp_path: Path,
+) -> None:
+    whole = cv2.imencode(".png", np.zeros((3, 4), np.uint8))[1].tobytes()
+    at = whole.index(b"IDAT") - 4
+    image = whole[:at] + b"\x7f\xff\xff\xfftEXtxxxx" + whole[at:]
+    refused = refusal(write(tmp_path, {}, image))
+    assert refused.code == "map_image_malformed"
+    assert "chunks speak of more" in str(refused)
 
 
 def test_a_missing_map_yaml_is_named(tmp_path: Path) -> None:

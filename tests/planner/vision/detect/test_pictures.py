@@ -31,6 +31,12 @@ def png(width: int, height: int, bits: int = 8, kind: int = 2) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + head + b"\0\0\0\0IEND\xaeB`\x82"
 
 
+def claiming(data: bytes) -> bytes:
+    """Return a PNG with a chunk that claims 2 GB, which the decoder would allot."""
+    at = data.index(b"IDAT") - 4
+    return data[:at] + struct.pack(">I", 2**31 - 1) + b"tEXtxxxx" + data[at:]
+
+
 def resized(data: bytes, width: int, height: int) -> bytes:
     """Return a JPEG that says another size of itself."""
     at = data.index(b"\xff\xc0")
@@ -62,6 +68,7 @@ BAD_COLOR = [
     (JPEG.replace(b"\xff\xc0\0\x11\x08", b"\xff\xc0\0\x11\x04"), "picture_undecodable"),
     (JPEG[: len(JPEG) // 2], "picture_truncated"),
     (PNG[:-12], "picture_truncated"),
+    (claiming(PNG), "picture_truncated"),
     (png(64, 48), "picture_undecodable"),
     (encoded(".jpg", COLOR[:40]), "picture_size_wrong"),
     (encoded(".jpg", COLOR // 32), "picture_dark"),
@@ -72,6 +79,7 @@ BAD_DEPTH = [
     (PNG, "depth_not_known"),
     (encoded(".png", (DEPTH // 256).astype(np.uint8)), "depth_not_known"),
     (DEEP[:-12], "depth_truncated"),
+    (claiming(DEEP), "depth_truncated"),
     (encoded(".png", DEPTH[:40]), "depth_size_wrong"),
     (png(64, 48, 16, 0), "depth_undecodable"),
 ]

@@ -1,0 +1,37 @@
+"""A PNG whose chunks speak of more bytes than came is told before any library allots them."""
+
+from __future__ import annotations
+
+import pytest
+
+from wire.png import SIGNATURE, chunks_fit
+
+
+def chunk(kind: bytes, body: bytes = b"", claimed: int | None = None) -> bytes:
+    size = len(body) if claimed is None else claimed
+    return size.to_bytes(4, "big") + kind + body + b"\x00\x00\x00\x00"
+
+
+HEAD = SIGNATURE + chunk(b"IHDR", bytes(13))
+END = chunk(b"IEND")
+
+
+def test_whole_chunks_up_to_the_end_fit() -> None:
+    assert chunks_fit(HEAD + chunk(b"IDAT", b"x" * 9) + END)
+
+
+def test_what_follows_the_end_is_nobodys_business() -> None:
+    assert chunks_fit(HEAD + END + b"more")
+
+
+@pytest.mark.parametrize("claimed", [1, 9, 0x3FFFFFFF, 0x7FFFFFFF, 0xFFFFFFFF])
+def test_a_chunk_that_claims_more_than_came_does_not_fit(claimed: int) -> None:
+    assert not chunks_fit(HEAD + chunk(b"tEXt", claimed=claimed))
+
+
+def test_without_its_end_or_its_signature_it_does_not_fit() -> None:
+    assert not chunks_fit(HEAD + chunk(b"IDAT", b"x"))
+    assert not chunks_fit(HEAD)
+    assert not chunks_fit(HEAD + b"\x00\x00")
+    assert not chunks_fit(b"")
+    assert not chunks_fit(b"GIF89a")
