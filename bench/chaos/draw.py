@@ -14,7 +14,7 @@ PROCESSES = (
 LISTENERS = ("bridge", "robot", "localization", "camera")
 LIDAR = ("lidar_off", "lidar_stuck", "lidar_blind", "lidar_intermittent")
 FREEZE_S, STALL_S, OTHER_S = (0.15, 5.0), (0.2, 3.0), (0.5, 7.0)
-TWO_AT_ONCE, STOPPED, GOES_ON = 0.25, 1 / 3, 0.25
+TWO_AT_ONCE, STOPPED, GOES_ON = 0.25, 1 / 3, 0.15
 
 
 class Kind(StrEnum):
@@ -88,7 +88,7 @@ def draw(number: int) -> Episode:
     """Return the episode of a number: the same one every time."""
     chance = Random(number)
     mission, says = _mission(chance, number)
-    first = _fault(chance, chance.uniform(0.3, 8.0))
+    first = _fault(chance, chance.uniform(0.3, 6.0))
     faults = [first]
     if chance.random() < TWO_AT_ONCE:
         faults.append(_fault(chance, first.at_s + chance.uniform(0.0, 1.5)))
@@ -141,8 +141,8 @@ def _mission(chance: Random, number: int) -> tuple[str, tuple[str, ...]]:
         (f"右转{degrees}度，然后前进{metres}米", ()),
         (f"wait 2 seconds, then go to the {a}", ()),
         (f'say "{one}", then turn left {degrees} degrees, then say "{two}"', (one, two)),
-        (f'wait 3 seconds, then say "{one}", then go to the {a}', (one,)),
-        (f"说“{one_zh}”，然后去{a_zh}，然后说“{two_zh}”", (one_zh, two_zh)),
+        (f'wait 3 seconds, then say "{one}", then move forward {metres} m', (one,)),
+        (f"说“{one_zh}”，然后右转{degrees}度，然后说“{two_zh}”", (one_zh, two_zh)),
     ]
     return chance.choice(drawn)
 
@@ -150,4 +150,4 @@ def _mission(chance: Random, number: int) -> tuple[str, tuple[str, ...]]:
 def _last(chance: Random) -> str:
     room, room_zh = chance.choice(sorted(ROOMS.items()))
     turn = chance.choice(("turn left 90 degrees", "turn right 60 degrees", "左转90度", "右转60度"))
-    return chance.choice((turn, turn, f"go to the {room}", f"去{room_zh}"))
+    return chance.choice((turn, turn, turn, turn, f"go to the {room}", f"去{room_zh}"))

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 WATCH_S = 2.0
 """So long after stop and mending nobody acts: what moves then moves unasked."""
-LEAST_S = 1.0
 SOCKET_S = 15.0
 
 
@@ -43,8 +42,9 @@ class Play:
         told["goals"] = [goal_id := self.person.give(episode.mission)]
         over_s = self._break_things()
         acts_s = self._watch(over_s)
-        told["ready"] = self.person.make_ready()
-        told["ready_s"] = None if episode.stop or not told["ready"] else time.monotonic() - over_s
+        ready_s = self.person.make_ready()
+        told["ready"] = ready_s is not None
+        told["ready_s"] = None if episode.stop or ready_s is None else ready_s - over_s
         told["went_on"] = self._bring_back(goal_id) if told["ready"] else "not ready"
         told["last"] = self._last_order() if told["ready"] else "not ready"
         told["sockets"] = self._sockets()
@@ -91,12 +91,10 @@ class Play:
         return over_s
 
     def _watch(self, over_s: float) -> float:
-        """Do nothing for a while, longer after a stop; return when a person acts."""
-        until_s = over_s + LEAST_S
+        """Do nothing for a while after a stop; return when a person acts."""
         if self.episode.stop is not None:
-            confirmed_s = self.stopping.confirmed_s or over_s
-            until_s = max(over_s, confirmed_s) + WATCH_S
-        time.sleep(max(0.0, until_s - time.monotonic()))
+            until_s = max(over_s, self.stopping.confirmed_s or over_s) + WATCH_S
+            time.sleep(max(0.0, until_s - time.monotonic()))
         return time.monotonic()
 
     def _bring_back(self, goal_id: str) -> str:

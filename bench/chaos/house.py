@@ -197,7 +197,7 @@ class House:
             said, _ = process.communicate()
             return None, said
 
-    def logs(self, since_s: float, lines: int = 6) -> dict[str, list[str]]:
+    def logs(self, since_s: float, lines: int = 12) -> dict[str, list[str]]:
         """Return the ends of those logs that were written to lately, for a look afterwards."""
         told = {"up": self.said().splitlines()[-lines:]}
         newer_s = time.time() - (time.monotonic() - since_s)

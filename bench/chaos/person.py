@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from bench.chaos.witness import Witness
     from wire import Status
 
+STEADY_S = 1.0
+"""So long it must be ready to be called so: a loss shows within half a second."""
 READY_S, SETTLED_S, MISSION_S, LAST_S, STOP_S = 60.0, 30.0, 75.0, 110.0, 20.0
 PAUSE_S = 0.2
 ENDED = frozenset({"succeeded", "failed", "refused", "cancelled"})
@@ -88,12 +90,21 @@ class Person:
         record: dict[str, Any] = self._house.ask("GET", f"/v1/goals/{goal_id}")
         return record
 
-    def make_ready(self) -> bool:
+    def make_ready(self) -> float | None:
         """Arm and reset as asked for, until all lives, the planner is ready and the drive powered.
 
-        Holds and goals are left as they are.
+        Holds and goals are left as they are. Returns the moment from which it was so; None where it
+        never was.
         """
-        return self._until(self._ready, READY_S)
+        since_s: float | None = None
+        end_s = time.monotonic() + READY_S
+        while time.monotonic() < end_s:
+            now_s = time.monotonic()
+            since_s = (since_s or now_s) if self._ready() else None
+            if since_s is not None and time.monotonic() - since_s >= STEADY_S:
+                return since_s
+            time.sleep(PAUSE_S)
+        return None
 
     def settle(self, goes_on: str | None) -> bool:
         """Bring it to rest: no goal but the one that may go on, nothing held, standing, ready."""
