@@ -153,7 +153,13 @@ class Person:
     def _ready(self) -> bool:
         status = self._power()
         powered = status is not None and status.mode in (Mode.HOLD, Mode.ACTIVE, Mode.STOPPING)
-        return powered and not self._house.missing() and self._house.ready()
+        if not powered or not self._house.ready():
+            return False
+        missing = self._house.missing()
+        if missing == ["voice"]:  # it is started again by whoever speaks next
+            with suppress(*TROUBLE):
+                self._house.speak()
+        return not missing
 
     def _settled(self, goes_on: str | None) -> bool:
         if not self._ready():
