@@ -44,6 +44,8 @@ class Witness:
         self._ending = threading.Event()
         self._truths: deque[Sample] = deque(maxlen=KEEP)
         self._said: deque[tuple[float, str, str]] = deque(maxlen=1000)
+        self.listening = threading.Event()
+        """Set while the planner's events are heard."""
         self.status: Status | None = None
         self.status_s = float("-inf")
 
@@ -87,9 +89,12 @@ class Witness:
                 suppress(OSError, WebSocketException, ValueError),
                 connect(url, open_timeout=2.0, close_timeout=0.5, max_size=None) as socket,
             ):
+                socket.recv(2.0)  # where everything stands
+                self.listening.set()
                 while not self._ending.is_set():
                     with suppress(TimeoutError):
                         self._hear(str(socket.recv(0.25)))
+            self.listening.clear()
 
     def _hear(self, text: str) -> None:
         if '"say"' not in text[:200]:

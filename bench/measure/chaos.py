@@ -16,7 +16,7 @@ from bench.chaos.episode import Play
 from bench.chaos.house import House, private_mounts
 from bench.chaos.witness import Witness
 from bench.figures import none_in
-from bench.lab import Missed, line
+from bench.lab import Missed, line, until
 from bench.report import Row, row_of
 from bridge.blackbox.reader import BadRecording, BoxReader
 from pons.http import PlannerDown, Refused
@@ -32,6 +32,7 @@ NAME = "chaos"
 TITLE = "a whole robot, broken at random moments of random missions"
 LONG_ONLY = True
 EPISODES = 500
+HEARD_S = 20.0
 LIFE = 40
 """Episodes of one robot: its simulated battery empties in three hours of driving."""
 NO_CLOCK = "not tried: the wall clock is the machine's, and other programs live by it"
@@ -97,7 +98,8 @@ class Robot:
             beside = stack.enter_context(self._lab.folder())
             home = stack.enter_context(self._lab.folder())
             house = stack.enter_context(House(home, beside / "up.log", mounts=self._mounts))
-            self._witness = stack.enter_context(Witness(house))
+            self._witness = witness = stack.enter_context(Witness(house))
+            until(witness.listening.is_set, HEARD_S, "the planner's events")
             self._house, self._lived, self._played = house, 0, []
             self._stack = stack.pop_all()
 
