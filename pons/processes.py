@@ -12,10 +12,8 @@ import subprocess
 import sys
 from collections import deque
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from pathlib import Path
+from typing import IO
 
 FIRST_PAUSE_S = 0.5
 LONGEST_PAUSE_S = 10.0
@@ -71,7 +69,7 @@ class Child:
             if self.knows_tokens or name not in TOKENS
         }
         command = [sys.executable, "-m", "pons.child", str(os.getpid()), *self.arguments]
-        with self.log.open("ab") as log:
+        with self._opened_log() as log:
             self.log_began = log.tell()
             self.process = subprocess.Popen(
                 command,
@@ -110,6 +108,13 @@ class Child:
 
     def _older(self, number: int) -> Path:
         return self.log.with_name(f"{self.log.name}.{number}")
+
+    def _opened_log(self) -> IO[bytes]:
+        """Open its log; where the disk refuses, its words are lost and it runs all the same."""
+        try:
+            return self.log.open("ab")
+        except OSError:
+            return Path(os.devnull).open("ab")
 
     def died(self, now_s: float) -> int | None:
         """Return the exit status of a death not yet noticed and plan the next start."""

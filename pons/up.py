@@ -82,7 +82,8 @@ class Supervisor:
         for child in self._children:
             child.bound_log()
             status = child.died(now_s)
-            if status == REFUSED_TO_START:
+            # Once all was ready the settings are right; what refuses then, as a disk does, may end.
+            if status == REFUSED_TO_START and not self._said_ready:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
             if status is not None:
                 wait_s = child.next_start_s - now_s

@@ -8,6 +8,7 @@ from bench import endpoint
 from bench.measure import (
     brain_silent,
     brains_compared,
+    chaos,
     clone_to_url,
     codec_fuzz,
     core_step,
@@ -81,6 +82,7 @@ ALL: tuple[Measure, ...] = cast(
         unexplained_stops,
         replay_hour,
         wheel_tracking,
+        chaos,
         clone_to_url,
         suite_time,
     ),

@@ -54,6 +54,26 @@ def test_an_end_in_the_middle_of_the_start_leaves_nothing(home: Path) -> None:
         system.destroy()
 
 
+def test_a_home_that_cannot_be_written_for_a_while_ends_nobody(robot: Robot) -> None:
+    (lock,) = (robot.system.home / "run").glob("**/localization.lock")
+    logs = robot.system.home / "logs"
+    aside = logs.rename(logs.with_name("logs.aside"))
+    logs.touch()  # no log can be opened
+    lock.unlink()
+    lock.mkdir()  # nor a lock
+    robot.system.kill("localization")
+    refused = "localization ended (exit status 2)"
+    until(lambda: refused in robot.system.said(), 20.0, refused, robot.system.said)
+    assert robot.system.up is not None
+    assert robot.system.up.poll() is None, robot.system.said()
+    lock.rmdir()
+    logs.unlink()
+    aside.rename(logs)
+    robot.system.until_served()
+    robot.rest()
+    robot.drive_off()
+
+
 @pytest.mark.parametrize("name", CHILDREN)
 def test_every_child_is_started_by_the_one_up(robot: Robot, name: str) -> None:
     assert robot.system.child(name).ppid() == (robot.system.up and robot.system.up.pid)

@@ -103,6 +103,16 @@ def test_a_death_is_noticed_once_and_its_words_kept(child: Child) -> None:
     assert child.due(101.0 + FIRST_PAUSE_S)
 
 
+@pytest.mark.parametrize("child", ["failing"], indirect=True)
+def test_a_child_whose_log_cannot_be_opened_runs_all_the_same(child: Child) -> None:
+    child.log.mkdir()  # root may write where a mode forbids it, but not this
+    child.start(100.0)
+    assert child.process is not None
+    assert child.process.wait() == 7
+    assert child.died(101.0) == 7
+    assert child.last_words() == ""
+
+
 @pytest.mark.parametrize("child", ["sleeper"], indirect=True)
 def test_stopping_ends_the_process(child: Child) -> None:
     child.start(0.0)
