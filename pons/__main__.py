@@ -169,11 +169,11 @@ def main(arguments: list[str] | None = None) -> int:
     """Run one command."""
     words = sys.argv[1:] if arguments is None else arguments
     try:
-        settings = load()
         if words == ["stop"]:  # before argparse: nothing may slow this down
             from pons import stop
 
-            return stop.run(settings)
+            return stop.run(load(forgiving=True))
+        settings = load()
         if words[:1] == [MOCK_LLM]:  # reads its own words; its web server is not for the others
             from pons.mock_llm.command import main as mock_llm
 

@@ -36,8 +36,11 @@ class BadSetting(Exception):
     """A setting cannot be used; nothing was started."""
 
 
-def load() -> Settings:
+def load(*, forgiving: bool = False) -> Settings:
     """Read PONS_HOME, PONS_ROBOT, PONS_SITE, PONS_HOST, PONS_PORT and PONS_METAL.
+
+    Args:
+        forgiving: take the default port in place of a bad one, for who only wants to stop.
 
     Raises:
         BadSetting: the port is no port.
@@ -48,9 +51,18 @@ def load() -> Settings:
         robot=Path(given.get("PONS_ROBOT", CHECKOUT / "robot.toml")).absolute(),
         site=Path(given.get("PONS_SITE", CHECKOUT / "sites" / "home")).absolute(),
         host=given.get("PONS_HOST", DEFAULT_HOST),
-        port=port_of(given.get("PONS_PORT", str(DEFAULT_PORT))),
+        port=_port(given.get("PONS_PORT", str(DEFAULT_PORT)), forgiving=forgiving),
         metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,
     )
+
+
+def _port(text: str, *, forgiving: bool) -> int:
+    try:
+        return port_of(text)
+    except BadSetting:
+        if not forgiving:
+            raise
+        return DEFAULT_PORT
 
 
 def port_of(text: str) -> int:

@@ -17,7 +17,7 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from pons.homelock import HomeLock, HomeTaken
+from pons.homelock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, Refused, call
 from pons.processes import REFUSED_TO_START, Child
 from wire import Misconfigured, RobotDescription, load_robot
@@ -223,7 +223,7 @@ def run(settings: Settings, *, planner: bool = True) -> int:
             if planner:
                 _check_port(settings)
             return _supervise(settings, robot, planner=planner)
-    except (CannotStart, HomeTaken) as why:
+    except (CannotStart, HomeTaken, HomeUnwritable) as why:
         print(f"pons up: {why}", file=sys.stderr)
         return REFUSED_TO_START
 

@@ -56,6 +56,9 @@ class Party(StrEnum):
 
 M = TypeVar("M", bound=Record)
 
+ANY_ROBOT = "*"
+"""In a robot's place in a key: whichever robot speaks there. No robot's id may be this."""
+
 
 @dataclass(frozen=True, slots=True)
 class Key(Generic[M]):

@@ -16,7 +16,7 @@ import zenoh
 from wire.base import Record
 from wire.codec import Image, decode, encode, image
 from wire.errors import Misconfigured
-from wire.keys import IMAGE, Key, Party
+from wire.keys import ANY_ROBOT, IMAGE, Key, Party
 from wire.sockets import DIALS, LISTENERS, Claim, Endpoints
 
 if TYPE_CHECKING:
@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from wire.sensors import ImageHeader
 
 M = TypeVar("M", bound=Record)
+
+MANY = frozenset({Party.OPERATOR, Party.JUDGE})
+"""Processes that may be many at once. They take no lock: who stops the robot must need neither a
+disk that can be written nor a file that another user may have made first."""
 
 _PARSED_PER_DRAIN = 4
 """At most so many newest messages of a key are worth parsing in one tick."""
@@ -149,7 +153,7 @@ _NOTHING: Drained[Any] = Drained((), 0)
 class Session:
     """Be one process of the key table: listen where it must, dial whom it needs."""
 
-    def __init__(self, zenoh_session: zenoh.Session, robot_id: str, claim: Claim) -> None:
+    def __init__(self, zenoh_session: zenoh.Session, robot_id: str, claim: Claim | None) -> None:
         self._zenoh = zenoh_session
         self._robot_id = robot_id
         self._claim = claim
@@ -161,6 +165,10 @@ class Session:
     def subscriber(self, key: Key[M]) -> Subscriber[M]:
         """Declare that this process hears ``key``."""
         return Subscriber(self._zenoh, key, self._robot_id)
+
+    def subscriber_to_any_robot(self, key: Key[M]) -> Subscriber[M]:
+        """Declare that this process hears ``key`` of whichever robot speaks."""
+        return Subscriber(self._zenoh, key, ANY_ROBOT)
 
     def image_publisher(self, key: Key[ImageHeader]) -> ImagePublisher:
         """Declare that this process says the pictures of ``key``."""
@@ -177,7 +185,8 @@ class Session:
     def close(self) -> None:
         """Leave; every ring is empty from now on."""
         self._zenoh.close()  # type: ignore[no-untyped-call]  # its stub has no annotation
-        self._claim.close()
+        if self._claim is not None:
+            self._claim.close()
 
     def __enter__(self) -> Self:
         return self
@@ -194,23 +203,34 @@ class Session:
 def open_session(
     party: Party, robot_id: str, home: Path, endpoints: Endpoints | None = None
 ) -> Session:
-    """Join the others of ``home``.
+    """Join the others of ``home``. Operators and judges may be many: they leave nothing there.
+
+    Args:
+        party: as which process.
+        robot_id: whose keys; ``ANY_ROBOT`` says and hears those of whichever robot is there.
+        home: where the sockets are.
+        endpoints: where listeners are, if not all in ``home``.
 
     Raises:
         Misconfigured: the same process already runs there, or a socket path is too long.
     """
     where = endpoints or Endpoints(home)
-    claim = Claim(home, party, shared=party in (Party.OPERATOR, Party.JUDGE))
+    claim = None if party in MANY else Claim(home, party)
     try:
-        if party in LISTENERS and party not in where.tcp:
+        if claim is not None and party in LISTENERS and party not in where.tcp:
             claim.clear_stale(where.socket(party))
         return Session(zenoh.open(_config(party, where)), robot_id, claim)
     except zenoh.ZError as error:
-        claim.close()
+        _give_back(claim)
         raise Misconfigured("socket_in_use", f"{party.value}: {error}") from None
     except Misconfigured:
-        claim.close()
+        _give_back(claim)
         raise
+
+
+def _give_back(claim: Claim | None) -> None:
+    if claim is not None:
+        claim.close()
 
 
 def _config(party: Party, where: Endpoints) -> zenoh.Config:

@@ -64,8 +64,8 @@ class Endpoints:
 class Claim:
     """Hold the right to be the one process of a kind in a home folder, until close or death."""
 
-    def __init__(self, home: Path, party: Party, *, shared: bool = False) -> None:
-        """Take the lock; ``shared`` parties may be many at once.
+    def __init__(self, home: Path, party: Party) -> None:
+        """Take the lock.
 
         Raises:
             Misconfigured: another live process holds it, and nothing of its is touched; or the
@@ -79,8 +79,7 @@ class Claim:
         except OSError as error:
             raise Misconfigured("home_unwritable", f"{self._path}: {error.strerror}") from None
         try:
-            wanted = fcntl.LOCK_SH if shared else fcntl.LOCK_EX
-            fcntl.flock(self._file, wanted | fcntl.LOCK_NB)
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             self._file.seek(0)
             holder = self._file.read().strip() or "unknown"

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 
 import pytest
 
 from tests.wire.examples import EXAMPLES
-from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Stop
-from wire.keys import CAMERA_COLOR, KEYS, SCAN, STOP, Party
+from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Status, Stop
+from wire.keys import ANY_ROBOT, CAMERA_COLOR, KEYS, SCAN, STATUS, STOP, Party
 from wire.session import Publisher, Subscriber, open_session
 
 LIMIT_S = 10.0
@@ -59,6 +60,29 @@ def test_a_restarted_listener_is_found_again(tmp_path: Path) -> None:
 
                 heard = partial(say_and_hear, publisher, subscriber, stop(life))
                 assert until(heard)
+
+
+def test_operators_and_judges_may_be_many_and_leave_nothing(tmp_path: Path) -> None:
+    with ExitStack() as stack:
+        for party in (Party.OPERATOR, Party.OPERATOR, Party.JUDGE, Party.JUDGE):
+            stack.enter_context(open_session(party, "r1", tmp_path))
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_any_robot_is_heard_and_told_by_who_does_not_know_which_is_there(tmp_path: Path) -> None:
+    with (
+        open_session(Party.BRIDGE, "r7", tmp_path) as bridge,
+        open_session(Party.OPERATOR, ANY_ROBOT, tmp_path) as operator,
+    ):
+        heard = partial(say_and_hear, operator.publisher(STOP), bridge.subscriber(STOP), stop(1))
+        assert until(heard)
+        mouth, ears = bridge.publisher(STATUS), operator.subscriber(STATUS)
+
+        def told() -> bool:
+            mouth.put(EXAMPLES[Status])
+            return ears.newest() is not None
+
+        assert until(told)
 
 
 def test_another_robots_messages_are_not_heard(tmp_path: Path) -> None:

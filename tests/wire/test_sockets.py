@@ -68,12 +68,6 @@ def test_different_parties_do_not_disturb_each_other(tmp_path: Path) -> None:
         claim.close()
 
 
-def test_judges_may_be_many(tmp_path: Path) -> None:
-    claims = [Claim(tmp_path, Party.JUDGE, shared=True) for _ in range(3)]
-    for claim in claims:
-        claim.close()
-
-
 def test_a_killed_holder_leaves_no_lock(tmp_path: Path) -> None:
     holder = subprocess.Popen(
         [sys.executable, "-c", HOLDER, str(tmp_path)], stdout=subprocess.PIPE, text=True
