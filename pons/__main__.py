@@ -46,6 +46,8 @@ def parser() -> argparse.ArgumentParser:
     _doctor(words)
     _calibrate(words)
     words.add_parser("why", help="explain the last stop: row, evidence, what to do")
+    keyed = words.add_parser("key", help="make the key by which the bridge knows its operator")
+    keyed.add_argument("act", choices=("new",))
     brakes = words.add_parser("braking", help="show what stops have taught of the brakes")
     brakes.add_argument("act", nargs="?", choices=("forget",), help="after a repair, bridge down")
     fenced = words.add_parser("fence", help="show, propose, accept or reject a fence")
@@ -228,7 +230,8 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
 
 
 _TOOLS = frozenset(
-    {"doctor", "why", "braking", "fence", "places", "calibrate", "fault", "replay", "detect"}
+    {"doctor", "why", "braking", "key", "fence", "places", "calibrate", "fault", "replay"}
+    | {"detect"}
 )
 
 
@@ -250,6 +253,10 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
         from pons import braking
 
         return braking.run(settings, forget=said.act == "forget")
+    if said.word == "key":
+        from pons import key
+
+        return key.run(settings)
     if said.word == "calibrate":
         from pons import calibrate
 
