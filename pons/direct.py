@@ -11,8 +11,8 @@ import secrets
 import time
 from typing import TYPE_CHECKING
 
+from bridge.operator_key import load_operator_key
 from wire import (
-    VIRTUAL_KEY,
     Answer,
     FenceRequest,
     OpKind,
@@ -23,9 +23,11 @@ from wire import (
     sign_fence,
     signed_request,
 )
+from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, FENCE, OPS, STATUS, STOP, Party
 from wire.proof import NEEDS_PROOF
 from wire.session import Publisher, Session, Subscriber, open_session
+from wire.sockets import misplaced_listener
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -46,35 +48,39 @@ def stop_direct(settings: Settings, request_id: str) -> Answer:
     """Send ``cmd/stop`` at 20 Hz until the bridge echoes it.
 
     Raises:
-        NoBridge: 2 s have passed; it was said all the same.
+        NoBridge: 2 s have passed, or another than the bridge answered; it was said all the same.
     """
     with open_session(Party.OPERATOR, ANY_ROBOT, settings.home) as session:
         mouth, ears = session.publisher(STOP), session.subscriber(STATUS)
         stop = Stop(id=request_id, source="cli")
-        return _until_answered(lambda: mouth.put(stop), ears, request_id, "stop")
+        answer = _until_answered(lambda: mouth.put(stop), ears, request_id, "stop")
+        _believe(settings)
+        return answer
 
 
 def ask_direct(settings: Settings, kind: OpKind) -> Answer:
     """Make an operator's request, with a proof where it needs one.
 
     Raises:
-        NoBridge: no bridge answered, or only that of another robot where a proof is needed.
-        Misconfigured: robot.toml can't be used, where a proof is needed.
+        NoBridge: no bridge answered, or another process in its place, or only that of another
+            robot where a proof is needed.
+        Misconfigured: robot.toml or the operator's key can't be used, where a proof is needed.
     """
     request_id = f"cli-{secrets.token_hex(6)}"
     if kind not in NEEDS_PROOF:
         request = OpRequest(id=request_id, source="cli")
         with open_session(Party.OPERATOR, ANY_ROBOT, settings.home) as session:
             mouth, ears = _op(session, kind), session.subscriber(STATUS)
-            return _until_answered(lambda: mouth.put(request), ears, request_id, kind)
+            answer = _until_answered(lambda: mouth.put(request), ears, request_id, kind)
+            _believe(settings)
+            return answer
     robot_id = load_robot(settings.robot).id
     with open_session(Party.OPERATOR, robot_id, settings.home) as session:
         mouth, ears = _op(session, kind), session.subscriber_to_any_robot(STATUS)
         status = _first_status(settings, ears, robot_id)
-        key = operator_key(settings, virtual=status.drive.virtual)
-        request = OpRequest(id=request_id, source="cli")
-        if key is not None:
-            request = signed_request(key, kind, status, "cli", request_id)
+        _believe(settings)  # before a proof is made: whoever has it may use it once
+        key = load_operator_key(settings.home, virtual=status.drive.virtual)
+        request = signed_request(key, kind, status, "cli", request_id)
         return _until_answered(lambda: mouth.put(request), ears, request_id, kind)
 
 
@@ -83,25 +89,29 @@ def fence_direct(settings: Settings, text: str) -> Answer:
 
     Raises:
         NoBridge: no bridge answered, or only that of another robot.
-        Misconfigured: robot.toml can't be used.
+        Misconfigured: robot.toml or the operator's key can't be used.
     """
     robot_id = load_robot(settings.robot).id
     request_id = f"cli-{secrets.token_hex(6)}"
     with open_session(Party.OPERATOR, robot_id, settings.home) as session:
         mouth, ears = session.publisher(FENCE), session.subscriber_to_any_robot(STATUS)
         status = _first_status(settings, ears, robot_id)
-        key = operator_key(settings, virtual=status.drive.virtual)
-        proof = sign_fence(key, status.robot, status.nonce, request_id, text) if key else None
+        _believe(settings)  # before a proof is made: whoever has it may use it once
+        key = load_operator_key(settings.home, virtual=status.drive.virtual)
+        proof = sign_fence(key, status.robot, status.nonce, request_id, text)
         request = FenceRequest(id=request_id, source="cli", fence=text, proof=proof)
         return _until_answered(lambda: mouth.put(request), ears, request_id, "fence")
 
 
-def operator_key(settings: Settings, *, virtual: bool) -> bytes | None:
-    """Return the key that signs for this robot; None where the owner has made none."""
-    if virtual:
-        return VIRTUAL_KEY
-    path = settings.home / "operator.key"
-    return path.read_bytes().strip() if path.is_file() else None
+def _believe(settings: Settings) -> None:
+    """Hold that the bridge's own user listens where it should.
+
+    Raises:
+        NoBridge: somebody else does: what was answered is worth nothing.
+    """
+    trouble = misplaced_listener(settings.home, BRIDGE_DOOR)
+    if trouble is not None:
+        raise NoBridge(trouble)
 
 
 def _op(session: Session, kind: OpKind) -> Publisher[OpRequest]:

@@ -9,6 +9,7 @@ running.
 from __future__ import annotations
 
 import contextlib
+import os
 import shutil
 import signal
 import socket
@@ -21,6 +22,8 @@ from pons.homelock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, Refused, call
 from pons.processes import REFUSED_TO_START, Child
 from wire import Misconfigured, RobotDescription, load_robot
+from wire.doors import BRIDGE_DOOR
+from wire.sockets import Endpoints
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -31,6 +34,8 @@ POLL_S = 0.05
 PATIENCE_S = 4.0
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
+PRIVATE = 0o077
+"""What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 MIN_FREE_BYTES = 200 * 1024 * 1024
 
 
@@ -100,7 +105,7 @@ class Supervisor:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
         else:
-            socket_path = self._settings.home / "run" / "bridge.sock"
+            socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
             say(f"try: python examples/external_brain.py --home {self._settings.home}")
 
@@ -217,6 +222,7 @@ def _check_port(settings: Settings) -> None:
 
 def run(settings: Settings, *, planner: bool = True) -> int:
     """Be ``pons up``; without a planner the robot waits for another brain."""
+    os.umask(PRIVATE)  # of the children too
     try:
         robot = check(settings)
         with HomeLock(settings.home):

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+import signal
+import sys
 import threading
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from tests.wire.examples import EXAMPLES
 from wire import Answer, OpRequest, Status, Stop
 from wire.keys import OPS, STATUS, STOP, Party
 from wire.session import open_session
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PERIOD_S = 0.02
 
@@ -54,3 +53,17 @@ class StandingBridge(threading.Thread):
         self._over.set()
         self.join()
         self._session.close()
+
+
+def main(arguments: list[str]) -> int:
+    """Be one until SIGTERM: home and robot; then tell what was asked."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTERM])
+    with StandingBridge(Path(arguments[0]), arguments[1]) as bridge:
+        print("speaks", flush=True)
+        signal.sigwait([signal.SIGTERM])
+    print(*bridge.asked, flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -21,9 +21,11 @@ import pytest
 
 from pons.stop import CONFIRMED
 from tests.pons.standing_bridge import StandingBridge
+from wire.doors import BRIDGE_DOOR
+from wire.sockets import Endpoints
 
 ROOT = Path(__file__).resolve().parents[2]
-STRANGER = 61_001
+STRANGER, IMPOSTOR = 61_001, 61_002
 STANDS_STILL = ("stop", "estop", "disarm")
 MOVES_AGAIN = ("arm", "reset")
 
@@ -153,6 +155,37 @@ def opened_to_others(run: Path) -> None:
     """Let the stranger reach the sockets, as a group does on a robot, and write no folder."""
     for path in (run, *run.rglob("*")):
         path.chmod(0o755 if path.is_dir() else 0o777 if path.is_socket() else 0o644)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
+def test_who_took_the_bridges_place_is_told_to_stop_but_not_believed(home: Path) -> None:
+    """Its socket lies in a folder of another's; what it answers confirms nothing."""
+    impostor = [sys.executable, "-m", "tests.as_user", str(IMPOSTOR), str(IMPOSTOR)]
+    folders = [home / "run" / name for name in ("bridge", "senses")]
+    for folder in folders:
+        folder.mkdir(parents=True)
+        folder.chmod(0o755)
+        os.chown(folder, IMPOSTOR, IMPOSTOR)
+    (home / "run").chmod(0o755)
+    command = [*impostor, "tests.pons.standing_bridge", str(home), "r7"]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as other:
+        assert other.stdout is not None
+        try:
+            assert other.stdout.readline() == "speaks\n"
+            os.chown(folders[0], STRANGER, STRANGER)
+            Endpoints(home).socket(BRIDGE_DOOR).chmod(0o777)
+            robot = home / "robot.toml"
+            robot.write_text('id = "r7"\n')
+            told = [pons(home, word, robot=robot) for word in (*STANDS_STILL, *MOVES_AGAIN)]
+        finally:
+            other.terminate()
+        heard, _ = other.communicate(timeout=10)
+    for done in told:
+        assert done.returncode in (1, 6)
+        assert f"wrong_listener: user {IMPOSTOR} listens at " in done.stderr
+        assert CONFIRMED not in done.stdout
+        assert "accepted" not in done.stdout
+    assert heard.split() == ["cmd/stop", "op/estop", "op/disarm"], "no proof was given to it"
 
 
 def contents(folder: Path) -> dict[Path, float]:

@@ -172,8 +172,8 @@ def test_all_that_one_tick_says_arrives(tmp_path: Path) -> None:
 
 
 def test_a_closed_session_gives_nothing(tmp_path: Path) -> None:
-    session = open_session(Party.BRIDGE, "r1", tmp_path)
-    ears, eyes = session.subscriber(STOP), session.image_subscriber(CAMERA_COLOR)
+    session = open_session(Party.PLANNER, "r1", tmp_path)
+    ears, eyes = session.subscriber(STATUS), session.image_subscriber(CAMERA_COLOR)
     session.close()
     assert ears.newest() is None
     assert eyes.newest() is None
