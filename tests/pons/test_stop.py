@@ -36,7 +36,7 @@ def pons(
     robot: Path | None = None,
     port: int = 1,
     user: int | None = None,
-    **more: Callable[[], None],
+    limited: Callable[[], None] | None = None,
 ) -> subprocess.CompletedProcess[str]:
     environment = {
         **os.environ,
@@ -51,7 +51,8 @@ def pons(
     me = "pons" if user is None else "pons.__main__"
     return subprocess.run(
         [sys.executable, "-m", *other, me, *words],
-        cwd=ROOT, env=environment, capture_output=True, text=True, check=False, timeout=30, **more,
+        cwd=ROOT, env=environment, capture_output=True, text=True, check=False, timeout=30,
+        preexec_fn=limited,
     )  # fmt: skip
 
 
@@ -110,7 +111,7 @@ def test_the_robot_stands_still_with_no_byte_left_to_write(
     def full() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
 
-    assert_taken(pons(home, word, preexec_fn=full), word)
+    assert_taken(pons(home, word, limited=full), word)
     assert bridge.asked
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.wire.examples import EXAMPLES
-from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Status, Stop
+from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Status, Stop, encode
 from wire.keys import ANY_ROBOT, CAMERA_COLOR, KEYS, SCAN, STATUS, STOP, Party
 from wire.session import Publisher, Subscriber, open_session
 
@@ -79,7 +79,7 @@ def test_any_robot_is_heard_and_told_by_who_does_not_know_which_is_there(tmp_pat
         mouth, ears = bridge.publisher(STATUS), operator.subscriber(STATUS)
 
         def told() -> bool:
-            mouth.put(EXAMPLES[Status])
+            mouth.put_bytes(encode(EXAMPLES[Status]))
             return ears.newest() is not None
 
         assert until(told)
