@@ -13,8 +13,8 @@ import zenoh
 
 from tests.wire.examples import EXAMPLES
 from wire import encode
-from wire.doors import BRIDGE_DOOR, DOORS, Door
-from wire.keys import KEYS, STOP, Party
+from wire.doors import BRIDGE_DOOR, CAMERA_DOOR, DOORS, Door
+from wire.keys import KEYS, STATUS, STOP, Party
 from wire.session import Session, open_session
 from wire.sockets import Endpoints
 
@@ -22,17 +22,17 @@ LIMIT_S = 10.0
 QUIET_S = 0.3
 
 
-def stranger(mode: str, locator: str) -> Any:
-    """Dial as zenoh comes, without our access control."""
+def stranger(mode: str, locator: str, *, listens: bool = False) -> Any:
+    """Dial, or listen, as zenoh comes, without our access control."""
     config = zenoh.Config()
     settings = {
         "mode": mode,
-        "connect/endpoints": [locator],
+        "connect/endpoints": [] if listens else [locator],
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
     }
     if mode != "client":
-        settings["listen/endpoints"] = []
+        settings["listen/endpoints"] = [locator] if listens else []
     for path, value in settings.items():
         config.insert_json5(path, json.dumps(value))
     return zenoh.open(config)
@@ -101,6 +101,29 @@ def test_a_stranger_reaches_the_listener_of_one_door_with_what_it_hears(
         listen()
     assert got.pop(door.listener) == expected
     assert {party: all_of for party, all_of in got.items() if all_of} == {}
+
+
+def test_who_takes_an_absent_cameras_place_says_pictures_and_nothing_else(tmp_path: Path) -> None:
+    """On a robot without a camera the planner dials that door for ever."""
+    path = Endpoints(tmp_path).socket(CAMERA_DOOR)
+    path.parent.mkdir(parents=True)
+    locator = Endpoints(tmp_path).locator(CAMERA_DOOR)
+    with (
+        stranger("peer", locator, listens=True) as other,
+        open_session(Party.PLANNER, "r1", tmp_path) as planner,
+    ):
+        ears, found = everything(planner._links), set[tuple[str, str]]()
+        status = planner.subscriber(STATUS)
+        end_s = time.monotonic() + LIMIT_S
+        pictures = {("camera", key.path) for key in CAMERA_DOOR.says}
+        while not found >= pictures and time.monotonic() < end_s:
+            for key in KEYS:
+                other.put(key.expression("r1"), encode(EXAMPLES[key.message]))
+            time.sleep(0.01)
+            found |= heard(ears)
+        time.sleep(QUIET_S)
+        assert found | heard(ears) == pictures
+        assert status.newest() is None
 
 
 def test_without_access_control_a_client_would_be_relayed(
