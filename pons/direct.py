@@ -27,7 +27,7 @@ from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, FENCE, OPS, STATUS, STOP, Party
 from wire.proof import NEEDS_PROOF
 from wire.session import Publisher, Session, Subscriber, open_session
-from wire.sockets import misplaced_listener
+from wire.sockets import misplaced_listener, unreachable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -53,7 +53,7 @@ def stop_direct(settings: Settings, request_id: str) -> Answer:
     with open_session(Party.OPERATOR, ANY_ROBOT, settings.home) as session:
         mouth, ears = session.publisher(STOP), session.subscriber(STATUS)
         stop = Stop(id=request_id, source="cli")
-        answer = _until_answered(lambda: mouth.put(stop), ears, request_id, "stop")
+        answer = _until_answered(settings, lambda: mouth.put(stop), ears, request_id, "stop")
         _believe(settings)
         return answer
 
@@ -71,7 +71,7 @@ def ask_direct(settings: Settings, kind: OpKind) -> Answer:
         request = OpRequest(id=request_id, source="cli")
         with open_session(Party.OPERATOR, ANY_ROBOT, settings.home) as session:
             mouth, ears = _op(session, kind), session.subscriber(STATUS)
-            answer = _until_answered(lambda: mouth.put(request), ears, request_id, kind)
+            answer = _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
             _believe(settings)
             return answer
     robot_id = load_robot(settings.robot).id
@@ -81,7 +81,7 @@ def ask_direct(settings: Settings, kind: OpKind) -> Answer:
         _believe(settings)  # before a proof is made: whoever has it may use it once
         key = load_operator_key(settings.home, virtual=status.drive.virtual)
         request = signed_request(key, kind, status, "cli", request_id)
-        return _until_answered(lambda: mouth.put(request), ears, request_id, kind)
+        return _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
 
 
 def fence_direct(settings: Settings, text: str) -> Answer:
@@ -100,7 +100,7 @@ def fence_direct(settings: Settings, text: str) -> Answer:
         key = load_operator_key(settings.home, virtual=status.drive.virtual)
         proof = sign_fence(key, status.robot, status.nonce, request_id, text)
         request = FenceRequest(id=request_id, source="cli", fence=text, proof=proof)
-        return _until_answered(lambda: mouth.put(request), ears, request_id, "fence")
+        return _until_answered(settings, lambda: mouth.put(request), ears, request_id, "fence")
 
 
 def _believe(settings: Settings) -> None:
@@ -135,11 +135,22 @@ def _first_status(settings: Settings, ears: Subscriber[Status], robot_id: str) -
             f"other_robot: {settings.robot} describes {robot_id}, but {', '.join(sorted(others))} "
             f"answers in {settings.home}; set PONS_ROBOT to that robot's file"
         )
-    raise NoBridge("no_bridge: no status from a bridge within 2 s; is `pons up` running?")
+    raise _silence(settings)
+
+
+def _silence(settings: Settings) -> NoBridge:
+    """Say that nothing was heard, and what keeps this user from the socket, if anything does."""
+    why = unreachable(settings.home, BRIDGE_DOOR)
+    hint = "is `pons up` running?" if why is None else f"{why}; is `pons up` running, as this user?"
+    return NoBridge(f"no_bridge: no status from a bridge within 2 s; {hint}")
 
 
 def _until_answered(
-    say: Callable[[], None], ears: Subscriber[Status], request_id: str, what: str
+    settings: Settings,
+    say: Callable[[], None],
+    ears: Subscriber[Status],
+    request_id: str,
+    what: str,
 ) -> Answer:
     """Say it at 20 Hz until a status answers it.
 
@@ -161,4 +172,4 @@ def _until_answered(
         time.sleep(0.002)
     if heard:
         raise NoBridge(f"no_answer: the bridge speaks but did not answer {what} within 2 s")
-    raise NoBridge("no_bridge: no status from a bridge within 2 s; is `pons up` running?")
+    raise _silence(settings)

@@ -13,6 +13,7 @@ import os
 import socket
 import stat
 import struct
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -137,13 +138,30 @@ def misplaced_listener(home: Path, door: Door) -> str | None:
     )
 
 
+def unreachable(home: Path, door: Door) -> str | None:
+    """Say why this user can't connect to a door; None where it can."""
+    path = Endpoints(home).socket(door)
+    try:
+        _dialled(path).close()
+    except OSError as error:
+        return f"{path}: {error.strerror or error}"
+    return None
+
+
 def _listening_uid(path: Path) -> int:
     """Return the user of the process that listens, as the kernel noted it (unix(7))."""
-    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
-        probe.settimeout(PROBE_S)
-        probe.connect(str(path))
+    with _dialled(path) as probe:
         told = probe.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize("3i"))
     return int(struct.unpack("3i", told)[1])
+
+
+def _dialled(path: Path) -> socket.socket:
+    with ExitStack() as undo:
+        probe = undo.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
+        probe.settimeout(PROBE_S)
+        probe.connect(str(path))
+        undo.pop_all()
+    return probe
 
 
 def _owners(folder: Path) -> tuple[int, ...]:

@@ -189,6 +189,15 @@ def test_who_took_the_bridges_place_is_told_to_stop_but_not_believed(home: Path)
     assert heard.split() == ["cmd/stop", "op/estop", "op/disarm"], "no proof was given to it"
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
+def test_who_may_not_reach_the_bridge_is_told_why(home: Path, bridge: StandingBridge) -> None:
+    done = pons(home, "estop", user=STRANGER)
+    assert done.returncode == 6
+    assert done.stderr.startswith("no_bridge: ")
+    assert f"{home}/run/bridge/bridge.sock: Permission denied" in done.stderr
+    assert bridge.asked == []
+
+
 def contents(folder: Path) -> dict[Path, float]:
     return {path: path.stat().st_mtime for path in folder.rglob("*")}
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import socket
 import time
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from functools import partial
 from pathlib import Path
 
@@ -12,8 +13,10 @@ import pytest
 
 from tests.wire.examples import EXAMPLES
 from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Status, Stop, encode
+from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, CAMERA_COLOR, KEYS, SCAN, STATUS, STOP, Party
 from wire.session import Publisher, Subscriber, open_session
+from wire.sockets import Endpoints
 
 LIMIT_S = 10.0
 
@@ -97,6 +100,20 @@ def test_another_robots_messages_are_not_heard(tmp_path: Path) -> None:
             mouth.put(stop(number))
             time.sleep(0.002)
         assert ears.drain().arrived == 0
+
+
+def test_a_door_on_another_host_is_reached_by_tcp(tmp_path: Path) -> None:
+    with closing(socket.create_server(("127.0.0.1", 0))) as free:
+        address = f"127.0.0.1:{free.getsockname()[1]}"
+    where = Endpoints(tmp_path, {BRIDGE_DOOR: address})
+    with (
+        open_session(Party.BRIDGE, "r1", tmp_path, where) as bridge,
+        open_session(Party.PLANNER, "r1", tmp_path, where) as planner,
+    ):
+        assert not where.socket(BRIDGE_DOOR).exists()
+        assert until(
+            partial(say_and_hear, planner.publisher(STOP), bridge.subscriber(STOP), stop(1))
+        )
 
 
 def test_state_keeps_only_the_newest(tmp_path: Path) -> None:
