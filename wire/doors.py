@@ -101,3 +101,33 @@ DOORS = (
 def doors_of(party: Party) -> tuple[Door, ...]:
     """Return the doors at which a party listens or which it dials."""
     return tuple(door for door in DOORS if party is door.listener or party in door.dialled_by)
+
+
+def access_control(hears: Keys, says: Keys) -> dict[str, object]:
+    """Return zenoh's access control: messages of these keys each way, nothing else of any kind.
+
+    A peer relays between the clients that dial it; what may not leave by ``says`` is not relayed.
+    """
+    rules = [
+        {
+            "id": f"{flow}_{message}",
+            "permission": "allow",
+            "flows": [flow],
+            "messages": [message],
+            "key_exprs": [key.expression(keys.ANY_ROBOT) for key in some],
+        }
+        for flow, message, some in (
+            ("ingress", "put", hears),
+            ("egress", "declare_subscriber", hears),
+            ("egress", "put", says),
+            ("ingress", "declare_subscriber", says),
+        )
+        if some
+    ]
+    return {
+        "enabled": True,
+        "default_permission": "deny",
+        "rules": rules,
+        "subjects": [{"id": "anybody"}],
+        "policies": [{"rules": [rule["id"] for rule in rules], "subjects": ["anybody"]}],
+    }

@@ -18,7 +18,7 @@ import zenoh
 
 from wire.base import Record
 from wire.codec import Image, decode, encode, image
-from wire.doors import Door, doors_of
+from wire.doors import access_control, doors_of
 from wire.errors import Misconfigured
 from wire.keys import ANY_ROBOT, IMAGE, Key, Party
 from wire.sockets import Claim, Endpoints, admit
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from wire.doors import Keys
+    from wire.doors import Door
     from wire.errors import Rejected
     from wire.sensors import ImageHeader
 
@@ -338,39 +338,9 @@ def _config(locator: str, door: Door, *, listens: bool) -> zenoh.Config:
         "transport/link/tx/queue/size/data": 16,
         "transport/link/rx/max_message_size": 2 * IMAGE,  # the default is 1 GiB
         "transport/shared_memory/enabled": False,
-        "access_control": _access(hears, says),
+        "access_control": access_control(hears, says),
     }
     config = zenoh.Config()
     for path, value in settings.items():
         config.insert_json5(path, json.dumps(value))
     return config
-
-
-def _access(hears: Keys, says: Keys) -> dict[str, object]:
-    """Return zenoh's access control: messages of these keys each way, nothing else of any kind.
-
-    A peer relays between the clients that dial it; what may not leave by ``says`` is not relayed.
-    """
-    rules = [
-        {
-            "id": f"{flow}_{message}",
-            "permission": "allow",
-            "flows": [flow],
-            "messages": [message],
-            "key_exprs": [key.expression(ANY_ROBOT) for key in keys],
-        }
-        for flow, message, keys in (
-            ("ingress", "put", hears),
-            ("egress", "declare_subscriber", hears),
-            ("egress", "put", says),
-            ("ingress", "declare_subscriber", says),
-        )
-        if keys
-    ]
-    return {
-        "enabled": True,
-        "default_permission": "deny",
-        "rules": rules,
-        "subjects": [{"id": "anybody"}],
-        "policies": [{"rules": [rule["id"] for rule in rules], "subjects": ["anybody"]}],
-    }

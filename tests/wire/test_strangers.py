@@ -130,7 +130,7 @@ def test_without_access_control_a_client_would_be_relayed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Be the negative control: zenoh itself passes a client's words on, and this test sees it."""
-    monkeypatch.setattr("wire.session._access", lambda *_: {"enabled": False})
+    monkeypatch.setattr("wire.session.access_control", lambda *_: {"enabled": False})
     with (
         open_session(Party.BRIDGE, "r1", tmp_path),
         open_session(Party.PLANNER, "r1", tmp_path) as planner,
