@@ -33,8 +33,8 @@ def arrived(_: Any) -> None:
 def listening_session(party: Party, robot_id: str, home: Path) -> Session:
     """Open the bridge's session and listen to its stops a second time, with a callback."""
     session = open_session(party, robot_id, home)
-    inner: Any = session._zenoh  # noqa: SLF001  # the loop's own ring can't be stamped at arrival
-    EARS.append(inner.declare_subscriber(STOP.expression(robot_id), arrived))
+    links = session.links_inward(STOP)  # the loop's own ring can't be stamped at arrival
+    EARS.extend(link.declare_subscriber(STOP.expression(robot_id), arrived) for link in links)
     return session
 
 

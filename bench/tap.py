@@ -129,7 +129,7 @@ def _note_silence(state: BridgeState, decision: Decision, now_s: float) -> None:
 def tapped_session(party: Party, robot_id: str, home: Path) -> Session:
     """Open the bridge's session and listen to its waypoints a second time, with a callback."""
     session = open_session(party, robot_id, home)
-    inner: Any = session._zenoh  # noqa: SLF001  # the loop's own ring can't be stamped at arrival
+    (inner,) = session.links_inward(WAYPOINTS)  # the loop's own ring can't be stamped at arrival
     TAP.ears = inner.declare_subscriber(WAYPOINTS.expression(robot_id), TAP.arrived)
     return session
 

@@ -24,7 +24,7 @@ class Bridge:
 
     def __init__(self, home: Path, robot: str) -> None:
         config = zenoh.Config()  # as it comes it would listen on all interfaces and multicast
-        socket = f"unixsock-stream/{home.absolute()}/run/bridge.sock"
+        socket = f"unixsock-stream/{home.absolute()}/run/bridge/bridge.sock"
         config.insert_json5("listen/endpoints", "[]")
         config.insert_json5("connect/endpoints", json.dumps([socket]))
         config.insert_json5("scouting/multicast/enabled", "false")

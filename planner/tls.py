@@ -21,9 +21,9 @@ FAREWELL_S = 2.0
 """A client that does not answer the last record holds one so long; the default is half a minute."""
 CIPHERS = "ECDHE+AESGCM:ECDHE+CHACHA20"
 """For TLS 1.2; TLS 1.3 has its own. All of them keep past talks secret when a key is stolen."""
-MARK = "planner.tls"
-"""A file in ``run/``: it is there while the planner of this home speaks TLS, so that the command
-line asks it the same way (pons/settings.py)."""
+MARK = "speaks.tls"
+"""A file in ``run/planner/``: it is there while the planner of this home speaks TLS, so that the
+command line asks it the same way (pons/settings.py)."""
 
 
 class ServerLoop(uvloop.Loop):
@@ -87,7 +87,7 @@ def authority(path: Path | None) -> bytes:
 
 def mark(home: Path, *, speaks_tls: bool) -> None:
     """Tell this machine's command line how the planner speaks, unless the disk is full."""
-    file = home / "run" / MARK
+    file = home / "run" / "planner" / MARK
     with contextlib.suppress(OSError):
         if speaks_tls:
             file.parent.mkdir(parents=True, exist_ok=True)

@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 from pons.settings import BadSetting, Settings, load, port_of
@@ -49,6 +50,8 @@ def parser() -> argparse.ArgumentParser:
     _doctor(words)
     _calibrate(words)
     words.add_parser("why", help="explain the last stop: row, evidence, what to do")
+    keyed = words.add_parser("key", help="make the key by which the bridge knows its operator")
+    keyed.add_argument("act", choices=("new",))
     brakes = words.add_parser("braking", help="show what stops have taught of the brakes")
     brakes.add_argument("act", nargs="?", choices=("forget",), help="after a repair, bridge down")
     fenced = words.add_parser("fence", help="show, propose, accept or reject a fence")
@@ -172,11 +175,11 @@ def main(arguments: list[str] | None = None) -> int:
     """Run one command."""
     words = sys.argv[1:] if arguments is None else arguments
     try:
-        settings = load()
         if words == ["stop"]:  # before argparse: nothing may slow this down
             from pons import stop
 
-            return stop.run(settings)
+            return stop.run(load(forgiving=True))
+        settings = load()
         if words[:1] == [MOCK_LLM]:  # reads its own words; its web server is not for the others
             from pons.mock_llm.command import main as mock_llm
 
@@ -232,8 +235,12 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
 
 
 _TOOLS = frozenset(
-    {"doctor", "why", "braking", "fence", "places", "calibrate", "fault", "replay", "detect", "tls"}
+    {"doctor", "why", "braking", "key", "fence", "places", "calibrate", "fault", "replay"}
+    | {"detect", "tls"}
 )
+
+_BARE_TOOLS = frozenset({"tls", "why", "key"})
+"""Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
 
 
 def _tool(settings: Settings, said: argparse.Namespace) -> int:
@@ -246,14 +253,9 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
 
             return exam.run(settings, said.model, as_json=said.json, yes=said.yes)
         return doctor.run(settings, as_json=said.json, jitter=said.jitter)
-    if said.word == "tls":
-        from pons import tls
-
-        return tls.run(settings)
-    if said.word == "why":
-        from pons import why
-
-        return why.run(settings)
+    if said.word in _BARE_TOOLS:
+        code: int = import_module(f"pons.{said.word}").run(settings)
+        return code
     if said.word == "braking":
         from pons import braking
 

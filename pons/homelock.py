@@ -20,6 +20,10 @@ class HomeTaken(Exception):
     """Another ``pons up`` runs there; nothing of its is touched."""
 
 
+class HomeUnwritable(Exception):
+    """Nothing can be kept there, so nothing was started."""
+
+
 class HomeLock:
     """Hold ``run/up.lock`` until exit."""
 
@@ -28,10 +32,17 @@ class HomeLock:
 
         Raises:
             HomeTaken: a living process holds it.
+            HomeUnwritable: the folder can't be written.
         """
-        run = home / "run"
-        run.mkdir(parents=True, exist_ok=True)
-        self._file = (run / "up.lock").open("a+")
+        path = home / "run" / "up.lock"
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._file = path.open("a+")
+        except OSError as error:
+            raise HomeUnwritable(
+                f"home_unwritable: {path}: {error.strerror}; set PONS_HOME to a folder that you "
+                "may write"
+            ) from None
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:

@@ -1,7 +1,6 @@
 """Act as the operator from a shell: arm, disarm, estop, reset, and see the robot's status.
 
-Goes through the planner when it answers, else straight to the bridge: who wants the torque off must
-not need a planner.
+The requests go straight to the bridge: who wants the torque off must not need a planner.
 """
 
 from __future__ import annotations
@@ -27,6 +26,9 @@ def ask(settings: Settings, kind: OpKind) -> int:
         answer = ask_direct(settings, kind)
     except (NoBridge, Misconfigured) as trouble:
         print(str(trouble), file=sys.stderr)
+        return 6
+    except Exception as trouble:  # noqa: BLE001  # who wants the torque off reads one line, no traceback
+        print(f"{kind}_failed: {type(trouble).__name__}: {trouble}", file=sys.stderr)
         return 6
     if answer.accepted:
         print(f"{kind}: accepted {answer.detail}".rstrip())

@@ -12,7 +12,7 @@ from pathlib import Path
 CHECKOUT = Path(__file__).resolve().parents[1]
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 8420
-PLANNER_MARK = Path("run") / "planner.tls"
+PLANNER_MARK = Path("run") / "planner" / "speaks.tls"
 """There while this home's planner speaks TLS (planner/tls.py)."""
 _HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
 
@@ -49,8 +49,11 @@ class BadSetting(Exception):
     """A setting cannot be used; nothing was started."""
 
 
-def load() -> Settings:
+def load(*, forgiving: bool = False) -> Settings:
     """Read PONS_HOME, _ROBOT, _SITE, _HOST, _PORT, _METAL, _TLS and _CA.
+
+    Args:
+        forgiving: take the default in place of a bad port or PONS_TLS, for who only wants to stop.
 
     Raises:
         BadSetting: the port is no port, or PONS_TLS neither 0 nor 1.
@@ -62,17 +65,17 @@ def load() -> Settings:
         robot=Path(given.get("PONS_ROBOT", CHECKOUT / "robot.toml")).absolute(),
         site=Path(given.get("PONS_SITE", CHECKOUT / "sites" / "home")).absolute(),
         host=given.get("PONS_HOST", DEFAULT_HOST),
-        port=port_of(given.get("PONS_PORT", str(DEFAULT_PORT))),
+        port=_port(given.get("PONS_PORT", str(DEFAULT_PORT)), forgiving=forgiving),
         metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,
-        tls=_tls(given.get("PONS_TLS", ""), home),
+        tls=_tls(given.get("PONS_TLS", ""), home, forgiving=forgiving),
         authority=Path(ca).absolute() if (ca := given.get("PONS_CA")) else None,
     )
 
 
-def _tls(text: str, home: Path) -> bool:
+def _tls(text: str, home: Path, *, forgiving: bool) -> bool:
     if text in ("0", "1"):
         return text == "1"
-    if text:
+    if text and not forgiving:
         raise BadSetting(f"bad_tls: PONS_TLS is {text!r}; expected 1 for https or 0 for http")
     return os.path.exists(home / PLANNER_MARK)  # noqa: PTH110  # Path's raises in a closed folder
 
@@ -81,6 +84,15 @@ def allowed_hosts() -> set[str]:
     """Return the names, beside the planner's address, that its owner lets it be asked by."""
     given = os.environ.get("PONS_ALLOWED_HOSTS", "")
     return {word.strip() for word in given.split(",") if word.strip()}
+
+
+def _port(text: str, *, forgiving: bool) -> int:
+    try:
+        return port_of(text)
+    except BadSetting:
+        if not forgiving:
+            raise
+        return DEFAULT_PORT
 
 
 def port_of(text: str) -> int:

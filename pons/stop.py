@@ -1,7 +1,8 @@
 """Stop the robot from a shell, as fast as a process can start: neither numpy nor pydantic loads.
 
 The planner is asked over HTTP. If it has not confirmed within a short time, dead, hung or slow, the
-same stop goes straight to the bridge over the wire, which needs no planner at all.
+same stop goes straight to the bridge over the wire, which needs no planner, no disk that can be
+written and no right robot.toml. Whatever breaks one way, the other is still waited for.
 """
 
 from __future__ import annotations
@@ -29,20 +30,35 @@ def run(settings: Settings) -> int:
     if by_http.confirmed:
         print(CONFIRMED)
         return 0
-    from pons.direct import stop_direct
-
-    confirmed = stop_direct(settings, f"cli-{os.getpid()}-direct")
-    by_http.join(0.0 if confirmed else HTTP_TIMEOUT_S)
-    if confirmed or by_http.confirmed:
+    trouble = _straight_to_the_bridge(settings)
+    by_http.join(0.0 if trouble is None else HTTP_TIMEOUT_S)
+    if trouble is None or by_http.confirmed:
         print(CONFIRMED)
         return 0
     print(
         "no_bridge: neither the planner nor the bridge confirmed the stop / 没有得到确认. "
         "Without a bridge the drive's own time-out stops the wheels; use the robot's stop button. "
-        f"Planner: {by_http.trouble or 'no answer yet'}",
+        f"Planner: {by_http.trouble or 'no answer yet'}. Bridge: {trouble}",
         file=sys.stderr,
     )
     return 1
+
+
+def _straight_to_the_bridge(settings: Settings) -> str | None:
+    """Say the stop over the wire; return in one line why it is not confirmed, None where it is."""
+    try:
+        from pons.direct import stop_direct
+
+        stop_direct(settings, f"cli-{os.getpid()}-direct")
+    except Exception as trouble:  # noqa: BLE001  # nothing may keep the first way from being told
+        return in_a_line(trouble)
+    return None
+
+
+def in_a_line(trouble: Exception) -> str:
+    """Say what went wrong without a traceback; a person reads it while a robot moves."""
+    text = " ".join(str(trouble).split())
+    return text if ": " in text else f"{type(trouble).__name__}: {text}"
 
 
 class _Attempt(threading.Thread):
@@ -63,3 +79,5 @@ class _Attempt(threading.Thread):
             self.trouble = "" if self.confirmed else "the bridge did not confirm"
         except (PlannerDown, Refused) as trouble:
             self.trouble = str(trouble)
+        except Exception as trouble:  # noqa: BLE001  # another service may answer on that port
+            self.trouble = in_a_line(trouble)

@@ -9,6 +9,7 @@ running.
 from __future__ import annotations
 
 import contextlib
+import os
 import shutil
 import signal
 import socket
@@ -17,11 +18,13 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from pons.homelock import HomeLock, HomeTaken
+from pons.homelock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, Refused, call
 from pons.processes import REFUSED_TO_START, Child
 from pons.settings import allowed_hosts
 from wire import Misconfigured, RobotDescription, load_robot
+from wire.doors import BRIDGE_DOOR
+from wire.sockets import Endpoints
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -33,6 +36,8 @@ POLL_S = 0.05
 PATIENCE_S = 4.0
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
+PRIVATE = 0o077
+"""What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 MIN_FREE_BYTES = 200 * 1024 * 1024
 
 
@@ -114,7 +119,7 @@ class Supervisor:
                 say(line)
             say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
         else:
-            socket_path = self._settings.home / "run" / "bridge.sock"
+            socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
             say(f"try: python examples/external_brain.py --home {self._settings.home}")
 
@@ -244,6 +249,7 @@ def _check_port(settings: Settings) -> None:
 
 def run(settings: Settings, *, planner: bool = True) -> int:
     """Be ``pons up``; without a planner the robot waits for another brain."""
+    os.umask(PRIVATE)  # of the children too
     try:
         robot = check(settings)
         with HomeLock(settings.home):
@@ -251,7 +257,7 @@ def run(settings: Settings, *, planner: bool = True) -> int:
                 _check_port(settings)
             issued = _certify(settings) if planner and settings.tls else None
             return _supervise(settings, robot, planner=planner, issued=issued)
-    except (CannotStart, HomeTaken, Misconfigured) as why:
+    except (CannotStart, HomeTaken, HomeUnwritable, Misconfigured) as why:
         print(f"pons up: {why}", file=sys.stderr)
         return REFUSED_TO_START
 

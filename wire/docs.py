@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from wire.base import Record
-from wire.keys import KEYS, Party
+from wire.doors import DOORS
+from wire.keys import KEYS, Key, Party
 from wire.scalars import PROTOCOL
-from wire.sockets import DIALS
 
 TARGET = Path(__file__).resolve().parents[1] / "docs" / "wire.md"
 
@@ -26,6 +26,11 @@ that the origin had: the bridge knows when it sent that one, so no sender can lo
 is.
 """
 
+_DOORS = """Each door is a socket `$PONS_HOME/run/DOOR/DOOR.sock` in a folder that its listener
+alone may write, and a zenoh session of its own on both sides. Nobody relays from one to another,
+and access control on both sides lets these keys pass and no others ([why](adr/0030-doors.md)).
+"""
+
 
 def render() -> str:
     """Return the whole page."""
@@ -39,10 +44,22 @@ def render() -> str:
 
 
 def _dials() -> str:
-    lines = ["## Who dials whom\n", "| process | dials |", "|---|---|"]
-    for party, others in DIALS.items():
-        lines.append(f"| {party} | {', '.join(others) or 'nobody: it listens'} |")
+    lines = [
+        "## Who dials whom\n",
+        _DOORS,
+        "| door | listens | dial | they may say | they are told | what for |",
+        "|---|---|---|---|---|---|",
+    ]
+    lines.extend(
+        f"| `{door.name}` | {door.listener} | {', '.join(door.dialled_by)} | "
+        f"{_paths(door.hears)} | {_paths(door.says)} | {door.purpose} |"
+        for door in DOORS
+    )
     return "\n".join(lines) + "\n"
+
+
+def _paths(keys: tuple[Key[Record], ...]) -> str:
+    return ", ".join(f"`{key.path}`" for key in keys) or "nothing"
 
 
 def _table() -> str:

@@ -50,11 +50,15 @@ class Party(StrEnum):
     LOCALIZATION = "localization"
     ROBOT = "robot"
     CAMERA = "camera"
+    BUTTON = "button"
     OPERATOR = "operator"
     JUDGE = "judge"
 
 
 M = TypeVar("M", bound=Record)
+
+ANY_ROBOT = "*"
+"""In a robot's place in a key: whichever robot speaks there. No robot's id may be this."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +79,9 @@ class Key(Generic[M]):
         return f"pons/{robot_id}/{self.path}"
 
 
-_P, _B, _L, _R, _C, _O, _J = Party  # one letter each, for the table below
-_ALL = frozenset(Party) - {_C}
-"""The camera only says what it sees: it has no link to the bridge."""
+_P, _B, _L, _R, _C, _S, _O, _J = Party  # one letter each, for the table below
+_WHO_ASKS = frozenset({_P, _O, _J})
+"""Who is told what the bridge does."""
 
 
 def _op(kind: str, purpose: str) -> Key[OpRequest]:
@@ -111,8 +115,8 @@ WAYPOINTS = _from(_P, "cmd/waypoints", Waypoints, _TO_B, "10 Hz while moving",
                   "rolling horizon of one leg", ring=SEQUENCED, max_bytes=MEDIUM)  # fmt: skip
 HEARTBEAT = _from(_P, "cmd/heartbeat", Heartbeat, _TO_B, "on each status",
                   "the owner lives and thinks", ring=SEQUENCED)  # fmt: skip
-STOP = Key("cmd/stop", Stop, _ALL - {_B}, _TO_B, "20 Hz until echoed or 2 s", SEQUENCED, SMALL,
-           "stop now and hold; never refused")  # fmt: skip
+STOP = Key("cmd/stop", Stop, frozenset(Party) - {_B, _C}, _TO_B, "20 Hz until echoed or 2 s",
+           SEQUENCED, SMALL, "stop now and hold; never refused")  # fmt: skip
 TELEOP = Key("cmd/teleop", Velocity, frozenset({_P, _O}), _TO_B, "20 Hz while held", SEQUENCED,
              SMALL, "steer by hand")  # fmt: skip
 EXTERNAL = Key("cmd/external", Velocity, frozenset({_P}), _TO_B, "20 Hz while held", SEQUENCED,
@@ -126,14 +130,15 @@ RESUME = _op("resume", "clear held; an operator act")
 FENCE = Key("op/fence", FenceRequest, frozenset({_O, _P}), frozenset({_B}),
             "20 Hz until echoed or 2 s", FEW, MEDIUM,
             "put another fence in force; only while DISARMED")  # fmt: skip
-ESTOP_LINK = Key("op/estop_link", EstopLink, frozenset({_O}), _TO_B, "10 Hz where configured",
-                 LATEST, SMALL, "a wired stop button's state")  # fmt: skip
+ESTOP_LINK = _from(_S, "op/estop_link", EstopLink, _TO_B, "10 Hz where configured",
+                   "a wired stop button's state")  # fmt: skip
 
-STATUS = _from(_B, "bridge/status", Status, _ALL, "20 Hz and on change, at most 40/s",
+STATUS = _from(_B, "bridge/status", Status, _WHO_ASKS, "20 Hz and on change, at most 40/s",
                "the only word on what really happened", max_bytes=MEDIUM)  # fmt: skip
-EVENT = _from(_B, "bridge/event", Event, _ALL, "on each event",
+EVENT = _from(_B, "bridge/event", Event, _WHO_ASKS, "on each event",
               "transitions and refusals, for people", ring=SEQUENCED)  # fmt: skip
-ODOM = _from(_B, "bridge/odom", Odometry, _ALL, "50 Hz", "base in odom", ring=SEQUENCED)
+ODOM = _from(_B, "bridge/odom", Odometry, _WHO_ASKS | {_L}, "50 Hz", "base in odom",
+             ring=SEQUENCED)  # fmt: skip
 LOCALIZATION = _from(_L, "localization", Localization, frozenset({_B, _P, _J}), "10 Hz or more",
                      "odom in map")  # fmt: skip
 DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R, _J}), "100 Hz",

@@ -1,33 +1,43 @@
 """Carry messages between processes. The only file that knows zenoh.
 
-Every producer listens and nobody relays: bridge, robot and localization listen, the others dial
-them. Multicast and gossip are off. Dialling is retried for ever; a missing peer is no error. Every
-subscriber has a ring that drops the oldest, because the default handler blocks the whole session
-when nobody drains it. Publishing never waits: a frozen peer loses messages, the sender no time.
+Each door (wire.doors) is a session of its own, in the process that listens there and in each that
+dials it, and nobody relays: access control lets a session take and give its door's keys alone, so
+that not even a stranger in zenoh's client mode has its words passed on. Multicast and gossip are
+off. Dialling is retried for ever; a missing peer is no error. Every subscriber has a ring that
+drops the oldest, because the default handler blocks the whole session when nobody drains it.
+Publishing never waits: a frozen peer loses messages, the sender no time.
 """
 
 from __future__ import annotations
 
 import json
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import zenoh
 
 from wire.base import Record
 from wire.codec import Image, decode, encode, image
+from wire.doors import access_control, doors_of
 from wire.errors import Misconfigured
-from wire.keys import IMAGE, Key, Party
-from wire.sockets import DIALS, LISTENERS, Claim, Endpoints
+from wire.keys import ANY_ROBOT, IMAGE, Key, Party
+from wire.sockets import Claim, Endpoints, admit
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
     from types import TracebackType
     from typing import Self
 
+    from wire.doors import Door
     from wire.errors import Rejected
     from wire.sensors import ImageHeader
 
 M = TypeVar("M", bound=Record)
+
+MANY = frozenset({Party.OPERATOR, Party.JUDGE})
+"""Processes that may be many at once. They take no lock: who stops the robot must need neither a
+disk that can be written nor a file that another user may have made first."""
 
 _PARSED_PER_DRAIN = 4
 """At most so many newest messages of a key are worth parsing in one tick."""
@@ -36,16 +46,25 @@ _PARSED_PER_DRAIN = 4
 class Publisher(Generic[M]):
     """Send one kind of message. Never blocks, never raises for an absent or frozen peer."""
 
-    def __init__(self, session: zenoh.Session, key: Key[M], robot_id: str) -> None:
-        self._publisher = session.declare_publisher(
-            key.expression(robot_id),
-            congestion_control=zenoh.CongestionControl.DROP,
-            express=True,
+    def __init__(self, sessions: Iterable[zenoh.Session], key: Key[M], robot_id: str) -> None:
+        """Declare it at every door where it may be said."""
+        self._publishers = tuple(
+            session.declare_publisher(
+                key.expression(robot_id),
+                congestion_control=zenoh.CongestionControl.DROP,
+                express=True,
+            )
+            for session in sessions
         )
 
     def put(self, message: M) -> None:
         """Send and forget."""
-        self._publisher.put(encode(message))
+        self.put_bytes(encode(message))
+
+    def put_bytes(self, payload: bytes) -> None:
+        """Send bytes as they are, unchecked."""
+        for publisher in self._publishers:
+            publisher.put(payload)
 
 
 class ImagePublisher:
@@ -133,6 +152,21 @@ class Subscriber(Generic[M]):
         return None
 
 
+class Subscribers(Subscriber[M]):
+    """Hold the newest messages of one key that comes in at several doors."""
+
+    def __init__(self, sessions: Iterable[zenoh.Session], key: Key[M], robot_id: str) -> None:
+        self._key = key
+        self._each = tuple(Subscriber(session, key, robot_id) for session in sessions)
+
+    def drain_bytes(self) -> list[bytes]:
+        """Take what is waiting, one ring of each door at most, unparsed."""
+        payloads: list[bytes] = []
+        for one in self._each:
+            payloads += one.drain_bytes()
+        return payloads
+
+
 class Drained(Generic[M]):
     """Give what one drain took from a key: parsed items and how many arrived."""
 
@@ -147,37 +181,74 @@ _NOTHING: Drained[Any] = Drained((), 0)
 
 
 class Session:
-    """Be one process of the key table: listen where it must, dial whom it needs."""
+    """Be one process of the key table: listen at its doors, dial those of others."""
 
-    def __init__(self, zenoh_session: zenoh.Session, robot_id: str, claim: Claim) -> None:
-        self._zenoh = zenoh_session
+    def __init__(
+        self,
+        party: Party,
+        robot_id: str,
+        links: dict[Door, zenoh.Session],
+        claim: Claim | None,
+    ) -> None:
+        self._party = party
         self._robot_id = robot_id
+        self._links = links
         self._claim = claim
 
     def publisher(self, key: Key[M]) -> Publisher[M]:
         """Declare that this process says ``key``."""
-        return Publisher(self._zenoh, key, self._robot_id)
+        return Publisher(self.links_outward(key), key, self._robot_id)
 
     def subscriber(self, key: Key[M]) -> Subscriber[M]:
         """Declare that this process hears ``key``."""
-        return Subscriber(self._zenoh, key, self._robot_id)
+        return self._subscriber(key, self._robot_id)
+
+    def subscriber_to_any_robot(self, key: Key[M]) -> Subscriber[M]:
+        """Declare that this process hears ``key`` of whichever robot speaks."""
+        return self._subscriber(key, ANY_ROBOT)
 
     def image_publisher(self, key: Key[ImageHeader]) -> ImagePublisher:
         """Declare that this process says the pictures of ``key``."""
-        return ImagePublisher(self._zenoh, key, self._robot_id)
+        (link,) = self.links_outward(key)
+        return ImagePublisher(link, key, self._robot_id)
 
     def image_subscriber(self, key: Key[ImageHeader]) -> ImageSubscriber:
         """Declare that this process hears the pictures of ``key``."""
-        return ImageSubscriber(self._zenoh, key, self._robot_id)
+        (link,) = self.links_inward(key)
+        return ImageSubscriber(link, key, self._robot_id)
+
+    def links_outward(self, key: Key[M]) -> list[zenoh.Session]:
+        """Return the zenoh sessions on which this process may say a key.
+
+        Raises:
+            ValueError: no door of this process carries it.
+        """
+        party, path = self._party, key.path
+        return self._some(
+            key, [link for door, link in self._links.items() if door.outward(party, path)]
+        )
+
+    def links_inward(self, key: Key[M]) -> list[zenoh.Session]:
+        """Return the zenoh sessions on which this process is told a key.
+
+        Raises:
+            ValueError: no door of this process carries it.
+        """
+        party, path = self._party, key.path
+        return self._some(
+            key, [link for door, link in self._links.items() if door.inward(party, path)]
+        )
 
     def peers(self) -> int:
-        """Return how many processes are connected now."""
-        return len(self._zenoh.info.peers_zid())
+        """Return how many connections to other processes there are now, at all doors together."""
+        return sum(len(link.info.peers_zid()) for link in self._links.values())
 
     def close(self) -> None:
         """Leave; every ring is empty from now on."""
-        self._zenoh.close()  # type: ignore[no-untyped-call]  # its stub has no annotation
-        self._claim.close()
+        for link in self._links.values():
+            link.close()  # type: ignore[no-untyped-call]  # its stub has no annotation
+        if self._claim is not None:
+            self._claim.close()
 
     def __enter__(self) -> Self:
         return self
@@ -190,37 +261,70 @@ class Session:
     ) -> None:
         self.close()
 
+    def _subscriber(self, key: Key[M], robot_id: str) -> Subscriber[M]:
+        links = self.links_inward(key)
+        if len(links) == 1:
+            return Subscriber(links[0], key, robot_id)
+        return Subscribers(links, key, robot_id)
+
+    def _some(self, key: Key[M], links: list[zenoh.Session]) -> list[zenoh.Session]:
+        if not links:
+            names = ", ".join(door.name for door in self._links)
+            raise ValueError(f"{key.path} passes none of the {self._party} doors: {names}")
+        return links
+
 
 def open_session(
     party: Party, robot_id: str, home: Path, endpoints: Endpoints | None = None
 ) -> Session:
-    """Join the others of ``home``.
+    """Join the others of ``home``. Operators and judges may be many: they leave nothing there.
+
+    Args:
+        party: as which process.
+        robot_id: whose keys; ``ANY_ROBOT`` says and hears those of whichever robot is there.
+        home: where the sockets are.
+        endpoints: where doors are, if not all in ``home``.
 
     Raises:
-        Misconfigured: the same process already runs there, or a socket path is too long.
+        Misconfigured: the same process already runs there, a socket path is too long, or others
+            could replace its sockets.
     """
     where = endpoints or Endpoints(home)
-    claim = Claim(home, party, shared=party in (Party.OPERATOR, Party.JUDGE))
+    with ExitStack() as undo:
+        claim = None if party in MANY else Claim(home, party)
+        if claim is not None:
+            undo.callback(claim.close)
+        links: dict[Door, zenoh.Session] = {}
+        for door in doors_of(party):
+            links[door] = _open(party, door, where, claim)
+            undo.callback(links[door].close)
+        undo.pop_all()
+    return Session(party, robot_id, links, claim)
+
+
+def _open(party: Party, door: Door, where: Endpoints, claim: Claim | None) -> zenoh.Session:
+    """Listen at a door or dial it."""
+    locator, path = where.locator(door), where.socket(door)
+    listens = party is door.listener
+    ours = listens and claim is not None and door not in where.tcp
+    if ours and claim is not None:
+        claim.make_way(path)
     try:
-        if party in LISTENERS and party not in where.tcp:
-            claim.clear_stale(where.socket(party))
-        return Session(zenoh.open(_config(party, where)), robot_id, claim)
+        session = zenoh.open(_config(locator, door, listens=listens))
     except zenoh.ZError as error:
-        claim.close()
-        raise Misconfigured("socket_in_use", f"{party.value}: {error}") from None
-    except Misconfigured:
-        claim.close()
-        raise
+        raise Misconfigured("socket_in_use", f"{door.name}: {error}") from None
+    if ours:
+        admit(path)
+    return session
 
 
-def _config(party: Party, where: Endpoints) -> zenoh.Config:
-    listens = [where.locator(party)] if party in LISTENERS else []
-    dials = [where.locator(listener) for listener in DIALS[party]]
+def _config(locator: str, door: Door, *, listens: bool) -> zenoh.Config:
+    hears, says = (door.hears, door.says) if listens else (door.says, door.hears)
     retry = {"period_init_ms": 50, "period_max_ms": 500, "period_increase_factor": 2}
     settings: dict[str, object] = {
         "mode": "peer",
-        "listen/endpoints": listens,
-        "connect/endpoints": dials,
+        "listen/endpoints": [locator] if listens else [],
+        "connect/endpoints": [] if listens else [locator],
         "connect/timeout_ms": -1,  # never give up
         "connect/exit_on_failure": False,
         "connect/retry": retry,
@@ -234,6 +338,7 @@ def _config(party: Party, where: Endpoints) -> zenoh.Config:
         "transport/link/tx/queue/size/data": 16,
         "transport/link/rx/max_message_size": 2 * IMAGE,  # the default is 1 GiB
         "transport/shared_memory/enabled": False,
+        "access_control": access_control(hears, says),
     }
     config = zenoh.Config()
     for path, value in settings.items():

@@ -1,52 +1,52 @@
-"""Say where each listener is found, and make sure that only one process listens there.
+"""Say where each door is, who may reach it, and make sure that only one process listens there.
 
-Unix sockets ``$PONS_HOME/run/{bridge,robot,localization,camera}.sock`` unless a TCP endpoint is
-given. A lock file beside each socket tells a live listener from what a dead one left: the kernel
-drops the lock with the process, however it died.
+Unix sockets ``$PONS_HOME/run/DOOR/DOOR.sock`` unless a TCP endpoint is given. Each door has a
+folder of its listener's, which nobody else may write: none can rename, replace or forestall
+another's socket. A lock file tells a live process from what a dead one left: the kernel drops the
+lock with the process, however it died.
 """
 
 from __future__ import annotations
 
 import fcntl
 import os
+import socket
+import stat
+import struct
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from wire.errors import Misconfigured
-from wire.keys import Party
+
+if TYPE_CHECKING:
+    from wire.doors import Door
+    from wire.keys import Party
 
 MAX_SOCKET_PATH = 107
 """sun_path holds 108 bytes with its closing zero (unix(7))."""
-
-LISTENERS = (Party.BRIDGE, Party.ROBOT, Party.LOCALIZATION, Party.CAMERA)
-DIALS: dict[Party, tuple[Party, ...]] = {
-    Party.PLANNER: LISTENERS,
-    Party.OPERATOR: (Party.BRIDGE,),
-    Party.JUDGE: LISTENERS,
-    Party.LOCALIZATION: (Party.BRIDGE, Party.ROBOT),
-    Party.BRIDGE: (Party.ROBOT,),
-    Party.ROBOT: (),
-    Party.CAMERA: (Party.ROBOT,),
-}
+PRIVATE = 0o700
+PROBE_S = 0.3
 
 
 @dataclass(frozen=True, slots=True)
 class Endpoints:
-    """Give the zenoh locators of the listeners, for one home folder."""
+    """Give the zenoh locators of the doors, for one home folder."""
 
     home: Path
-    tcp: dict[Party, str] = field(default_factory=dict)
-    """host:port of a listener that is on another host."""
+    tcp: dict[Door, str] = field(default_factory=dict)
+    """host:port of a door that is on another host."""
 
-    def locator(self, listener: Party) -> str:
-        """Return the zenoh locator of a listener.
+    def locator(self, door: Door) -> str:
+        """Return the zenoh locator of a door.
 
         Raises:
             Misconfigured: the socket's path is longer than the kernel takes.
         """
-        if listener in self.tcp:
-            return f"tcp/{self.tcp[listener]}"
-        path = self.socket(listener)
+        if door in self.tcp:
+            return f"tcp/{self.tcp[door]}"
+        path = self.socket(door)
         length = len(os.fsencode(path))
         if not length <= MAX_SOCKET_PATH:
             raise Misconfigured(
@@ -56,49 +56,148 @@ class Endpoints:
             )
         return f"unixsock-stream/{path}"
 
-    def socket(self, listener: Party) -> Path:
-        """Return the absolute path of a listener's socket."""
-        return self.home.absolute() / "run" / f"{listener.value}.sock"
+    def socket(self, door: Door) -> Path:
+        """Return the absolute path of a door's socket."""
+        return _run(self.home) / door.name / f"{door.name}.sock"
 
 
 class Claim:
     """Hold the right to be the one process of a kind in a home folder, until close or death."""
 
-    def __init__(self, home: Path, party: Party, *, shared: bool = False) -> None:
-        """Take the lock; ``shared`` parties may be many at once.
+    def __init__(self, home: Path, party: Party) -> None:
+        """Take the lock.
 
         Raises:
             Misconfigured: another live process holds it, and nothing of its is touched; or the
-                folder can't be written.
+                folder can't be written, or others may write it.
         """
-        run = home.absolute() / "run"
-        self._path = run / f"{party.value}.lock"
+        self._run = _run(home)
+        folder = self._run / party.value
+        self._path = folder / f"{party.value}.lock"
+        _own(self._run)
+        _own(folder)
         try:
-            run.mkdir(parents=True, exist_ok=True)
             self._file = self._path.open("a+")
         except OSError as error:
             raise Misconfigured("home_unwritable", f"{self._path}: {error.strerror}") from None
         try:
-            wanted = fcntl.LOCK_SH if shared else fcntl.LOCK_EX
-            fcntl.flock(self._file, wanted | fcntl.LOCK_NB)
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             self._file.seek(0)
             holder = self._file.read().strip() or "unknown"
             self._file.close()
             raise Misconfigured(
                 "already_running",
-                f"a {party.value} with pid {holder} already serves {run}; stop it, or set "
+                f"a {party.value} with pid {holder} already serves {self._run}; stop it, or set "
                 "PONS_HOME to another folder",
             ) from None
         self._file.truncate(0)
         self._file.write(str(os.getpid()))
         self._file.flush()
 
-    def clear_stale(self, socket: Path) -> None:
-        """Remove what a dead listener left; ours is the lock, so nobody listens there."""
-        socket.unlink(missing_ok=True)
-        socket.with_name(socket.name + ".lock").unlink(missing_ok=True)
+    def make_way(self, path: Path) -> None:
+        """Make the folder of a socket and remove what a dead listener left; ours is the lock.
+
+        Raises:
+            Misconfigured: the folder can't be written, or others may write it.
+        """
+        _own(path.parent)
+        path.unlink(missing_ok=True)
+        path.with_name(path.name + ".lock").unlink(missing_ok=True)
 
     def close(self) -> None:
         """Give the right back."""
         self._file.close()
+
+
+def admit(path: Path) -> None:
+    """Let those connect to a new socket who may enter its folder: its owner, or its group too."""
+    shared = path.parent.stat().st_mode & stat.S_IXGRP
+    path.chmod(0o660 if shared else 0o600)
+
+
+def misplaced_listener(home: Path, door: Door) -> str | None:
+    """Say why whoever listens at a door is not to be believed; None where it is its owner.
+
+    Believed are root, ourselves, and the owner of the door's folder where nobody else could have
+    put that folder there. Elsewhere than on Linux the kernel does not tell, and nothing is checked.
+    """
+    path = Endpoints(home).socket(door)
+    if not hasattr(socket, "SO_PEERCRED"):
+        return None
+    try:
+        uid = _listening_uid(path)
+        expected = {0, os.geteuid(), *_owners(path.parent)}
+    except OSError as error:
+        return f"wrong_listener: who listens at {path} can't be told: {error.strerror or error}"
+    if uid in expected:
+        return None
+    return (
+        f"wrong_listener: user {uid} listens at {path}, expected user "
+        f"{' or '.join(map(str, sorted(expected)))} / 监听该套接字的不是它的所有者"
+    )
+
+
+def unreachable(home: Path, door: Door) -> str | None:
+    """Say why this user can't connect to a door; None where it can."""
+    path = Endpoints(home).socket(door)
+    try:
+        _dialled(path).close()
+    except OSError as error:
+        return f"{path}: {error.strerror or error}"
+    return None
+
+
+def _listening_uid(path: Path) -> int:
+    """Return the user of the process that listens, as the kernel noted it (unix(7))."""
+    with _dialled(path) as probe:
+        told = probe.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize("3i"))
+    return int(struct.unpack("3i", told)[1])
+
+
+def _dialled(path: Path) -> socket.socket:
+    with ExitStack() as undo:
+        probe = undo.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
+        probe.settimeout(PROBE_S)
+        probe.connect(str(path))
+        undo.pop_all()
+    return probe
+
+
+def _owners(folder: Path) -> tuple[int, ...]:
+    """Return the owner of a door's folder, unless another may have made or replaced it."""
+    run = folder.parent.stat()
+    if run.st_uid not in (0, os.geteuid()) or _open_to_others(run.st_mode):
+        return ()
+    return (folder.stat().st_uid,)
+
+
+def _run(home: Path) -> Path:
+    return home.absolute() / "run"
+
+
+def _own(folder: Path) -> None:
+    """Make a folder for this user alone; an existing one must be nobody else's to write.
+
+    Raises:
+        Misconfigured: ``home_unwritable``, ``socket_folder_exposed``.
+    """
+    try:
+        folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
+        found = folder.stat()
+        ours = found.st_uid == os.geteuid()
+        if ours and _open_to_others(found.st_mode):
+            folder.chmod(stat.S_IMODE(found.st_mode) & ~0o022)
+    except OSError as error:
+        raise Misconfigured("home_unwritable", f"{folder}: {error.strerror}") from None
+    if not ours and (found.st_uid != 0 or _open_to_others(found.st_mode)):
+        raise Misconfigured(
+            "socket_folder_exposed",
+            f"{folder} belongs to user {found.st_uid}, mode {stat.S_IMODE(found.st_mode):04o}; "
+            "others could replace a socket there, so it must be this user's or root's and "
+            "writable by no group (docs/deploy.md: systemd-tmpfiles --create)",
+        )
+
+
+def _open_to_others(mode: int) -> bool:
+    return bool(mode & 0o022 and not mode & stat.S_ISVTX)

@@ -3,7 +3,7 @@
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Limits, Price
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
-from planner.settings.owner import FILE, Settings, load_settings, place_of, same_place
+from planner.settings.owner import FILE, Settings, exposed, load_settings, place_of, same_place
 from planner.settings.presets import PRESETS, Mode, Preset, PresetName, TokensField
 from planner.settings.vision import VisionSettings
 
@@ -24,6 +24,7 @@ __all__ = [
     "Settings",
     "TokensField",
     "VisionSettings",
+    "exposed",
     "load_settings",
     "place_of",
     "same_place",

@@ -10,6 +10,7 @@ import logging
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
+from stat import S_IMODE
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -51,6 +52,8 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
             ``model_key``, ``budget_contradictory``.
     """
     tables = _tables(home / FILE)
+    for sentence in exposed(home):
+        log.warning("settings_exposed: %s", sentence)
     model = tables.pop("model", None)
     if model is not None and not isinstance(model, dict):
         raise Misconfigured("settings_malformed", f"{FILE}: [model] must be a table")
@@ -59,6 +62,33 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
     settings = _checked({**tables, "model": chosen, "vision": vision})
     _need_key(settings.model)
     return settings
+
+
+def exposed(home: Path) -> list[str]:
+    """Say what of the settings others may change, or read though it is a key; mostly nothing.
+
+    Raises:
+        Misconfigured: ``settings_unreadable``, ``settings_malformed``.
+    """
+    model = _tables(home / FILE).get("model")
+    table = model if isinstance(model, dict) else {}
+    apart = table.get("key_file")
+    files = [(home / FILE, "key" in table)]
+    if isinstance(apart, str) and apart:
+        files.append((home / apart, True))
+    return [text for path, keyed in files if (text := _exposure(path, keyed=keyed)) is not None]
+
+
+def _exposure(path: Path, *, keyed: bool) -> str | None:
+    try:
+        mode = S_IMODE(path.stat().st_mode)
+    except OSError:
+        return None
+    if mode & 0o022:
+        return f"{path} has mode {mode:04o}: others can change it, and where a key is sent"
+    if keyed and mode & 0o044:
+        return f"{path} has mode {mode:04o}: others can read the key in it"
+    return None
 
 
 def place_of(home: Path, environment: Mapping[str, str]) -> str:

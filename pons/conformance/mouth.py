@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from wire.doors import BRIDGE_DOOR
 from wire.keys import COMMANDS, OPS, Party
 from wire.session import open_session
 from wire.sockets import Endpoints
@@ -11,7 +12,7 @@ from wire.sockets import Endpoints
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from wire.session import Session
+    from wire.session import Publisher, Session
 
 
 class Mouth:
@@ -19,16 +20,16 @@ class Mouth:
 
     def __init__(self, session: Session) -> None:
         keys = (*COMMANDS, *OPS)
-        declared: dict[str, Any] = {key.path: session.publisher(key) for key in keys}
-        # Their own ``put`` takes a message that was checked at birth, which these are not.
-        self._raw = {path: one._publisher for path, one in declared.items()}  # noqa: SLF001
+        self._publishers: dict[str, Publisher[Any]] = {
+            key.path: session.publisher(key) for key in keys
+        }
 
     def say(self, key: str, payload: bytes) -> None:
         """Send and forget."""
-        self._raw[key].put(payload)
+        self._publishers[key].put_bytes(payload)
 
 
 def dial(party: Party, robot_id: str, home: Path, through: str | None) -> Session:
     """Open a session of a home, the bridge behind a proxy where one is named."""
-    endpoints = Endpoints(home, {Party.BRIDGE: through}) if through else None
+    endpoints = Endpoints(home, {BRIDGE_DOOR: through}) if through else None
     return open_session(party, robot_id, home, endpoints)

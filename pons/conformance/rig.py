@@ -22,6 +22,7 @@ from pons.conformance.record import Record
 from pons.conformance.watch import Watch
 from pons.processes import Child
 from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, signed_request
+from wire.doors import BRIDGE_DOOR
 from wire.keys import Party
 from wire.session import open_session
 from wire.sockets import Endpoints
@@ -115,7 +116,7 @@ class Rig:
 
     def door(self) -> str:
         """Return the bridge's socket."""
-        return str(Endpoints(self._home).socket(Party.BRIDGE))
+        return str(Endpoints(self._home).socket(BRIDGE_DOOR))
 
     # Starting -----------------------------------------------------------------------------------
 

@@ -57,6 +57,7 @@ def findings(settings: Settings) -> list[Finding]:
         checked("locked_memory", machine.locked_memory),
         machine.node(),
         checked("home", lambda: place.home(settings.home)),
+        checked("secrets", lambda: place.secrets(settings.home, virtual=virtual)),
         checked("disk", lambda: place.disk(settings.home)),
         checked("sockets", lambda: place.sockets(settings.home)),
         checked("port", lambda: place.port(settings.host, settings.port, running=running)),

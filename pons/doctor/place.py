@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 import socket
@@ -10,11 +9,14 @@ import stat
 from contextlib import closing
 from pathlib import Path
 
+from bridge.operator_key import load_operator_key
+from planner.settings import exposed
 from planner.world import Site, SiteError
 from pons.doctor.finding import Finding, Words, fail, ok, warn
 from pons.up import MIN_FREE_BYTES
 from wire import Misconfigured, RobotDescription, load_robot
-from wire.sockets import LISTENERS, MAX_SOCKET_PATH, Endpoints
+from wire.doors import DOORS
+from wire.sockets import MAX_SOCKET_PATH, Endpoints
 
 ROOMY_BYTES = 10 * MIN_FREE_BYTES
 """Recordings of a day."""
@@ -65,6 +67,27 @@ def home(path: Path) -> Finding:
     return ok("home", f"{path} {state}", f"{path} {'已存在' if path.exists() else '将被创建'}")
 
 
+def secrets(path: Path, *, virtual: bool) -> Finding:
+    """Look whether others may read or change the keys that lie in the home folder."""
+    try:
+        load_operator_key(path, virtual=virtual)
+        found = exposed(path)
+    except Misconfigured as wrong:
+        fix = Words(
+            "mend or remove that file; as the bridge's user, `pons key new` makes operator.key",
+            "请修正或删除该文件；以 bridge 的用户执行 `pons key new` 可生成 operator.key",
+        )
+        return fail("secrets", Words(str(wrong), str(wrong)), fix)
+    if found:
+        told = "; ".join(found)
+        return warn(
+            "secrets",
+            Words(told, f"其他用户可以读取或修改：{told}"),
+            Words("chmod 600, as the planner's user", "请以 planner 的用户执行 chmod 600"),
+        )
+    return ok("secrets", "no key lies open to others", "没有密钥暴露给其他用户")
+
+
 def _open_to_others(mode: int) -> bool:
     """Tell whether others may replace what lies there; a group may share a sticky folder."""
     return bool(mode & 0o002 or (mode & 0o020 and not mode & stat.S_ISVTX))
@@ -89,7 +112,7 @@ def disk(path: Path) -> Finding:
 def sockets(path: Path) -> Finding:
     """Look at the socket paths, and for what dead processes left."""
     where = Endpoints(path)
-    longest = max(len(os.fsencode(where.socket(party))) for party in LISTENERS)
+    longest = max(len(os.fsencode(where.socket(door))) for door in DOORS)
     if not longest <= MAX_SOCKET_PATH:
         return fail(
             "sockets",
@@ -98,11 +121,7 @@ def sockets(path: Path) -> Finding:
             Words("set PONS_HOME to a shorter folder", "请将 PONS_HOME 设为更短的目录"),
         )  # fmt: skip
     live = listening(path)
-    stale = [
-        party.value
-        for party in LISTENERS
-        if where.socket(party).exists() and party.value not in live
-    ]
+    stale = [door.name for door in DOORS if door.name not in live and where.socket(door).exists()]
     if stale:
         names = ", ".join(stale)
         return ok("sockets", f"left by dead processes and replaced at the next start: {names}",
@@ -112,21 +131,22 @@ def sockets(path: Path) -> Finding:
 
 
 def listening(path: Path) -> list[str]:
-    """Return which listeners of a home folder live."""
-    run = path / "run"
-    return [party.value for party in LISTENERS if _held(run / f"{party.value}.lock")]
+    """Return at which doors of a home folder a living process listens."""
+    where = Endpoints(path)
+    return [door.name for door in DOORS if _answers(where.socket(door))]
 
 
-def _held(lock: Path) -> bool:
-    """Tell whether a living process holds a lock, without making or keeping it."""
-    try:
-        with lock.open("r") as file:
-            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
-    except OSError:
-        return False
-    return False
+def _answers(path: Path) -> bool:
+    """Tell whether a living process listens at a socket; unknown, and so no, to who may not."""
+    with closing(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)) as probe:
+        probe.setblocking(False)
+        try:
+            probe.connect(str(path))
+        except BlockingIOError:
+            return True  # so many wait that it takes no more
+        except OSError:
+            return False
+    return True
 
 
 def port(host: str, number: int, *, running: bool) -> Finding:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import resource
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -35,7 +36,7 @@ from wire import (
 )
 from wire.keys import EVENT, FENCE, KEYS, ODOM, OPS, STOP, WAYPOINTS, Key, Party
 from wire.keys import STATUS as STATUS_KEY
-from wire.session import Session, open_session
+from wire.session import Publisher, Session, open_session
 
 HEARD = [key for key in KEYS if Party.BRIDGE in key.receivers and key.path != "drive/state"]
 CHANCE = "c" * 16
@@ -57,13 +58,25 @@ HOSTILE = (
 
 @dataclass
 class Ends:
-    """Hold the bridge's link and somebody who may say anything on any key."""
+    """Hold the bridge's link and, for each of its doors, somebody who may say what it hears."""
 
     link: Link
-    other: Session
+    others: tuple[Session, ...]
 
-    def mouth(self, key: Key[Any]) -> Any:
-        return self.other.publisher(key)._publisher  # raw bytes past the codec
+    @property
+    def other(self) -> Session:
+        """Return the one that asks."""
+        return self.others[0]
+
+    def who_says(self, key: Key[Any]) -> Session:
+        for session in self.others:
+            with suppress(ValueError):
+                session.links_outward(key)
+                return session
+        raise LookupError(key.path)
+
+    def mouth(self, key: Key[Any]) -> Publisher[Any]:
+        return self.who_says(key).publisher(key)
 
     def drain(self) -> Inbox:
         return self.link.drain((), ON_TIME, real_time=True, recorder_ok=True, chance=CHANCE)
@@ -73,26 +86,30 @@ class Ends:
 def ends(tmp_path: Path) -> Iterator[Ends]:
     with (
         open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
-        open_session(Party.OPERATOR, "r1", tmp_path) as other,
+        open_session(Party.OPERATOR, "r1", tmp_path) as operator,
+        open_session(Party.LOCALIZATION, "r1", tmp_path) as localization,
+        open_session(Party.BUTTON, "r1", tmp_path) as button,
+        open_session(Party.ROBOT, "r1", tmp_path) as robot,
     ):
         link = Link(bridge, "r1", VIRTUAL_KEY)
-        assert until(lambda: other.peers() == 1)
-        mouth = other.publisher(STOP)
-        ends = Ends(link, other)
+        ends = Ends(link, (operator, localization, button, robot))
+        assert until(lambda: bridge.peers() == len(ends.others))
+        for other in ends.others:
+            mouth = other.publisher(STOP)
 
-        def heard() -> bool:
-            mouth.put(Stop(id="hello", source="test"))
-            return bool(ends.drain().stops)
+            def heard(mouth: Publisher[Stop] = mouth) -> bool:
+                mouth.put(Stop(id="hello", source="test"))
+                return bool(ends.drain().stops)
 
-        assert until(heard)
+            assert until(heard)
         yield ends
 
 
-def gather(ends: Ends) -> Inbox:
+def gather(ends: Ends, key: Key[Any]) -> Inbox:
     """Wait until all that was said has arrived, then drain once: a connection keeps its order."""
     ears = ends.link._stop
     kept: list[bytes] = []
-    mouth = ends.other.publisher(STOP)
+    mouth = ends.who_says(key).publisher(STOP)
 
     def passed() -> bool:
         mouth.put(Stop(id="last-word", source="test"))  # said once, it may drown in a flood
@@ -110,7 +127,7 @@ def arrived(inbox: Inbox, key: Key[Any]) -> int:
 @pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)
 def test_every_key_is_heard(ends: Ends, key: Key[Record]) -> None:
     message = EXAMPLES[key.message]
-    mouth = ends.other.publisher(key)
+    mouth = ends.mouth(key)
     handed_on = "FenceArrived(id='fence-1'" if key is FENCE else repr(message)
 
     def there() -> bool:
@@ -145,10 +162,10 @@ def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends)
 @pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)
 def test_hostile_bytes_become_a_rejection_and_nothing_else(ends: Ends, key: Key[Record]) -> None:
     mouth = ends.mouth(key)
-    gather(ends)
+    gather(ends, key)
     for payload in HOSTILE:
         assert isinstance(decode(key, payload), Rejected)
-        mouth.put(payload)
+        mouth.put_bytes(payload)
         assert until(partial(refused, ends, key))
 
 
@@ -179,8 +196,8 @@ def test_at_most_four_of_a_key_are_parsed_and_all_are_counted(ends: Ends) -> Non
 def test_a_flood_is_bounded_by_the_ring(ends: Ends) -> None:
     mouth = ends.mouth(WAYPOINTS)
     for _ in range(1_000):
-        mouth.put(b"{")
-    inbox = gather(ends)
+        mouth.put_bytes(b"{")
+    inbox = gather(ends, WAYPOINTS)
     assert arrived(inbox, WAYPOINTS) <= WAYPOINTS.ring
     assert len(inbox.rejected) <= 4
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -42,4 +43,39 @@ def test_a_short_key_refuses_to_start(tmp_path: Path) -> None:
 def test_a_key_that_others_can_reach_refuses_to_start(tmp_path: Path, mode: int) -> None:
     key_file(tmp_path, b"0123456789abcdef", mode)
     with pytest.raises(Misconfigured, match=f"operator_key_exposed: .*mode 0{mode:o}"):
+        load_operator_key(tmp_path, virtual=False)
+
+
+def test_a_key_that_is_a_link_refuses_to_start(tmp_path: Path) -> None:
+    """To another user's secret, or to what this very process was given."""
+    (tmp_path / "operator.key").symlink_to("/proc/self/environ")
+    with pytest.raises(Misconfigured, match=r"operator_key_linked: .*link to /proc/self/environ"):
+        load_operator_key(tmp_path, virtual=False)
+
+
+def test_a_link_put_there_between_two_looks_is_not_followed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "other").mkdir()
+    (tmp_path / "operator.key").symlink_to(key_file(tmp_path / "other", b"0123456789abcdef"))
+    monkeypatch.setattr(Path, "is_symlink", lambda _: False)
+    with pytest.raises(Misconfigured, match=r"operator_key_missing: .*symbolic links"):
+        load_operator_key(tmp_path, virtual=False)
+
+
+def test_a_pipe_or_a_folder_is_no_key_and_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "operator.key", 0o600)
+    with pytest.raises(Misconfigured, match=r"operator_key_no_file: .* is a pipe"):
+        load_operator_key(tmp_path, virtual=False)
+    (tmp_path / "operator.key").unlink()
+    (tmp_path / "operator.key").mkdir()
+    with pytest.raises(Misconfigured, match=r"operator_key_no_file: .* is a folder"):
+        load_operator_key(tmp_path, virtual=False)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may give a file away")
+def test_a_key_of_another_user_refuses_to_start(tmp_path: Path) -> None:
+    """In a sticky folder whoever comes first may make it."""
+    os.chown(key_file(tmp_path, b"0123456789abcdef"), 61_002, 61_002)
+    with pytest.raises(Misconfigured, match=r"operator_key_not_yours: .*user 61002, expected 0"):
         load_operator_key(tmp_path, virtual=False)

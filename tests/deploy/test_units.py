@@ -21,6 +21,8 @@ from tests.deploy.installed import (
     weight_of,
 )
 from wire import load_robot
+from wire.doors import BRIDGE_DOOR, DOORS
+from wire.keys import Party
 
 ORDINARY = 100
 """Of who says nothing (systemd.resource-control(5))."""
@@ -28,7 +30,7 @@ ORDINARY = 100
 
 def test_planner_bridge_and_simulator_are_users_of_their_own() -> None:
     users = {name: one["Service"]["User"] for name, one in services().items()}
-    assert users["planner"] != users["bridge"] != users["sim"] != users["planner"]
+    assert len({tuple(user) for user in users.values()}) == len(PROCESSES)
     assert {tuple(one["Service"]["Group"]) for one in services().values()} == {("pons",)}
     known = (UNITS / "pons.sysusers.conf").read_text()
     for (user,) in users.values():
@@ -77,7 +79,7 @@ def test_every_service_is_hardened_and_does_not_repeat_a_refusal(name: str) -> N
         "ProtectHome": "yes",
         "PrivateTmp": "yes",
         "ReadWritePaths": "/var/lib/pons",
-        "UMask": "0007",
+        "UMask": "0077",
         "SystemCallArchitectures": "native",
         "RestartPreventExitStatus": "2",
         "Restart": "always",
@@ -86,9 +88,50 @@ def test_every_service_is_hardened_and_does_not_repeat_a_refusal(name: str) -> N
 
 
 def test_neither_user_can_replace_what_the_other_made() -> None:
+    made = folders()
+    assert made["/var/lib/pons"] == ("3770", "root", "pons")
+    assert made["/var/lib/pons/fence"] == ("3770", "root", "pons")
+    assert made["/var/lib/pons/recordings"] == ("0700", "pons-bridge", "pons")
+    assert made["/var/lib/pons/run"] == ("0750", "root", "pons")
+
+
+def test_every_door_has_a_folder_that_its_listener_alone_writes_and_who_dials_it_enters() -> None:
+    made, groups = folders(), members()
+    users = {name: one["Service"]["User"][0] for name, one in services().items()}
+    user_of = {
+        Party.BRIDGE: users["bridge"],
+        Party.PLANNER: users["planner"],
+        Party.ROBOT: users["sim"],
+        Party.LOCALIZATION: users["localization"],
+        Party.CAMERA: users["camera"],
+    }
+    for door in DOORS:
+        mode, owner, group = made[f"/var/lib/pons/run/{door.name}"]
+        assert (mode, owner) == ("2750", user_of[door.listener]), door.name
+        entering = groups[group]
+        dialling = {user_of[party] for party in door.dialled_by if party in user_of}
+        assert dialling <= entering, door.name
+        if any(key.path not in {one.path for one in BRIDGE_DOOR.hears} for key in door.hears):
+            assert entering == dialling | {owner} or door.name == "sim", door.name
+            assert users["planner"] not in entering, door.name
+            assert users["camera"] not in entering, door.name
+
+
+def folders() -> dict[str, tuple[str, str, str]]:
+    """Return mode, owner and group of each folder that is made, by its path."""
     lines = (UNITS / "pons.tmpfiles.conf").read_text().splitlines()
-    assert "d /var/lib/pons 3770 root pons -" in lines
-    assert "d /var/lib/pons/recordings 0700 pons-bridge pons -" in lines
+    words = [line.split() for line in lines if line.startswith("d ")]
+    return {path: (mode, owner, group) for _, path, mode, owner, group, _ in words}
+
+
+def members() -> dict[str, set[str]]:
+    """Return the users of each group."""
+    found: dict[str, set[str]] = {}
+    for line in (UNITS / "pons.sysusers.conf").read_text().splitlines():
+        if line.startswith("m "):
+            _, user, group = line.split()
+            found.setdefault(group, set()).add(user)
+    return found
 
 
 def test_a_site_keeps_its_folders_name(repository: Path) -> None:

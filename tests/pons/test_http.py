@@ -88,10 +88,10 @@ def test_nothing_is_said_in_clear_to_a_planner_that_speaks_tls(planner: Settings
 def test_settings_follow_the_environment_and_then_the_planner(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert Path("run", MARK) == PLANNER_MARK
+    assert Path("run", "planner", MARK) == PLANNER_MARK
     monkeypatch.setenv("PONS_HOME", str(tmp_path))
     assert (load().tls, load().url[:7]) == (False, "http://")
-    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "planner").mkdir(parents=True)
     (tmp_path / PLANNER_MARK).touch()
     assert (load().tls, load().url[:8]) == (True, "https://")
     monkeypatch.setenv("PONS_TLS", "0")

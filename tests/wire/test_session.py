@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import socket
 import time
 from collections.abc import Callable
+from contextlib import ExitStack, closing
 from functools import partial
 from pathlib import Path
 
 import pytest
 
 from tests.wire.examples import EXAMPLES
-from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Stop
-from wire.keys import CAMERA_COLOR, KEYS, SCAN, STOP, Party
+from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Status, Stop, encode
+from wire.doors import BRIDGE_DOOR
+from wire.keys import ANY_ROBOT, CAMERA_COLOR, KEYS, SCAN, STATUS, STOP, Party
 from wire.session import Publisher, Subscriber, open_session
+from wire.sockets import Endpoints
 
 LIMIT_S = 10.0
 
@@ -61,6 +65,29 @@ def test_a_restarted_listener_is_found_again(tmp_path: Path) -> None:
                 assert until(heard)
 
 
+def test_operators_and_judges_may_be_many_and_leave_nothing(tmp_path: Path) -> None:
+    with ExitStack() as stack:
+        for party in (Party.OPERATOR, Party.OPERATOR, Party.JUDGE, Party.JUDGE):
+            stack.enter_context(open_session(party, "r1", tmp_path))
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_any_robot_is_heard_and_told_by_who_does_not_know_which_is_there(tmp_path: Path) -> None:
+    with (
+        open_session(Party.BRIDGE, "r7", tmp_path) as bridge,
+        open_session(Party.OPERATOR, ANY_ROBOT, tmp_path) as operator,
+    ):
+        heard = partial(say_and_hear, operator.publisher(STOP), bridge.subscriber(STOP), stop(1))
+        assert until(heard)
+        mouth, ears = bridge.publisher(STATUS), operator.subscriber(STATUS)
+
+        def told() -> bool:
+            mouth.put_bytes(encode(EXAMPLES[Status]))
+            return ears.newest() is not None
+
+        assert until(told)
+
+
 def test_another_robots_messages_are_not_heard(tmp_path: Path) -> None:
     with (
         open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
@@ -73,6 +100,20 @@ def test_another_robots_messages_are_not_heard(tmp_path: Path) -> None:
             mouth.put(stop(number))
             time.sleep(0.002)
         assert ears.drain().arrived == 0
+
+
+def test_a_door_on_another_host_is_reached_by_tcp(tmp_path: Path) -> None:
+    with closing(socket.create_server(("127.0.0.1", 0))) as free:
+        address = f"127.0.0.1:{free.getsockname()[1]}"
+    where = Endpoints(tmp_path, {BRIDGE_DOOR: address})
+    with (
+        open_session(Party.BRIDGE, "r1", tmp_path, where) as bridge,
+        open_session(Party.PLANNER, "r1", tmp_path, where) as planner,
+    ):
+        assert not where.socket(BRIDGE_DOOR).exists()
+        assert until(
+            partial(say_and_hear, planner.publisher(STOP), bridge.subscriber(STOP), stop(1))
+        )
 
 
 def test_state_keeps_only_the_newest(tmp_path: Path) -> None:
@@ -148,8 +189,8 @@ def test_all_that_one_tick_says_arrives(tmp_path: Path) -> None:
 
 
 def test_a_closed_session_gives_nothing(tmp_path: Path) -> None:
-    session = open_session(Party.BRIDGE, "r1", tmp_path)
-    ears, eyes = session.subscriber(STOP), session.image_subscriber(CAMERA_COLOR)
+    session = open_session(Party.PLANNER, "r1", tmp_path)
+    ears, eyes = session.subscriber(STATUS), session.image_subscriber(CAMERA_COLOR)
     session.close()
     assert ears.newest() is None
     assert eyes.newest() is None

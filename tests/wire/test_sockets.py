@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import os
+import socket
+import stat
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
 from wire import Misconfigured
+from wire.doors import BRIDGE_DOOR, DRIVE_DOOR, SENSES_DOOR
 from wire.keys import Party
-from wire.sockets import MAX_SOCKET_PATH, Claim, Endpoints
+from wire.session import open_session
+from wire.sockets import MAX_SOCKET_PATH, Claim, Endpoints, misplaced_listener
+
+BRIDGE, SIM, OPERATOR = 61_001, 61_003, 61_004
+"""Users of nobody's."""
 
 HOLDER = """
 import sys, time
@@ -27,20 +37,20 @@ time.sleep(60)
 def test_a_path_too_long_is_refused_before_anything_is_opened() -> None:
     home = Path("/" + "x" * MAX_SOCKET_PATH)
     with pytest.raises(Misconfigured) as refused:
-        Endpoints(home).locator(Party.BRIDGE)
+        Endpoints(home).locator(BRIDGE_DOOR)
     assert refused.value.code == "socket_path_too_long"
     assert "PONS_HOME" in refused.value.detail
 
 
 def test_the_longest_path_passes() -> None:
-    room = MAX_SOCKET_PATH - len("/run/bridge.sock")
-    locator = Endpoints(Path("/" + "x" * (room - 1))).locator(Party.BRIDGE)
+    room = MAX_SOCKET_PATH - len("/run/bridge/bridge.sock")
+    locator = Endpoints(Path("/" + "x" * (room - 1))).locator(BRIDGE_DOOR)
     assert len(locator.removeprefix("unixsock-stream/")) == MAX_SOCKET_PATH
 
 
 def test_tcp_takes_the_place_of_the_socket() -> None:
-    where = Endpoints(Path("/home"), {Party.ROBOT: "10.0.0.2:7447"})
-    assert where.locator(Party.ROBOT) == "tcp/10.0.0.2:7447"
+    where = Endpoints(Path("/home"), {DRIVE_DOOR: "10.0.0.2:7447"})
+    assert where.locator(DRIVE_DOOR) == "tcp/10.0.0.2:7447"
 
 
 def test_a_second_claim_names_the_first(tmp_path: Path) -> None:
@@ -68,12 +78,6 @@ def test_different_parties_do_not_disturb_each_other(tmp_path: Path) -> None:
         claim.close()
 
 
-def test_judges_may_be_many(tmp_path: Path) -> None:
-    claims = [Claim(tmp_path, Party.JUDGE, shared=True) for _ in range(3)]
-    for claim in claims:
-        claim.close()
-
-
 def test_a_killed_holder_leaves_no_lock(tmp_path: Path) -> None:
     holder = subprocess.Popen(
         [sys.executable, "-c", HOLDER, str(tmp_path)], stdout=subprocess.PIPE, text=True
@@ -86,3 +90,118 @@ def test_a_killed_holder_leaves_no_lock(tmp_path: Path) -> None:
     holder.wait()
     holder.stdout.close()
     Claim(tmp_path, Party.BRIDGE).close()
+
+
+def mode(path: Path) -> int:
+    return stat.S_IMODE(path.stat().st_mode)
+
+
+def test_a_door_has_a_folder_for_its_listener_alone(tmp_path: Path) -> None:
+    with open_session(Party.BRIDGE, "r1", tmp_path):
+        for door in (BRIDGE_DOOR, SENSES_DOOR):
+            path = Endpoints(tmp_path).socket(door)
+            assert (mode(path.parent), mode(path)) == (0o700, 0o600)
+    assert mode(tmp_path / "run") == 0o700
+
+
+def test_a_folder_that_a_group_may_enter_lets_it_connect_and_nothing_else(tmp_path: Path) -> None:
+    """As tmpfiles.d makes it for users of their own, whatever the umask of the listener is."""
+    folder = Endpoints(tmp_path).socket(BRIDGE_DOOR).parent
+    folder.mkdir(parents=True)
+    folder.chmod(0o2770)
+    before = os.umask(0o077)
+    try:
+        with open_session(Party.BRIDGE, "r1", tmp_path):
+            assert mode(folder) & 0o777 == 0o750, "its own folder is shut against others' writing"
+            assert mode(Endpoints(tmp_path).socket(BRIDGE_DOOR)) == 0o660
+            assert mode(folder / "bridge.lock") == 0o600
+    finally:
+        os.umask(before)
+
+
+@contextmanager
+def acting_as(uid: int) -> Iterator[None]:
+    """Be another user in this process for a moment; root comes back."""
+    os.setegid(uid)
+    os.seteuid(uid)
+    try:
+        yield
+    finally:
+        os.seteuid(0)
+        os.setegid(0)
+
+
+@pytest.fixture
+def home() -> Iterator[Path]:
+    """Give a folder that any user may enter: pytest's own are for one user."""
+    with TemporaryDirectory(prefix="pw-") as folder:
+        Path(folder).chmod(0o777)
+        yield Path(folder)
+
+
+ROOT_ONLY = pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
+
+
+@ROOT_ONLY
+@pytest.mark.parametrize("name", ["run", "run/bridge"])
+@pytest.mark.parametrize(
+    ("owner", "bits", "exposed"),
+    [(SIM, 0o755, True), (SIM, 0o700, True), (0, 0o777, True), (0, 0o1777, False)],
+)
+def test_a_folder_in_which_others_could_replace_a_socket_is_refused(
+    home: Path, name: str, owner: int, bits: int, exposed: bool
+) -> None:
+    folder = home / name
+    with acting_as(BRIDGE):
+        folder.mkdir(parents=True)
+    os.chown(folder, owner, owner)
+    folder.chmod(bits)
+    with acting_as(BRIDGE), ExitStack() as stack:
+        if not exposed:
+            stack.callback(Claim(home, Party.BRIDGE).close)
+            return
+        with pytest.raises(Misconfigured) as refused:
+            Claim(home, Party.BRIDGE)
+    assert refused.value.code == "socket_folder_exposed"
+    assert str(folder) in refused.value.detail
+
+
+@ROOT_ONLY
+@pytest.mark.parametrize(
+    ("listener", "folder", "run", "believed"),
+    [
+        (BRIDGE, BRIDGE, 0, True),
+        (SIM, BRIDGE, 0, False),
+        (0, BRIDGE, 0, True),
+        (OPERATOR, OPERATOR, OPERATOR, True),
+        (BRIDGE, BRIDGE, SIM, False),  # who owns run/ may have put any folder there
+        (SIM, SIM, SIM, False),
+    ],
+)
+def test_a_listener_is_believed_where_it_owns_the_folder_that_nobody_could_replace(
+    home: Path, listener: int, folder: int, run: int, believed: bool
+) -> None:
+    path = Endpoints(home).socket(BRIDGE_DOOR)
+    path.parent.mkdir(parents=True)
+    for place, owner in ((path.parent, folder), (home / "run", run)):
+        os.chown(place, owner, owner)
+        place.chmod(0o755)
+    with closing(socket.socket(socket.AF_UNIX)) as listening:
+        path.parent.chmod(0o777)
+        with acting_as(listener):
+            listening.bind(str(path))
+            path.chmod(0o777)
+            listening.listen()
+        path.parent.chmod(0o755)
+        with acting_as(OPERATOR):
+            trouble = misplaced_listener(home, BRIDGE_DOOR)
+    assert (trouble is None) is believed
+    if trouble is not None:
+        assert trouble.startswith(f"wrong_listener: user {listener} listens at {path}, expected ")
+
+
+def test_who_cannot_be_asked_is_not_believed(tmp_path: Path) -> None:
+    trouble = misplaced_listener(tmp_path, BRIDGE_DOOR)
+    assert trouble is not None
+    assert trouble.startswith("wrong_listener: ")
+    assert trouble.endswith("can't be told: No such file or directory")

@@ -58,14 +58,29 @@ HEARD: tuple[tuple[k.Key[Record], Record], ...] = (
 
 
 @pytest.fixture(scope="module")
-def ends() -> Iterator[tuple[Session, WireBus]]:
+def home() -> Iterator[Path]:
+    with tempfile.TemporaryDirectory(prefix="pons-") as folder:
+        yield Path(folder)
+
+
+@pytest.fixture(scope="module")
+def ends(home: Path) -> Iterator[tuple[Session, WireBus]]:
     """Return the bridge's session and the planner's bus of one home."""
     with (
-        tempfile.TemporaryDirectory(prefix="pons-") as home,
-        open_session(Party.BRIDGE, "r1", Path(home)) as bridge,
-        open_session(Party.PLANNER, "r1", Path(home)) as session,
+        open_session(Party.BRIDGE, "r1", home) as bridge,
+        open_session(Party.PLANNER, "r1", home) as session,
     ):
         yield bridge, WireBus(session)
+
+
+@pytest.fixture(scope="module")
+def senders(home: Path, ends: tuple[Session, WireBus]) -> Iterator[dict[Party, Session]]:
+    """Return the sessions of all whom the planner hears."""
+    with (
+        open_session(Party.ROBOT, "r1", home) as robot,
+        open_session(Party.LOCALIZATION, "r1", home) as localization,
+    ):
+        yield {Party.BRIDGE: ends[0], Party.ROBOT: robot, Party.LOCALIZATION: localization}
 
 
 def until(say: Callable[[], None], heard: Callable[[], bool]) -> None:
@@ -110,10 +125,14 @@ def test_what_is_no_command_is_refused(ends: tuple[Session, WireBus]) -> None:
 
 @pytest.mark.parametrize(("key", "message"), HEARD, ids=lambda x: getattr(x, "path", ""))
 def test_each_word_reaches_the_planner(
-    ends: tuple[Session, WireBus], key: k.Key[Record], message: Record
+    ends: tuple[Session, WireBus],
+    senders: dict[Party, Session],
+    key: k.Key[Record],
+    message: Record,
 ) -> None:
-    bridge, bus = ends
-    publisher = bridge.publisher(key)
+    bus = ends[1]
+    (sender,) = key.senders
+    publisher = senders[sender].publisher(key)
     reads: dict[str, Callable[[], object]] = {
         "bridge/status": bus.status,
         "bridge/odom": bus.odometry,

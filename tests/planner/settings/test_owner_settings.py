@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.settings import FILE, Mode, ModelSettings, load_settings
+from planner.settings import FILE, Mode, ModelSettings, exposed, load_settings
 from wire import Misconfigured
 
 KEY = "sk-secret-0123456789"
@@ -159,3 +159,40 @@ def test_no_error_and_no_repr_shows_a_key(tmp_path: Path) -> None:
             model(tmp_path, broken)
         shown.append(f"{wrong.value!r} {wrong.value} {wrong.value.__cause__}")
     assert KEY not in "\n".join(shown)
+
+
+@pytest.mark.parametrize(
+    ("mode", "key", "told"),
+    [
+        (0o600, True, None),
+        (0o640, False, None),
+        (0o644, False, None),
+        (0o640, True, "others can read the key"),
+        (0o604, True, "others can read the key"),
+        (0o666, True, "others can change it"),
+        (0o620, False, "others can change it"),
+    ],
+)
+def test_a_key_that_others_can_read_or_redirect_is_told_aloud(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, mode: int, key: bool, told: str | None
+) -> None:
+    path = tmp_path / "settings.toml"
+    line = 'key = "sk-very-secret"\n' if key else ""
+    path.write_text(f'[model]\nurl = "http://127.0.0.1:1/v1"\nname = "m"\n{line}')
+    path.chmod(mode)
+    load_settings(tmp_path, {})
+    said = [record.getMessage() for record in caplog.records]
+    assert ["settings_exposed" in text and told in text for text in said if told] == [True] * bool(
+        told
+    )
+    assert "sk-very" not in caplog.text
+    assert bool(exposed(tmp_path)) is (told is not None)
+
+
+def test_a_key_file_that_others_can_read_is_told(tmp_path: Path) -> None:
+    (tmp_path / "settings.toml").write_text('[model]\nkey_file = "k"\n')
+    (tmp_path / "settings.toml").chmod(0o600)
+    assert exposed(tmp_path) == []
+    (tmp_path / "k").write_text("secret")
+    (tmp_path / "k").chmod(0o644)
+    assert exposed(tmp_path) == [f"{tmp_path / 'k'} has mode 0644: others can read the key in it"]

@@ -44,7 +44,8 @@ def eavesdropping(party: Party, robot_id: str, home: Any) -> Session:
         except (ValueError, TypeError):
             return
 
-    EARS.append(session._zenoh.declare_subscriber(EXTERNAL.expression(robot_id), hear))
+    (link,) = session.links_inward(EXTERNAL)
+    EARS.append(link.declare_subscriber(EXTERNAL.expression(robot_id), hear))
     return session
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import shutil
@@ -19,6 +18,8 @@ from pons.__main__ import main
 from pons.doctor import command, jitter, machine, mind, place
 from pons.doctor.finding import Finding, Verdict, Words
 from pons.settings import CHECKOUT, Settings
+from wire.doors import BRIDGE_DOOR
+from wire.sockets import Endpoints
 
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
 
@@ -66,7 +67,7 @@ def test_every_check_reports_once_and_nothing_is_made(
 ) -> None:
     settings, found = examined
     names = [one.name for one in found]
-    assert len(set(names)) == len(names) == 14
+    assert len(set(names)) == len(names) == 15
     for one in found:
         assert_says(one, one.verdict)
     assert not settings.home.exists(), "the doctor makes nothing"
@@ -108,7 +109,7 @@ def test_a_check_that_is_cut_short_hides_no_other(
 
     monkeypatch.setattr(machine, "locked_memory", broken)
     found = {one.name: one for one in command.findings(settings)}
-    assert len(found) == 14
+    assert len(found) == 15
     assert_says(found["locked_memory"], Verdict.FAIL, "could not be checked", str(error))
 
 
@@ -219,14 +220,13 @@ def test_a_full_disk_is_told_before_it_is_full(
 
 def test_sockets_too_long_dead_and_alive(tmp_path: Path) -> None:
     assert_says(place.sockets(tmp_path / ("x" * 120)), Verdict.FAIL, "107")
-    run = tmp_path / "run"
-    run.mkdir()
-    (run / "bridge.sock").touch()
-    (run / "bridge.lock").touch()
-    assert_says(place.sockets(tmp_path), Verdict.OK, "dead processes", "bridge")
-    with (run / "bridge.lock").open() as held:
-        fcntl.flock(held, fcntl.LOCK_EX)
+    path = Endpoints(tmp_path).socket(BRIDGE_DOOR)
+    path.parent.mkdir(parents=True)
+    with closing(socket.socket(socket.AF_UNIX)) as listener:
+        listener.bind(str(path))
+        listener.listen()
         assert_says(place.sockets(tmp_path), Verdict.OK, "running robot: bridge")
+    assert_says(place.sockets(tmp_path), Verdict.OK, "dead processes", "bridge")
 
 
 def test_a_taken_port_is_a_fault_unless_the_robot_has_it() -> None:
@@ -298,3 +298,11 @@ def test_what_cyclictest_says_is_read_or_left_out() -> None:
     assert row.max_us == 133.0
     assert "mean 23" in row.cells()[0]
     assert jitter.cyclictest_row("unable to set scheduler", 500, 60) == []
+
+
+def test_keys_that_lie_open_are_told(tmp_path: Path) -> None:
+    assert_says(place.secrets(tmp_path, virtual=True), Verdict.OK, "no key lies open")
+    assert_says(place.secrets(tmp_path, virtual=False), Verdict.FAIL, "operator_key_missing")
+    (tmp_path / "settings.toml").write_text('[model]\nkey = "k"\n')
+    (tmp_path / "settings.toml").chmod(0o644)
+    assert_says(place.secrets(tmp_path, virtual=True), Verdict.WARN, "read the key in it")

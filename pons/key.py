@@ -1,0 +1,45 @@
+"""Make the operator's key: ``pons key new``. It never replaces one and never prints one."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import sys
+from typing import TYPE_CHECKING
+
+from bridge.operator_key import FILE
+
+if TYPE_CHECKING:
+    from pons.settings import Settings
+
+KEY_BYTES = 32
+"""Of chance, written in hexadecimal: nobody guesses it, and a person can type it into the page."""
+EXIT_DONE, EXIT_REFUSED = 0, 3
+
+
+def run(settings: Settings) -> int:
+    """Write $PONS_HOME/operator.key for this user alone; 0 made, 3 refused."""
+    path = settings.home / FILE
+    try:
+        opened = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600)
+    except FileExistsError:
+        print(
+            f"operator_key_exists: {path} is there and stays; remove it first, then page and "
+            f"shells need the new one / {path} 已存在，不会覆盖；请先删除旧密钥",
+            file=sys.stderr,
+        )
+        return EXIT_REFUSED
+    except OSError as error:
+        print(
+            f"home_unwritable: {path}: {error.strerror}; run this as the bridge's user / "
+            "无法写入；请以 bridge 的用户执行",
+            file=sys.stderr,
+        )
+        return EXIT_REFUSED
+    with os.fdopen(opened, "w", encoding="ascii") as file:
+        file.write(secrets.token_hex(KEY_BYTES) + "\n")
+    print(
+        f"made {path}: {KEY_BYTES} random bytes, readable by this user alone; the bridge takes it "
+        f"at its next start / 已生成 {path}，仅当前用户可读；bridge 下次启动时生效"
+    )
+    return EXIT_DONE
