@@ -34,12 +34,11 @@ def test_a_guided_fuzzer_ends_with_its_count_or_its_crash() -> None:
     assert (bad.n, bad.met) == (7, False)
 
 
-def test_children_are_killed_when_their_time_is_up() -> None:
-    commands = (("timeit", "-n1", "-r1", "pass"), ("timeit", "-n1", "-r1", "-s",
-                "import time; time.sleep(60)", "pass"))  # fmt: skip
-    found = dict(side_by_side(commands, 5.0))
-    assert found[0].status == 0
-    assert found[1].status is None
+def test_a_child_that_ends_is_heard_and_one_that_does_not_is_killed() -> None:
+    quick = ("timeit", "-n1", "-r1", "pass")
+    endless = ("timeit", "-n1", "-r1", "-s", "import time; time.sleep(60)", "pass")
+    assert [(at, ended.status) for at, ended in side_by_side([quick], 60.0)] == [(0, 0)]
+    assert [(at, ended.status) for at, ended in side_by_side([endless], 0.2)] == [(0, None)]
 
 
 def test_each_check_of_the_contract_has_a_line() -> None:
