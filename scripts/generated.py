@@ -32,6 +32,7 @@ GENERATORS = (
     Generator("sim.site", "sites/"),
     Generator("planner.openapi", "openapi.json"),
     Generator("scripts.page_words", "web/src/i18n/"),
+    Generator("scripts.threats", "docs/security.md"),
     Generator("scripts.sbom", "sbom.cdx.json, docs/licences.md"),
 )
 

@@ -31,7 +31,7 @@ This page is printed from the bridge's tables by `python -m bridge.core.docs`; e
 The bridge wakes every 10 ms, looks at everything below, and sends the drive exactly one command.
 It is protective software with measured behaviour, not a safety device: a planar lidar sees neither
 stairs nor table tops, the fence is as true as localization, and a planner on the same user account
-can read what that user can read. Wire a real stop button.
+can do what that user can do ([security.md](security.md)). Wire a real stop button.
 
 ## Actions
 
