@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 SPEC_FILE = "home.yaml"
 
 
+UNREADABLE = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
+"""What PyYAML ends in: beside its own errors whatever its makers of values raise."""
 _BOOL = "tag:yaml.org,2002:bool"
 
 
@@ -61,9 +63,10 @@ def parse_home(text: str, where: str) -> Home:
     """
     try:
         raw = yaml.load(text, Loader=_OnceLoader)
-        home = Home.model_validate(raw)
-    except yaml.YAMLError as error:
+    except UNREADABLE as error:
         raise Misconfigured("home_syntax", f"{where}: {' '.join(str(error).split())}") from None
+    try:
+        home = Home.model_validate(raw)
     except ValidationError as error:
         raise Misconfigured("home_invalid", f"{where}: {explain(error)}") from None
     check(home, where)
