@@ -171,7 +171,28 @@ def alias_bomb() -> bytes:
 
 
 def _yaml_bombs() -> list[bytes]:
-    return [alias_bomb(), b"[" * 20_000, b"a: " * 5_000, b"? " * 5_000, b"- " * 20_000]
+    return [
+        alias_bomb(),
+        b"[" * 20_000,
+        b"a: " * 5_000,
+        b"? " * 5_000,
+        b"- " * 20_000,
+        b"a: " + b"9" * 5_000,
+        b"a: 2001-99-99",
+        *_tag_bombs(),
+    ]
+
+
+def _tag_bombs() -> list[bytes]:
+    """Return YAML whose tags name makers of values that can't make these."""
+    tags = ("int", "float", "bool", "null", "timestamp", "binary", "omap", "pairs", "set", "map")
+    return [f"a: !!{tag} {value}".encode() for tag in tags for value in ("''", "x", "[a]", "9999")]
+
+
+def _toml_bombs() -> list[bytes]:
+    tables = b"".join(b"[" + b"a." * n + b"b]\n" for n in range(1, 250))
+    return [b"a = " + b"[" * 50_000, b"a = " + b"{b=" * 9_000, b"a = " + b"9" * 5_000, tables,
+            b"a." * 20_000 + b"b = 1", b"a = 1979-05-27T99:00:00Z"]  # fmt: skip
 
 
 def _json_bombs() -> list[bytes]:
@@ -208,14 +229,14 @@ def _chunk(kind: bytes, body: bytes) -> bytes:
 
 
 def _mcap_bombs() -> list[bytes]:
-    """Return a box whose one chunk holds a gigabyte of zeros in a few kilobytes."""
+    """Return boxes whose one chunk holds a gigabyte of zeros in a few kilobytes."""
     import zstandard
 
-    packer = zstandard.ZstdCompressor().compressobj()
-    piece = bytes(1 << 20)
-    packed = b"".join([*(packer.compress(piece) for _ in range(1024)), packer.flush()])
+    piece, whole = bytes(1 << 20), 1 << 30
     bombs = []
-    for claimed in (1000, 1 << 27, 1 << 30):
+    for claimed, framed in ((1000, whole), (1 << 27, whole), (1 << 27, -1), (whole, whole)):
+        packer = zstandard.ZstdCompressor().compressobj(size=framed)
+        packed = b"".join([*(packer.compress(piece) for _ in range(1024)), packer.flush()])
         body = struct.pack("<QQQI", 0, 0, claimed, 0) + struct.pack("<I", 4) + b"zstd"
         body += struct.pack("<Q", len(packed)) + packed
         bombs.append(b"\x89MCAP0\r\n" + struct.pack("<BQ", 6, len(body)) + body)
@@ -242,8 +263,8 @@ KINDS = (
     FileKind("places.yaml", "places.yaml", seeds.places, _places, _yaml_bombs),
     FileKind("home.yaml", "home.yaml", seeds.homes, _home, _yaml_bombs),
     FileKind("fence.json", "fence.json", seeds.fences, _fence, _fence_bombs),
-    FileKind("robot.toml", "robot.toml", seeds.robots, _robot, _json_bombs),
-    FileKind("settings.toml", "settings.toml", lambda: seeds.SETTINGS, _settings, _json_bombs),
+    FileKind("robot.toml", "robot.toml", seeds.robots, _robot, _toml_bombs),
+    FileKind("settings.toml", "settings.toml", lambda: seeds.SETTINGS, _settings, _toml_bombs),
     FileKind("kept JSON", "kept.json", seeds.kept, _kept, _json_bombs),
     FileKind("labels", "labels.txt", lambda: [b'["cup", "chair"]', b"cup\nchair\n"], _labels,
              _json_bombs),

@@ -260,12 +260,14 @@ def load_robot(path: Path) -> RobotDescription:
         return RobotDescription.model_validate(tomllib.loads(text), strict=True)
     except OSError as error:
         raise Misconfigured("robot_toml_missing", f"{path}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Misconfigured("robot_toml_syntax", f"{path}: {error}") from None
     except ValidationError as error:
         raise Misconfigured(
             "robot_toml_invalid", f"{path}: {explain(error, RobotDescription)}"
         ) from None
+    except ValueError as error:  # no TOML, no UTF-8, or a number of thousands of digits
+        raise Misconfigured("robot_toml_syntax", f"{path}: {error}") from None
+    except RecursionError:
+        raise Misconfigured("robot_toml_syntax", f"{path}: nested too deeply") from None
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str:

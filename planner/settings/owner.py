@@ -115,7 +115,7 @@ def _tables(path: Path) -> dict[str, Any]:
         raise Misconfigured("settings_malformed", f"{path} is over {MAX_BYTES} bytes")
     try:
         return tomllib.loads(raw.decode())
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError):
+    except (ValueError, RecursionError):  # of a number of thousands of digits, too
         # The parser's own words may quote the line that holds a key.
         raise Misconfigured("settings_malformed", f"{path} is no TOML in UTF-8") from None
 

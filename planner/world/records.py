@@ -21,6 +21,11 @@ MAX_TEXT_BYTES = 4_000_000
 """A site of a thousand places is a tenth of this; more is a mistake or an attack on memory."""
 
 
+UNREADABLE = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
+"""What PyYAML ends in: beside its own errors whatever its makers of values raise, for it tells a
+``!!bool x`` by KeyError, a ``!!timestamp x`` by AttributeError and a ``!!int ''`` by IndexError."""
+
+
 class Record(BaseModel):
     """Be the frozen, closed base of every record that a site file holds."""
 
@@ -52,7 +57,7 @@ def parse_yaml(data: bytes, model: type[R], where: Path) -> R:
     """
     try:
         value = yaml.load(data, Loader=_UniqueKeys)
-    except (yaml.YAMLError, UnicodeDecodeError, ValueError, RecursionError) as error:
+    except UNREADABLE as error:
         raise SiteError("yaml_malformed", f"{where}: {error}") from error
     return _checked(value, model, where)
 

@@ -25,6 +25,8 @@ SPEC_FILE = "home.yaml"
 MOST_BYTES = 4_000_000
 
 
+UNREADABLE = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
+"""What PyYAML ends in: beside its own errors whatever its makers of values raise."""
 _BOOL = "tag:yaml.org,2002:bool"
 
 
@@ -71,9 +73,10 @@ def parse_home(text: str, where: str) -> Home:
     """
     try:
         raw = yaml.load(text, Loader=_OnceLoader)
-        home = Home.model_validate(raw)
-    except yaml.YAMLError as error:
+    except UNREADABLE as error:
         raise Misconfigured("home_syntax", f"{where}: {' '.join(str(error).split())}") from None
+    try:
+        home = Home.model_validate(raw)
     except ValidationError as error:
         raise Misconfigured("home_invalid", f"{where}: {explain(error)}") from None
     check(home, where)

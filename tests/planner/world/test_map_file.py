@@ -124,7 +124,10 @@ def test_a_wrong_value_is_refused_by_name(
         b"image: a\nimage: b\n",
         b"1: 2\n",
         b"a: &a [*a]",
+        *(b"a: !!timestamp x", b"a: !!bool x", b"a: !!int ''", b"a: !!float x", b"a: !!map [a]"),
+        *(b"a: 2001-99-99", b"a: " + b"9" * 5_000, b"[" * 20_000),
     ],
+    ids=lambda text: str(text[:20]),
 )
 def test_what_is_no_map_yaml_is_refused(tmp_path: Path, text: bytes) -> None:
     path = tmp_path / "map.yaml"

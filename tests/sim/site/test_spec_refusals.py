@@ -97,7 +97,13 @@ def test_all_findings_of_a_stage_are_told_at_once() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[]", "- 1", "? [a]\n: 1", "&a [*a]", "!!python/name:os.system"]
+    "text",
+    [
+        *("", "[]", "- 1", "? [a]\n: 1", "&a [*a]", "!!python/name:os.system", "a: !!timestamp x"),
+        *("a: !!bool x", "a: !!int ''", "a: !!float x", "a: !!map [a]", "a: 2001-99-99"),
+        *("a: " + "9" * 5_000, "[" * 20_000, "- " * 20_000),
+    ],
+    ids=lambda text: text[:20],
 )
 def test_what_is_no_declaration_is_refused_and_nothing_else(text: str) -> None:
     with pytest.raises(Misconfigured) as refusal:
