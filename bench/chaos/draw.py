@@ -17,7 +17,7 @@ FREEZE_S, STALL_S, OTHER_S = (0.15, 5.0), (0.2, 3.0), (0.5, 7.0)
 TWO_AT_ONCE, STOPPED, GOES_ON = 0.25, 1 / 3, 0.15
 
 
-class Kind(StrEnum):
+class FaultKind(StrEnum):
     """Name what can happen to a robot."""
 
     KILL = "kill -9"
@@ -32,17 +32,24 @@ class Kind(StrEnum):
 
 
 WEIGHTS = {
-    Kind.KILL: 4, Kind.FREEZE: 4, Kind.MEMORY: 3, Kind.LIDAR: 1, Kind.DISK_FULL: 1,
-    Kind.READ_ONLY: 1, Kind.SLOW_DISK: 1, Kind.STALL: 1, Kind.SOCKET: 1,
-}  # fmt: skip
-OF_A_PROCESS = frozenset({Kind.KILL, Kind.FREEZE, Kind.MEMORY})
+    FaultKind.KILL: 4,
+    FaultKind.FREEZE: 4,
+    FaultKind.MEMORY: 3,
+    FaultKind.LIDAR: 1,
+    FaultKind.DISK_FULL: 1,
+    FaultKind.READ_ONLY: 1,
+    FaultKind.SLOW_DISK: 1,
+    FaultKind.STALL: 1,
+    FaultKind.SOCKET: 1,
+}
+OF_A_PROCESS = frozenset({FaultKind.KILL, FaultKind.FREEZE, FaultKind.MEMORY})
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class Breakage:
     """Describe one fault; moments count from the mission's acceptance [s]."""
 
-    kind: Kind
+    kind: FaultKind
     target: str
     """A process, a fault of the simulated lidar, a listener, or nothing."""
     at_s: float
@@ -56,7 +63,7 @@ class Fault:
 
 
 @dataclass(frozen=True, slots=True)
-class StopOrder:
+class StopDrawn:
     """Describe how and when a person says stop."""
 
     way: str
@@ -72,8 +79,8 @@ class Episode:
     mission: str
     says: tuple[str, ...]
     """Sentences that the mission is to say, each once."""
-    faults: tuple[Fault, ...]
-    stop: StopOrder | None
+    faults: tuple[Breakage, ...]
+    stop: StopDrawn | None
     goes_on: bool
     """The person resumes the mission afterwards; else it is cancelled."""
     last: str
@@ -95,26 +102,26 @@ def draw(number: int) -> Episode:
     stop = None
     if chance.random() < STOPPED:
         at_s = max(0.1, first.at_s + chance.uniform(-1.5, 2.5))
-        stop = StopOrder(chance.choice(("http", "cli")), round(at_s, 3))
+        stop = StopDrawn(chance.choice(("http", "cli")), round(at_s, 3))
     goes_on = chance.random() < GOES_ON or bool(says)
     return Episode(number, mission, says, tuple(faults), stop, goes_on, _last(chance))
 
 
-def _fault(chance: Random, at_s: float) -> Fault:
+def _fault(chance: Random, at_s: float) -> Breakage:
     kind = chance.choices(list(WEIGHTS), list(WEIGHTS.values()))[0]
     target, span_s = "", OTHER_S
     if kind in OF_A_PROCESS:
         target = chance.choice(PROCESSES)
-    if kind is Kind.LIDAR:
+    if kind is FaultKind.LIDAR:
         target = chance.choice(LIDAR)
-    if kind is Kind.SOCKET:
+    if kind is FaultKind.SOCKET:
         target = chance.choice(LISTENERS)
-    if kind in (Kind.FREEZE, Kind.STALL):
-        span_s = FREEZE_S if kind is Kind.FREEZE else STALL_S
+    if kind in (FaultKind.FREEZE, FaultKind.STALL):
+        span_s = FREEZE_S if kind is FaultKind.FREEZE else STALL_S
     for_s = exp(chance.uniform(log(span_s[0]), log(span_s[1])))
-    if kind in (Kind.KILL, Kind.SOCKET):
+    if kind in (FaultKind.KILL, FaultKind.SOCKET):
         for_s = 0.0
-    return Fault(kind, target, round(at_s, 3), round(for_s, 3))
+    return Breakage(kind, target, round(at_s, 3), round(for_s, 3))
 
 
 ROOMS = {

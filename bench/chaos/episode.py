@@ -8,9 +8,9 @@ import time
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
-from bench.chaos.draw import Episode, Kind
+from bench.chaos.draw import Episode, FaultKind
 from bench.chaos.faults import NEEDS_MOUNTS, OWNER_OF, broken, found, sockets
-from bench.chaos.person import Person, Stopping, say_stop
+from bench.chaos.person import Bystander, StopTold, say_stop
 from bench.chaos.verdict import contacts, judge_stop, said_twice, turned
 from bench.lab import Missed, line, until
 from pons.http import PlannerDown, Refused
@@ -31,10 +31,10 @@ class Play:
 
     def __init__(self, house: House, witness: Witness, episode: Episode) -> None:
         self.house, self.witness, self.episode = house, witness, episode
-        self.person = Person(house, witness)
+        self.person = Bystander(house, witness)
         self.began_s = time.monotonic()
         self.told: dict[str, Any] = {**episode.record(), "words": [], "evidence": {}}
-        self.stopping = Stopping()
+        self.stopping = StopTold()
 
     def run(self) -> dict[str, Any]:
         """Play it; whatever happens, everything is mended, and told."""
@@ -116,7 +116,7 @@ class Play:
 
     def _sockets(self) -> list[str]:
         """Wait for removed sockets; where one stays away a person ends its process by hand."""
-        gone = [f.target for f in self.episode.faults if f.kind is Kind.SOCKET]
+        gone = [f.target for f in self.episode.faults if f.kind is FaultKind.SOCKET]
         try:
             until(lambda: all(sockets(self.house.home, name) for name in gone), SOCKET_S, "sockets")
         except Missed:

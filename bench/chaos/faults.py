@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import psutil
 
-from bench.chaos.draw import Fault, Kind
+from bench.chaos.draw import Breakage, FaultKind
 from bench.chaos.house import House, read_only
 from wire import SimControl, SimFault, load_robot
 from wire.keys import SIM_CONTROL, Party
@@ -23,35 +23,35 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
     from pathlib import Path
 
-NEEDS_MOUNTS = frozenset({Kind.DISK_FULL, Kind.READ_ONLY})
+NEEDS_MOUNTS = frozenset({FaultKind.DISK_FULL, FaultKind.READ_ONLY})
 CHUNK_BYTES = 32 << 20
 OWNER_OF = {"bridge": "bridge", "robot": "sim", "localization": "localization", "camera": "camera"}
 """Which process listens on a listener's socket."""
 
 
-def broken(house: House, fault: Fault) -> AbstractContextManager[str]:
+def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
     """Return what breaks it on entering, yields a word of what was found, and mends it on leaving.
 
     A process that does not live at that moment can't be broken: the word says so.
     """
     match fault.kind:
-        case Kind.KILL:
+        case FaultKind.KILL:
             return _killed(house, fault.target)
-        case Kind.FREEZE:
+        case FaultKind.FREEZE:
             return _frozen(found(house, fault.target))
-        case Kind.MEMORY:
+        case FaultKind.MEMORY:
             return _starved(house, fault.target)
-        case Kind.LIDAR:
+        case FaultKind.LIDAR:
             return _blind(house, SimFault(fault.target))
-        case Kind.DISK_FULL:
+        case FaultKind.DISK_FULL:
             return _full(house.home)
-        case Kind.READ_ONLY:
+        case FaultKind.READ_ONLY:
             return _unwritable(house.home)
-        case Kind.SLOW_DISK:
+        case FaultKind.SLOW_DISK:
             return _slow(house)
-        case Kind.STALL:
+        case FaultKind.STALL:
             return _frozen(house.processes())
-        case Kind.SOCKET:
+        case FaultKind.SOCKET:
             return _unlinked(house.home, fault.target)
 
 

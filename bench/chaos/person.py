@@ -27,7 +27,7 @@ TROUBLE = (PlannerDown, Refused)
 
 
 @dataclass
-class Stopping:
+class StopTold:
     """Tell of a stop: when it was first said, and when the bridge had confirmed it."""
 
     said_s: float = 0.0
@@ -35,7 +35,7 @@ class Stopping:
     trouble: str = ""
 
 
-def say_stop(house: House, way: str, told: Stopping) -> None:
+def say_stop(house: House, way: str, told: StopTold) -> None:
     """Say stop until it is confirmed; after one try over HTTP in the shell."""
     told.said_s = time.monotonic()
     if way == "http":
@@ -51,7 +51,7 @@ def say_stop(house: House, way: str, told: Stopping) -> None:
         _stop_in_shell(house, told)
 
 
-def _stop_in_shell(house: House, told: Stopping) -> None:
+def _stop_in_shell(house: House, told: StopTold) -> None:
     process = house.pons("stop")
     lines = []
     try:
@@ -68,7 +68,7 @@ def _stop_in_shell(house: House, told: Stopping) -> None:
         told.trouble = line(lines[-1] if lines else "pons stop said nothing")
 
 
-class Person:
+class Bystander:
     """Do what the robot's answers ask for, and nothing else."""
 
     def __init__(self, house: House, witness: Witness) -> None:

@@ -21,7 +21,7 @@ STOP_S = 1.5
 
 
 @dataclass(frozen=True, slots=True)
-class Sample:
+class TruthSample:
     """Hold where the robot truly was, and how fast, at one instant."""
 
     at_s: float
@@ -48,7 +48,7 @@ class Sample:
 
 
 @dataclass(frozen=True, slots=True)
-class Stopped:
+class StopVerdict:
     """Tell what became of the motion after a confirmed stop."""
 
     moving: bool
@@ -65,7 +65,7 @@ class Stopped:
         return self.late or bool(self.again)
 
 
-def judge_stop(trace: Sequence[Sample], confirmed_s: float, acts_s: float) -> Stopped:
+def judge_stop(trace: Sequence[TruthSample], confirmed_s: float, acts_s: float) -> StopVerdict:
     """Judge the span from a stop's confirmation to the first act of a person.
 
     A simulator that began anew in it has put the robot elsewhere: it must not move there at all.
@@ -73,7 +73,7 @@ def judge_stop(trace: Sequence[Sample], confirmed_s: float, acts_s: float) -> St
     span = [sample for sample in trace if confirmed_s <= sample.at_s < acts_s]
     boots = list(dict.fromkeys(sample.boot for sample in span))
     if not span:
-        return Stopped(False, 0.0, False, "")
+        return StopVerdict(False, 0.0, False, "")
     lives = [[sample for sample in span if sample.boot == boot] for boot in boots]
     moving, stood = span[0].moves, _stood(lives[0])
     if stood is None:
@@ -83,12 +83,12 @@ def judge_stop(trace: Sequence[Sample], confirmed_s: float, acts_s: float) -> St
         stood_s = stood.world_s - lives[0][0].world_s
         late, after = stood_s > STOP_S, [s for s in lives[0] if s.world_s >= stood.world_s]
     again = next((told for life in (after, *lives[1:]) if (told := _moved(life))), "")
-    return Stopped(moving, stood_s, late, again)
+    return StopVerdict(moving, stood_s, late, again)
 
 
-def _stood(life: Sequence[Sample]) -> Sample | None:
+def _stood(life: Sequence[TruthSample]) -> TruthSample | None:
     """Return the first instant from which it stood for a moment."""
-    since: Sample | None = None
+    since: TruthSample | None = None
     for sample in life:
         if not sample.stands:
             since = None
@@ -99,7 +99,7 @@ def _stood(life: Sequence[Sample]) -> Sample | None:
     return since
 
 
-def _moved(life: Sequence[Sample]) -> str:
+def _moved(life: Sequence[TruthSample]) -> str:
     """Say how a robot that was to stand moved; empty where it did not."""
     if not life:
         return ""
@@ -113,7 +113,7 @@ def _moved(life: Sequence[Sample]) -> str:
     return ""
 
 
-def contacts(trace: Iterable[Sample]) -> int:
+def contacts(trace: Iterable[TruthSample]) -> int:
     """Count the contacts that began within a trace; a new simulator counts from zero."""
     count, last = 0, dict[str, int]()
     for sample in trace:
@@ -125,7 +125,7 @@ def contacts(trace: Iterable[Sample]) -> int:
     return count
 
 
-def turned(trace: Iterable[Sample]) -> bool:
+def turned(trace: Iterable[TruthSample]) -> bool:
     """Tell whether the robot truly moved at all."""
     return any(sample.moves for sample in trace)
 

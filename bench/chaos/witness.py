@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
-from bench.chaos.verdict import Sample
+from bench.chaos.verdict import TruthSample
 from sim import PERIODS
 from wire import SimTruth, Status, load_robot
 from wire.keys import SIM_TRUTH, STATUS, Party
@@ -42,7 +42,7 @@ class Witness:
         """Describe it; entering the context begins to listen."""
         self._house = house
         self._ending = threading.Event()
-        self._truths: deque[Sample] = deque(maxlen=KEEP)
+        self._truths: deque[TruthSample] = deque(maxlen=KEEP)
         self._said: deque[tuple[float, str, str]] = deque(maxlen=1000)
         self.listening = threading.Event()
         """Set while the planner's events are heard."""
@@ -105,7 +105,7 @@ class Witness:
 
     # What was heard -----------------------------------------------------------------------------
 
-    def trace(self, from_s: float) -> list[Sample]:
+    def trace(self, from_s: float) -> list[TruthSample]:
         """Return the truth since a moment."""
         return [sample for sample in tuple(self._truths) if sample.at_s >= from_s]
 
@@ -141,8 +141,8 @@ class Witness:
         )
 
 
-def _sample(now_s: float, truth: SimTruth) -> Sample:
-    return Sample(
+def _sample(now_s: float, truth: SimTruth) -> TruthSample:
+    return TruthSample(
         at_s=now_s,
         boot=truth.boot_id,
         world_s=truth.seq * PERIODS.truth_ticks * PERIODS.tick_s,

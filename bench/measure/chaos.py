@@ -11,7 +11,7 @@ from collections import Counter
 from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any
 
-from bench.chaos.draw import Fault, Kind, draw
+from bench.chaos.draw import Breakage, FaultKind, draw
 from bench.chaos.episode import Play
 from bench.chaos.house import House, private_mounts
 from bench.chaos.witness import Witness
@@ -41,14 +41,14 @@ NO_CLOCK = "not tried: the wall clock is the machine's, and other programs live 
 def measure(lab: Lab) -> list[Row]:
     """Play what is not played yet."""
     shared = private_mounts()
-    with Robot(lab, mounts=not shared) as robot:
+    with RobotSeries(lab, mounts=not shared) as robot:
         played = list(lab.slices("episode", lab.count(10, EPISODES), robot.play))
         robot.end()
         lives = robot.lives
     return rows(played, lives, shared)
 
 
-class Robot:
+class RobotSeries:
     """Keep one robot through many episodes; begin another where it does not come back."""
 
     def __init__(self, lab: Lab, *, mounts: bool) -> None:
@@ -194,7 +194,9 @@ def _unconfirmed(stops: list[dict[str, Any]]) -> str:
 
 
 def _faults(one: dict[str, Any]) -> str:
-    names = [Fault(**{**fault, "kind": Kind(fault["kind"])}).name for fault in one["faults"]]
+    names = [
+        Breakage(**{**fault, "kind": FaultKind(fault["kind"])}).name for fault in one["faults"]
+    ]
     return " + ".join(names)
 
 
@@ -202,7 +204,7 @@ def _kinds(played: list[dict[str, Any]]) -> list[Row]:
     """Give the time to ready by kind of fault, where one alone was made."""
     seen: Counter[str] = Counter()
     found = []
-    for kind in Kind:
+    for kind in FaultKind:
         alone = [o for o in played if [f["kind"] for f in o["faults"]] == [kind.value]]
         seen[kind.value] = len(alone)
         samples = [one["ready_s"] for one in alone if one["ready_s"] is not None]

@@ -10,7 +10,7 @@ from bench.chaos.draw import (
     PROCESSES,
     STALL_S,
     Episode,
-    Kind,
+    FaultKind,
     draw,
 )
 from wire import SimFault
@@ -26,9 +26,9 @@ def test_a_number_means_one_episode() -> None:
 def test_every_kind_strikes_every_target() -> None:
     struck = {(fault.kind, fault.target) for episode in ALL for fault in episode.faults}
     wanted = {(kind, name) for kind in OF_A_PROCESS for name in PROCESSES}
-    wanted |= {(Kind.LIDAR, name) for name in LIDAR}
-    wanted |= {(Kind.SOCKET, name) for name in LISTENERS}
-    wanted |= {(kind, "") for kind in Kind if kind not in {kind for kind, _ in wanted}}
+    wanted |= {(FaultKind.LIDAR, name) for name in LIDAR}
+    wanted |= {(FaultKind.SOCKET, name) for name in LISTENERS}
+    wanted |= {(kind, "") for kind in FaultKind if kind not in {kind for kind, _ in wanted}}
     assert struck == wanted
 
 
@@ -39,12 +39,12 @@ def test_two_come_at_once_and_stops_are_said_about_as_often_as_meant() -> None:
 
 
 def test_spans_are_within_what_the_kind_allows() -> None:
-    spans = {Kind.FREEZE: FREEZE_S, Kind.STALL: STALL_S}
+    spans = {FaultKind.FREEZE: FREEZE_S, FaultKind.STALL: STALL_S}
     for fault in (fault for episode in ALL for fault in episode.faults):
         if fault.kind in spans:
             low_s, high_s = spans[fault.kind]
             assert low_s <= fault.for_s <= high_s
-        elif fault.kind in (Kind.KILL, Kind.SOCKET):
+        elif fault.kind in (FaultKind.KILL, FaultKind.SOCKET):
             assert fault.for_s == 0.0
 
 

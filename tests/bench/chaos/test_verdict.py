@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from bench.chaos.verdict import (
     STOP_S,
-    Sample,
+    TruthSample,
     contacts,
     judge_stop,
     said_twice,
@@ -16,11 +16,11 @@ from bench.chaos.verdict import (
 STEP_S = 0.02
 
 
-def at(world_s: float, v_mps: float = 0.0, x_m: float = 0.0, boot: str = "a") -> Sample:
-    return Sample(100.0 + world_s, boot, world_s, x_m, 0.0, v_mps, 0.0, 0)
+def at(world_s: float, v_mps: float = 0.0, x_m: float = 0.0, boot: str = "a") -> TruthSample:
+    return TruthSample(100.0 + world_s, boot, world_s, x_m, 0.0, v_mps, 0.0, 0)
 
 
-def ramp(stands_s: float, until_s: float = 4.0) -> list[Sample]:
+def ramp(stands_s: float, until_s: float = 4.0) -> list[TruthSample]:
     """Return a robot that brakes from 0.5 m/s to a stand."""
     trace, x_m = [], 0.0
     for number in range(round(until_s / STEP_S)):
