@@ -17,7 +17,7 @@ from bench.figures import percentile
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from attack.lab import Lab
     from bench.robot import Robot
@@ -108,11 +108,17 @@ def _try(lab: Lab, running: Robot, way: Way) -> Outcome:
         many = opened()
     time.sleep(REST_S)
     missed = STOPS - len(times)  # one that found no time to be tried is none that was confirmed
-    slowest = f"p50 {1e3 * percentile(times, 0.5):.0f}, p99 {1e3 * percentile(times, 0.99):.0f} ms"
-    note = f"{many} connections opened; stop {slowest if times else 'never confirmed'}"
+    note = f"{many} connections opened; stop {_times(times)}"
     lab.say(f"{way.name}: {len(times)} of {STOPS} stops confirmed")
     return Outcome(way.name, STOPS, missed, f"each of {STOPS} stops confirmed", before_mb, peak_mb,
                    GROWTH_MB, note)  # fmt: skip
+
+
+def _times(times: Sequence[float]) -> str:
+    """Write how long stops took; that none was confirmed where there is none."""
+    if not times:
+        return "never confirmed"
+    return f"p50 {1e3 * percentile(times, 0.5):.0f}, p99 {1e3 * percentile(times, 0.99):.0f} ms"
 
 
 @contextmanager

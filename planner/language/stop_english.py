@@ -110,10 +110,12 @@ _BEGINS = (
     r"|come|finish|are)(?! (?:near|close)))"
 )
 _POLITE = (
-    r"(?:(?:please|pls|hey|hi|ok|okay|robot|pons|now|so|then|first|and|just|can you|could you"
-    r"|would you|will you|i want you to|i need you to|i would like you to|you should|let us|kindly"
-    r"|,)[ ,]*)*"
+    r"(?:,[ ,]*)?(?:(?:please|pls|hey|hi|ok|okay|robot|pons|now|so|then|first|and|just|can you"
+    r"|could you|would you|will you|i want you to|i need you to|i would like you to|you should"
+    r"|let us|kindly)[ ,]*)*"
 )
+"""One way to read each text: a comma that is also a word of its own doubles the ways with each, and
+23 times "and, " took the stop lane a minute."""
 PLAN = re.compile(rf"^{_POLITE}{_BEGINS}\b")
 """A sentence that begins as an order to do something: in it only true stop words count."""
 _ASKS = r"(?:what|where|who|which|how (?:many|much|long|far)|is|are|do you|did|has|have)"

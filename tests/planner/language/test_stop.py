@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.language.stop import is_stop
+from planner.language.stop import StopReading, is_stop, read_stop
 
 STOPS = [
     # plain
@@ -307,3 +307,14 @@ def test_importing_the_stop_lane_brings_in_neither_pydantic_nor_numpy() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
+
+
+@pytest.mark.parametrize(
+    "again", ["and, ", "please, ", "ok, so, ", "robot , , ", "请，", "and 厨房, "]
+)
+@pytest.mark.parametrize("end", ["", "stop", "go to the kitchen", "x"])
+@pytest.mark.timeout(20)
+def test_a_courtesy_said_without_end_is_read_at_all(again: str, end: str) -> None:
+    """Each comma doubled the ways to read it: 23 of "and, " took a minute, 40 hours."""
+    assert read_stop(again * 150 + end) in StopReading
+    assert read_stop(again * 60 + end) in StopReading
