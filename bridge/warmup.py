@@ -74,6 +74,7 @@ if TYPE_CHECKING:
 TICKS = 200
 _BEAMS = 360
 _NAME = "warmup"
+_CHANCE = "0" * 16
 
 
 def warm_up(config: CoreConfig, now_s: float) -> int:
@@ -108,6 +109,7 @@ def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox
         imu=_over(IMU, imu),
         loop=LoopFacts(late_s=1e-4),
         recorder_ok=True,
+        chance=_CHANCE,
     )
     return _lively(config, count, now_s, always) if tenth else always
 

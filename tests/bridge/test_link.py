@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -83,13 +84,20 @@ class Ends:
 
 
 @pytest.fixture
-def ends(tmp_path: Path) -> Iterator[Ends]:
+def home() -> Iterator[Path]:
+    """Give a folder of a short name: a socket's path ends at 107 bytes."""
+    with TemporaryDirectory(prefix="pl-") as folder:
+        yield Path(folder)
+
+
+@pytest.fixture
+def ends(home: Path) -> Iterator[Ends]:
     with (
-        open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
-        open_session(Party.OPERATOR, "r1", tmp_path) as operator,
-        open_session(Party.LOCALIZATION, "r1", tmp_path) as localization,
-        open_session(Party.BUTTON, "r1", tmp_path) as button,
-        open_session(Party.ROBOT, "r1", tmp_path) as robot,
+        open_session(Party.BRIDGE, "r1", home) as bridge,
+        open_session(Party.OPERATOR, "r1", home) as operator,
+        open_session(Party.LOCALIZATION, "r1", home) as localization,
+        open_session(Party.BUTTON, "r1", home) as button,
+        open_session(Party.ROBOT, "r1", home) as robot,
     ):
         link = Link(bridge, "r1", VIRTUAL_KEY)
         ends = Ends(link, (operator, localization, button, robot))
