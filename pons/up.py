@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 
 from pons.homelock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, Refused, call
+from pons.kept_sockets import KeptSockets
 from pons.processes import REFUSED_TO_START, Child
 from pons.settings import allowed_hosts
 from wire import Misconfigured, RobotDescription, load_robot
@@ -36,6 +37,8 @@ POLL_S = 0.05
 PATIENCE_S = 4.0
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
+SOCKETS_S = 0.5
+"""How long a socket whose name was removed stays unreachable at most."""
 PRIVATE = 0o077
 """What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 MIN_FREE_BYTES = 200 * 1024 * 1024
@@ -65,6 +68,8 @@ class Supervisor:
         self._said_ready = False
         self._armed = not robot.drive.virtual  # on metal a person arms
         self._next_arm_s = 0.0
+        self._next_look_s = 0.0
+        self._sockets = KeptSockets(settings.home)
 
     def end(self, *_: object) -> None:
         """Ask the loop to finish; safe in a signal handler."""
@@ -91,11 +96,21 @@ class Supervisor:
             if status == REFUSED_TO_START and not self._said_ready:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
             if status is not None:
+                self._sockets.forget(child.name)
                 wait_s = child.next_start_s - now_s
                 say(f"{child.name} ended ({describe(status)}); again in {wait_s:.1f} s. "
                     f"Its log: {child.log}")  # fmt: skip
             if child.due(now_s) and (self._said_ready or not child.waits_for_ready):
                 child.start(now_s)
+        if now_s >= self._next_look_s:
+            self._next_look_s = now_s + SOCKETS_S
+            self._look_after_sockets()
+
+    def _look_after_sockets(self) -> None:
+        for child in self._children:
+            if child.process is not None:
+                for path in self._sockets.look_after(child.name):
+                    say(f"{path} was removed, and is there again")
 
     def _greet(self, now_s: float, began_s: float) -> None:
         """Arm the simulator once, then print the URL once."""

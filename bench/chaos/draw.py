@@ -11,7 +11,7 @@ from typing import Any
 PROCESSES = (
     "bridge", "planner", "sim", "localization", "camera", "recorder", "vision", "route", "voice",
 )  # fmt: skip
-LISTENERS = ("bridge", "robot", "localization", "camera")
+LISTENERS = ("bridge", "senses", "drive", "robot", "localization", "camera")
 LIDAR = ("lidar_off", "lidar_stuck", "lidar_blind", "lidar_intermittent")
 FREEZE_S, STALL_S, OTHER_S = (0.15, 5.0), (0.2, 3.0), (0.5, 7.0)
 TWO_AT_ONCE, STOPPED, GOES_ON = 0.25, 1 / 3, 0.15
