@@ -89,7 +89,7 @@ def test_a_private_key_is_never_given_out_as_the_authority(pems: Path) -> None:
 def test_the_mark_says_how_this_homes_planner_speaks(tmp_path: Path) -> None:
     for speaks in (True, True, False, False):
         tls.mark(tmp_path, speaks_tls=speaks)
-        assert (tmp_path / "run" / tls.MARK).exists() is speaks
+        assert (tmp_path / "run" / "planner" / tls.MARK).exists() is speaks
 
 
 def test_a_home_that_cannot_be_written_keeps_no_planner_from_starting(tmp_path: Path) -> None:
