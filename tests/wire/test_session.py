@@ -229,3 +229,19 @@ def test_a_picture_is_wanted_while_somebody_listens(tmp_path: Path) -> None:
             assert until(lambda: mouth.wanted)
             assert again.newest() is None
         assert until(lambda: not mouth.wanted)
+
+
+def test_the_status_of_whichever_robot_is_there_is_heard(tmp_path: Path) -> None:
+    status = EXAMPLES[Status]
+    assert isinstance(status, Status)
+    with (
+        open_session(Party.BRIDGE, "r7", tmp_path) as bridge,
+        open_session(Party.OPERATOR, "r1", tmp_path) as operator,
+    ):
+        mouth, ears = bridge.publisher(STATUS), operator.subscriber_to_any_robot(STATUS)
+
+        def heard() -> bool:
+            mouth.put(status)
+            return ears.newest() == status
+
+        assert until(heard)

@@ -18,7 +18,7 @@ from wire import Misconfigured
 from wire.doors import BRIDGE_DOOR, DRIVE_DOOR, SENSES_DOOR
 from wire.keys import Party
 from wire.session import open_session
-from wire.sockets import MAX_SOCKET_PATH, Claim, Endpoints, misplaced_listener
+from wire.sockets import MAX_SOCKET_PATH, Claim, Endpoints, misplaced_listener, unreachable
 
 BRIDGE, SIM, OPERATOR = 61_001, 61_003, 61_004
 """Users of nobody's."""
@@ -205,3 +205,25 @@ def test_who_cannot_be_asked_is_not_believed(tmp_path: Path) -> None:
     assert trouble is not None
     assert trouble.startswith("wrong_listener: ")
     assert trouble.endswith("can't be told: No such file or directory")
+
+
+def test_whether_a_door_can_be_reached_is_told(tmp_path: Path) -> None:
+    path = Endpoints(tmp_path).socket(BRIDGE_DOOR)
+    assert unreachable(tmp_path, BRIDGE_DOOR) == f"{path}: No such file or directory"
+    with open_session(Party.BRIDGE, "r1", tmp_path):
+        assert unreachable(tmp_path, BRIDGE_DOOR) is None
+        assert misplaced_listener(tmp_path, BRIDGE_DOOR) is None
+
+
+def test_where_the_kernel_does_not_tell_who_listens_nothing_is_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr("socket.SO_PEERCRED")
+    assert misplaced_listener(tmp_path, BRIDGE_DOOR) is None
+
+
+def test_a_lock_that_cannot_be_opened_is_named(tmp_path: Path) -> None:
+    lock = tmp_path / "run" / "bridge" / "bridge.lock"
+    lock.mkdir(parents=True)
+    with pytest.raises(Misconfigured, match=f"home_unwritable.*{lock}"):
+        Claim(tmp_path, Party.BRIDGE)
