@@ -208,7 +208,7 @@ class Robot:
     def _child(self, module: str, arguments: list[str]) -> Child:
         name = "bridge" if module == TAPPED else module
         log = self.settings.home / "logs" / f"{name}.log"
-        return Child(name, [module, *arguments], log)
+        return Child(name, [module, *arguments], log, knows_tokens=name == "planner")
 
     def _answers(self) -> bool:
         self.pid("planner")
