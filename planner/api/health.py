@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fastapi import APIRouter
 from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, generate_latest
 from prometheus_client.core import GaugeMetricFamily
-from starlette.responses import Response
+from starlette.responses import PlainTextResponse, Response
 
 from planner.api.ports import Services
 from planner.api.problems import Problem
@@ -37,7 +37,7 @@ def routes(services: Services) -> APIRouter:
             raise Problem(503, "not_ready", f"waiting for: {', '.join(lacking)}", waiting=lacking)
         return {"status": "ready"}
 
-    @router.get("/metrics", operation_id="metrics")
+    @router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
     async def metrics() -> Response:
         """Give the figures in Prometheus' text format."""
         return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)

@@ -26,7 +26,8 @@ from wire import Misconfigured
 log = logging.getLogger(__name__)
 
 FILE = "settings.toml"
-MAX_BYTES = 64 * 1024
+MAX_BYTES = 16_000
+"""A parser is busy for seconds with 64 kB of one dotted key."""
 MAX_KEY_BYTES = 8 * 1024
 _KEY_SOURCES = ("key", "key_env", "key_file")
 _YES = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
