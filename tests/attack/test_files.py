@@ -47,7 +47,7 @@ def die() -> None:
 
 
 def grow() -> int:
-    return len(bytes(range(256)) * 400_000)
+    return len(bytes(range(256)) * 1_200_000)
 
 
 def test_a_reading_is_read_or_refused_by_code() -> None:
@@ -68,7 +68,7 @@ def test_a_reader_that_dies_or_never_ends_is_told() -> None:
 def test_memory_is_counted() -> None:
     what, grown_mb = outcome_of(grow, ())
     assert what == "read"
-    assert grown_mb > 90.0
+    assert grown_mb > 90.0, "of 307; the system may take some of the fork's pages back meanwhile"
 
 
 def test_a_child_that_said_nothing_is_a_finding() -> None:
