@@ -89,16 +89,16 @@ docs: $(DEV) ## write the generated files anew: wire.md, safety.md, sites, opena
 	@$(BIN)/python scripts/generated.py --write
 
 bench: $(RUNTIME) ## measure and print a table (at most 10 min)
-	@exec $(BIN)/python -m bench $(ARGS)
+	@exec $(BIN)/python -m tools.bench $(ARGS)
 
 bench-long: $(RUNTIME) ## measure what takes longer; resumable, appends to one file
-	@exec $(BIN)/python -m bench --long $(ARGS)
+	@exec $(BIN)/python -m tools.bench --long $(ARGS)
 
 attack: $(ATTACK) ## attack the API, files and decoders; fails where a goal is missed (at most 10 min); ARGS=--long
-	@exec $(BIN)/python -m attack $(ARGS)
+	@exec $(BIN)/python -m tools.attack $(ARGS)
 
-train: $(RUNTIME) ## draw homes, fit the default detector anew and score it (two hours; train/README.md)
-	@exec nice -n 10 $(BIN)/python -m train $(ARGS)
+train: $(RUNTIME) ## draw homes, fit the default detector anew and score it (two hours; tools/train/README.md)
+	@exec nice -n 10 $(BIN)/python -m tools.train $(ARGS)
 
 lock: $(DEV) ## resolve the dependencies anew into requirements.lock and its companions
 	@scripts/lock.sh

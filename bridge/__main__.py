@@ -16,13 +16,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bridge.begin import CORE  # first: it chooses which core the others import
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
 from bridge.drive import SimDrive, braked
-from bridge.fence_desk import FenceDesk, Ground
 from bridge.fence_file import load_fence
+from bridge.fence_update import FenceDesk, Ground
 from bridge.link import Link
+from bridge.node import EXIT_LEFT, Parts, Shell
 from bridge.operator_key import load_operator_key
 from bridge.realtime import (
     Collector,
@@ -36,8 +36,8 @@ from bridge.realtime import (
     take_fifo,
     transport_fifo,
 )
-from bridge.recorder import Recorder
-from bridge.shell import EXIT_LEFT, Parts, Shell
+from bridge.recording.recorder import Recorder
+from bridge.select_core import CORE  # first: it chooses which core the others import
 from bridge.warmup import warm_up
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party

@@ -17,8 +17,8 @@ from pydantic import ValidationError
 from bridge.core.state_braking import UNLEARNT, Learnt
 from bridge.files import replace_file
 from wire.base import Record
+from wire.bounded_types import Fingerprint
 from wire.robot import RobotId, explain
-from wire.scalars import Fingerprint
 
 if TYPE_CHECKING:
     from pathlib import Path

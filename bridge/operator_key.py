@@ -12,7 +12,7 @@ import stat
 from typing import TYPE_CHECKING
 
 from wire import VIRTUAL_KEY, Misconfigured
-from wire.proof import MIN_KEY_BYTES
+from wire.operator_hmac import MIN_KEY_BYTES
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bridge.core import step
-from bridge.recorder.reading import (
+from bridge.recording.recording_reader import (
     BadRecording,
     Header,
     StateFrame,
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from bridge.core import BridgeState, CoreConfig
-    from bridge.recorder.reading import Frame
+    from bridge.recording.recording_reader import Frame
 
 __all__ = ["BadRecording", "ReplayReport", "replay"]
 

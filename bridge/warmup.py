@@ -19,7 +19,7 @@ from bridge.core import (
     step,
 )
 from bridge.core.state_fence import FenceArrived, FenceDone
-from bridge.recorder import warm_frames
+from bridge.recording.encode import warm_frames
 from wire import (
     IDENTITY,
     VIRTUAL_KEY,
@@ -45,6 +45,7 @@ from wire import (
     sign,
     sign_fence,
 )
+from wire.bounded_types import PROTOCOL
 from wire.keys import (
     ARM,
     DRIVE_STATE,
@@ -60,7 +61,6 @@ from wire.keys import (
     TELEOP,
     WAYPOINTS,
 )
-from wire.scalars import PROTOCOL
 
 if TYPE_CHECKING:
     from typing import TypeVar

@@ -14,7 +14,7 @@ import sys
 import threading
 from pathlib import Path
 
-from localization.shell import Shell
+from localization.node import Shell
 from localization.site_map import read_map_id
 from localization.standin import StandIn
 from rank import fifo

@@ -18,7 +18,7 @@ from planner.api import Access
 from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
 from planner.app import Planner, Where, application
-from planner.world import SiteError
+from planner.site import SiteError
 from rank import nice
 from wire import Misconfigured
 

@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
+from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
-from planner.link import Link, WireBus
 from planner.mission import Memory, MissionJournal, Missions, Rules
-from planner.robot import LinkedRobot
-from planner.route import RouteLimits, RouteWorker
+from planner.navigation import RouteLimits, RouteWorker
+from planner.perception_factory import Opening, eyes_of, looker_of
+from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
-from planner.sight import Opening, eyes_of, looker_of
+from planner.site import FenceProposals, Site, TaughtPlaces
 from planner.voice import VoiceWorker
-from planner.world import FenceProposals, Site, TaughtPlaces
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from fastapi import FastAPI
 
     from planner.brain.endpoint import EndpointBrain
-    from planner.brain.meter import Meter
+    from planner.brain.usage_meter import Meter
     from planner.settings import Settings
 
 log = logging.getLogger(__name__)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from planner.api import Access, build
-from planner.world import Site
+from planner.site import Site
 
 if TYPE_CHECKING:
     from planner.api import Services

@@ -249,9 +249,9 @@ def _tool(settings: Settings, said: argparse.Namespace) -> int:
         from pons import doctor
 
         if said.model is not None:
-            from pons.doctor import exam
+            from pons.evals import quick
 
-            return exam.run(settings, said.model, as_json=said.json, yes=said.yes)
+            return quick.run(settings, said.model, as_json=said.json, yes=said.yes)
         return doctor.run(settings, as_json=said.json, jitter=said.jitter)
     if said.word in _BARE_TOOLS:
         code: int = import_module(f"pons.{said.word}").run(settings)

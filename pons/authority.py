@@ -18,7 +18,7 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
-from pons.privatefile import own_folder, read, write
+from pons.private_file import own_folder, read, write
 from wire import Misconfigured
 
 if TYPE_CHECKING:

@@ -9,18 +9,18 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planner.perception import VisionFailure
+from planner.perception.failure import SKIPS
+from planner.perception.process_client import DEFAULT_MODEL
 from planner.settings import load_settings
-from planner.vision import VisionFailure
-from planner.vision.failure import SKIPS
-from planner.vision.worker import DEFAULT_MODEL
 from pons.settings import BadSetting
 from wire import Misconfigured
 
 if TYPE_CHECKING:
     import argparse
 
-    from planner.vision import About, Detection, LookResult
-    from planner.vision.detect import Detector
+    from planner.perception import About, Detection, LookResult
+    from planner.perception.detect import Detector
     from pons.settings import Settings
 
 REFUSED = 1
@@ -51,7 +51,7 @@ def run(settings: Settings, said: argparse.Namespace) -> int:
 
 def _detector(settings: Settings, said: argparse.Namespace) -> Detector:
     """Return the detector that the words, else the owner's settings, else Pons itself names."""
-    from planner.vision.detect import Detector, Wanted
+    from planner.perception.detect import Detector, Wanted
 
     owner = load_settings(settings.home, os.environ).vision
     path = said.model or owner.model or DEFAULT_MODEL
@@ -114,7 +114,7 @@ def _line(found: Detection) -> str:
 
 
 def _draw(source: Path, look: LookResult, target: Path) -> None:
-    from planner.vision.detect import drawn, save, unpack_color
+    from planner.perception.detect import drawn, save, unpack_color
 
     picture: Any = unpack_color(_read(source))
     if not isinstance(picture, str) and not save(drawn(picture, look.detections), target):

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from planner.world import SiteError, fence_diff
-from planner.world.fence import load_fence
-from planner.world.places import load_places
-from pons.direct import NoBridge, fence_direct
+from planner.site import SiteError, fence_diff
+from planner.site.fence import load_fence
+from planner.site.places import load_places
+from pons.bridge_client import NoBridge, fence_direct
 from pons.http import PlannerDown, Refused, call
 from wire import FenceFile, Misconfigured, fingerprint
 

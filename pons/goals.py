@@ -10,7 +10,7 @@ from planner.language.folding import has_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
 from pons import stop
 from pons.http import PlannerDown, Refused, call
-from pons.texts import (
+from pons.terminal_text import (
     FINAL_STATES,
     WAITING_STATES,
     figures,

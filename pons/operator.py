@@ -10,7 +10,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from pons.http import PlannerDown, Refused, call
-from pons.texts import goal_line, robot_lines
+from pons.terminal_text import goal_line, robot_lines
 
 if TYPE_CHECKING:
     from pons.settings import Settings
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def ask(settings: Settings, kind: OpKind) -> int:
     """Make the request at the bridge itself and print its verdict."""
-    from pons.direct import NoBridge, ask_direct
+    from pons.bridge_client import NoBridge, ask_direct
     from wire import Misconfigured
 
     try:

@@ -1,6 +1,6 @@
 """Run recordings again and say whether every command came out the same: ``pons replay FILE...``.
 
-With a model, run recorded sentences again and say which decisions differ: see ``pons.rethink``.
+With a model, run recorded sentences again and say which decisions differ (``pons.evals.journal``).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def run(files: Sequence[str]) -> int:
 
 def with_model(settings: Settings, said: argparse.Namespace) -> int:
     """Think recorded sentences again with the model that was named."""
-    from pons.rethink import command
+    from pons.evals.journal import command
 
     options = command.Options(max(0, said.most), max(0, said.drives), said.json, said.yes)
     return command.run(settings, said.files, said.with_model, options)

@@ -47,7 +47,7 @@ def run(settings: Settings) -> int:
 def _straight_to_the_bridge(settings: Settings) -> str | None:
     """Say the stop over the wire; return in one line why it is not confirmed, None where it is."""
     try:
-        from pons.direct import stop_direct
+        from pons.bridge_client import stop_direct
 
         stop_direct(settings, f"cli-{os.getpid()}-direct")
     except Exception as trouble:  # noqa: BLE001  # nothing may keep the first way from being told

@@ -18,11 +18,11 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from pons.homelock import HomeLock, HomeTaken, HomeUnwritable
+from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, Refused, call
 from pons.kept_sockets import KeptSockets
-from pons.processes import REFUSED_TO_START, Child
 from pons.settings import allowed_hosts
+from pons.supervisor import REFUSED_TO_START, Child
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
@@ -173,7 +173,7 @@ def _may_pass(child: Child) -> bool:
 
 def arm_direct(settings: Settings) -> bool:
     """Arm at the bridge itself; tell whether it is armed."""
-    from pons.direct import NoBridge, ask_direct
+    from pons.bridge_client import NoBridge, ask_direct
 
     try:
         return ask_direct(settings, "arm").accepted

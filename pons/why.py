@@ -9,15 +9,15 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from bridge.core.fault_words import GATES
-from bridge.why import BadRecording, last_stop
-from pons.codewords import sentence
+from bridge.core.faults.code_messages import GATES
+from bridge.stop_report import BadRecording, last_stop
+from pons.code_messages import sentence
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.why import Stop
+    from bridge.stop_report import Stop
     from pons.settings import Settings
 
 EXIT_TOLD, EXIT_NO_STOP, EXIT_BAD = 0, 1, 2

@@ -10,12 +10,12 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from pons.conformance.pulse import Pulse, until_calm
+from pons.conformance.scheduler_probe import Pulse, until_calm
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.conformance.pulse import Kept
+    from pons.conformance.scheduler_probe import Kept
 
 LIMIT_S = 120.0
 

@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bridge.core.fault_words import SENTENCES, WANTS
-from bridge.core.row_words import WORDS
+from bridge.core.faults.code_messages import SENTENCES, WANTS
+from bridge.core.faults.fault_messages import WORDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

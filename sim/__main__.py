@@ -16,10 +16,10 @@ import threading
 from pathlib import Path
 
 from rank import fifo
-from sim.metal import load_metal
+from sim.node import Shell
 from sim.robot import SimRobot
-from sim.shell import Shell
 from sim.site import check_fresh
+from sim.true_parameters import load_metal
 from wire import Misconfigured, Pose2, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from sim.channel import Trouble
 from sim.messages import Buttons
+from sim.sensor_channel import Trouble
 from wire import SimFault
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from wire import DriveState, Imu, Pose2, Scan, SimScene, SimThing, SimTruth, Twi
 from wire.value import value
 
 if TYPE_CHECKING:
+    from sim.command_watchdog import DeadMan, Wheels
     from sim.contacts import Episodes
-    from sim.deadman import DeadMan, Wheels
     from sim.sensors import Encoder, ImuSample, LidarModel, Ranges
     from wire import SimFault
 

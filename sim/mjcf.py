@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from sim.hardware import Hardware
-    from sim.site.things import Upright
+    from sim.site.objects import Upright
     from wire.robot import Base
 
 OBSTACLES = SPARE_OBSTACLES

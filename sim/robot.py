@@ -13,25 +13,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sim.battery import Battery
-from sim.channel import Channel
+from sim.command_watchdog import DeadMan
 from sim.contacts import Episodes
-from sim.deadman import DeadMan
 from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
 from sim.messages import Report, Speaker
-from sim.metal import true_base
 from sim.mjcf import OBSTACLES
+from sim.movable_objects import Things
+from sim.sensor_channel import Channel
 from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
-from sim.site.things import uprights
-from sim.things import Things
+from sim.site.objects import uprights
+from sim.true_parameters import true_base
 from sim.world import World
 from wire import Pose2, RobotDescription, SimFault, Twist2, compose
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from sim.deadman import Wheels
+    from sim.command_watchdog import Wheels
     from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimScene, SimTruth
 
 _STEPS = round(PERIODS.tick_s / PERIODS.step_s)

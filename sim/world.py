@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from sim.hardware import Hardware
     from sim.site import Solid
-    from sim.site.things import Upright
+    from sim.site.objects import Upright
     from wire.robot import Base
 
 log = logging.getLogger("sim")

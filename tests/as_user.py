@@ -11,7 +11,14 @@ import os
 import sys
 from contextlib import suppress
 
-LOADED = ("pons.direct", "pons.operator", "pons.stop", "pons.up", "http.client", "encodings.idna")
+LOADED = (
+    "pons.bridge_client",
+    "pons.operator",
+    "pons.stop",
+    "pons.up",
+    "http.client",
+    "encodings.idna",
+)
 """What a command imports only when it needs it."""
 
 

@@ -5,6 +5,7 @@ only place that knows the transport.
 """
 
 from wire.base import Record
+from wire.bounded_types import MAX_POINTS, PROTOCOL, STATUS_RING
 from wire.codec import Image, decode, encode
 from wire.commands import (
     EstopLink,
@@ -36,7 +37,7 @@ from wire.geometry import (
     transform,
     wrap,
 )
-from wire.proof import (
+from wire.operator_hmac import (
     NEEDS_PROOF,
     VIRTUAL_KEY,
     authentic,
@@ -46,7 +47,6 @@ from wire.proof import (
     signed_request,
 )
 from wire.robot import CameraConfig, RobotDescription, load_robot
-from wire.scalars import MAX_POINTS, PROTOCOL, STATUS_RING
 from wire.sensors import (
     DriveCommand,
     DriveState,

@@ -11,9 +11,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wire.base import Record
+from wire.bounded_types import MAX_POINTS, MAX_TTL_S, Count, Epoch, Fingerprint, Name
 from wire.fence import MAX_TEXT
 from wire.geometry import Metres, Mps, Radps, Yaw
-from wire.scalars import MAX_POINTS, MAX_TTL_S, Count, Epoch, Fingerprint, Name
 
 OwnerKind = Literal["planner", "external"]
 

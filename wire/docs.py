@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from wire.base import Record
+from wire.bounded_types import PROTOCOL
 from wire.doors import DOORS
 from wire.keys import KEYS, Key, Party
-from wire.scalars import PROTOCOL
 
 TARGET = Path(__file__).resolve().parents[1] / "docs" / "wire.md"
 

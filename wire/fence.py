@@ -14,8 +14,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wire.base import Record
+from wire.bounded_types import Fingerprint
 from wire.geometry import Metres
-from wire.scalars import Fingerprint
 
 Point = tuple[float, float]
 Outline = Annotated[tuple[tuple[Metres, Metres], ...], Field(min_length=3, max_length=1000)]

@@ -7,8 +7,17 @@ from typing import Annotated
 from pydantic import Field
 
 from wire.base import Record
+from wire.bounded_types import (
+    MAX_BEAMS,
+    Count,
+    Fingerprint,
+    Name,
+    Ratio,
+    Seconds,
+    WheelAngle,
+    WheelSpeed,
+)
 from wire.geometry import Pose2, Radps, Twist2, Yaw
-from wire.scalars import MAX_BEAMS, Count, Fingerprint, Name, Ratio, Seconds, WheelAngle, WheelSpeed
 
 Range = Annotated[float, Field(ge=0.0, le=1_000.0)]
 

@@ -11,8 +11,8 @@ from typing import Annotated
 from pydantic import Field
 
 from wire.base import Record
+from wire.bounded_types import Count, Name, Seconds
 from wire.geometry import Metres, Pose2, Twist2
-from wire.scalars import Count, Name, Seconds
 
 
 class SimFault(StrEnum):

@@ -8,9 +8,7 @@ from typing import Annotated
 from pydantic import Field
 
 from wire.base import Record
-from wire.commands import OwnerKind
-from wire.geometry import Pose2, Twist2
-from wire.scalars import (
+from wire.bounded_types import (
     Code,
     Count,
     Epoch,
@@ -22,6 +20,8 @@ from wire.scalars import (
     Seconds,
     Text,
 )
+from wire.commands import OwnerKind
+from wire.geometry import Pose2, Twist2
 
 
 class Mode(StrEnum):

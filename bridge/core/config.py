@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bridge.core.fence import Fence
+from bridge.core.sensing.fence import Fence
 from bridge.core.state_braking import UNLEARNT, Learnt
 from wire import RobotDescription
 

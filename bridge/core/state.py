@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from bridge.core.draft import copier
-from bridge.core.limiter import LimiterState
-from bridge.core.odometry import OdometryState
-from bridge.core.pursuit import NEW, FollowState
+from bridge.core.geometry.odometry import OdometryState
+from bridge.core.modes.stop_profile import StopPlan
+from bridge.core.motion.limiter import LimiterState
+from bridge.core.motion.pursuit import NEW, FollowState
+from bridge.core.motion.wheel_control import AT_REST, Wheel
+from bridge.core.record_copy import copier
 from bridge.core.state_braking import UNLEARNT, Learnt, Ramp
+from bridge.core.state_detectors import Flood, Watch
 from bridge.core.state_fence import FenceAsked
 from bridge.core.state_orders import External, Grants, Leg, Operator, Ownership, Stick
 from bridge.core.state_senses import (
@@ -22,9 +25,6 @@ from bridge.core.state_senses import (
     LoopMemory,
     PoseMemory,
 )
-from bridge.core.state_watch import Flood, Watch
-from bridge.core.stopcurve import StopPlan
-from bridge.core.wheelcontrol import AT_REST, Wheel
 from wire import STILL, Action, Held, Mode, Pose2, Twist2
 from wire.value import value
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bridge.core.path import Path
+from bridge.core.geometry.path_profile import Path
 from wire import Answer, Owner, Waypoint, Waypoints
 from wire.value import value
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bridge.core.scanpicture import ScanPicture
+from bridge.core.geometry.lidar_scan import ScanPicture
 from wire import DriveState, Imu, Localization, Scan
 from wire.value import value
 

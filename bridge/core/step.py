@@ -8,30 +8,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core import (
-    drive_out,
-    external,
-    fenceop,
-    flood,
-    gate,
-    learnt,
-    manners,
-    operator,
-    ownership,
-    selftest,
-    senses,
-    stick,
-)
-from bridge.core.decide import arrive, decide, detect
+from bridge.core.authority import fence_request, message_score, ownership, rate_limit
+from bridge.core.authority.grants import hear_grant, meter
+from bridge.core.authority.leg_tracking import hear_waypoints
 from bridge.core.decision import Decision
-from bridge.core.drive_out import command, shaped, wanted
-from bridge.core.external import hear_external
-from bridge.core.grants import hear_grant, meter
-from bridge.core.legs import hear_waypoints
+from bridge.core.modes import external_velocity, operator, selftest, teleop
+from bridge.core.modes.external_velocity import hear_external
+from bridge.core.modes.mode_logic import arrive, decide, detect
+from bridge.core.motion import brake_learning, motion_gates, wheel_command
+from bridge.core.motion.wheel_command import command, shaped, wanted
+from bridge.core.reporting.report import events_of, odometry_of, status_of
+from bridge.core.sensing import sensor_update
 from bridge.core.state import BridgeState, draft
 from bridge.core.state_orders import Operator
-from bridge.core.tell import events_of, odometry_of, status_of
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from wire import STILL
 
 if TYPE_CHECKING:
@@ -71,13 +61,13 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     tick = Tick(config, s, inbox, now_s, now_s - state.now_s)
     s.now_s = now_s
     s.tick += 1
-    drive_out.forget_after_gap(tick)
-    senses.sense(tick)
+    wheel_command.forget_after_gap(tick)
+    sensor_update.sense(tick)
     _listen(tick)
     detect(tick)
     decide(tick)
     _move(tick)
-    learnt.watch(tick, state)
+    brake_learning.watch(tick, state)
     meter(tick, state)
     sends = not selftest.withholds(tick)
     return Decision(
@@ -92,8 +82,8 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
 
 def _listen(tick: Tick) -> None:
     """Hear everybody in the order of rank; a stop voids what came with it."""
-    inbox = tick.inbox = flood.thinned(tick)
-    manners.drain(tick)
+    inbox = tick.inbox = rate_limit.thinned(tick)
+    message_score.drain(tick)
     operator.renew_nonce(tick)
     ownership.free_the_lost(tick)
     operator.hear_stops(tick)
@@ -101,7 +91,7 @@ def _listen(tick: Tick) -> None:
         operator.hear_op(tick, op)
     if tick.stopped:
         _void(tick)
-        senses.locate(tick)
+        sensor_update.locate(tick)
     else:
         for hello in inbox.hellos:
             ownership.hear_hello(tick, hello)
@@ -109,20 +99,20 @@ def _listen(tick: Tick) -> None:
             hear_grant(tick, grant)
         for heartbeat in inbox.heartbeats:
             ownership.hear_heartbeat(tick, heartbeat)
-        senses.locate(tick)
+        sensor_update.locate(tick)
         for velocity in inbox.teleop:
-            stick.hear_teleop(tick, velocity)
+            teleop.hear_teleop(tick, velocity)
         for velocity in inbox.external:
             hear_external(tick, velocity)
         for waypoints in inbox.waypoints:
             hear_waypoints(tick, waypoints)
     for fence in inbox.fences:
-        fenceop.hear_fence(tick, fence)
+        fence_request.hear_fence(tick, fence)
     if inbox.fence_done is not None:
-        fenceop.hear_done(tick, inbox.fence_done)
+        fence_request.hear_done(tick, inbox.fence_done)
     if inbox.rejected:
-        manners.hear_rejected(tick)
-    stick.watch(tick)
+        message_score.hear_rejected(tick)
+    teleop.watch(tick)
 
 
 def _void(tick: Tick) -> None:
@@ -149,9 +139,11 @@ def _reconsider(tick: Tick) -> None:
     """Judge a blocked way on what its owner asks now: a velocity still fresh, or the follower."""
     owner = tick.s.ownership.owner
     if owner is not None and owner.kind == "external":
-        gate.reconsider(tick, external.wanted(tick) if external.calls(tick) else STILL)
+        motion_gates.reconsider(
+            tick, external_velocity.wanted(tick) if external_velocity.calls(tick) else STILL
+        )
         return
     kept = tick.s.motion.follow
-    asked, _ = drive_out.followed(tick)
+    asked, _ = wheel_command.followed(tick)
     tick.s.motion.follow = kept  # blocked it stands: nothing has been followed
-    gate.reconsider(tick, asked)
+    motion_gates.reconsider(tick, asked)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 from starlette.responses import Response
 
-from planner.api.ports import Services
+from planner.api.interfaces import Services
 from planner.api.problems import Problem
 
 OLDEST_S = 5.0

@@ -3,7 +3,7 @@
 Nobody's token is known before a request is complete, so what comes before that is bounded for all:
 its seconds, its bytes and the number of connections. Room is made, never refused: where too many
 are open, the one that has waited longest without a complete request is closed. Sockets of the event
-stream are counted by ``planner.api.events``, which knows whom it lets in. Knows no protocol.
+stream are counted by ``planner.api.websocket``, which knows whom it lets in. Knows no protocol.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Bounds:
     fields: int = 100
     chunks: int = 4_096
     body_bytes: int = 128 * 1024 * 1024
-    """Routes take less (``planner.api.guard``). What is sent on after their answer is thrown away,
+    """Routes take less (``planner.api.middleware``). What comes after their answer is thrown away,
     so that the answer is read by who sends first and reads later; this ends it."""
     pipelined: int = 8
     an_address: int = 128

@@ -13,17 +13,17 @@ from typing import TYPE_CHECKING, Any
 
 from fastapi import APIRouter
 
-from planner.api.ports import Services
+from planner.api.interfaces import Services
 from planner.api.problems import Problem
-from planner.api.requests import Body, OperatorOrder, OperatorProof
-from planner.world.fence_check import FenceRefused, check_fence
-from planner.world.fence_diff import fence_diff
-from planner.world.fence_store import State
+from planner.api.schemas import Body, OperatorOrder, OperatorProof
+from planner.site.fence_check import FenceRefused, check_fence
+from planner.site.fence_diff import fence_diff
+from planner.site.fence_store import State
 from wire import VIRTUAL_KEY, Answer, FenceFile, FenceRequest, sign_fence
-from wire.scalars import Name
+from wire.bounded_types import Name
 
 if TYPE_CHECKING:
-    from planner.world import FenceProposal
+    from planner.site import FenceProposal
 
 _STATUS = {"unknown_fence_proposal": 404, "fence_proposals_full": 409}
 

@@ -7,12 +7,12 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, Query, Request
 
 from planner.api.crowd import address_of
+from planner.api.interfaces import Services
 from planner.api.listing import listed
 from planner.api.operator import act_behind, persons_act
-from planner.api.ports import Services
 from planner.api.problems import Problem
 from planner.api.rates import Rates
-from planner.api.requests import MAX_GOAL_CHARACTERS, GoalOrder, Move, NewGoal, Reply
+from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalOrder, Move, NewGoal, Reply
 from planner.mission.errors import MissionError
 from planner.plan import Bilingual, Goal
 

@@ -9,7 +9,7 @@ from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, generate_l
 from prometheus_client.core import GaugeMetricFamily
 from starlette.responses import PlainTextResponse, Response
 
-from planner.api.ports import Services
+from planner.api.interfaces import Services
 from planner.api.problems import Problem
 
 if TYPE_CHECKING:

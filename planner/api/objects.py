@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter, Path
 
-from planner.api.ports import Services
+from planner.api.interfaces import Services
+from planner.api.problem_messages import saying_of
 from planner.api.problems import Problem
-from planner.api.sayings import saying_of
-from planner.vision.failure import REFUSALS
-from planner.vision.labels import named
+from planner.language.object_names import named
+from planner.perception.failure import REFUSALS
 
 if TYPE_CHECKING:
-    from planner.vision import Look, Thing
+    from planner.perception import Look, Thing
 
 ThingId = Annotated[str, Path(min_length=1, max_length=120)]
 RETOLD_S = 2.0

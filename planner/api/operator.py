@@ -11,10 +11,10 @@ from typing import Any
 
 from fastapi import APIRouter
 
-from planner.api.ports import Robot, Services
+from planner.api.interfaces import Robot, Services
+from planner.api.lenient_body import Unrefused
 from planner.api.problems import Problem
-from planner.api.requests import OperatorOrder, OperatorProof, Steer, StopOrder
-from planner.api.unrefused import Unrefused
+from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.mission.reception import read_utterance
 from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, signed_request
 

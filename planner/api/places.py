@@ -7,15 +7,15 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Response
 from pydantic import Field
 
-from planner.api.ports import Services
+from planner.api.interfaces import Services
 from planner.api.problems import Problem
-from planner.api.requests import Body
-from planner.mission.memory import Kept, Lesson
-from planner.world import MAX_HERE, PlaceRefused, TaughtPlace
-from planner.world.taught_errors import REASONS
+from planner.api.schemas import Body
+from planner.mission.known_places import Kept, Lesson
+from planner.site import MAX_HERE, PlaceRefused, TaughtPlace
+from planner.site.taught_place_errors import REASONS
 from wire import Pose2
+from wire.bounded_types import Name
 from wire.geometry import Metres, Yaw
-from wire.scalars import Name
 
 _STATUS = {
     "unknown_taught_place": 404,

@@ -16,7 +16,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.routing import Match
 
-from planner.api.sayings import saying_of
+from planner.api.problem_messages import saying_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -7,7 +7,7 @@ from typing import Any
 
 from fastapi import APIRouter
 
-from planner.api.ports import Services
+from planner.api.interfaces import Services
 from planner.brain import mind_of
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
 
-from planner.api.ports import Services
+from planner.api.interfaces import Services
 from planner.budget import Usage
 
 OneGoal = Annotated[str | None, Query(max_length=80)]

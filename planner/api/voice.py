@@ -8,8 +8,8 @@ from fastapi import APIRouter, Query, Request, Response
 from pydantic import BaseModel, ConfigDict
 
 from planner.api.goals import IdempotencyKey
+from planner.api.interfaces import Services
 from planner.api.operator import act_behind
-from planner.api.ports import Services
 from planner.api.problems import Problem
 from planner.language.stop import is_stop
 from planner.plan import Bilingual, Goal, Language

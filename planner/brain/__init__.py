@@ -10,30 +10,30 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from planner.brain.draft import Draft, Hear
+    from planner.brain.brain_status import Mind, mind_of
     from planner.brain.errors import BrainDown, Misconfigured, OutOfBudget, PlanRejected
     from planner.brain.fallback import FallbackBrain
-    from planner.brain.mind import Mind, mind_of
-    from planner.brain.offline import OfflineBrain
-    from planner.brain.protocol import Brain, Observation, ThinkRequest, Thought
+    from planner.brain.interface import Brain, Observation, ThinkRequest, Thought
+    from planner.brain.offline_brain import OfflineBrain
     from planner.brain.scripted import ScriptedBrain
+    from planner.brain.streamed_draft import Draft, Hear
 
 _DOORS = {
-    "Brain": "protocol",
+    "Brain": "interface",
     "BrainDown": "errors",
-    "Draft": "draft",
+    "Draft": "streamed_draft",
     "FallbackBrain": "fallback",
-    "Hear": "draft",
-    "Mind": "mind",
+    "Hear": "streamed_draft",
+    "Mind": "brain_status",
     "Misconfigured": "errors",
-    "Observation": "protocol",
-    "OfflineBrain": "offline",
+    "Observation": "interface",
+    "OfflineBrain": "offline_brain",
     "OutOfBudget": "errors",
     "PlanRejected": "errors",
     "ScriptedBrain": "scripted",
-    "ThinkRequest": "protocol",
-    "Thought": "protocol",
-    "mind_of": "mind",
+    "ThinkRequest": "interface",
+    "Thought": "interface",
+    "mind_of": "brain_status",
 }
 
 __all__ = [

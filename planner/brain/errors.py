@@ -22,7 +22,7 @@ class PlanRejected(Exception):
 class BrainDown(Exception):
     """Nobody's fault here: back off, then fall back to the offline brain.
 
-    ``why`` is one of the keys of ``planner.brain.reasons``.
+    ``why`` is one of the keys of ``planner.brain.model_error_codes``.
     """
 
     code = "model_unavailable"

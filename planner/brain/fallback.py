@@ -10,12 +10,12 @@ import logging
 import time
 from collections.abc import Callable
 
-from planner.brain.breaker import FIRST_REST_S, Breaker
-from planner.brain.draft import Hear
+from planner.brain.circuit_breaker import FIRST_REST_S, Breaker
 from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
-from planner.brain.offline.guard import refuse_bad_text
-from planner.brain.protocol import Brain, ThinkRequest, Thought
-from planner.brain.reasons import reason
+from planner.brain.interface import Brain, ThinkRequest, Thought
+from planner.brain.model_error_codes import reason
+from planner.brain.streamed_draft import Hear
+from planner.language.grammar.input_checks import refuse_bad_text
 from planner.plan import BrainTag, Clarify, Code
 
 log = logging.getLogger(__name__)

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from planner.brain.protocol import Observation, ThinkRequest
+from planner.brain.interface import Observation, ThinkRequest
+from planner.brain.prompt_template import FOLDER, Template, as_json, repair
 from planner.brain.schema import (
     CLARIFY_CODES,
     REFUSE_CODES,
@@ -21,7 +22,6 @@ from planner.brain.schema import (
     step_line,
     step_models,
 )
-from planner.brain.template import FOLDER, Template, as_json, repair
 from planner.plan import NEEDS_CAMERA, Code, Language, Vocabulary
 
 BUDGET_TOKENS = 1500

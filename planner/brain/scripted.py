@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 
 from pydantic import ValidationError
 
-from planner.brain.draft import Draft, Hear
 from planner.brain.errors import Misconfigured, PlanRejected
-from planner.brain.protocol import ThinkRequest, Thought
+from planner.brain.interface import ThinkRequest, Thought
+from planner.brain.streamed_draft import Draft, Hear
 from planner.plan import PLAN, Answer, BrainTag, Clarify, Refuse, StepPlan
 
 Reply = StepPlan | Answer | Clarify | Refuse | str | Exception

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.budget.day import Clocks
+from planner.budget.budget import Purse
 from planner.budget.ledger import Ledger
-from planner.budget.purse import Purse
-from planner.budget.usage import Amounts, Most, Refused, Usage
+from planner.budget.report import Amounts, Most, Refused, Usage
+from planner.budget.utc_day import Clocks
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -14,8 +14,8 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from datetime import date, timedelta
 from pathlib import Path
 
-from planner.budget.page import MAX_ID, Page
-from planner.budget.spent import Spent
+from planner.budget.daily_file import MAX_ID, Page
+from planner.budget.totals import Spent
 from wire import Misconfigured
 
 log = logging.getLogger(__name__)

@@ -32,6 +32,7 @@ send ``Output.messages`` to the bridge, answer ``Output.effects``. ``advance`` a
 pure.
 """
 
+from planner.mission.api_view import goal_of
 from planner.mission.effects import (
     AskBrain,
     AskRoute,
@@ -52,6 +53,7 @@ from planner.mission.errors import (
     QueueFull,
     UnknownGoal,
 )
+from planner.mission.event_hub import Subscription
 from planner.mission.events import (
     Cancel,
     Confirm,
@@ -69,16 +71,14 @@ from planner.mission.events import (
     Submitted,
     Tick,
 )
-from planner.mission.facts import facts_of
-from planner.mission.helpers import Router, Think
-from planner.mission.hub import Subscription
 from planner.mission.journal import MissionJournal
+from planner.mission.known_places import Kept, Lesson, Memory
 from planner.mission.loop import Clocks
-from planner.mission.memory import Kept, Lesson, Memory
-from planner.mission.records import Book, Facts, Mission, Rules, Target
 from planner.mission.reducer import advance, wish
-from planner.mission.runner import Missions
-from planner.mission.view import goal_of
+from planner.mission.service import Missions
+from planner.mission.site_view import facts_of
+from planner.mission.state import Book, Facts, Mission, Rules, Target
+from planner.mission.tasks import Router, Think
 
 __all__ = [
     "AskBrain",

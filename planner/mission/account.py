@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.words import angle, metres
+from planner.language.formatting import angle, metres
 from planner.plan import Bilingual, Code, StepState, message, same
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from planner.mission.records import Facts, Mission
+    from planner.mission.state import Facts, Mission
     from planner.plan import StepRecord
 
 DRIVEN = frozenset({"go_to", "return_home", "come_back"})

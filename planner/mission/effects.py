@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner.brain.protocol import Exchange, Observation
-from planner.mission.records import Mission
-from planner.mission.skills.act import Way
+from planner.brain.interface import Exchange, Observation
+from planner.mission.skills.actions import Way
+from planner.mission.state import Mission
 from planner.plan import Bilingual, Language
 from wire import Pose2
 

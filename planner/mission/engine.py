@@ -9,13 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import hypot
 
-from planner.link import Course, Identity, OwnerState, on_course, on_status
+from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
 from planner.mission.effects import AskRoute, Effect, Journal, Wish
 from planner.mission.events import Event, Journalled, Routed, Seen
-from planner.mission.records import Book
 from planner.mission.reducer import advance, wish
 from planner.mission.skills import Way
-from planner.route import Horizon, LegPath, RoutePoint, cut
+from planner.mission.state import Book
+from planner.navigation import Horizon, LegPath, RoutePoint, cut
 from wire import Record, Status
 
 SPIN_MPS = 0.05

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner.mission.records import Facts, Mission
-from planner.mission.skills.eyesight import Answer as EyeAnswer
+from planner.mission.skills.perception import Answer as EyeAnswer
+from planner.mission.state import Facts, Mission
+from planner.perception.snapshot import Sight
 from planner.plan import Answer, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
-from planner.vision.records import Sight
 from wire import Status
 
 

@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from sqlalchemy.dialects import postgresql, sqlite
 
 from planner.mission.effects import Journal
-from planner.mission.records import MAX_ENDED, Mission
+from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import ENDED
 from wire import Misconfigured
 

@@ -7,10 +7,10 @@ on or end. Nothing is streamed before the journal holds the beginning: see ``wis
 from __future__ import annotations
 
 from planner.mission.effects import AskRoute
-from planner.mission.failing import fail_step
-from planner.mission.records import Mission, Walk
 from planner.mission.skills import Cannot, Way, no_room
-from planner.mission.turn import Turn
+from planner.mission.state import Mission, Walk
+from planner.mission.step_failure import fail_step
+from planner.mission.transaction import Turn
 from planner.plan import Code
 from wire import Pose2
 

@@ -14,9 +14,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from planner.link import Link, LinkError
+from planner.bridge_client import Link, LinkError
 from planner.mission.accept import Accepted
-from planner.mission.collector import Collector
+from planner.mission.api_view import Progress, goal_of, progress_of
+from planner.mission.bridge_status import at_rest
+from planner.mission.detector_words import Wording
 from planner.mission.effects import (
     AskBrain,
     AskEyes,
@@ -30,26 +32,24 @@ from planner.mission.effects import (
     SayAloud,
 )
 from planner.mission.engine import Engine, Leg, Output
+from planner.mission.event_hub import Hub
 from planner.mission.events import Event, Journalled, Restarted, Sighted, Tick
-from planner.mission.eyedoor import EyeDoor
-from planner.mission.helpers import Answers, Helpers, Router, Think
-from planner.mission.hub import Hub
+from planner.mission.gc_control import Collector
 from planner.mission.journal import GoalKey, MissionJournal
-from planner.mission.records import Book, Rules
+from planner.mission.journal_sync import Safekeeping
+from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture, looks
-from planner.mission.safekeeping import Safekeeping
-from planner.mission.sight import at_rest
 from planner.mission.skills import Eyesight
-from planner.mission.view import Progress, goal_of, progress_of
-from planner.mission.warm import warm_up
-from planner.mission.wording import Wording
-from planner.route import RoutePoint
+from planner.mission.state import Book, Rules
+from planner.mission.tasks import Answers, Helpers, Router, Think
+from planner.mission.warmup import warm_up
+from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints
 
 if TYPE_CHECKING:
-    from planner.brain.looking import Looker
-    from planner.vision.ports import Eyes
-    from planner.vision.records import Sight
+    from planner.brain.image_questions import Looker
+    from planner.perception.interfaces import Eyes
+    from planner.perception.snapshot import Sight
     from wire import CameraConfig
 
 POLL_S = 0.005

@@ -8,9 +8,9 @@ with the answer, too.
 from __future__ import annotations
 
 from planner.mission.effects import ClearHold, DropBrain
-from planner.mission.records import Book, Mission, Walk
-from planner.mission.turn import Turn
-from planner.mission.verdict import ended, failure
+from planner.mission.outcomes import ended, failure
+from planner.mission.state import Book, Mission, Walk
+from planner.mission.transaction import Turn
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
 
 PARDON_S = 2.0

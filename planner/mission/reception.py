@@ -10,19 +10,19 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from planner.brain.intents import Intent, Replace, intent_of
-from planner.brain.intents import Resume as GoOn
+from planner.language.commands import Intent, Replace, intent_of
+from planner.language.commands import Resume as GoOn
 from planner.language.stop import StopReading, is_stop, read_stop
-from planner.mission.local import current
-from planner.mission.meaning import meant
-from planner.mission.sight import at_rest
-from planner.mission.skills.consent import consents
-from planner.mission.waiting import has_room
+from planner.language.yes_no import consents
+from planner.mission.answer_timeouts import has_room
+from planner.mission.answered_question import meant
+from planner.mission.bridge_status import at_rest
+from planner.mission.planner_commands import current
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
     from planner.mission.events import Submitted
-    from planner.mission.records import Book
+    from planner.mission.state import Book
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""

@@ -7,6 +7,7 @@ What the bridge should be asked for is a level, read from the book by ``wish``.
 
 from __future__ import annotations
 
+from planner.mission.allowed_commands import refusal
 from planner.mission.effects import STAND, AskBrain, Effect, Wish
 from planner.mission.events import (
     Cancel,
@@ -30,8 +31,7 @@ from planner.mission.events import (
     Tick,
     Told,
 )
-from planner.mission.gazing import on_sight, on_told
-from planner.mission.goals import (
+from planner.mission.goal_lifecycle import (
     confirm,
     pause,
     planned,
@@ -41,16 +41,16 @@ from planner.mission.goals import (
     stop,
     submit,
 )
-from planner.mission.known import on_known
 from planner.mission.legs import on_routed
+from planner.mission.outcomes import moves
+from planner.mission.perception_events import on_sight, on_told
+from planner.mission.places_changed import on_known
 from planner.mission.queue import cancel, reorder
-from planner.mission.records import Book
-from planner.mission.speed import change_speed
-from planner.mission.table import refusal
-from planner.mission.turn import Turn
-from planner.mission.verdict import moves
-from planner.mission.walk import speak_if_safe, start_next
-from planner.mission.watch import on_status, on_tick
+from planner.mission.speed_cap import change_speed
+from planner.mission.state import Book
+from planner.mission.status_monitor import on_status, on_tick
+from planner.mission.step_execution import speak_if_safe, start_next
+from planner.mission.transaction import Turn
 from planner.plan import NEEDS_CAMERA
 
 __all__ = ["AskBrain", "advance", "wish"]

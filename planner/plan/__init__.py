@@ -1,7 +1,7 @@
 """Say what may be planned: the closed vocabulary of plans, steps, outcomes, places and goals."""
 
 from planner.plan.base import Bilingual, Frozen, Language, same
-from planner.plan.codes import Code, message, template
+from planner.plan.capabilities import BARE, NEEDS_DETECTOR, Means
 from planner.plan.goal import (
     ENDED,
     BrainTag,
@@ -15,9 +15,9 @@ from planner.plan.goal import (
     fault,
     plan_record,
 )
-from planner.plan.means import BARE, NEEDS_DETECTOR, Means
 from planner.plan.outcome import Outcome, Spot
-from planner.plan.plans import MAX_STEPS, PLAN, Answer, Clarify, Option, Plan, Refuse, StepPlan
+from planner.plan.outcome_codes import Code, message, template
+from planner.plan.responses import MAX_STEPS, PLAN, Answer, Clarify, Option, Plan, Refuse, StepPlan
 from planner.plan.steps import (
     DRIVES,
     EVERY_KIND,

@@ -10,9 +10,9 @@ from enum import StrEnum
 from pydantic import AwareDatetime, Field
 
 from planner.plan.base import Bilingual, Frozen, Language
-from planner.plan.codes import Code
 from planner.plan.outcome import Outcome, Spot
-from planner.plan.plans import Answer, Clarify, Option, Refuse, StepPlan
+from planner.plan.outcome_codes import Code
+from planner.plan.responses import Answer, Clarify, Option, Refuse, StepPlan
 
 
 class GoalState(StrEnum):

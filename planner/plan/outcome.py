@@ -8,7 +8,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from planner.plan.base import Bilingual, Frozen
-from planner.plan.codes import Code
+from planner.plan.outcome_codes import Code
 
 
 class Spot(Frozen):

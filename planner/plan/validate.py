@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planner.plan.base import Frozen, same
-from planner.plan.codes import Code, message
 from planner.plan.outcome import Outcome
-from planner.plan.plans import MAX_STEPS, Answer, Clarify, Refuse, StepPlan
+from planner.plan.outcome_codes import Code, message
+from planner.plan.responses import MAX_STEPS, Answer, Clarify, Refuse, StepPlan
 from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step, places_of
 from planner.plan.vocabulary import Vocabulary
 

@@ -1,9 +1,9 @@
 """Read the owner's settings: `$PONS_HOME/settings.toml` and a few environment variables."""
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Limits, Price
+from planner.settings.loader import FILE, Settings, exposed, load_settings, place_of, same_place
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
-from planner.settings.owner import FILE, Settings, exposed, load_settings, place_of, same_place
 from planner.settings.presets import PRESETS, Mode, Preset, PresetName, TokensField
 from planner.settings.vision import VisionSettings
 

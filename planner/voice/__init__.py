@@ -3,9 +3,9 @@
 What is heard is only text. It becomes a goal on the same way as typed text, stop lane first.
 """
 
-from planner.voice.protocol import Heard, Recogniser, VoiceFailure
+from planner.voice.process_client import VoiceWorker
+from planner.voice.recogniser import Heard, Recogniser, VoiceFailure
 from planner.voice.wav import MAX_BYTES, MAX_SECONDS, BadRecording, Sound, read_wav
-from planner.voice.worker import VoiceWorker
 
 __all__ = [
     "MAX_BYTES",

@@ -16,10 +16,11 @@ from tempfile import TemporaryDirectory
 
 import pocketsphinx
 
-from planner.voice.apart import Apart
-from planner.voice.common import COMMON
+from planner.voice.audio_preprocess import FRAME, prepare, quiet
+from planner.voice.common_words import COMMON
+from planner.voice.confidence import Decoded, confidence, long_pauses, stop_confidence
 from planner.voice.dictionary import Dictionary
-from planner.voice.doubt import Decoded, confidence, long_pauses, stop_confidence
+from planner.voice.forked_job import Apart
 from planner.voice.grammar import (
     ANSWERS,
     OTHER_STOPS,
@@ -29,8 +30,7 @@ from planner.voice.grammar import (
     is_stop,
     language_of,
 )
-from planner.voice.protocol import Heard
-from planner.voice.samples import FRAME, prepare, quiet
+from planner.voice.recogniser import Heard
 
 _DICTIONARY = "en-us/cmudict-en-us.dict"
 _WORD = re.compile(r"[a-z']+")

@@ -10,11 +10,11 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from pons.calibrate.flow import Plan, calibrate
+from pons.calibrate.errors import CalibrationRefused
+from pons.calibrate.procedure import Plan, calibrate
 from pons.calibrate.reference import MEASURED
-from pons.calibrate.refusals import CalibrationRefused
-from pons.calibrate.rig import Rig
-from pons.calibrate.robotfile import difference, edited, replace
+from pons.calibrate.robot_toml import difference, edited, replace
+from pons.calibrate.session import Rig
 from wire import Misconfigured, load_robot
 from wire.keys import Party
 from wire.session import open_session

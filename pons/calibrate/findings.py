@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
+from pons.calibrate.errors import CalibrationRefused
 from pons.calibrate.motor import LEFT, RIGHT, braking_radps2, fitted, plateau, statics
-from pons.calibrate.refusals import CalibrationRefused
 from pons.calibrate.runs import EVEN_TICKS, SETTLED_TICKS
 from pons.calibrate.track import TICK_S
 from wire import RobotDescription

@@ -11,7 +11,7 @@ from math import copysign, exp
 from statistics import fmean
 from typing import TYPE_CHECKING
 
-from pons.calibrate.refusals import RunLost
+from pons.calibrate.errors import RunLost
 from pons.calibrate.track import TICK_S
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from statistics import fmean, median
 from typing import TYPE_CHECKING
 
-from pons.calibrate.refusals import CalibrationRefused, RunLost
-from pons.calibrate.room import points_of
+from pons.calibrate.clearance import points_of
+from pons.calibrate.errors import CalibrationRefused, RunLost
 from pons.calibrate.wall import wall_ahead
 from wire import distance
 

@@ -14,7 +14,7 @@ from pons.calibrate.track import Track
 
 if TYPE_CHECKING:
     from pons.calibrate.reference import Look
-    from pons.calibrate.rig import Rig
+    from pons.calibrate.session import Rig
     from wire import RobotDescription
 
 SLOW_MPS, SLOW_S = 0.06, 2.2

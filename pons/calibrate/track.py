@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import TYPE_CHECKING
 
-from pons.calibrate.refusals import RunLost
+from pons.calibrate.errors import RunLost
 from wire import wrap
 
 if TYPE_CHECKING:

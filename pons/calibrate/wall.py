@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from statistics import fmean, median
 
-from pons.calibrate.refusals import CalibrationRefused
+from pons.calibrate.errors import CalibrationRefused
 
 HALF_M, OFF_M, SHARE, FEWEST = 0.35, 0.03, 0.9, 8
 STEEPEST = 1.0

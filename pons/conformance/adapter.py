@@ -56,7 +56,7 @@ class Adapter(Protocol):
         ...
 
     def helper(self) -> list[str]:
-        """Return the command of ``pons.conformance.helper``: a link of its own to this bridge."""
+        """Return the command of a worker process with a link of its own to this bridge."""
         ...
 
     def door(self) -> str:

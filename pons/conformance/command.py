@@ -15,15 +15,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bench.machine import commit, machine, today
 from pons.conformance import matrix
 from pons.conformance.adapter import CannotTest
 from pons.conformance.catalogue import FAULTS, chosen
 from pons.conformance.fault import W, X
-from pons.conformance.rig import OURS, Rig
 from pons.conformance.runner import NAMES, play_all
 from pons.conformance.site_track import find_track
+from pons.conformance.system_under_test import OURS, Rig
 from pons.settings import CHECKOUT
+from tools.bench.machine import commit, machine, today
 from wire import Misconfigured, load_robot
 
 if TYPE_CHECKING:

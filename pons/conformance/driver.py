@@ -12,10 +12,10 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from pons.conformance.brain import number
+from pons.conformance.reference_client import number
 
 if TYPE_CHECKING:
-    from pons.conformance.brain import Brain, Said
+    from pons.conformance.reference_client import Brain, Said
     from wire import Status
 
 Sent = tuple[str, bytes]

@@ -10,7 +10,7 @@ from pons.conformance.driver import pack
 
 if TYPE_CHECKING:
     from pons.conformance.driver import Breaker, Sent
-    from pons.conformance.stage import Stage
+    from pons.conformance.fault_context import Stage
     from wire import OwnerKind, Status
 
 X: OwnerKind = "external"

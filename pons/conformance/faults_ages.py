@@ -7,7 +7,6 @@ import time
 from itertools import count
 from typing import TYPE_CHECKING
 
-from pons.conformance.brain import number
 from pons.conformance.driver import pack
 from pons.conformance.fault import (
     COMMANDS,
@@ -20,13 +19,14 @@ from pons.conformance.fault import (
     broken,
     everything,
 )
+from pons.conformance.reference_client import number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.stage import Stage
+    from pons.conformance.fault_context import Stage
     from wire import Status
 
 AHEAD = 3

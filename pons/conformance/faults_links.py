@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from pons.conformance.driver import mute, pack
 from pons.conformance.fault import PATH_S, SILENT, VELOCITY_S, Fault, W, X
-from pons.conformance.helpers import FLOODER
 from pons.conformance.proxy import Proxy, Way
+from pons.conformance.worker_processes import FLOODER
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.conformance.stage import Stage
+    from pons.conformance.fault_context import Stage
 
 FLOOD_HZ, JUNK_HZ = 10_000, 1_000
 FLOODED_S = 0.1

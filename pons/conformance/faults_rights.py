@@ -7,7 +7,6 @@ import time
 from math import cos, inf, nan, sin
 from typing import TYPE_CHECKING
 
-from pons.conformance.brain import Brain, number
 from pons.conformance.driver import mute, pack
 from pons.conformance.fault import (
     AT_ONCE_S,
@@ -21,15 +20,16 @@ from pons.conformance.fault import (
     commands,
     everything,
 )
+from pons.conformance.reference_client import Brain, number
 from wire import MAX_POINTS, PROTOCOL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.conformance.brain import Said
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.stage import Stage
+    from pons.conformance.fault_context import Stage
+    from pons.conformance.reference_client import Said
     from wire import Status
 
 REST_S = 0.6

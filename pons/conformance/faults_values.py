@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.stage import Stage
+    from pons.conformance.fault_context import Stage
     from wire import Status
 
 HUGE_BYTES = (7_000_000, 10_000_000)

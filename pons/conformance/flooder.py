@@ -12,8 +12,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from pons.conformance.brain import number
-from pons.conformance.mouth import Mouth
+from pons.conformance.raw_publisher import Mouth
+from pons.conformance.reference_client import number
 from wire.keys import STATUS
 
 if TYPE_CHECKING:

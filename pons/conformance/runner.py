@@ -13,22 +13,22 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from pons.conformance import verdict
-from pons.conformance.brain import METRES, Brain
 from pons.conformance.driver import Driver, mute, plain
-from pons.conformance.fairness import Fairness
 from pons.conformance.fault import W, X
-from pons.conformance.helpers import Helpers
-from pons.conformance.pulse import Pulse
-from pons.conformance.stage import NotBegun, Stage
+from pons.conformance.fault_context import NotBegun, Stage
+from pons.conformance.reference_client import METRES, Brain
+from pons.conformance.retry_policy import Fairness
+from pons.conformance.scheduler_probe import Pulse
 from pons.conformance.verdict import NOT_ASKED, Cell
+from pons.conformance.worker_processes import Helpers
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from pons.conformance.adapter import Adapter
-    from pons.conformance.fairness import Try
     from pons.conformance.fault import Fault
+    from pons.conformance.retry_policy import Try
     from pons.conformance.track import Track
     from wire import OpKind, OwnerKind
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.route.costmap import static_costmap
-from planner.world import Site
+from planner.navigation.costmap import static_costmap
+from planner.site import Site
 from pons.conformance.adapter import CannotTest
 from pons.conformance.track import Track
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from planner.route.costmap import Costmap
+    from planner.navigation.costmap import Costmap
 
 LONGEST_M = 3.4
 SHORTEST_M = 1.6

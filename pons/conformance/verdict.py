@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from pons.conformance.pulse import LATE_SHARE
 from pons.conformance.record import between
+from pons.conformance.scheduler_probe import LATE_SHARE
 
 if TYPE_CHECKING:
     from pons.conformance.bounds import Bounds
-    from pons.conformance.pulse import Kept
     from pons.conformance.record import Command, Record
+    from pons.conformance.scheduler_probe import Kept
 
 EPS_RADPS = 2e-3
 CREEP_RADPS = 1e-6

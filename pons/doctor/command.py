@@ -8,8 +8,8 @@ from dataclasses import asdict
 from subprocess import SubprocessError
 from typing import TYPE_CHECKING
 
+from pons.doctor import host_checks, model_checks, path_checks
 from pons.doctor import jitter as late
-from pons.doctor import machine, mind, place
 from pons.doctor.finding import Finding, Verdict, Words, fail
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ MARKS = {Verdict.OK: "ok  ", Verdict.WARN: "warn", Verdict.FAIL: "FAIL"}
 def run(settings: Settings, *, as_json: bool = False, jitter: bool = False) -> int:
     """Be ``pons doctor``."""
     found = findings(settings)
-    _, robot = place.robot(settings.robot)
+    _, robot = path_checks.robot(settings.robot)
     rows = late.measure(robot.realtime.priority) if jitter else []
     if as_json:
         content = {"findings": [asdict(one) for one in found]}
@@ -45,26 +45,26 @@ def run(settings: Settings, *, as_json: bool = False, jitter: bool = False) -> i
 
 def findings(settings: Settings) -> list[Finding]:
     """Return what every check finds, the machine first."""
-    described, robot = place.robot(settings.robot)
-    sited, site = place.site(settings.site)
-    running = bool(place.listening(settings.home))
+    described, robot = path_checks.robot(settings.robot)
+    sited, site = path_checks.site(settings.site)
+    running = bool(path_checks.listening(settings.home))
     priority, virtual = robot.realtime.priority, robot.drive.virtual
     return [
-        machine.python(),
-        checked("core", machine.core),
-        machine.page_size(),
-        checked("real_time", lambda: machine.real_time(priority, virtual=virtual)),
-        checked("locked_memory", machine.locked_memory),
-        machine.node(),
-        checked("home", lambda: place.home(settings.home)),
-        checked("secrets", lambda: place.secrets(settings.home, virtual=virtual)),
-        checked("disk", lambda: place.disk(settings.home)),
-        checked("sockets", lambda: place.sockets(settings.home)),
-        checked("port", lambda: place.port(settings.host, settings.port, running=running)),
+        host_checks.python(),
+        checked("core", host_checks.core),
+        host_checks.page_size(),
+        checked("real_time", lambda: host_checks.real_time(priority, virtual=virtual)),
+        checked("locked_memory", host_checks.locked_memory),
+        host_checks.node(),
+        checked("home", lambda: path_checks.home(settings.home)),
+        checked("secrets", lambda: path_checks.secrets(settings.home, virtual=virtual)),
+        checked("disk", lambda: path_checks.disk(settings.home)),
+        checked("sockets", lambda: path_checks.sockets(settings.home)),
+        checked("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
         described,
         sited,
-        checked("model", lambda: mind.model(settings.home)),
-        checked("recogniser", lambda: mind.recogniser(site)),
+        checked("model", lambda: model_checks.model(settings.home)),
+        checked("recogniser", lambda: model_checks.recogniser(site)),
     ]
 
 

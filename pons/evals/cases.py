@@ -6,7 +6,7 @@ import random
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pons.evals.laws import Law
+from pons.evals.category_rules import Law
 from pons.evals.matchers import BadMatcher, Wanted, wanted
 from pons.evals.world import World
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.brain import Brain, OfflineBrain, OutOfBudget
-from planner.world.errors import SiteError
+from planner.site.errors import SiteError
 from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
 from pons.evals.report import as_json, content, passed, table
@@ -83,7 +83,7 @@ async def _all(
         return await _scored(suites, OfflineBrain())
     from planner.brain.endpoint import Address, EndpointBrain
     from planner.budget import Ledger, Purse
-    from pons.modelchoice import chosen
+    from pons.model_selection import chosen
 
     owner, whom = chosen(model, settings.home, os.environ)
     address = Address.parse(whom.url)

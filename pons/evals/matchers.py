@@ -13,7 +13,7 @@ from itertools import permutations
 from math import radians
 
 from planner.plan import Answer, Clarify, Refuse, StepPlan
-from pons.evals.mentions import plain
+from pons.evals.mentioned_names import plain
 from pons.evals.world import HOME, START, Event, walk
 
 Made = StepPlan | Answer | Clarify | Refuse

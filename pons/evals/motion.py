@@ -24,7 +24,7 @@ from planner.plan import (
     Vocabulary,
     places_of,
 )
-from pons.evals.mentions import label_named, numbers_named, places_named, plain
+from pons.evals.mentioned_names import label_named, numbers_named, places_named, plain
 
 _HOME = r"home|base|dock|charg|家|充电|基地|返航|回桩|回充"
 _BACK = r"back|return|here|where you (?:are|started)|回|返|过来|原"

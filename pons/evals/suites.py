@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from pons.evals.cases import MissingSuite, Suite, read_tsv
-from pons.evals.outside import chinese, gpsr
+from pons.evals.external_suites import chinese, gpsr
 from pons.evals.world import site_world
 
 OURS = Path(__file__).parent / "suites"

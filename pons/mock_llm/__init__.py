@@ -5,7 +5,7 @@ request, so any client that sends our prompt or a schema with places gets a plan
 """
 
 from pons.mock_llm.app import build
+from pons.mock_llm.fault_switches import FAULTS, READABLE, Switches
 from pons.mock_llm.serve import Options, run
-from pons.mock_llm.switches import FAULTS, READABLE, Switches
 
 __all__ = ["FAULTS", "READABLE", "Options", "Switches", "build", "run"]

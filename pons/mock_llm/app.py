@@ -17,10 +17,10 @@ from planner.brain import OfflineBrain, ThinkRequest
 from planner.plan import StepPlan
 from pons.mock_llm import pictures, streams
 from pons.mock_llm.completion import bytes_of, completion
-from pons.mock_llm.early import error, instead_of_a_reply
+from pons.mock_llm.error_replies import error, instead_of_a_reply
+from pons.mock_llm.fault_switches import Switches
 from pons.mock_llm.replies import GARBAGE, hallucinated, hostile, reply_of, shaped
-from pons.mock_llm.switches import Switches
-from pons.mock_llm.world import request_of
+from pons.mock_llm.request_parser import request_of
 
 MAX_BODY = 4_000_000
 KEPT = 1000

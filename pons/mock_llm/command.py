@@ -6,8 +6,8 @@ import argparse
 
 from pydantic import ValidationError
 
+from pons.mock_llm.fault_switches import FAULTS, Switches
 from pons.mock_llm.serve import Options, run
-from pons.mock_llm.switches import FAULTS, Switches
 
 
 def main(words: list[str]) -> int:

@@ -14,7 +14,7 @@ import re
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from planner.brain.jpeg import jpeg_size, segments
+from planner.brain.jpeg_metadata import jpeg_size, segments
 from planner.brain.prompt import READ
 
 COMMENT = 0xFE

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import uvicorn
 
 from pons.mock_llm.app import build
-from pons.mock_llm.switches import Switches
+from pons.mock_llm.fault_switches import Switches
 
 REFUSED = 2
 

@@ -5,12 +5,12 @@ taken, ``Appearance`` is all that may vary between homes that hold the same thin
 ``SimCamera`` is the camera itself: scenes in, packed pictures out, with its faults.
 """
 
-from sim.camera.appearance import Appearance, Texture
 from sim.camera.camera import SimCamera
+from sim.camera.camera_faults import Shot
 from sim.camera.frame import Frame
 from sim.camera.noise import spoil
 from sim.camera.renderer import Renderer
-from sim.camera.shutter import Shot
+from sim.camera.surfaces import Appearance, Texture
 from sim.camera.view import focal_px
 
 __all__ = ["Appearance", "Frame", "Renderer", "Shot", "SimCamera", "Texture", "focal_px", "spoil"]

@@ -17,7 +17,7 @@ import threading
 from pathlib import Path
 
 from sim.camera.camera import SimCamera
-from sim.camera.shell import Shell
+from sim.camera.node import Shell
 from sim.site import load_home
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party

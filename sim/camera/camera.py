@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sim.camera.appearance import Appearance
+from sim.camera.camera_faults import Shot, Shutter
 from sim.camera.frame import Frame
 from sim.camera.noise import spoil
 from sim.camera.pictures import depth_png, jpeg
 from sim.camera.renderer import Renderer
-from sim.camera.shutter import Shot, Shutter
+from sim.camera.surfaces import Appearance
 from wire import SimFault
 
 if TYPE_CHECKING:

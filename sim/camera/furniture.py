@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sim.camera.parts import Part, ball, block, rod, shade, tube, unlabelled
+from sim.camera.primitives import Part, ball, block, rod, shade, tube, unlabelled
 from sim.site.classes import surface_m
 
 if TYPE_CHECKING:
-    from sim.camera.coat import Coat
+    from sim.camera.materials import Coat
     from sim.site.classes import Size
 
 

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.camera.appearance import Appearance
-from sim.camera.bodies import Body
-from sim.camera.canvas import Canvas, blank
 from sim.camera.frame import Frame
+from sim.camera.framebuffer import Canvas, blank
+from sim.camera.meshes import Body
 from sim.camera.rooms import SURFACES, Rooms
 from sim.camera.scene import height_m, instances
 from sim.camera.shading import Painter
+from sim.camera.surfaces import Appearance
 from sim.camera.view import View, rays
 
 if TYPE_CHECKING:

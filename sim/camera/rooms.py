@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.camera.bodies import FAR_M, corners
+from sim.camera.meshes import FAR_M, corners
 from sim.site.plan import door_edge, walls
 
 if TYPE_CHECKING:
-    from sim.camera.canvas import Canvas
+    from sim.camera.framebuffer import Canvas
     from sim.camera.view import View
     from sim.site import Home
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from math import radians, sqrt
 from typing import TYPE_CHECKING
 
-from sim.camera.coat import coat
-from sim.camera.facing import front_rad
-from sim.camera.fittings import form_of
+from sim.camera.fixtures import form_of
 from sim.camera.furniture import bed, chair, fridge, plant, round_table, screen, sofa, table, tv
-from sim.camera.parts import Part, tube
-from sim.camera.smalls import book, bottle, carton, cup, door, person, toy_ball
+from sim.camera.materials import coat
+from sim.camera.orientation import front_rad
+from sim.camera.primitives import Part, tube
+from sim.camera.small_objects import book, bottle, carton, cup, door, person, toy_ball
 from sim.site.classes import (
     CRATE_M,
     NO_CLASS,
@@ -23,16 +23,16 @@ from sim.site.classes import (
     PERSON_RADIUS_M,
     SPARE_OBSTACLES,
 )
+from sim.site.objects import furniture_class, ground_m, on_floor, pose_of, rest_m
 from sim.site.plan import furniture_shape
 from sim.site.shapes import Disc
-from sim.site.things import furniture_class, ground_m, on_floor, pose_of, rest_m
 from wire import Pose2
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from sim.camera.appearance import Appearance
-    from sim.camera.coat import Coat
+    from sim.camera.materials import Coat
+    from sim.camera.surfaces import Appearance
     from sim.site import Home
     from sim.site.classes import Size
     from sim.site.spec import Furniture, Object

@@ -18,9 +18,9 @@ from sim.site.plan import room_rects
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.camera.appearance import Appearance, Texture
-    from sim.camera.canvas import Canvas
+    from sim.camera.framebuffer import Canvas
     from sim.camera.scene import Instance
+    from sim.camera.surfaces import Appearance, Texture
     from sim.site import Home
 
 Floats = NDArray[np.float32]

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from sim.camera.appearance import Texture
-    from sim.camera.parts import Rgb
+    from sim.camera.primitives import Rgb
+    from sim.camera.surfaces import Texture
     from sim.site import Rect
 
 Floats = NDArray[np.float32]

@@ -1,7 +1,7 @@
 """Make a site from one declaration, home.yaml, so that map, places, fence and world agree."""
 
 from sim.site.files import FENCE_JSON, MAP_PGM, MAP_YAML, PLACES_YAML, site_files
-from sim.site.freshness import check_fresh, stale, write
+from sim.site.generated_check import check_fresh, stale, write
 from sim.site.load import load_home, parse_home
 from sim.site.plan import solids
 from sim.site.shapes import Disc, Rect, Shape, Solid

@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from sim.site.object_checks import check_things
+from sim.site.objects import uprights
 from sim.site.outline import allowed_rects, area_m2, edge_distance_m, trace
 from sim.site.plan import door_edge, furniture, rect, room_rects, solids, walls
 from sim.site.raster import crowded, draw, inside, reachable
 from sim.site.shapes import EPS_M, Rect, Solid
-from sim.site.thingcheck import check_things
-from sim.site.things import uprights
 from wire import Misconfigured
 
 if TYPE_CHECKING:

@@ -62,9 +62,9 @@ def _line(data: bytes) -> str:
 
 
 def _odd() -> list[str]:
-    from bridge.core.kinematics import saturate, twist_of, wheels_of
-    from bridge.core.limiter import LimiterState, shape, tick_length
-    from bridge.core.odometry import along_arc
+    from bridge.core.geometry.kinematics import saturate, twist_of, wheels_of
+    from bridge.core.geometry.odometry import along_arc
+    from bridge.core.motion.limiter import LimiterState, shape, tick_length
     from wire import Pose2, RobotDescription, Twist2, compose, wrap
 
     robot = RobotDescription()

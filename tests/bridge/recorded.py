@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from bridge.blackbox import frames, known
-from bridge.blackbox.writer import Writer
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox
-from bridge.recorder.encode import schema_frame, segment_frames, tick_frames
-from bridge.recorder.format import core_of, schemas
+from bridge.recording import foxglove_messages, pipe_frames
+from bridge.recording.encode import schema_frame, segment_frames, tick_frames
+from bridge.recording.format import core_of, schemas
+from bridge.recording.writer import Writer
 
 Taken = tuple[BridgeState, Inbox, float, Decision]
 SCHEMAS = schemas()
@@ -49,8 +49,8 @@ def written(
 ) -> list[Path]:  # fmt: skip
     """Write a stream as the writing process would; return the files, oldest first."""
     before = set(folder.glob("*.mcap"))
-    writer = Writer(folder, boot, rotate_bytes, 1 << 40, known.Clock(UNIX_S))
-    for number, (kind, payload) in enumerate(frames.Splitter().feed(stream)):
+    writer = Writer(folder, boot, rotate_bytes, 1 << 40, foxglove_messages.Clock(UNIX_S))
+    for number, (kind, payload) in enumerate(pipe_frames.Splitter().feed(stream)):
         writer.take(kind, payload, UNIX_S)
         if number % beat_every == beat_every - 1:
             writer.beat()

@@ -50,7 +50,8 @@ def test_one_of_these_very_sources_is_found(checkout: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "changed", ["bridge/core/limiter.py", "bridge/core/codec.py", "wire/robot.py", "wire/keys.py"]
+    "changed",
+    ["bridge/core/motion/limiter.py", "bridge/core/codec.py", "wire/robot.py", "wire/keys.py"],
 )
 def test_one_of_other_sources_is_never_used(checkout: Path, changed: str) -> None:
     built(checkout)
@@ -97,8 +98,8 @@ def test_one_that_cannot_be_loaded_is_left_again(checkout: Path) -> None:
         "from pathlib import Path\n"
         "from bridge.compiled import Core, use\n"
         f"print(use(Core(Path({str(folder)!r}), 'compiled x')).text)\n"
-        "import bridge.core.limiter, wire\n"
-        "print(bridge.core.limiter.__file__)\n"
+        "import bridge.core.motion.limiter, wire\n"
+        "print(bridge.core.motion.limiter.__file__)\n"
     )
     assert said[0].startswith("plain Python, because")
     assert "cannot be loaded" in said[0]

@@ -13,10 +13,10 @@ import pytest
 
 from bridge.core import ON_TIME, Decision, step
 from bridge.link import Link
-from lockstep import Bus
 from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
+from tools.lockstep import Bus
 from wire import (
     VIRTUAL_KEY,
     Grant,

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from bridge.__main__ import _config, main
-from bridge.blackbox.reader import BoxReader
 from bridge.core import Inbox, initial, step
+from bridge.recording.mcap_reader import BoxReader
 from bridge.replay import replay
 from bridge.warmup import warm_up
 from tests.bridge.fake_robot import FakeRobot

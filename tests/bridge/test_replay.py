@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from bridge.blackbox import frames
-from bridge.blackbox.file import BoxFile
-from bridge.blackbox.topics import topics
 from bridge.core import initial
+from bridge.recording import pipe_frames
+from bridge.recording.mcap_file import BoxFile
+from bridge.recording.topics import topics
 from bridge.replay import BadRecording, replay
 from tests.bridge.core.scripted import World
 from tests.bridge.recorded import SCHEMAS, Taken, stream_of, written
@@ -76,7 +76,7 @@ def edited(
 ) -> bytes:
     """Change one field (a/b/c) of the first frame of that kind that fits."""
     out, done = [], False
-    for each, payload in frames.Splitter().feed(stream):
+    for each, payload in pipe_frames.Splitter().feed(stream):
         data = payload
         if each == kind and not done and which(said := json.loads(payload)):
             *path, last = how.split("/")
@@ -85,7 +85,7 @@ def edited(
                 inner = inner[name]
             inner[last] = value(inner[last])
             data, done = json.dumps(said).encode(), True
-        out.append(frames.frame(each, data))
+        out.append(pipe_frames.frame(each, data))
     assert done, "no frame fits"
     return b"".join(out)
 
@@ -127,7 +127,7 @@ def test_after_a_gap_the_replay_goes_on_from_the_recorded_state(
 
 def test_one_bit_of_one_command_is_found(write: Callable[..., list[Path]]) -> None:
     def bent(stream: bytes) -> bytes:
-        return edited(stream, frames.COMMAND, moving, "left_radps", lambda v: v * (1 + 2**-52))
+        return edited(stream, pipe_frames.COMMAND, moving, "left_radps", lambda v: v * (1 + 2**-52))
 
     report = replay(write(bent))
     assert report.differing == 1
@@ -139,7 +139,7 @@ def test_the_sign_of_a_zero_is_found(write: Callable[..., list[Path]]) -> None:
         return bool(command["left_radps"] == 0.0)
 
     report = replay(
-        write(lambda s: edited(s, frames.COMMAND, standing, "left_radps", lambda v: -v))
+        write(lambda s: edited(s, pipe_frames.COMMAND, standing, "left_radps", lambda v: -v))
     )
     assert report.differing == 1
 
@@ -148,7 +148,9 @@ def test_another_input_gives_another_drive(write: Callable[..., list[Path]]) -> 
     def late(given: dict[str, Any]) -> bool:
         return bool(given["tick"] == 400)
 
-    report = replay(write(lambda s: edited(s, frames.INBOX, late, "now_s", lambda v: v + 0.004)))
+    report = replay(
+        write(lambda s: edited(s, pipe_frames.INBOX, late, "now_s", lambda v: v + 0.004))
+    )
     assert report.differing > 0
 
 
@@ -158,7 +160,7 @@ def test_a_state_that_is_not_the_one_reached_is_found(write: Callable[..., list[
 
     report = replay(
         write(
-            lambda s: edited(s, frames.STATE, second, "state/voice/dropped", lambda v: v + 1),
+            lambda s: edited(s, pipe_frames.STATE, second, "state/voice/dropped", lambda v: v + 1),
             segments_at=[300],
         )
     )
@@ -171,7 +173,9 @@ def test_another_core_is_said_where_this_one_can_still_run_it(
 ) -> None:
     report = replay(
         write(
-            lambda s: edited(s, frames.BOOT, lambda _: True, "core", lambda _: "0123456789abcdef")
+            lambda s: edited(
+                s, pipe_frames.BOOT, lambda _: True, "core", lambda _: "0123456789abcdef"
+            )
         )
     )
     assert (report.differing, report.other_core) == (0, "0123456789abcdef")
@@ -181,9 +185,11 @@ def test_another_core_is_named_where_this_one_cannot_run_it(
     write: Callable[..., list[Path]],
 ) -> None:
     def foreign(stream: bytes) -> bytes:
-        stream = edited(stream, frames.BOOT, lambda _: True, "core", lambda _: "0123456789abcdef")
+        stream = edited(
+            stream, pipe_frames.BOOT, lambda _: True, "core", lambda _: "0123456789abcdef"
+        )
         return edited(
-            stream, frames.STATE, lambda _: True, "state", lambda s: {**s, "legs": 4}
+            stream, pipe_frames.STATE, lambda _: True, "state", lambda s: {**s, "legs": 4}
         )  # fmt: skip
 
     with pytest.raises(BadRecording, match=r"recording_of_other_core: .*legs.*0123456789abcdef"):
@@ -192,8 +198,8 @@ def test_another_core_is_named_where_this_one_cannot_run_it(
 
 def test_a_tick_without_a_state_is_no_recording(write: Callable[..., list[Path]]) -> None:
     def headless(stream: bytes) -> bytes:
-        parts = frames.Splitter().feed(stream)
-        return b"".join(frames.frame(k, p) for k, p in parts if k != frames.STATE)
+        parts = pipe_frames.Splitter().feed(stream)
+        return b"".join(pipe_frames.frame(k, p) for k, p in parts if k != pipe_frames.STATE)
 
     with pytest.raises(BadRecording, match="recording_stateless"):
         replay(write(headless))
@@ -204,11 +210,11 @@ def test_a_missing_tick_without_a_state_after_it_is_no_recording(
 ) -> None:
     def holed(stream: bytes) -> bytes:
         out, number = [], 0
-        for kind, payload in frames.Splitter().feed(stream):
-            if kind == frames.TICK:
-                number, _ = frames.TICK_OF.unpack(payload)
+        for kind, payload in pipe_frames.Splitter().feed(stream):
+            if kind == pipe_frames.TICK:
+                number, _ = pipe_frames.TICK_OF.unpack(payload)
             if number != 250:
-                out.append(frames.frame(kind, payload))
+                out.append(pipe_frames.frame(kind, payload))
         return b"".join(out)
 
     with pytest.raises(BadRecording, match=r"recording_stateless: tick 251 follows tick 249"):

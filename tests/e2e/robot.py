@@ -13,7 +13,7 @@ from pathlib import Path
 
 import psutil
 
-from planner.world import Place, Site
+from planner.site import Place, Site
 from tests.e2e.judge import Judge, still
 from tests.e2e.polling import until
 from tests.e2e.system import ENDED, TWO_ROOM, Json, System, new_home

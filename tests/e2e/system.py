@@ -102,7 +102,7 @@ class System:
                 [
                     sys.executable,
                     "-m",
-                    "pons.child",
+                    "pons.pdeathsig_exec",
                     str(os.getpid()),
                     "pons",
                     "up",
@@ -158,7 +158,7 @@ class System:
         assert self.up is not None
         for process in psutil.Process(self.up.pid).children():
             with contextlib.suppress(psutil.NoSuchProcess, IndexError):
-                if process.cmdline()[2:5:2] == ["pons.child", name]:
+                if process.cmdline()[2:5:2] == ["pons.pdeathsig_exec", name]:
                     return process
         return None
 

@@ -18,7 +18,7 @@ from tests.e2e.robot import REFUSED, Robot
 from wire import Mode
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(180)]
-WRITER = "bridge.blackbox"
+WRITER = "bridge.recording"
 
 
 def writer(robot: Robot) -> psutil.Process | None:

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from lockstep.homes import site_of
 from sim.site import load_home
 from tests.e2e.robot import Robot, resting_in
 from tests.e2e.system import ENDED, HOME_SITE, Json
+from tools.lockstep.homes import site_of
 
 pytestmark = [pytest.mark.e2e, pytest.mark.home, pytest.mark.timeout(400)]
 

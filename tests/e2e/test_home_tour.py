@@ -8,7 +8,7 @@ from math import hypot
 
 import pytest
 
-from pons.texts import figures
+from pons.terminal_text import figures
 from tests.e2e.robot import THERE_M, Robot, resting_in
 from tests.e2e.system import ENDED, HOME_SITE
 

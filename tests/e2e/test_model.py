@@ -16,7 +16,7 @@ from pons.mock_llm.replies import HOSTILE_COUNT
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import ENDED, Json, new_home
-from tests.pons.mock.mocks import RunningMock, running_mock
+from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
 pytestmark = pytest.mark.e2e
 

@@ -10,10 +10,10 @@ import pytest
 
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.looking import Asked, Described, Picture
+from planner.brain.image_questions import Asked, Described, Picture
+from planner.perception import Detection, VisionWorker
+from planner.perception_factory import looker_of
 from planner.settings import ModelSettings, VisionSettings
-from planner.sight import looker_of
-from planner.vision import Detection, VisionWorker
 from tests.planner.brain.pictures import jpeg
 
 CUP = Detection("cup", 0.9, (10.0, 10.0, 20.0, 20.0), "red", 1.5)

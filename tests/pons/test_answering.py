@@ -16,7 +16,7 @@ from planner.plan import GoalState
 from pons import goals
 from pons.__main__ import main, parser
 from pons.settings import Settings, load
-from pons.texts import how_to_answer
+from pons.terminal_text import how_to_answer
 from tests.planner.api.serving import served as real_planner
 
 ASKED = {"message": {"en": "Shall I?", "zh": "要吗？"}}

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.why import Stop
+from bridge.stop_report import Stop
 from pons import replay, why
 from pons.__main__ import main
 from pons.settings import load

@@ -10,7 +10,7 @@ from bridge.braking_file import path_of, write_learnt
 from bridge.core.state_braking import Learnt
 from pons import braking
 from pons.settings import Settings
-from pons.texts import braking_line, robot_lines
+from pons.terminal_text import braking_line, robot_lines
 from tests.wire.examples import STATUS
 from wire import load_robot
 from wire.keys import Party

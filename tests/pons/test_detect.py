@@ -9,8 +9,8 @@ import cv2
 import pytest
 
 from pons.__main__ import main
-from tests.planner.vision.detect import tiny
-from tests.planner.vision.detect.tiny import Seen
+from tests.planner.perception.detect import tiny
+from tests.planner.perception.detect.tiny import Seen
 
 LEFT, TOP, RIGHT, BOTTOM = 16, 12, 48, 40
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from pons import fence
-from pons.direct import NoBridge
+from pons.bridge_client import NoBridge
 from pons.http import PlannerDown, Refused
 from pons.settings import CHECKOUT, Settings
 from wire import Answer, FenceFile, fingerprint

@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from pons import up
-from pons.processes import REFUSED_TO_START
 from pons.settings import load
+from pons.supervisor import REFUSED_TO_START
 
 
 def test_what_a_robot_keeps_is_readable_by_its_own_user_alone(tmp_path: Path) -> None:

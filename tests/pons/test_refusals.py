@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pons import direct
+from pons import bridge_client
 from pons.__main__ import main
 
 REFUSED = 2
@@ -18,7 +18,9 @@ def nowhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, free_port: int) -> 
     """Let every command look for a robot where there is none."""
     monkeypatch.setenv("PONS_HOME", str(tmp_path / "home"))
     monkeypatch.setenv("PONS_PORT", str(free_port))
-    monkeypatch.setattr(direct, "LIMIT_S", 0.1)  # no bridge will answer, however long one waits
+    monkeypatch.setattr(
+        bridge_client, "LIMIT_S", 0.1
+    )  # no bridge will answer, however long one waits
 
 
 def test_a_home_that_cannot_be_written_is_named(

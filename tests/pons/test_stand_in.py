@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from planner.brain.reasons import REASONS
-from pons.texts import stand_in
+from planner.brain.model_error_codes import REASONS
+from pons.terminal_text import stand_in
 
 
 def goal(**brain: object) -> dict[str, object]:

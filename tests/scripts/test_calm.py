@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pons.conformance.pulse import Kept, Pulse
+from pons.conformance.scheduler_probe import Kept, Pulse
 from scripts import calm
 
 

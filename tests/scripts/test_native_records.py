@@ -22,7 +22,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Annotated, ClassVar
 from pydantic import ConfigDict, Field
-from bridge.core.draft import copier
+from bridge.core.record_copy import copier
 
 MOST = 3.0
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from sim import PERIODS, Hardware
 from sim.site import load_home, solids
 from sim.site.check import spots
+from sim.site.objects import Upright
 from sim.site.shapes import Disc, Solid
-from sim.site.things import Upright
 from sim.world import World
 from wire import Pose2, RobotDescription
 

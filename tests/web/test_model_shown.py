@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.e2e.robot import Robot
-from tests.pons.mock.mocks import RunningMock
+from tests.pons.mock_llm.mocks import RunningMock
 from tests.web.conftest import OpenPage, anywhere, set_off
 from tests.web.person import ended, give, note_presses, pressed_s
 from tests.web.test_stop import by_button, by_escape, by_space

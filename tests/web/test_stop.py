@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from planner.api.requests import OperatorProof
+from planner.api.schemas import OperatorProof
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.web.conftest import OpenPage, anywhere, set_off

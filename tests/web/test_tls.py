@@ -14,9 +14,9 @@ from tempfile import TemporaryDirectory
 import pytest
 from playwright.sync_api import Browser
 
-from bench.measure.page import behind, chromium
 from pons.stop import CONFIRMED
 from tests.e2e.system import System, new_home
+from tools.bench.measure.page import behind, chromium
 
 TOKEN = "a-token-of-this-story"
 MACHINE = socket.gethostname().partition(".")[0].lower()

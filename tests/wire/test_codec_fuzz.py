@@ -7,8 +7,8 @@ from typing import Annotated
 import pytest
 from pydantic import Field
 
-from bench.measure.codec_fuzz import fuzz, within
 from tests.wire.examples import EXAMPLES
+from tools.bench.measure.codec_fuzz import fuzz, within
 from wire import Stop, Velocity
 
 

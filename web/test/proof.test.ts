@@ -13,7 +13,7 @@ afterEach(() => {
 });
 
 describe("mac", () => {
-  // Both made by wire/proof.py: sign(key, kind, robot, nonce, id).mac; tests/web holds Python to it.
+  // Both made by wire/operator_hmac.py: sign(key, kind, robot, nonce, id).mac; tests/web holds Python to it.
   it("equals the bridge's", () => {
     const key = utf8ToBytes("a key of sixteen bytes or more");
     expect(mac(key, "arm", "r1", "dd62bd0cedb5.5", "page-0011")).toBe(

@@ -7,9 +7,9 @@ import socket
 
 import httpx
 
-from planner.brain.endpoint.address import Address
-from planner.brain.endpoint.metered import Metered
-from planner.brain.meter import Meter
+from planner.brain.endpoint.metered_transport import Metered
+from planner.brain.endpoint.url_policy import Address
+from planner.brain.usage_meter import Meter
 from planner.settings import ModelSettings
 
 KEEPALIVE_S = 600.0

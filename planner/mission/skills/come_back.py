@@ -6,7 +6,7 @@ robot stands. Budget: one leg; metres and seconds are the bridge's grant.
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Cannot, Done, Drive, Scene
+from planner.mission.skills.actions import Act, Cannot, Done, Drive, Scene
 from planner.plan import Code
 
 

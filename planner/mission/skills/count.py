@@ -12,20 +12,20 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.act import Act, Done, Later, Scene
-from planner.mission.skills.around import look_round
-from planner.mission.skills.beside import several
+from planner.mission.skills.actions import Act, Done, Later, Scene
 from planner.mission.skills.find import unknown
-from planner.mission.skills.notes import Notes
-from planner.mission.skills.rooms import NEAR, room_at
+from planner.mission.skills.look_around import look_round
+from planner.mission.skills.object_matching import apart, confirmed, fits, sure, wanted_of
+from planner.mission.skills.result_text import by_neighbour, counted, looked_in, room_name
 from planner.mission.skills.search import affords, begin, spent, spots, within
-from planner.mission.skills.seen import apart, confirmed, fits, sure, wanted_of
-from planner.mission.skills.tell import by_neighbour, counted, looked_in, room_name
+from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.spatial_relations import several
+from planner.mission.skills.viewpoints import NEAR, room_at
 from planner.plan import Bilingual, Code
 
 if TYPE_CHECKING:
-    from planner.mission.skills.eyesight import Wanted
-    from planner.vision.records import Thing
+    from planner.mission.skills.perception import Wanted
+    from planner.perception.snapshot import Thing
     from wire import Pose2
 
 

@@ -6,7 +6,7 @@ are refused, so that no goal thinks for ever. Budget: as many thoughts a goal as
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Scene, Think
+from planner.mission.skills.actions import Act, Scene, Think
 
 
 def decide(_: Scene) -> Act:

@@ -7,15 +7,15 @@ in. Budget: 55 m and 540 s a step; the rooms of the site, or the one place that 
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Cannot, Done, Later, Scene
-from planner.mission.skills.eyesight import Wanted
-from planner.mission.skills.notes import Notes
+from planner.language.object_names import named
+from planner.mission.skills.actions import Act, Cannot, Done, Later, Scene
+from planner.mission.skills.object_matching import found, wanted_of
+from planner.mission.skills.perception import Wanted
+from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
 from planner.mission.skills.search import alike, search, spent
-from planner.mission.skills.seen import found, wanted_of
-from planner.mission.skills.tell import by_neighbour, found_at, looked_in, unknown_words
+from planner.mission.skills.skill_state import Notes
+from planner.perception.snapshot import Thing
 from planner.plan import Code, message
-from planner.vision.labels import named
-from planner.vision.records import Thing
 
 
 def find(scene: Scene) -> Act:

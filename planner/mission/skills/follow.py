@@ -15,19 +15,19 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.act import Act, Cannot, Done, Drive, Gaze, Later, Scene
-from planner.mission.skills.around import leg_to, look_round, spin
+from planner.mission.skills.actions import Act, Cannot, Done, Drive, Gaze, Later, Scene
 from planner.mission.skills.find import unknown
-from planner.mission.skills.notes import Notes
-from planner.mission.skills.rooms import HERE, Spot, room_at
+from planner.mission.skills.look_around import leg_to, look_round, spin
+from planner.mission.skills.object_matching import away_m, bearing, lasting, one_of, turn_to
+from planner.mission.skills.result_text import called
 from planner.mission.skills.search import short_of
-from planner.mission.skills.seen import away_m, bearing, lasting, one_of, turn_to
-from planner.mission.skills.tell import called
+from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.viewpoints import HERE, Spot, room_at
 from planner.plan import Code, message
 
 if TYPE_CHECKING:
-    from planner.mission.skills.eyesight import Wanted
-    from planner.vision.records import Thing
+    from planner.mission.skills.perception import Wanted
+    from planner.perception.snapshot import Thing
     from wire import Pose2
 
 KEEP_M = 1.2

@@ -6,8 +6,8 @@ room its pose lies inside the outline. Budget: one leg; metres and seconds are t
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Done, Scene
-from planner.mission.skills.places import drive_to
+from planner.mission.skills.actions import Act, Done, Scene
+from planner.mission.skills.drive_to_place import drive_to
 
 
 def go_to(scene: Scene) -> Act:

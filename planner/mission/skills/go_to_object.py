@@ -16,13 +16,12 @@ from __future__ import annotations
 from math import hypot, pi
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.act import Act, Cannot, Done, Gaze, Later, Scene
-from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, spin
+from planner.language.object_classes import kind_of
+from planner.mission.skills.actions import Act, Cannot, Done, Gaze, Later, Scene
 from planner.mission.skills.find import not_found, unknown
-from planner.mission.skills.notes import Notes
-from planner.mission.skills.pointing import agreed
-from planner.mission.skills.search import search, short_of, within
-from planner.mission.skills.seen import (
+from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, spin
+from planner.mission.skills.model_pointing import agreed
+from planner.mission.skills.object_matching import (
     WORTH,
     away_m,
     bearing,
@@ -37,15 +36,16 @@ from planner.mission.skills.seen import (
     turn_to,
     twice,
 )
-from planner.mission.skills.tell import called
+from planner.mission.skills.result_text import called
+from planner.mission.skills.search import search, short_of, within
+from planner.mission.skills.skill_state import Notes
+from planner.perception.snapshot import Thing
 from planner.plan import Bilingual, Code, Found, message, same
-from planner.vision.kinds import kind_of
-from planner.vision.records import Thing
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.skills.eyesight import Wanted
+    from planner.mission.skills.perception import Wanted
     from wire import Pose2
 
 SHORT_M, ROBOT_M = 0.5, 0.3

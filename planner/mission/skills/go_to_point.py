@@ -9,11 +9,11 @@ leg. Budget: one leg.
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Done, Inquire, Later, Scene
-from planner.mission.skills.around import leg_to
+from planner.mission.skills.actions import Act, Done, Inquire, Later, Scene
 from planner.mission.skills.go_to_object import approach, set_off
-from planner.mission.skills.seen import bearing
-from planner.mission.skills.unanswered import point_refused
+from planner.mission.skills.image_errors import point_refused
+from planner.mission.skills.look_around import leg_to
+from planner.mission.skills.object_matching import bearing
 
 FLOOR_M = 0.12
 """What lies lower is driven onto."""

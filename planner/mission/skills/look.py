@@ -15,17 +15,17 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.act import Act, Cannot, Done, Gaze, Inquire, Later, Scene
-from planner.mission.skills.answering import Told, answer
-from planner.mission.skills.around import LOOKS, look_round
-from planner.mission.skills.asked import unknown_kind
+from planner.mission.skills.actions import Act, Cannot, Done, Gaze, Inquire, Later, Scene
 from planner.mission.skills.directions import direction, goes_round, listed
-from planner.mission.skills.notes import Notes
-from planner.mission.skills.reading import reading
-from planner.mission.skills.rooms import HERE, Spot, room_at
+from planner.mission.skills.image_answers import reading
+from planner.mission.skills.image_errors import why_silent
+from planner.mission.skills.look_around import LOOKS, look_round
+from planner.mission.skills.object_questions import unknown_kind
+from planner.mission.skills.result_text import unknown_name
+from planner.mission.skills.scene_answers import Told, answer
 from planner.mission.skills.search import begin, spots
-from planner.mission.skills.tell import unknown_name
-from planner.mission.skills.unanswered import why_silent
+from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.viewpoints import HERE, Spot, room_at
 from planner.plan import Bilingual, Code, message
 from wire import wrap
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from math import cos, hypot, sin
 
-from planner.mission.skills.act import Act, Cannot, Done, Drive, Later, Scene, Way
-from planner.mission.skills.words import metres
+from planner.language.formatting import metres
+from planner.mission.skills.actions import Act, Cannot, Done, Drive, Later, Scene, Way
 from planner.plan import Bilingual, Code, message
 from wire import Pose2
 

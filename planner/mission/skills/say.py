@@ -6,7 +6,7 @@ left out. Budget: 500 characters by the plan's own bounds; no motion.
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Scene, Skip, Speak
+from planner.mission.skills.actions import Act, Scene, Skip, Speak
 from planner.plan import StepState
 
 

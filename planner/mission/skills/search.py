@@ -10,11 +10,10 @@ from dataclasses import replace
 from math import cos, sin
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.act import Drive, Gaze, Scene
-from planner.mission.skills.around import FACING_RAD, LOOKS, leg_to, look_round, spin
-from planner.mission.skills.notes import Notes
-from planner.mission.skills.rooms import HERE, Spot, in_order, near_spot, room_at, room_of, spots_in
-from planner.mission.skills.seen import (
+from planner.language.color_names import may_be
+from planner.mission.skills.actions import Drive, Gaze, Scene
+from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, look_round, spin
+from planner.mission.skills.object_matching import (
     WORTH,
     away_m,
     bearing,
@@ -25,11 +24,20 @@ from planner.mission.skills.seen import (
     spot_of,
     turn_to,
 )
-from planner.vision.colors import may_be
-from planner.vision.records import Thing
+from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.viewpoints import (
+    HERE,
+    Spot,
+    in_order,
+    near_spot,
+    room_at,
+    room_of,
+    spots_in,
+)
+from planner.perception.snapshot import Thing
 
 if TYPE_CHECKING:
-    from planner.mission.skills.eyesight import Wanted
+    from planner.mission.skills.perception import Wanted
     from wire import Pose2
 
 VIEW_M = 1.6

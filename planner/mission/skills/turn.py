@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from math import ceil, pi
 
-from planner.mission.skills.act import Act, Cannot, Done, Drive, Later, Scene, Way
-from planner.mission.skills.words import angle
+from planner.language.formatting import angle
+from planner.mission.skills.actions import Act, Cannot, Done, Drive, Later, Scene, Way
 from planner.plan import Code, message
 from wire import Pose2, wrap
 

@@ -6,7 +6,7 @@ nobody. Budget: the seconds asked for, 600 at most by the plan's own bounds.
 
 from __future__ import annotations
 
-from planner.mission.skills.act import Act, Scene, Stand
+from planner.mission.skills.actions import Act, Scene, Stand
 
 
 def wait(scene: Scene) -> Act:

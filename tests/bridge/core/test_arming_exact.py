@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bridge.core.arming import pressed, ready_lacks, recorder_lack, reset_lacks
 from bridge.core.inbox import Inbox
+from bridge.core.modes.arming import pressed, ready_lacks, recorder_lack, reset_lacks
 from bridge.core.state_fence import FenceAsked
 from bridge.core.state_senses import ButtonMemory
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import config
 from tests.bridge.core.table import table

@@ -7,13 +7,13 @@ from math import nan
 
 import pytest
 
-from bridge.core.fence import build_fence
-from bridge.core.gate import _inside_fence, _shut
-from bridge.core.grants import spent
-from bridge.core.path import prepare
-from bridge.core.pursuit import _progress
+from bridge.core.authority.grants import spent
+from bridge.core.geometry.path_profile import prepare
+from bridge.core.motion.motion_gates import _inside_fence, _shut
+from bridge.core.motion.pursuit import _progress
+from bridge.core.motion.wheel_control import _corrected
+from bridge.core.sensing.fence import build_fence
 from bridge.core.state_orders import Grants
-from bridge.core.wheelcontrol import _corrected
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import ROBOT, dropped, tick_of

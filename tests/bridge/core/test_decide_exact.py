@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bridge.core import decide as decide_module
-from bridge.core.decide import _call, _tire, arrive, decide
-from bridge.core.hazards import HAZARDS
-from bridge.core.rows import ROWS
+from bridge.core.faults.fault_table import ROWS
+from bridge.core.faults.hazards import HAZARDS
+from bridge.core.modes import mode_logic as decide_module
+from bridge.core.modes.mode_logic import _call, _tire, arrive, decide
 from bridge.core.state import Gate, RowUp
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of

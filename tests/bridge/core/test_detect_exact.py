@@ -7,11 +7,13 @@ from math import nan
 
 import pytest
 
-from bridge.core import ArrivedAt, LoopFacts, detect_loop, detect_place, detect_power, flood
+from bridge.core import ArrivedAt, LoopFacts
+from bridge.core.authority import rate_limit
+from bridge.core.faults import detect_coverage, detect_loop, detect_power
+from bridge.core.geometry.debounce import filled
 from bridge.core.state import RowUp
-from bridge.core.state_watch import Flood
-from bridge.core.tick import Tick
-from bridge.core.window import filled
+from bridge.core.state_detectors import Flood
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -207,7 +209,7 @@ def test_a_lidar_is_blind_where_few_beams_come_back(
     tick.s.lidar = replace(tick.s.lidar, picture=picture, baseline_returns=normal)
     tick.s.watch.blind_s = blind_s
     dirty: Dirty = []
-    detect_place.blind(tick, dirty)
+    detect_coverage.blind(tick, dirty)
     assert [name for name, _ in dirty] == rows
 
 
@@ -231,7 +233,7 @@ def test_somebody_must_watch_for_obstacles(
     tick.s.lidar = replace(tick.s.lidar, newest=newest)
     tick.s.rows = {name: RowUp(0.0, 0.0, "old") for name in up}
     dirty: Dirty = []
-    detect_place.no_range(tick, dirty)
+    detect_coverage.no_range(tick, dirty)
     assert [name for name, _ in dirty] == ["NO_RANGE.0", "NO_RANGE.1"][:seen]
 
 
@@ -255,7 +257,7 @@ def test_each_key_has_its_limit_in_two_halves(key: str, limit: int, before: bool
         tick.s.flood = Flood(tick.now_s - 0.1, (0,) * 6, counts)
         arrived = ArrivedAt(key, count - 2 * before)
         tick.inbox = replace(tick.inbox, arrived=(arrived,))
-        flood.thinned(tick)
+        rate_limit.thinned(tick)
         assert (tick.s.flood.level_s > 0.0) is over
         assert tick.s.flood.key == (key if over else "")
 
@@ -273,7 +275,7 @@ def test_halves_follow_each_other(
     passed_s: float, half_began: bool, counts: int, before: int
 ) -> None:
     had, older = (3, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0)
-    turned = flood._turned(Flood(100.0, had, older), 100.0 + passed_s)
+    turned = rate_limit._turned(Flood(100.0, had, older), 100.0 + passed_s)
     assert turned[0][0] == counts
     assert turned[1][0] == before
     assert turned[2] == (100.0 + passed_s if half_began else 100.0)
@@ -284,5 +286,5 @@ def test_a_flood_is_one_after_a_second_of_it() -> None:
         tick = at()
         tick.s.flood = Flood(0.0, (), (), level_s, "cmd/hello")
         dirty: Dirty = []
-        flood.judge(tick, dirty)
+        rate_limit.judge(tick, dirty)
         assert len(dirty) == seen

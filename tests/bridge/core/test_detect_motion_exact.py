@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import detect_motion
-from bridge.core.limiter import LimiterState
+from bridge.core.faults import detect_motion
+from bridge.core.motion.limiter import LimiterState
 from bridge.core.state import Gate
-from bridge.core.state_watch import Sent
-from bridge.core.tick import Tick
+from bridge.core.state_detectors import Sent
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of

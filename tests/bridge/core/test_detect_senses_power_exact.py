@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import detect_place, detect_power, detect_senses, drive_out
-from bridge.core.drive_out import shaped
-from bridge.core.limiter import LimiterState
+from bridge.core.faults import detect_coverage, detect_power, detect_senses
+from bridge.core.motion import wheel_command
+from bridge.core.motion.limiter import LimiterState
+from bridge.core.motion.wheel_command import shaped
+from bridge.core.motion.wheel_control import AT_REST
 from bridge.core.state import RowUp
-from bridge.core.tick import Tick
-from bridge.core.wheelcontrol import AT_REST
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -143,13 +144,13 @@ def test_a_low_charge_fills_its_windows(
 def test_a_lidar_that_sees_again_drains_its_window_and_a_zone_left_is_none() -> None:
     tick = at()
     tick.s.watch.blind_s, tick.s.watch.zone_mps = 0.5, 0.2
-    detect_place.blind(tick, [])
+    detect_coverage.blind(tick, [])
     assert tick.s.watch.blind_s == pytest.approx(0.4975)
     for level_s, after_s in ((0.0, 0.0), (1.0, 0.9975)):
         tick.s.watch.blind_s = level_s
-        detect_place.blind(tick, [])
+        detect_coverage.blind(tick, [])
         assert tick.s.watch.blind_s == pytest.approx(after_s)
-    detect_place.zone(tick, [])
+    detect_coverage.zone(tick, [])
     zone_mps: float | None = tick.s.watch.zone_mps
     assert zone_mps is None
 
@@ -178,22 +179,22 @@ def test_torque_is_on_where_it_may_move_or_has_to_stop(start: str, powered: bool
 
 @table("start", ["hold", "disarmed", "estopped", "fault", "stopping_by_row"])
 def test_who_follows_nobody_wants_to_stand_and_is_at_no_end(start: str) -> None:
-    assert drive_out.wanted(at(start)) == (STILL, False)
+    assert wheel_command.wanted(at(start)) == (STILL, False)
 
 
 def test_without_a_path_or_a_place_nothing_is_followed() -> None:
     tick = at()
-    assert drive_out.followed(tick) == (STILL, False)  # no place in this tick yet
+    assert wheel_command.followed(tick) == (STILL, False)  # no place in this tick yet
     tick.robot_in_map = tick.s.odometry.base_in_odom
-    assert drive_out.followed(tick)[0] != STILL
+    assert wheel_command.followed(tick)[0] != STILL
     tick.s.leg = replace(tick.s.leg, path=None)
-    assert drive_out.followed(tick) == (STILL, False)
+    assert wheel_command.followed(tick) == (STILL, False)
 
 
 @table(("start", "arrives"), [("teleop", False), ("active_external", False)])
 def test_a_hand_and_another_brain_have_no_end(start: str, arrives: bool) -> None:
-    assert drive_out.wanted(at(start))[1] is arrives
-    assert drive_out.wanted(at(start))[0] != STILL
+    assert wheel_command.wanted(at(start))[1] is arrives
+    assert wheel_command.wanted(at(start))[0] != STILL
 
 
 @table(
@@ -219,7 +220,7 @@ def test_wheels_are_corrected_by_readings_that_may_be_trusted(
     motion.limiter = LimiterState(Twist2(0.4, 0.0))
     wheel = replace(AT_REST, told_radps=4.0, due_radps=4.0, expected_radps=4.0, push=0.25)
     motion.left = motion.right = wheel
-    told = drive_out.command(tick)
+    told = wheel_command.command(tick)
     assert tick.s.mode is Mode.ACTIVE
     if corrects is None:  # no reading in this tick: what was found before stays
         assert (motion.left.push, motion.right.push) == (0.25, 0.25)

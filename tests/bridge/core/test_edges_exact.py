@@ -9,25 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from bridge.core import (
-    decide,
-    detect_loop,
-    gate,
-    latch,
-    legs,
-    manners,
-    operator,
-    ownership,
-    stick,
-    stops,
-)
-from bridge.core.arming import ready_lacks, reset_lacks
-from bridge.core.detect_brain import brain, commands
+from bridge.core.authority import leg_tracking, message_score, ownership
+from bridge.core.faults import detect_loop, fault_latch
+from bridge.core.faults.detect_brain import brain, commands
 from bridge.core.inbox import LoopFacts
+from bridge.core.modes import mode_logic, operator, stop_monitor, teleop
+from bridge.core.modes.arming import ready_lacks, reset_lacks
+from bridge.core.modes.stop_profile import too_long
+from bridge.core.motion import motion_gates
 from bridge.core.state import Gate, RowUp
 from bridge.core.state_orders import External
-from bridge.core.stopcurve import too_long
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -59,7 +51,7 @@ def owner(echo_s: float, used_s: float | None = None) -> Judge:
 
 def followed(tick: Tick) -> object:
     tick.s.leg = replace(tick.s.leg, sent_s=0.0)
-    return [legs.callable_horizon(tick), *rows(commands)(tick)]
+    return [leg_tracking.callable_horizon(tick), *rows(commands)(tick)]
 
 
 def external(tick: Tick) -> object:
@@ -81,7 +73,7 @@ def alive(tick: Tick) -> object:
 
 def cleaned(tick: Tick) -> object:
     tick.s.rows = {"LIDAR_STALE.0": RowUp(0.0, 0.0, "old")}
-    latch.update(tick, [])
+    fault_latch.update(tick, [])
     return list(tick.s.rows)
 
 
@@ -102,7 +94,7 @@ def old_nonce(tick: Tick) -> object:
 def held(received_s: float, sent_s: float) -> Judge:
     def judge(tick: Tick) -> object:
         tick.s.stick = replace(tick.s.stick, received_s=received_s, sent_s=sent_s)
-        stick.watch(tick)
+        teleop.watch(tick)
         return tick.s.mode
 
     return judge
@@ -132,27 +124,27 @@ def reset(**state: object) -> Judge:
 
 def measured(tick: Tick) -> object:
     tick.s.drive.received_s = 0.0
-    return not stops._unmeasured(tick)
+    return not stop_monitor._unmeasured(tick)
 
 
 def slow(tick: Tick) -> object:
     tick.s.drive.still_since_s = None
     tick.s.stopping = stop_of(-1.0, slow_s=0.14)
     tick.s.odometry = replace(tick.s.odometry, measured=reached("active").state.odometry.measured)
-    return stops._failure(tick)
+    return stop_monitor._failure(tick)
 
 
 def shut(tick: Tick) -> object:
     yaw_rad = tick.s.odometry.base_in_odom.yaw_rad
     tick.s.gate = Gate(shut_s=0.49, shut_yaw_rad=yaw_rad)
-    gate._note(tick, "obstacle")
+    motion_gates._note(tick, "obstacle")
     return tick.s.gate.blocked
 
 
 def turned_away(tick: Tick) -> object:
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=Pose2(0.0, 0.0, 0.05))
     tick.s.gate = Gate(shut_s=0.3, shut_yaw_rad=0.0)
-    gate._note(tick, "obstacle")
+    motion_gates._note(tick, "obstacle")
     return tick.s.gate.shut_s
 
 
@@ -174,7 +166,7 @@ def waits(must_stop: bool) -> Judge:
         tick.s.waits_since_s = 0.0
         tick.s.rows = {"LIDAR_STALE.0": RowUp(0.0, 0.0, "old")}
         tick.s.gate = Gate(blocked=not must_stop)
-        decide._tire(tick, must_stop=must_stop)
+        mode_logic._tire(tick, must_stop=must_stop)
         return tick.s.grants.mission
 
     return judge
@@ -225,7 +217,7 @@ def test_a_stop_as_long_as_it_may_be_is_not_too_long() -> None:
 def test_a_full_bucket_stays_full_and_an_empty_one_empty() -> None:
     tick = tick_of(reached("active"))
     tick.s.bad_bucket = 10.0
-    manners.bad(tick, "x")
+    message_score.bad(tick, "x")
     assert tick.s.bad_bucket == 10.0
 
 
@@ -239,7 +231,7 @@ def test_a_message_of_the_very_moment_of_a_jump_is_of_before(
     horizon = tick.s.leg.horizon
     assert horizon is not None
     assert horizon.ttl_s == 0.5
-    assert legs._late(tick, horizon, sent_s) == lateness
+    assert leg_tracking._late(tick, horizon, sent_s) == lateness
     tick.s.pose = replace(tick.s.pose, jumped_s=None)
-    assert legs._late(tick, horizon, 0.0) is None
-    assert legs._late(tick, horizon, -1e-9) == "too_old"
+    assert leg_tracking._late(tick, horizon, 0.0) is None
+    assert leg_tracking._late(tick, horizon, -1e-9) == "too_old"

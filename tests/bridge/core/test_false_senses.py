@@ -12,11 +12,12 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from bridge.core import Inbox, senses
-from bridge.core.odometry import along_arc
-from bridge.core.senses import DRIFT_M, DRIFT_RAD, JUMP_M, SEQ_AHEAD
+from bridge.core import Inbox
+from bridge.core.geometry.odometry import along_arc
+from bridge.core.sensing import sensor_update
+from bridge.core.sensing.sensor_update import DRIFT_M, DRIFT_RAD, JUMP_M, SEQ_AHEAD
 from bridge.core.state_senses import Drift
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from localization.noise import PoseNoise
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
 from tests.bridge.core.reached import reached
@@ -37,7 +38,7 @@ def hear(tick: Tick, odom_in_map: Pose2) -> None:
     new = Localization(
         odom_id=BOOT, seq=1, stamp_s=tick.now_s, odom_in_map=odom_in_map, quality=1.0, map_id=MAP_ID
     )
-    senses._hear_localization(tick, new)
+    sensor_update._hear_localization(tick, new)
 
 
 def told(tick: Tick) -> list[str]:
@@ -221,7 +222,7 @@ def test_a_number_that_is_near_ahead_is_believed_and_the_true_ones_after_a_silen
 )  # fmt: skip
 def test_what_a_number_tells(further: int, silent_s: float | None, order: str) -> None:
     received_s = None if silent_s is None else 10.0 - silent_s
-    assert senses.order_of(further, 10.0, received_s, 0.25) == order
+    assert sensor_update.order_of(further, 10.0, received_s, 0.25) == order
 
 
 def test_a_drive_that_counts_from_below_after_silence_is_another_life() -> None:

@@ -11,8 +11,8 @@ from math import asin, cos, hypot, inf, radians, sin
 
 import pytest
 
-from bridge.core.freespace import NOTHING_KNOWN, FreeLength, free_length
-from bridge.core.scanpicture import ScanPicture
+from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.motion.free_distance import NOTHING_KNOWN, FreeLength, free_length
 from tests.bridge.core.table import table
 from wire import IDENTITY, Pose2, Scan, Twist2
 from wire.robot import LidarConfig

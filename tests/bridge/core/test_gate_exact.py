@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.contactgate import contact_gate
-from bridge.core.fence import build_fence
-from bridge.core.gate import _note, _shut_by, look, reconsider, scan_age_s, through
-from bridge.core.obstaclegate import look_m
-from bridge.core.scanpicture import ScanPicture
+from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.motion.contact_gate import contact_gate
+from bridge.core.motion.motion_gates import _note, _shut_by, look, reconsider, scan_age_s, through
+from bridge.core.motion.obstacle_gate import look_m
+from bridge.core.sensing.fence import build_fence
 from bridge.core.state import Gate
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

@@ -7,13 +7,13 @@ from math import pi, tau
 
 import pytest
 
-from bridge.core.braking import AS_CONFIGURED, Braking, reaction_s
-from bridge.core.fence import build_fence
-from bridge.core.fencegate import FENCE_MARGIN_M, fence_scale
-from bridge.core.kinematics import scaled
-from bridge.core.limiter import LimiterState, shape
-from bridge.core.obstaclegate import look_m, obstacle_gate, sight_m
-from bridge.core.odometry import along_arc
+from bridge.core.geometry.kinematics import scaled
+from bridge.core.geometry.odometry import along_arc
+from bridge.core.motion.braking import AS_CONFIGURED, Braking, reaction_s
+from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
+from bridge.core.motion.limiter import LimiterState, shape
+from bridge.core.motion.obstacle_gate import look_m, obstacle_gate, sight_m
+from bridge.core.sensing.fence import build_fence
 from tests.bridge.core.test_gates import BASE, LAG, LIMITS, RADIUS, ROBOT, gap, look
 from wire.geometry import IDENTITY, STILL, Pose2, Twist2
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bridge.core import grants, ownership
+from bridge.core.authority import grants, ownership
+from bridge.core.authority.request_answers import refuse_openly
 from bridge.core.state import RowUp
 from bridge.core.state_orders import Grants, MissionLeft, Ownership
-from bridge.core.tick import Tick
-from bridge.core.verdicts import refuse_openly
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of

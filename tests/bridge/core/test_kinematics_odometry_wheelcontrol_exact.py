@@ -10,8 +10,7 @@ from math import cos, inf, nan, pi, sin, sqrt
 
 import pytest
 
-from bridge.core import wheelcontrol
-from bridge.core.kinematics import (
+from bridge.core.geometry.kinematics import (
     STOPPED,
     fastest_rim,
     rim_speeds,
@@ -20,8 +19,9 @@ from bridge.core.kinematics import (
     twist_of,
     wheels_of,
 )
-from bridge.core.odometry import OdometryState, advance, along_arc, arc_end, rolled
-from bridge.core.wheelcontrol import AT_REST, Wheel, turned
+from bridge.core.geometry.odometry import OdometryState, advance, along_arc, arc_end, rolled
+from bridge.core.motion import wheel_control
+from bridge.core.motion.wheel_control import AT_REST, Wheel, turned
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from wire import STILL, DriveState, Pose2, RobotDescription, Twist2
@@ -291,7 +291,7 @@ def test_a_wheel_that_stood_begins_with_what_it_turns(
      (0.05, nan, 0.06), (0.2, 0.0, 0.2), (0.3, 9.0, 0.3), (0.199, 0.0, 0.0)],
 )  # fmt: skip
 def test_doubt_grows_and_in_the_end_stays(doubt_s: float, off: float, after: float) -> None:
-    assert wheelcontrol._doubt_s(doubt_s, off, 0.5, 0.01) == pytest.approx(after)
+    assert wheel_control._doubt_s(doubt_s, off, 0.5, 0.01) == pytest.approx(after)
 
 
 def test_what_is_too_far_off_for_too_long_is_not_corrected() -> None:
@@ -327,14 +327,14 @@ def test_a_robot_that_nothing_may_correct_is_fed_forward() -> None:
 def test_the_correction_learns_no_further_than_it_may(
     integral: float, off: float, spare: float, grown: float, whole: float
 ) -> None:
-    found = wheelcontrol._corrected(integral, off, spare, 0.01, ROBOT.drive)
+    found = wheel_control._corrected(integral, off, spare, 0.01, ROBOT.drive)
     assert found == pytest.approx((grown, whole))
 
 
 def test_without_a_share_of_what_is_off_it_is_learnt_up_to_the_bound() -> None:
     bare = ROBOT.drive.model_copy(update={"kp": 0.0})
     for sign in (1.0, -1.0):
-        found = wheelcontrol._corrected(sign * 0.95, sign * 1.0, 9.0, 0.01, bare)
+        found = wheel_control._corrected(sign * 0.95, sign * 1.0, 9.0, 0.01, bare)
         assert found == (sign, sign)
 
 

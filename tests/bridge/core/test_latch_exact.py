@@ -7,10 +7,10 @@ from math import inf
 
 import pytest
 
-from bridge.core import latch
-from bridge.core.rows import STAGES, Clears
+from bridge.core.faults import fault_latch
+from bridge.core.faults.fault_table import STAGES, Clears
 from bridge.core.state import RowUp
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -28,7 +28,7 @@ def up(tick: Tick, *names: str, age_s: float = 0.0) -> Tick:
 def test_trouble_keeps_since_when_it_lasts_and_tells_its_newest_evidence() -> None:
     tick = up(tick_of(reached("active")), "STUCK.0", age_s=0.3)
     since_s = tick.now_s - 1.3
-    latch.update(tick, [("STUCK.0", "new"), ("LOOP_LATE.0", "late")])
+    fault_latch.update(tick, [("STUCK.0", "new"), ("LOOP_LATE.0", "late")])
     assert tick.s.rows == {
         "STUCK.0": RowUp(since_s, tick.now_s, "new"),
         "LOOP_LATE.0": RowUp(tick.now_s, tick.now_s, "late"),
@@ -45,11 +45,11 @@ def test_a_row_ends_when_it_has_been_clean_for_its_time(name: str) -> None:
     clean_s = STAGES[name].clean_s
     tick = up(tick_of(reached("active")), name, age_s=clean_s - EPS_S)
     before = tick.s.rows
-    latch.update(tick, [])
+    fault_latch.update(tick, [])
     assert tick.s.rows == before
     assert tick.events == []
     tick.now_s += 2 * EPS_S
-    latch.update(tick, [])
+    fault_latch.update(tick, [])
     assert tick.s.rows == {}
     assert tick.events == [("row_down", name)]
 
@@ -57,7 +57,7 @@ def test_a_row_ends_when_it_has_been_clean_for_its_time(name: str) -> None:
 @table("name", STAY)
 def test_what_needs_somebody_stays(name: str) -> None:
     tick = up(tick_of(reached("hold")), name, age_s=1e6)
-    latch.update(tick, [])
+    fault_latch.update(tick, [])
     assert set(tick.s.rows) == {name}
 
 
@@ -77,7 +77,7 @@ def test_a_lost_brain_is_over_with_an_owner_where_nothing_moves(
     tick = up(tick_of(reached(start)), "BRAIN_LOST.0")
     if not owned:
         tick.s.ownership = replace(tick.s.ownership, owner=None)
-    latch.update(tick, [])
+    fault_latch.update(tick, [])
     assert (tick.s.rows == {}) is ends
 
 
@@ -97,7 +97,7 @@ def test_a_lost_brain_is_over_with_an_owner_where_nothing_moves(
 def test_the_worst_that_binds_is_found(
     names: tuple[str, ...], worst: tuple[Action, str, bool]
 ) -> None:
-    assert latch.worst(up(tick_of(reached("active")), *names)) == worst
+    assert fault_latch.worst(up(tick_of(reached("active")), *names)) == worst
 
 
 @table(
@@ -112,10 +112,10 @@ def test_the_worst_that_binds_is_found(
 )
 def test_who_moves_and_who_may_is_named(start: str, letters: str) -> None:
     state = reached(start).state
-    assert latch.sources(state) == letters
+    assert fault_latch.sources(state) == letters
     if state.grants.mission is not None:
         state.ownership = replace(state.ownership, owner=None)
-        assert latch.sources(state) == state.source
+        assert fault_latch.sources(state) == state.source
 
 
 @table(
@@ -130,7 +130,7 @@ def test_who_moves_and_who_may_is_named(start: str, letters: str) -> None:
     ],
 )
 def test_a_stage_binds_its_sources(stage: str, letters: str, bound: bool) -> None:
-    assert latch.binds(STAGES[stage], letters) is bound
+    assert fault_latch.binds(STAGES[stage], letters) is bound
 
 
 @table(
@@ -157,7 +157,7 @@ def test_the_lowest_cap_that_binds_counts(
 ) -> None:
     tick = up(tick_of(reached(start)), *names)
     tick.s.watch.zone_mps = zone_mps
-    factor, by = latch.cap(tick)
+    factor, by = fault_latch.cap(tick)
     assert factor == pytest.approx(cap[0])
     assert by == cap[1]
 
@@ -169,9 +169,9 @@ EVERY = ("BRAIN_LOST.0", "ENC_STALE.1", "DRIVER_NACK.1", "NOT_RT.0", "STUCK.0")
 @table(
     ("clear", "left"),
     [
-        (latch.clear_on_grant, EVERY[1:]),
-        (latch.clear_on_arm, EVERY[3:]),
-        (latch.clear_on_reset, (*EVERY[:2], *EVERY[3:])),
+        (fault_latch.clear_on_grant, EVERY[1:]),
+        (fault_latch.clear_on_arm, EVERY[3:]),
+        (fault_latch.clear_on_reset, (*EVERY[:2], *EVERY[3:])),
     ],
 )
 def test_each_act_ends_what_it_may(clear: object, left: tuple[str, ...]) -> None:

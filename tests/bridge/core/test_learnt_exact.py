@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import learnt as module
-from bridge.core.braking import AS_CONFIGURED, Braking
-from bridge.core.learnt import after_cut, after_stop, in_force, weak_share
+from bridge.core.motion import brake_learning as module
+from bridge.core.motion.brake_learning import after_cut, after_stop, in_force, weak_share
+from bridge.core.motion.braking import AS_CONFIGURED, Braking
 from bridge.core.state_braking import UNLEARNT, Learnt, Ramp
 from tests.bridge.core.table import table
 from wire import RobotDescription

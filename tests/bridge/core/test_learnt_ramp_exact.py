@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import learnt as module
-from bridge.core.limiter import LimiterState
+from bridge.core.motion import brake_learning as module
+from bridge.core.motion.limiter import LimiterState
 from bridge.core.state_braking import UNLEARNT, Ramp
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_learnt_exact import EPS, ROBOT

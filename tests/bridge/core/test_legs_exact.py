@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import external, legs
-from bridge.core.legs import hear_waypoints, judge_arrival, residual
-from bridge.core.pursuit import NEW, FollowState
+from bridge.core.authority import leg_tracking
+from bridge.core.authority.leg_tracking import hear_waypoints, judge_arrival, residual
+from bridge.core.modes import external_velocity
+from bridge.core.motion.pursuit import NEW, FollowState
 from bridge.core.state_orders import External
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -182,7 +183,7 @@ def test_a_horizon_calls_only_where_it_asks_for_motion(against: str) -> None:
     )
     if against == "mission":
         tick.s.grants = replace(tick.s.grants, mission="m2")
-    assert legs.callable_horizon(tick) is (against == "")
+    assert leg_tracking.callable_horizon(tick) is (against == "")
 
 
 def test_another_brain_is_followed_as_its_hand_says() -> None:
@@ -193,18 +194,18 @@ def test_another_brain_is_followed_as_its_hand_says() -> None:
         assert last is not None
         said = Velocity(source_id="x1", epoch=tick.epoch, seq=last + 1, dead_man=held,
                         seen=tick.s.voice.status_seq, v_mps=0.2, w_radps=0.1)  # fmt: skip
-        external.hear_external(tick, said)
+        external_velocity.hear_external(tick, said)
         sent_s = tick.s.voice.ring[-1]
         assert tick.s.external == External(asked.v_mps, asked.w_radps, held, sent_s)
         assert (tick.s.ownership.external_seq, tick.s.bad_bucket) == (last + 1, 2.0)
-        assert external.wanted(tick) == asked
+        assert external_velocity.wanted(tick) == asked
         for age_s, calls in ((0.25, held), (0.2501, False)):
             tick.s.external = replace(tick.s.external, sent_s=0.0)
             tick.now_s = age_s
-            assert external.calls(tick) is calls
+            assert external_velocity.calls(tick) is calls
         tick.s.external = None
-        assert external.wanted(tick) == STILL
-        assert not external.calls(tick)
+        assert external_velocity.wanted(tick) == STILL
+        assert not external_velocity.calls(tick)
 
 
 @table(
@@ -227,6 +228,6 @@ def test_another_brain_is_not_followed_without_its_rights(
     seq = {"back": last - 1, "again": last}.get(change, last + 1)
     said = Velocity(source_id="x1", epoch=tick.epoch, seq=seq, dead_man=True,
                     seen=tick.s.voice.status_seq, v_mps=0.2, w_radps=0.1)  # fmt: skip
-    external.hear_external(tick, said)
+    external_velocity.hear_external(tick, said)
     assert (tick.reasons, tick.s.bad_bucket) == ([code], score)
     assert tick.s.external == before

@@ -9,10 +9,13 @@ from __future__ import annotations
 from dataclasses import asdict
 
 from bridge.core import Inbox, LoopFacts, initial
-from bridge.core.odometry import OdometryState
-from bridge.core.pursuit import FollowState
+from bridge.core.geometry.odometry import OdometryState
+from bridge.core.modes.stop_profile import NO_STOP, StopPlan
+from bridge.core.motion.pursuit import FollowState
+from bridge.core.motion.wheel_control import Wheel
 from bridge.core.state import BridgeState, Gate, Motion, SelfTest, Voice
 from bridge.core.state_braking import Learnt, Ramp
+from bridge.core.state_detectors import Flood, Watch
 from bridge.core.state_fence import FenceAsked
 from bridge.core.state_orders import Grants, Leg, Operator, Ownership, Stick
 from bridge.core.state_senses import (
@@ -22,9 +25,6 @@ from bridge.core.state_senses import (
     LoopMemory,
     PoseMemory,
 )
-from bridge.core.state_watch import Flood, Watch
-from bridge.core.stopcurve import NO_STOP, StopPlan
-from bridge.core.wheelcontrol import Wheel
 from tests.bridge.core.scripted import config
 from tests.bridge.core.table import table
 from wire import IDENTITY, STILL, Mode

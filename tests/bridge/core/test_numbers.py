@@ -11,77 +11,173 @@ from math import radians
 
 import pytest
 
-from bridge.core.modes import LATCHED, MOVING, POWERED, TRANSITIONS
-from bridge.core.rows import STAGES
+from bridge.core.faults.fault_table import STAGES
+from bridge.core.modes.mode_table import LATCHED, MOVING, POWERED, TRANSITIONS
 from tests.bridge.core import oracle
 from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 
 NUMBERS: dict[str, dict[str, float]] = {
-    "arming": {"CLEAN_S": 2.0, "LINK_SILENT_S": 0.5, "STANDING_S": 0.5, "STICK_S": 0.25},
-    "braking": {"CREEP_MPS": 0.1, "CREEP_RADPS": 0.3, "STANDING_MPS": 0.02, "TURNING_MPS": 1e-4},
-    "decide": {"REVOKED_BLOCKED_S": 300.0, "REVOKED_S": 30.0},
-    "detect_brain": {"LATE_S": 0.15, "LOST_S": 0.3, "GONE_S": 5.0, "USED_S": 1.0,
-                     "EXTERNAL_S": 0.25, "BAD_TRIPS": 5.0},
-    "detect_loop": {"LATE_S": 0.005, "LATES": 5, "LATES_WITHIN_S": 1.0, "MISSED": 2, "GAP_S": 0.1,
-                    "GAPS": 3, "GAPS_WITHIN_S": 10.0},
-    "detect_motion": {"SLACK_MPS": 0.15, "RUNAWAY_S": 0.1, "RUNAWAY_LONG_S": 0.25, "FOLLOWS_S": 0.2,
-                      "ASKED_MPS": 0.1, "MOVED_MPS": 0.03, "MOVED_SHARE": 0.2, "ASKED_RADPS": 0.2,
-                      "TURNED_RADPS": 0.05, "STUCK_S": 1.0, "PROGRESS_M": 0.02,
-                      "PROGRESS_RAD": 0.05, "PROGRESS_S": 5.0, "TIMES": 3, "WITHIN_S": 300.0,
-                      "YAW_RADPS": 0.3, "YAW_S": 0.5, "GYRO_OLD_S": 0.25},
-    "detect_place": {"BLIND_S": 0.3, "BLIND_LONG_S": 5.0, "BLIND_SHARE": 0.05},
-    "detect_power": {"PEAK_S": 0.1, "HEAT_S": 2.0, "LOW": 0.2, "EMPTY": 0.1, "UP": 0.05,
-                     "CHARGE_S": 2.0},
-    "detect_senses": {"LIDAR_OLD_S": 0.25, "LIDAR_LONG_S": 5.0, "EQUAL_SCANS": 5,
-                      "EQUAL_MOVED_M": 0.02, "ENC_S": 0.08, "ENC_LONG_S": 0.25, "NACK_S": 0.1,
-                      "NACK_LONG_S": 0.5},
-    "external": {"TTL_S": 0.25},
-    "fencegate": {"FENCE_MARGIN_M": 0.15, "INWARD_MPS": 0.15},
-    "flood": {"WINDOW_S": 0.25, "SLACK": 1.2, "ONE_MORE": 1, "FULL_S": 1.0},
-    "freespace": {"MARGIN_M": 0.05, "REACH_M": 2.0},
-    "gate": {"SHUT_S": 0.5, "FREE_SCANS": 5, "TELEOP_FENCE_MPS": 0.2, "UNKNOWN_MPS": 0.2},
-    "grants": {"OPERATOR_METRES": 500.0, "OPERATOR_SECONDS": 3600.0, "HAND_METRES": 50.0,
-               "HAND_SECONDS": 600.0, "OUTSIDE_COUNTS": 10.0},
-    "horizon": {"FIRST_WITHIN_M": 0.5, "MIN_GAP_M": 0.05, "MAX_GAP_M": 0.25, "MIN_END_GAP_M": 0.01,
-                "MIN_SPEED_MPS": 0.05},
-    "limiter": {"PERIOD_S": 0.01},
-    "manners": {"DRAIN_S": 0.5, "FULL": 10.0},
-    "obstaclegate": {"FREE_M": 0.3},
-    "operator": {"NONCE_S": 60.0, "OLD_NONCE_S": 10.0},
-    "ownership": {"LIVE_S": 0.3},
-    "pursuit": {"REACHED_M": 0.1, "REACHED_RAD": 0.1},
-    "selftest": {"FRESH_S": 0.25, "STILL_S": 0.5, "MOVING_S": 1.0, "PATIENCE_S": 0.3},
-    "senses": {"POOR_QUALITY": 0.5, "POSE_OLD_S": 0.3, "JUMP_M": 0.1, "JUMP_RAD": radians(5),
-               "BASELINE_SCANS": 20, "SEES_SHARE": 0.1, "DRIFT_M": 0.2, "DRIFT_RAD": radians(10),
-               "FORGIVEN_M_PER_M": 0.1, "FORGIVEN_RAD_PER_M": 0.05, "FORGIVEN_RAD_PER_RAD": 0.1,
-               "JUMPS": 3, "JUMPS_WITHIN_S": 60.0, "DRIVE_LOST_S": 0.25, "SCAN_LOST_S": 0.25,
-               "SEQ_AHEAD": 1_000},
+    "modes.arming": {"CLEAN_S": 2.0, "LINK_SILENT_S": 0.5, "STANDING_S": 0.5, "STICK_S": 0.25},
+    "motion.braking": {
+        "CREEP_MPS": 0.1,
+        "CREEP_RADPS": 0.3,
+        "STANDING_MPS": 0.02,
+        "TURNING_MPS": 1e-4,
+    },
+    "modes.mode_logic": {"REVOKED_BLOCKED_S": 300.0, "REVOKED_S": 30.0},
+    "faults.detect_brain": {
+        "LATE_S": 0.15,
+        "LOST_S": 0.3,
+        "GONE_S": 5.0,
+        "USED_S": 1.0,
+        "EXTERNAL_S": 0.25,
+        "BAD_TRIPS": 5.0,
+    },
+    "faults.detect_loop": {
+        "LATE_S": 0.005,
+        "LATES": 5,
+        "LATES_WITHIN_S": 1.0,
+        "MISSED": 2,
+        "GAP_S": 0.1,
+        "GAPS": 3,
+        "GAPS_WITHIN_S": 10.0,
+    },
+    "faults.detect_motion": {
+        "SLACK_MPS": 0.15,
+        "RUNAWAY_S": 0.1,
+        "RUNAWAY_LONG_S": 0.25,
+        "FOLLOWS_S": 0.2,
+        "ASKED_MPS": 0.1,
+        "MOVED_MPS": 0.03,
+        "MOVED_SHARE": 0.2,
+        "ASKED_RADPS": 0.2,
+        "TURNED_RADPS": 0.05,
+        "STUCK_S": 1.0,
+        "PROGRESS_M": 0.02,
+        "PROGRESS_RAD": 0.05,
+        "PROGRESS_S": 5.0,
+        "TIMES": 3,
+        "WITHIN_S": 300.0,
+        "YAW_RADPS": 0.3,
+        "YAW_S": 0.5,
+        "GYRO_OLD_S": 0.25,
+    },
+    "faults.detect_coverage": {"BLIND_S": 0.3, "BLIND_LONG_S": 5.0, "BLIND_SHARE": 0.05},
+    "faults.detect_power": {
+        "PEAK_S": 0.1,
+        "HEAT_S": 2.0,
+        "LOW": 0.2,
+        "EMPTY": 0.1,
+        "UP": 0.05,
+        "CHARGE_S": 2.0,
+    },
+    "faults.detect_senses": {
+        "LIDAR_OLD_S": 0.25,
+        "LIDAR_LONG_S": 5.0,
+        "EQUAL_SCANS": 5,
+        "EQUAL_MOVED_M": 0.02,
+        "ENC_S": 0.08,
+        "ENC_LONG_S": 0.25,
+        "NACK_S": 0.1,
+        "NACK_LONG_S": 0.5,
+    },
+    "modes.external_velocity": {"TTL_S": 0.25},
+    "motion.fence_gate": {"FENCE_MARGIN_M": 0.15, "INWARD_MPS": 0.15},
+    "authority.rate_limit": {"WINDOW_S": 0.25, "SLACK": 1.2, "ONE_MORE": 1, "FULL_S": 1.0},
+    "motion.free_distance": {"MARGIN_M": 0.05, "REACH_M": 2.0},
+    "motion.motion_gates": {
+        "SHUT_S": 0.5,
+        "FREE_SCANS": 5,
+        "TELEOP_FENCE_MPS": 0.2,
+        "UNKNOWN_MPS": 0.2,
+    },
+    "authority.grants": {
+        "OPERATOR_METRES": 500.0,
+        "OPERATOR_SECONDS": 3600.0,
+        "HAND_METRES": 50.0,
+        "HAND_SECONDS": 600.0,
+        "OUTSIDE_COUNTS": 10.0,
+    },
+    "authority.horizon_checks": {
+        "FIRST_WITHIN_M": 0.5,
+        "MIN_GAP_M": 0.05,
+        "MAX_GAP_M": 0.25,
+        "MIN_END_GAP_M": 0.01,
+        "MIN_SPEED_MPS": 0.05,
+    },
+    "motion.limiter": {"PERIOD_S": 0.01},
+    "authority.message_score": {"DRAIN_S": 0.5, "FULL": 10.0},
+    "motion.obstacle_gate": {"FREE_M": 0.3},
+    "modes.operator": {"NONCE_S": 60.0, "OLD_NONCE_S": 10.0},
+    "authority.ownership": {"LIVE_S": 0.3},
+    "motion.pursuit": {"REACHED_M": 0.1, "REACHED_RAD": 0.1},
+    "modes.selftest": {"FRESH_S": 0.25, "STILL_S": 0.5, "MOVING_S": 1.0, "PATIENCE_S": 0.3},
+    "sensing.sensor_update": {
+        "POOR_QUALITY": 0.5,
+        "POSE_OLD_S": 0.3,
+        "JUMP_M": 0.1,
+        "JUMP_RAD": radians(5),
+        "BASELINE_SCANS": 20,
+        "SEES_SHARE": 0.1,
+        "DRIFT_M": 0.2,
+        "DRIFT_RAD": radians(10),
+        "FORGIVEN_M_PER_M": 0.1,
+        "FORGIVEN_RAD_PER_M": 0.05,
+        "FORGIVEN_RAD_PER_RAD": 0.1,
+        "JUMPS": 3,
+        "JUMPS_WITHIN_S": 60.0,
+        "DRIVE_LOST_S": 0.25,
+        "SCAN_LOST_S": 0.25,
+        "SEQ_AHEAD": 1_000,
+    },
     "state_orders": {"MAX_MISSIONS": 64},
-    "stick": {"CAUSAL_S": 0.4, "RECEIPT_S": 0.25, "NEUTRAL_MPS": 0.02, "NEUTRAL_RADPS": 0.05},
-    "stopcurve": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
-    "stops": {"DWELL_S": 0.2, "SLOW_S": 0.15},
-    "tell": {"EVERY_S": 0.05, "AT_LEAST_S": 0.025},
-    "tick": {"STANDING_MPS": 0.02, "STANDING_RADPS": 0.05},
-    "verdicts": {"KEPT": 64, "SHOWN": 16, "SHOWN_S": 10.0, "REFUSAL_S": 1.0},
-    "window": {"DRAIN": 0.25, "LONGEST_S": 0.05},
-}  # fmt: skip
+    "modes.teleop": {
+        "CAUSAL_S": 0.4,
+        "RECEIPT_S": 0.25,
+        "NEUTRAL_MPS": 0.02,
+        "NEUTRAL_RADPS": 0.05,
+    },
+    "modes.stop_profile": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
+    "modes.stop_monitor": {"DWELL_S": 0.2, "SLOW_S": 0.15},
+    "reporting.report": {"EVERY_S": 0.05, "AT_LEAST_S": 0.025},
+    "tick_context": {"STANDING_MPS": 0.02, "STANDING_RADPS": 0.05},
+    "authority.request_answers": {"KEPT": 64, "SHOWN": 16, "SHOWN_S": 10.0, "REFUSAL_S": 1.0},
+    "geometry.debounce": {"DRAIN": 0.25, "LONGEST_S": 0.05},
+}
 
 CLEARS = {
-    "BRAIN_LOST.0": "ON_GRANT", "POSE_JUMP.0": "ON_GRANT", "BRAIN_GONE.0": "ON_REARM",
-    "LIDAR_STALE.1": "ON_REARM", "LIDAR_BLIND.1": "ON_REARM", "STUCK.1": "ON_REARM",
+    "BRAIN_LOST.0": "ON_GRANT",
+    "POSE_JUMP.0": "ON_GRANT",
+    "BRAIN_GONE.0": "ON_REARM",
+    "LIDAR_STALE.1": "ON_REARM",
+    "LIDAR_BLIND.1": "ON_REARM",
+    "STUCK.1": "ON_REARM",
     "POSE_JUMP.1": "ON_REARM",
-    "ENC_STALE.1": "ON_REARM", "DRIVE_REBOOT.0": "ON_REARM", "BATTERY.1": "ON_REARM",
-    "LOOP_LATE.2": "ON_REARM", "RUNAWAY.0": "ON_RESET", "RUNAWAY.1": "ON_RESET",
-    "DRIVER_NACK.1": "ON_RESET", "DRIVE_FOREIGN.0": "ON_RESET", "OVERCURRENT.0": "ON_RESET",
-    "ESTOP.0": "ON_RESET", "NOT_RT.0": "REBOOT",
-}  # fmt: skip
+    "ENC_STALE.1": "ON_REARM",
+    "DRIVE_REBOOT.0": "ON_REARM",
+    "BATTERY.1": "ON_REARM",
+    "LOOP_LATE.2": "ON_REARM",
+    "RUNAWAY.0": "ON_RESET",
+    "RUNAWAY.1": "ON_RESET",
+    "DRIVER_NACK.1": "ON_RESET",
+    "DRIVE_FOREIGN.0": "ON_RESET",
+    "OVERCURRENT.0": "ON_RESET",
+    "ESTOP.0": "ON_RESET",
+    "NOT_RT.0": "REBOOT",
+}
 """All others clear by themselves,"""
 CLEAN_S = {
-    "BUDGET.0": 0.0, "HAND_BUDGET.0": 0.0, "SPEED_ZONE.0": 0.0, "LIDAR_STALE.0": 1.0,
-    "LIDAR_BLIND.0": 2.0, "STUCK.0": 2.0, "YAW_DISAGREE.0": 2.0, "BATTERY.0": 5.0,
+    "BUDGET.0": 0.0,
+    "HAND_BUDGET.0": 0.0,
+    "SPEED_ZONE.0": 0.0,
+    "LIDAR_STALE.0": 1.0,
+    "LIDAR_BLIND.0": 2.0,
+    "STUCK.0": 2.0,
+    "YAW_DISAGREE.0": 2.0,
+    "BATTERY.0": 5.0,
     "LOOP_LATE.0": 2.0,
-}  # fmt: skip
+}
 """after so long, or half a second."""
 
 # From each mode: by what, to which.
@@ -121,12 +217,12 @@ def test_numbers_are_the_ones_decided(module: str) -> None:
 
 
 def test_robot_toml_hides_no_more_of_a_lidar_than_the_gate_keeps_clear() -> None:
-    freespace = import_module("bridge.core.freespace")
+    freespace = import_module("bridge.core.motion.free_distance")
     assert import_module("wire.robot").HIDDEN_BEYOND_M == freespace.MARGIN_M
 
 
 def test_rates_are_the_wires() -> None:
-    flood = import_module("bridge.core.flood")
+    flood = import_module("bridge.core.authority.rate_limit")
     assert flood.RATES_HZ == {
         "cmd/waypoints": 10.0, "cmd/teleop": 20.0, "cmd/external": 20.0, "cmd/grant": 40.0,
         "cmd/heartbeat": 40.0, "cmd/hello": 40.0,

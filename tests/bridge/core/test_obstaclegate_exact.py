@@ -7,11 +7,12 @@ from math import inf, nan, radians, sqrt
 
 import pytest
 
-from bridge.core import braking, obstaclegate
-from bridge.core.braking import Braking, speed_scale, speed_within, stop_length_m
-from bridge.core.freespace import FreeLength
-from bridge.core.obstaclegate import look_m, obstacle_gate, sight_m, weak_m
-from bridge.core.scanpicture import ScanPicture
+from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.motion import braking
+from bridge.core.motion import obstacle_gate as gate_module
+from bridge.core.motion.braking import Braking, speed_scale, speed_within, stop_length_m
+from bridge.core.motion.free_distance import FreeLength
+from bridge.core.motion.obstacle_gate import look_m, obstacle_gate, sight_m, weak_m
 from tests.bridge.core.table import table
 from wire import IDENTITY, STILL, RobotDescription, Scan, Twist2
 
@@ -185,7 +186,7 @@ def test_weak_brakes_need_more_path() -> None:
 def test_one_looks_as_far_as_it_takes(
     usual: float, speed: float, along: Twist2, share: float, reach: float
 ) -> None:
-    assert obstaclegate._reach_m(usual, speed, along, ROBOT, LATE_S, share) == reach
+    assert gate_module._reach_m(usual, speed, along, ROBOT, LATE_S, share) == reach
 
 
 @table(
@@ -205,7 +206,7 @@ def test_one_looks_as_far_as_it_takes(
     ],
 )
 def test_two_motions_of_nearly_the_same_curve(a: Twist2, b: Twist2, same: bool) -> None:
-    assert obstaclegate._same_curve(a, b) is same
+    assert gate_module._same_curve(a, b) is same
 
 
 def test_what_passes_of_a_turn_where_no_way_does() -> None:
@@ -215,12 +216,12 @@ def test_what_passes_of_a_turn_where_no_way_does() -> None:
         (Twist2(-0.4, -0.5), 0.0, Twist2(0.0, -0.3)), (Twist2(0.4, 0.0), 0.0, STILL),
         (Twist2(0.4, nan), 0.0, STILL), (Twist2(0.5, 0.25), 2**-30, Twist2(2**-31, 2**-32)),
     ):  # fmt: skip
-        assert obstaclegate._passes(asked, scale) == passed
+        assert gate_module._passes(asked, scale) == passed
 
 
 def gate(
     seen: ScanPicture, asked: Twist2, measured: Twist2, known_as: Braking | None = None
-) -> obstaclegate.ObstaclePass:
+) -> gate_module.ObstaclePass:
     return obstacle_gate(seen, IDENTITY, asked, measured, 0.1, ROBOT, known_as or Braking())
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import Inbox, OpArrived
-from bridge.core.modes import Request, after
+from bridge.core.modes.mode_table import Request, after
 from tests.bridge.core.scripted import World
 from wire import HeldReason, Mode, OpKind, OpRequest, Proof
 

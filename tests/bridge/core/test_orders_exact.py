@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import grants, manners, ownership
-from bridge.core.detect_brain import brain, commands
+from bridge.core.authority import grants, message_score, ownership
+from bridge.core.faults.detect_brain import brain, commands
 from bridge.core.state_orders import External, Grants, MissionLeft
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -246,18 +246,18 @@ def test_commands_grow_stale_bad_and_spent(changes: dict[str, object], rows: lis
 def test_manners_fill_a_bucket_that_ends() -> None:
     tick = at("active")
     tick.dt_s = 0.1
-    manners.bad(tick, "x")
+    message_score.bad(tick, "x")
     assert (tick.s.bad_bucket, tick.reasons) == (1.0, ["x"])
-    manners.drain(tick)
+    message_score.drain(tick)
     assert tick.s.bad_bucket == pytest.approx(0.8)
-    manners.good(tick)
+    message_score.good(tick)
     assert tick.s.bad_bucket == 0.0
-    manners.good(tick)
-    manners.drain(tick)
+    message_score.good(tick)
+    message_score.drain(tick)
     assert tick.s.bad_bucket == 0.0
     tick.s.bad_bucket = 9.5
-    manners.bad(tick, "x")
+    message_score.bad(tick, "x")
     assert tick.s.bad_bucket == 10.0
     tick.s.bad_bucket = 0.1
-    manners.drain(tick)
+    message_score.drain(tick)
     assert tick.s.bad_bucket == 0.0

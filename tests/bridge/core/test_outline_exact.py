@@ -7,9 +7,7 @@ from math import hypot, inf, isnan, nan, sqrt
 
 import pytest
 
-from bridge.core import fence as fences
-from bridge.core.fence import Cell, Zone, build_fence
-from bridge.core.outline import (
+from bridge.core.geometry.polygon import (
     Edge,
     Polygon,
     bounds,
@@ -20,6 +18,8 @@ from bridge.core.outline import (
     nearest_m,
     permits,
 )
+from bridge.core.sensing import fence as fences
+from bridge.core.sensing.fence import Cell, Zone, build_fence
 from tests.bridge.core.table import table
 
 

@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from bridge.core.path import prepare, regulated
+from bridge.core.geometry.path_profile import prepare, regulated
 from tests.bridge.core.table import table
 from wire import Waypoint
 from wire.robot import Limits

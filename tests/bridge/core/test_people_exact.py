@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bridge.core import Inbox, operator, stick
-from bridge.core.arming import ready_lacks, reset_lacks
-from bridge.core.rows import STAGES
+from bridge.core import Inbox
+from bridge.core.faults.fault_table import STAGES
+from bridge.core.modes import operator, teleop
+from bridge.core.modes.arming import ready_lacks, reset_lacks
 from bridge.core.state import RowUp
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -173,10 +174,10 @@ def test_a_stick_is_ready_once_seen_released_and_neutral(
     v_mps: float, w_radps: float, ready: bool
 ) -> None:
     tick = at("hold")
-    stick.hear_teleop(tick, velocity(tick, v_mps, w_radps, dead_man=False))
+    teleop.hear_teleop(tick, velocity(tick, v_mps, w_radps, dead_man=False))
     assert tick.s.stick.released == ("s",)
     assert tick.s.stick.ready == (("s",) if ready else ())
-    stick.hear_teleop(tick, velocity(tick, 0.3))
+    teleop.hear_teleop(tick, velocity(tick, 0.3))
     assert (tick.s.mode is Mode.TELEOP) is ready
     if ready:
         assert (tick.s.stick.v_mps, tick.s.stick.received_s) == (0.3, tick.now_s)
@@ -189,7 +190,7 @@ def test_a_stick_is_ready_once_seen_released_and_neutral(
 def test_eight_sticks_are_remembered_as_ready_the_newest_ones() -> None:
     tick = at("hold")
     for number in range(9):
-        stick.hear_teleop(tick, velocity(tick, dead_man=False, source_id=f"s{number}"))
+        teleop.hear_teleop(tick, velocity(tick, dead_man=False, source_id=f"s{number}"))
     newest = tuple(f"s{number}" for number in range(1, 9))
     assert (tick.s.stick.released, tick.s.stick.ready) == (newest, newest)
 
@@ -207,7 +208,7 @@ def test_a_stick_steers_while_it_is_fresh(
         received_s=tick.now_s - received_age_s + EPS / 2 * fresh,
         sent_s=tick.now_s - sent_age_s + EPS / 2 * fresh,
     )
-    stick.watch(tick)
+    teleop.watch(tick)
     assert (tick.s.mode is Mode.TELEOP) is fresh
     if not fresh:
         assert (tick.s.mode, tick.s.stick.source_id) == (Mode.HOLD, None)
@@ -276,7 +277,7 @@ def test_a_stick_is_heard_where_it_may_be(changes: dict[str, object], reason: st
     tick.s.bad_bucket = 3.0
     held = tick.s.stick.source_id
     said = velocity(tick, 0.1, source_id=held, seq=6).model_copy(update=changes)
-    stick.hear_teleop(tick, said)
+    teleop.hear_teleop(tick, said)
     assert tick.reasons == ([] if reason is None else [reason])
     assert tick.s.stick.pressed_s == tick.now_s, "somebody holds it, whatever it says"
     steers = reason is None
@@ -291,7 +292,7 @@ def test_on_the_edge_of_its_age_a_stick_is_heard() -> None:
         tick.s.voice = replace(tick.s.voice, ring=(*ring[:-1], 0.0))
         tick.now_s = age_s
         tick.s.stick = replace(tick.s.stick, seq=5)
-        stick.hear_teleop(tick, velocity(tick, 0.1, source_id=tick.s.stick.source_id, seq=6))
+        teleop.hear_teleop(tick, velocity(tick, 0.1, source_id=tick.s.stick.source_id, seq=6))
         assert (tick.reasons == []) is heard
 
 
@@ -300,12 +301,12 @@ def test_letting_go_holds_and_the_hand_must_begin_anew() -> None:
     source, epoch = tick.s.stick.source_id, tick.s.epoch_no
     tick.s.held = None
     tick.s.stick = replace(tick.s.stick, pressed_s=1.0)
-    stick.hear_teleop(tick, velocity(tick, 0.3, source_id=source, dead_man=False))
+    teleop.hear_teleop(tick, velocity(tick, 0.3, source_id=source, dead_man=False))
     assert tick.s.mode is Mode.HOLD
     assert tick.s.held == Held(reason=HeldReason.TELEOP, id=str(source))
     assert (tick.s.stick.source_id, tick.s.stick.ready, tick.s.stick.pressed_s) == (None, (), 1.0)
     assert tick.s.stick.released == (source,)
-    stick.hear_teleop(tick, velocity(tick, 0.0, source_id=source))
+    teleop.hear_teleop(tick, velocity(tick, 0.0, source_id=source))
     assert tick.moving, "released, then neutral, in the taking itself"
     assert tick.s.epoch_no == epoch + 1
     assert not tick.s.grants.since_arm
@@ -314,14 +315,14 @@ def test_letting_go_holds_and_the_hand_must_begin_anew() -> None:
 def test_a_stick_that_nobody_holds_any_more_ends_no_mode() -> None:
     tick = at("active")
     tick.s.stick = replace(tick.s.stick, source_id="s", received_s=0.0)
-    stick.watch(tick)
+    teleop.watch(tick)
     assert (tick.s.mode, tick.s.held, tick.s.stick.source_id) == (Mode.ACTIVE, None, None)
 
 
 def test_taking_over_forgets_that_a_grant_was_given() -> None:
     tick = at("hold_granted")
     assert tick.s.grants.since_arm
-    stick.hear_teleop(tick, velocity(tick, dead_man=False))
-    stick.hear_teleop(tick, velocity(tick))
+    teleop.hear_teleop(tick, velocity(tick, dead_man=False))
+    teleop.hear_teleop(tick, velocity(tick))
     assert (tick.s.mode, tick.s.grants.since_arm) == (Mode.TELEOP, False)
     assert tick.s.grants.mission is None

@@ -7,9 +7,9 @@ from math import cos, hypot, inf, nan, pi, sin, sqrt
 
 import pytest
 
-from bridge.core import pursuit
-from bridge.core.path import Path, prepare
-from bridge.core.pursuit import FollowState, follow, look_ahead_m
+from bridge.core.geometry.path_profile import Path, prepare
+from bridge.core.motion import pursuit
+from bridge.core.motion.pursuit import FollowState, follow, look_ahead_m
 from tests.bridge.core.table import table
 from wire import STILL, Pose2, Twist2, Waypoint
 from wire.geometry import MAX_COORDINATE_M

@@ -7,14 +7,14 @@ from math import inf, nan
 
 import pytest
 
-from bridge.core.arming import arm_lacks, reset_lacks
-from bridge.core.contactgate import contact_gate, touched
-from bridge.core.gate import reconsider
-from bridge.core.kinematics import twist_of
-from bridge.core.odometry import arc_end
-from bridge.core.operator import bad_proof
-from bridge.core.stops import _failure
-from bridge.core.transition import _begin_stop
+from bridge.core.geometry.kinematics import twist_of
+from bridge.core.geometry.odometry import arc_end
+from bridge.core.modes.arming import arm_lacks, reset_lacks
+from bridge.core.modes.operator import bad_proof
+from bridge.core.modes.stop_monitor import _failure
+from bridge.core.modes.transition import _begin_stop
+from bridge.core.motion.contact_gate import contact_gate, touched
+from bridge.core.motion.motion_gates import reconsider
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import IDENTITY, STILL, Action, Twist2

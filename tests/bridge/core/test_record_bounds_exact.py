@@ -12,16 +12,16 @@ from math import inf, nan, nextafter
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from bridge.core.freespace import NOTHING_KNOWN, FreeLength
-from bridge.core.kinematics import STOPPED, Wheels
-from bridge.core.limiter import LimiterState
-from bridge.core.obstaclegate import ObstaclePass
-from bridge.core.odometry import OdometryState
-from bridge.core.path import Path
-from bridge.core.pursuit import FollowState
-from bridge.core.scanpicture import ScanPicture
+from bridge.core.geometry.kinematics import STOPPED, Wheels
+from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.geometry.odometry import OdometryState
+from bridge.core.geometry.path_profile import Path
+from bridge.core.modes.stop_profile import NO_STOP, StopPlan
+from bridge.core.motion.free_distance import NOTHING_KNOWN, FreeLength
+from bridge.core.motion.limiter import LimiterState
+from bridge.core.motion.obstacle_gate import ObstaclePass
+from bridge.core.motion.pursuit import FollowState
 from bridge.core.state_braking import UNLEARNT, Learnt
-from bridge.core.stopcurve import NO_STOP, StopPlan
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from wire import STILL

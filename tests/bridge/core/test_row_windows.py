@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.rows import ROWS, Clears, Row
+from bridge.core.faults.fault_table import ROWS, Clears, Row
 from tests.bridge.core.scripted import World
 from tests.bridge.core.windows import age_ticks, bad_bytes, raised, silent_for, until_age
 from wire import SEVERITY, Action, Mode

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bridge.core import Inbox
-from bridge.core.rows import ROWS, STAGES
+from bridge.core.faults.fault_table import ROWS, STAGES
 from tests.bridge.core.fake_planner import FakeDrive
 from tests.bridge.core.scripted import World, config
 from tests.bridge.core.windows import raised, silent_for, until_age

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.core import docs
+from bridge.core.faults import docs
 
 
 def test_it_is_printed_written_and_checked(
@@ -16,7 +16,7 @@ def test_it_is_printed_written_and_checked(
     page = tmp_path / "safety.md"
     monkeypatch.setattr(docs, "PATH", page)
     assert docs.main(["--check"]) == 1
-    assert "run python -m bridge.core.docs" in capsys.readouterr().out
+    assert "run python -m bridge.core.faults.docs" in capsys.readouterr().out
     assert docs.main([]) == 0
     assert docs.main(["--check"]) == 0
     assert docs.main(["--print"]) == 0

@@ -6,9 +6,9 @@ from math import degrees, radians
 
 import pytest
 
-from bridge.core import freespace
-from bridge.core.freespace import FreeLength, free_length
-from bridge.core.scanpicture import Sector
+from bridge.core.geometry.lidar_scan import Sector
+from bridge.core.motion import free_distance
+from bridge.core.motion.free_distance import FreeLength, free_length
 from tests.bridge.core.table import table
 from tests.bridge.core.test_freespace_exact import (
     AHEAD,
@@ -109,14 +109,14 @@ def test_so_few_are_missing_that_no_sector_lacks_half(
 ) -> None:
     gone: dict[int, float | None] = dict.fromkeys(range(missing), None)
     made = picture(gone, LidarConfig(x_m=lidar_x))
-    assert freespace._few_missing(made, disc, moved) is few
+    assert free_distance._few_missing(made, disc, moved) is few
     turned = picture(gone, LidarConfig(y_m=lidar_x))
-    assert freespace._few_missing(turned, disc, moved) is few
+    assert free_distance._few_missing(turned, disc, moved) is few
 
 
 def test_of_no_beams_none_is_missing_and_nothing_known() -> None:
-    assert not freespace._few_missing(picture({}, count=0), DISC_M, 0.0)
-    assert freespace._few_missing(picture({}, count=1), DISC_M, 0.0)
+    assert not free_distance._few_missing(picture({}, count=0), DISC_M, 0.0)
+    assert free_distance._few_missing(picture({}, count=1), DISC_M, 0.0)
 
 
 @table(

@@ -7,9 +7,18 @@ from typing import Any
 
 import pytest
 
-from bridge.core.selftest import DONE, ECHO, RETURN, WITHHOLD, _wrong, run, waits_for, withholds
+from bridge.core.modes.selftest import (
+    DONE,
+    ECHO,
+    RETURN,
+    WITHHOLD,
+    _wrong,
+    run,
+    waits_for,
+    withholds,
+)
 from bridge.core.state import SelfTest
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import BOOT
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import FENCE, config

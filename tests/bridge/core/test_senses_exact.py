@@ -6,11 +6,12 @@ from dataclasses import replace
 from math import radians
 from typing import Any
 
-from bridge.core import Inbox, senses
-from bridge.core.epoch import shelved
-from bridge.core.scanpicture import ScanPicture
+from bridge.core import Inbox
+from bridge.core.authority.epoch import shelved
+from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.sensing import sensor_update
 from bridge.core.state_senses import LidarMemory
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -63,7 +64,7 @@ def test_a_reading_counts_once_and_another_life_begins_anew(
     drive.reborn_s, drive.received_s = 1.0, NOW_S - 0.1
     state = state_of(tick, boot_id=boot_id, seq=before.seq + later)
     tick.inbox = replace(tick.inbox, drive=(state,))
-    senses.sense(tick)
+    sensor_update.sense(tick)
     assert drive.newest is (state if heard else before)
     assert drive.received_s == (NOW_S if heard else NOW_S - 0.1)
     assert drive.reborn_s == (NOW_S if reborn else 1.0)
@@ -75,7 +76,7 @@ def test_the_first_reading_of_all_can_echo_nothing_said_before_it() -> None:
     tick = at()
     state = state_of(tick)
     tick.s.drive.newest, tick.s.drive.reborn_s = None, None
-    senses._hear_drive(tick, state)
+    sensor_update._hear_drive(tick, state)
     assert (tick.s.drive.behind_base, tick.s.drive.reborn_s) == (tick.s.command_seq, None)
 
 
@@ -89,7 +90,7 @@ def test_how_far_the_echo_lags(
 ) -> None:
     tick = at()
     tick.s.command_seq, tick.s.drive.behind_base, tick.s.drive.behind = 100, base, 77
-    senses._hear_drive(tick, state_of(tick, echo_boot=echo_boot, echo_seq=echo_seq))
+    sensor_update._hear_drive(tick, state_of(tick, echo_boot=echo_boot, echo_seq=echo_seq))
     assert tick.s.drive.behind == behind
 
 
@@ -104,7 +105,7 @@ def test_standing_and_moving_are_timed_from_when_they_began(
     for still_s, moving_s in ((None, 3.0), (4.0, None), (None, None)):
         tick = at()
         tick.s.drive.still_since_s, tick.s.drive.moving_since_s = still_s, moving_s
-        senses._hear_drive(tick, state_of(tick, left_radps=left, right_radps=right))
+        sensor_update._hear_drive(tick, state_of(tick, left_radps=left, right_radps=right))
         times = (tick.s.drive.still_since_s, tick.s.drive.moving_since_s)
         assert times == ((still_s or NOW_S, None) if stands else (None, moving_s or NOW_S))
 
@@ -119,7 +120,7 @@ def test_a_trail_of_24_readings_says_where_the_robot_was(
     tick = at(sensors_same_host=same_host)
     trail = tuple((float(i), Pose2(float(i), 0.0, 0.0)) for i in range(24))
     tick.s.trail = trail
-    senses._hear_drive(tick, state_of(tick, stamp_s=stamp_s))
+    sensor_update._hear_drive(tick, state_of(tick, stamp_s=stamp_s))
     assert tick.s.trail == (*trail[1:], (kept_s, tick.s.odometry.base_in_odom))
 
 
@@ -127,9 +128,9 @@ def test_a_trail_of_24_readings_says_where_the_robot_was(
 def test_a_scan_is_placed_where_it_was_taken(at_s: float, x_m: float) -> None:
     tick = at()
     tick.s.trail = tuple((float(i), Pose2(float(i), 0.0, 0.0)) for i in range(2, 6))
-    assert senses._where(tick, at_s).x_m == x_m
+    assert sensor_update._where(tick, at_s).x_m == x_m
     tick.s.trail = ()
-    assert senses._where(tick, at_s) is tick.s.odometry.base_in_odom
+    assert sensor_update._where(tick, at_s) is tick.s.odometry.base_in_odom
 
 
 # Lidar ------------------------------------------------------------------------------------------
@@ -151,7 +152,7 @@ def test_a_scan_counts_once(boot_id: str, later: int, heard: bool) -> None:
     assert before.newest is not None
     scan = scan_of(tick, boot_id=boot_id, seq=before.newest.seq + later)
     tick.inbox = replace(tick.inbox, scan=scan)
-    senses.sense(tick)
+    sensor_update.sense(tick)
     if heard:
         assert (tick.s.lidar.newest, tick.s.lidar.received_s) == (scan, NOW_S)
     else:
@@ -163,7 +164,7 @@ def test_a_scan_counts_once(boot_id: str, later: int, heard: bool) -> None:
 def test_a_scan_of_another_host_is_as_of_now(same_host: bool, x_m: float) -> None:
     tick = at(sensors_same_host=same_host)
     tick.s.trail = tuple((float(i), Pose2(float(i), 0.0, 0.0)) for i in range(2, 6))
-    senses._hear_scan(tick, scan_of(tick))
+    sensor_update._hear_scan(tick, scan_of(tick))
     picture = tick.s.lidar.picture
     assert picture is not None
     assert picture.base_in_odom == Pose2(x_m, 0.0, 0.0)
@@ -177,7 +178,7 @@ def test_scans_that_are_the_same_again_are_counted(again: bool, equal: int, from
         scan = scan.model_copy(update={"ranges_m": (1.0,) * len(scan.ranges_m)})
     tick.s.odometry = replace(tick.s.odometry, travelled_m=7.0)
     tick.s.lidar = replace(tick.s.lidar, equal=3, equal_from_m=1.5)
-    senses._hear_scan(tick, scan)
+    sensor_update._hear_scan(tick, scan)
     assert (tick.s.lidar.equal, tick.s.lidar.equal_from_m) == (equal, from_m)
 
 
@@ -193,7 +194,7 @@ def test_what_is_normal_is_the_mean_of_the_first_20_scans(
     count = len(scan.ranges_m)
     scan = scan.model_copy(update={"ranges_m": (2.0,) * 40 + (None,) * (count - 40)})
     tick.s.lidar = LidarMemory(baseline_scans=had, baseline_returns=mean)
-    senses._hear_scan(tick, scan)
+    sensor_update._hear_scan(tick, scan)
     assert (tick.s.lidar.baseline_scans, tick.s.lidar.baseline_returns) == (scans, after)
 
 
@@ -209,8 +210,11 @@ def test_a_covered_lidar_teaches_nothing_of_what_is_normal(
     ranges = (2.0,) * returned + (None,) * (beams - returned)
     scan = scan_of(tick).model_copy(update={"ranges_m": ranges})
     tick.s.lidar = LidarMemory(baseline_scans=3, baseline_returns=300.0)
-    assert senses.sees(ScanPicture.from_scan(scan, IDENTITY, tick.config.robot.lidar)) is teaches
-    senses._hear_scan(tick, scan)
+    assert (
+        sensor_update.sees(ScanPicture.from_scan(scan, IDENTITY, tick.config.robot.lidar))
+        is teaches
+    )
+    sensor_update._hear_scan(tick, scan)
     assert tick.s.lidar.baseline_scans == (4 if teaches else 3)
     assert tick.s.lidar.baseline_returns == (300.0 - 66.0 if teaches else 300.0)
 
@@ -234,7 +238,7 @@ def test_beyond_the_edge_of_the_world_is_no_place(x_m: float, y_m: float, known:
     tick.s.pose = replace(
         tick.s.pose, localization=placed(odom_in_map=Pose2(x_m, y_m, 0.0)), received_s=NOW_S
     )
-    senses.locate(tick)
+    sensor_update.locate(tick)
     assert tick.robot_in_map == (Pose2(x_m, y_m, 0.0) if known else None)
 
 
@@ -250,19 +254,19 @@ def test_a_pose_is_trusted_while_it_is_young_and_good(
     tick.now_s = now_s
     said = placed(quality=quality, stamp_s=0.0)
     tick.s.pose = replace(tick.s.pose, localization=said, received_s=received_s)
-    assert (senses.pose_trouble(tick) is None) is trusted
+    assert (sensor_update.pose_trouble(tick) is None) is trusted
     tick.s.pose = replace(tick.s.pose, localization=None, received_s=0.0)
-    assert senses.pose_trouble(tick) is not None
+    assert sensor_update.pose_trouble(tick) is not None
 
 
 def test_a_gyro_is_remembered_with_when_it_came() -> None:
     imu = Imu(boot_id="g0", seq=1, stamp_s=1.0, yaw_rate_radps=0.5, accel_x_mps2=0, accel_y_mps2=0)
     tick = at(imu=imu)
     before = tick.s.pose
-    senses.sense(tick)
+    sensor_update.sense(tick)
     assert tick.s.pose == replace(before, imu=imu, imu_received_s=NOW_S)
     tick.inbox, after = Inbox(), tick.s.pose
-    senses.sense(tick)
+    sensor_update.sense(tick)
     assert tick.s.pose is after
 
 
@@ -278,7 +282,7 @@ def test_recorder_and_rights_are_taken_over_and_a_change_is_told(
         tick = at(recorder_ok=now, recorder_says="disk_full: none is left", real_time=rights)
         tick.s.tick = number
         tick.s.loop = replace(tick.s.loop, recorder_ok=had, real_time=True)
-        senses.sense(tick)
+        sensor_update.sense(tick)
         assert (tick.s.loop.recorder_ok, tick.s.loop.real_time) == (now, rights)
         assert [code for code, _ in tick.events] == told
 
@@ -290,7 +294,7 @@ def test_recorder_and_rights_are_taken_over_and_a_change_is_told(
 def test_a_place_in_another_odom_or_map_is_none(change: dict[str, str], heard: bool) -> None:
     tick = at()
     before, new = tick.s.pose, placed(**change)
-    senses._hear_localization(tick, new)
+    sensor_update._hear_localization(tick, new)
     assert tick.s.pose == (
         replace(before, localization=new, received_s=NOW_S, good=new) if heard else before
     )  # fmt: skip
@@ -329,7 +333,7 @@ def test_a_jump_takes_the_grant_and_the_way_and_is_told(
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=here)
     granted, leg = tick.s.grants, tick.s.leg
     assert None not in (granted.mission, leg.horizon, leg.path)
-    senses._hear_localization(tick, placed(odom_in_map=new, quality=quality))
+    sensor_update._hear_localization(tick, placed(odom_in_map=new, quality=quality))
     assert tick.s.pose.jumped_s == (NOW_S if jumps else 1.0)
     assert tick.s.grants == (shelved(granted) if jumps else granted)
     assert tick.s.leg == (replace(leg, horizon=None, path=None) if jumps else leg)

@@ -7,13 +7,14 @@ from math import inf, nan
 
 import pytest
 
-from bridge.core import Inbox, LoopFacts, status
-from bridge.core.limiter import LimiterState, stopping_m
-from bridge.core.obstaclegate import weak_m
-from bridge.core.rows import STAGES
+from bridge.core import Inbox, LoopFacts
+from bridge.core.faults.fault_table import STAGES
+from bridge.core.motion.limiter import LimiterState, stopping_m
+from bridge.core.motion.obstacle_gate import weak_m
+from bridge.core.reporting import status
 from bridge.core.state import RowUp, draft
 from bridge.core.state_braking import Learnt
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import Inbox, initial
-from bridge.core.drive_out import followed
+from bridge.core.modes.teleop import CAUSAL_S
+from bridge.core.motion.wheel_command import followed
 from bridge.core.state import Gate
 from bridge.core.step import _reconsider
-from bridge.core.stick import CAUSAL_S
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config

@@ -6,9 +6,16 @@ from math import nan, sqrt
 
 import pytest
 
-from bridge.core import stopcurve
-from bridge.core.limiter import LimiterState, Profile, stopping_m
-from bridge.core.stopcurve import NO_STOP, StopPlan, plan_stop, planned, planned_rim_mps, too_slow
+from bridge.core.modes import stop_profile
+from bridge.core.modes.stop_profile import (
+    NO_STOP,
+    StopPlan,
+    plan_stop,
+    planned,
+    planned_rim_mps,
+    too_slow,
+)
+from bridge.core.motion.limiter import LimiterState, Profile, stopping_m
 from tests.bridge.core.table import table
 from wire import STILL, RobotDescription, Twist2
 
@@ -50,13 +57,13 @@ def plan(sent: Twist2, left: float = 0.0, right: float = 0.0) -> StopPlan:
 def test_what_brakes_already_counts(
     sent: Twist2, left: float, right: float, under_way: float
 ) -> None:
-    assert stopcurve._braking(LimiterState(sent, left, right), BASE) == pytest.approx(under_way)
+    assert stop_profile._braking(LimiterState(sent, left, right), BASE) == pytest.approx(under_way)
     assert plan(sent, left, right).first_mps2 == pytest.approx(under_way)
 
 
 def test_a_wheel_that_stands_brakes_nothing() -> None:
-    assert stopcurve._against(0.0, 1.0) == stopcurve._against(0.0, -1.0) == 0.0
-    assert (stopcurve._against(0.5, -1.0), stopcurve._against(-0.5, -1.0)) == (1.0, -1.0)
+    assert stop_profile._against(0.0, 1.0) == stop_profile._against(0.0, -1.0) == 0.0
+    assert (stop_profile._against(0.5, -1.0), stop_profile._against(-0.5, -1.0)) == (1.0, -1.0)
 
 
 def test_a_long_stop_rises_stays_and_fades() -> None:

@@ -7,10 +7,8 @@ from math import nan
 
 import pytest
 
-from bridge.core import stops
-from bridge.core.limiter import LimiterState, Profile
-from bridge.core.state import Stopping
-from bridge.core.stopcurve import (
+from bridge.core.modes import stop_monitor
+from bridge.core.modes.stop_profile import (
     NO_STOP,
     StopPlan,
     _against,
@@ -21,7 +19,9 @@ from bridge.core.stopcurve import (
     too_long,
     too_slow,
 )
-from bridge.core.tick import Tick
+from bridge.core.motion.limiter import LimiterState, Profile
+from bridge.core.state import Stopping
+from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -60,7 +60,7 @@ def standing(start: str = "stopping_by_row", /, **more: object) -> Tick:
 )
 def test_a_stop_ends_as_its_action_says(more: dict[str, object], mode: Mode) -> None:
     tick = standing(**more)
-    stops.judge(tick)
+    stop_monitor.judge(tick)
     assert (tick.s.mode, tick.s.stopping) == (mode, None)
     assert tick.events[-1] == ("mode", f"STOPPING {mode.value} row")
 
@@ -69,7 +69,7 @@ def test_a_stop_ends_as_its_action_says(more: dict[str, object], mode: Mode) -> 
 def test_where_the_mode_stays_only_the_ramp_is_over(start: str) -> None:
     tick = standing(start, reset_needed=True)
     before = tick.s.mode
-    stops.judge(tick)
+    stop_monitor.judge(tick)
     assert (tick.s.mode, tick.s.stopping) == (before, None)
 
 
@@ -82,7 +82,7 @@ def test_it_is_over_after_200_ms_at_rest_and_when_told_to_rest() -> None:
         tick = standing()
         tick.s.drive.still_since_s = tick.now_s - still_s
         tick.s.motion.limiter = LimiterState(sent)
-        stops.judge(tick)
+        stop_monitor.judge(tick)
         assert (tick.s.stopping is None) is over
 
 
@@ -96,13 +96,13 @@ def test_a_stop_that_nobody_measures_ends_when_its_time_is_over(
         tick.s.odometry = replace(tick.s.odometry, measured=STILL)
         tick.s.drive.received_s = tick.now_s - silent_s
         tick.s.stopping = stop_of(tick.now_s - elapsed_s)
-        stops.judge(tick)
+        stop_monitor.judge(tick)
         said = ("stop_unmeasured", "row") in tick.events
         assert said is (ends and over)
         if said:
             assert tick.s.mode is Mode.HOLD
         tick.s.drive.received_s = None
-        assert stops._unmeasured(tick)
+        assert stop_monitor._unmeasured(tick)
 
 
 def rolling(speed_mps: float, elapsed_s: float, **more: object) -> Tick:
@@ -128,7 +128,7 @@ def test_too_slow_counts_after_150_ms_and_is_not_forgotten_at_once(
 ) -> None:
     tick = rolling(speed_mps, 0.8, slow_s=before_s)
     assert tick.dt_s == 0.01
-    assert stops._failure(tick) == failure
+    assert stop_monitor._failure(tick) == failure
     assert tick.s.stopping is not None
     assert tick.s.stopping.slow_s == pytest.approx(after_s, abs=EPS / 10)
 
@@ -139,7 +139,7 @@ def test_one_reading_in_two_that_is_slow_enough_hides_no_stop_that_is_not() -> N
     tick = rolling(0.5, 0.8)
     for index in range(41):
         tick.s.odometry = replace(tick.s.odometry, measured=Twist2(0.5 * (index % 2 == 0), 0.0))
-        failures.append(stops._failure(tick))
+        failures.append(stop_monitor._failure(tick))
     assert [index for index, failure in enumerate(failures) if failure] == [38, 40]
 
 
@@ -150,7 +150,7 @@ def test_a_failure_cuts_the_torque(start: str, mode: Mode | None) -> None:
     tick.s.drive.still_since_s = None
     tick.s.stopping = stop_of(tick.now_s - 9.0)
     tick.s.odometry = replace(tick.s.odometry, measured=Twist2(0.05, 0.0))
-    stops.judge(tick)
+    stop_monitor.judge(tick)
     assert tick.s.stopping is None
     assert tick.s.mode is (mode or before)
     if mode is None:
@@ -162,7 +162,7 @@ def test_a_failure_cuts_the_torque(start: str, mode: Mode | None) -> None:
 def test_what_stands_is_never_too_long() -> None:
     tick = rolling(0.0, 9.0)
     tick.s.drive.still_since_s = tick.now_s
-    assert stops._failure(tick) is None
+    assert stop_monitor._failure(tick) is None
 
 
 @table(

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from bridge.core import Inbox, manners, tell, verdicts
+from bridge.core import Inbox
+from bridge.core.authority import message_score, request_answers
 from bridge.core.inbox import RejectedAt
+from bridge.core.reporting import report
 from bridge.core.state import BridgeState, Gate, Voice, draft
 from bridge.core.state_orders import Answered
-from bridge.core.tick import Tick
+from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import BOOT
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -32,16 +34,18 @@ def quiet() -> Tick:
 def test_64_verdicts_are_remembered_and_the_newest_16_shown() -> None:
     tick = quiet()
     for number in range(70):
-        verdicts.settle(tick, "arm", f"a{number}", "ok" if number % 2 else "stopped", "d" * 500)
+        request_answers.settle(
+            tick, "arm", f"a{number}", "ok" if number % 2 else "stopped", "d" * 500
+        )
     kept = [item.answer for item in tick.s.operator.answers]
     assert [answer.id for answer in kept] == [f"a{number}" for number in range(6, 70)]
     assert [answer.accepted for answer in kept[:2]] == [False, True]
-    assert verdicts.shown(tick) == tuple(kept[-16:])
+    assert request_answers.shown(tick) == tuple(kept[-16:])
     assert kept[0].detail == "d" * 400
     assert tick.events[-1] == ("answered", "arm a69 ok")
-    assert verdicts.verdict_on(tick, "arm", "a6") is kept[0]
-    assert verdicts.verdict_on(tick, "arm", "a5") is None
-    assert verdicts.verdict_on(tick, "reset", "a6") is None
+    assert request_answers.verdict_on(tick, "arm", "a6") is kept[0]
+    assert request_answers.verdict_on(tick, "arm", "a5") is None
+    assert request_answers.verdict_on(tick, "reset", "a6") is None
 
 
 @table(("age_s", "settled", "refused"), [(1.0, 1, 1), (1.05, 1, 0), (10.0, 1, 0), (10.5, 0, 0)])
@@ -53,24 +57,24 @@ def test_a_verdict_is_shown_for_10_s_and_a_refusal_for_1(
     both = (Answered(tick.now_s, answer),)
     tick.s.operator = replace(tick.s.operator, answers=both, refusals=both)
     tick.now_s += age_s
-    assert len(verdicts.shown(tick)) == settled + refused
+    assert len(request_answers.shown(tick)) == settled + refused
 
 
 def test_of_refusals_the_newest_of_each_sender_counts_and_eight_in_all() -> None:
     tick = quiet()
     for number in range(12):
-        verdicts.refuse_openly(tick, "hello", f"p{number}", "owned", "by another")
+        request_answers.refuse_openly(tick, "hello", f"p{number}", "owned", "by another")
     senders = [item.answer.id for item in tick.s.operator.refusals]
     assert senders == [f"p{number}" for number in range(4, 12)]
     assert len(tick.events) == 12
-    verdicts.refuse_openly(tick, "hello", "p11", "owned", "by another")
+    request_answers.refuse_openly(tick, "hello", "p11", "owned", "by another")
     assert len(tick.events) == 12, "the same again is no news"
-    verdicts.refuse_openly(tick, "hello", "p11", "moving", "wait")
+    request_answers.refuse_openly(tick, "hello", "p11", "moving", "wait")
     assert tick.events[12:] == [("hello_refused", "p11 moving wait")]
-    verdicts.refuse_openly(tick, "grant", "p11", "moving", "wait")
+    request_answers.refuse_openly(tick, "grant", "p11", "moving", "wait")
     last = [(item.answer.kind, item.answer.id) for item in tick.s.operator.refusals][-2:]
     assert last == [("hello", "p11"), ("grant", "p11")], "of one sender one of each kind"
-    verdicts.settle_openly(tick, "hello", "p11")
+    request_answers.settle_openly(tick, "hello", "p11")
     left = [(item.answer.kind, item.answer.id) for item in tick.s.operator.refusals]
     assert ("hello", "p11") not in left
     assert left[-1] == ("grant", "p11")
@@ -103,7 +107,7 @@ def test_a_status_is_due_20_times_a_second_or_at_once_but_never_over_40(
     tick.s.voice = voice = Voice(status_seq=7, ring=(3.0,), status_s=last_s, pending=pending)
     if changed:
         tick.s.epoch_no += 1
-    status = tell.status_of(tick, before)
+    status = report.status_of(tick, before)
     assert (status is not None) is sent
     if status is not None:
         assert status.seq == 8
@@ -141,7 +145,7 @@ def test_what_others_wait_for_is_told_at_once(change: dict[str, Any], told: bool
     for name, value in change.items():
         made = replace(getattr(old, name), **value) if isinstance(value, dict) else value
         setattr(new, name, made)
-    assert tell._changed(old, new) is told
+    assert report._changed(old, new) is told
 
 
 # Odometry and events ----------------------------------------------------------------------------
@@ -170,7 +174,7 @@ def test_odometry_goes_out_every_other_tick_as_of_its_reading(
         drive.received_s, tick.s.tick, tick.now_s = received_s, number, 4.0
         tick.inbox = Inbox(sensors_same_host=same_host)
         tick.s.pose = replace(tick.s.pose, imu=gyro)
-        told = tell.odometry_of(tick)
+        told = report.odometry_of(tick)
         assert (told is None) is (stamp_s is None)
         if told is not None:
             rate = 0.5 if gyro else None
@@ -181,11 +185,11 @@ def test_odometry_goes_out_every_other_tick_as_of_its_reading(
 def test_events_are_numbered_on(now_s: float, at_s: float) -> None:
     tick = tick_of(reached("active"))
     tick.now_s, tick.s.voice = now_s, replace(tick.s.voice, event_seq=4)
-    assert tell.events_of(tick) == ()
+    assert report.events_of(tick) == ()
     assert tick.s.voice.event_seq == 4
     tick.say("one", "x" * 500)
     tick.say("two")
-    events = tell.events_of(tick)
+    events = report.events_of(tick)
     assert [(one.seq, one.code, one.at_s, one.boot) for one in events] == [
         (5, "one", at_s, BOOT), (6, "two", at_s, BOOT),
     ]  # fmt: skip
@@ -210,10 +214,10 @@ def test_bytes_that_are_nothing_are_charged_to_whoever_may_use_their_key(
 ) -> None:
     tick = tick_of(reached(start))
     tick.s.bad_bucket = 1.0
-    manners.hear_rejected(tick)
+    message_score.hear_rejected(tick)
     assert tick.s.bad_bucket == 1.0
     tick.inbox = Inbox(rejected=(RejectedAt(key, Rejected("malformed", "no JSON")),))
-    manners.hear_rejected(tick)
+    message_score.hear_rejected(tick)
     assert tick.reasons == ["rejected_malformed"]
     assert tick.s.bad_bucket == 1.0 + scored
 
@@ -222,14 +226,14 @@ def test_a_bucket_of_ten_loses_one_in_half_a_second_and_one_per_good_message() -
     tick = tick_of(reached("active"))
     tick.s.bad_bucket, tick.dt_s = 0.0, 0.01
     for _ in range(12):
-        manners.bad(tick, "bad")
+        message_score.bad(tick, "bad")
     assert tick.s.bad_bucket == 10.0
-    manners.drain(tick)
-    manners.good(tick)
+    message_score.drain(tick)
+    message_score.good(tick)
     assert tick.s.bad_bucket == 8.98
     tick.s.bad_bucket = 0.01
-    manners.drain(tick)
+    message_score.drain(tick)
     assert tick.s.bad_bucket == 0.0
-    manners.drain(tick)
-    manners.good(tick)
+    message_score.drain(tick)
+    message_score.good(tick)
     assert tick.s.bad_bucket == 0.0

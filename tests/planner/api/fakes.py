@@ -15,10 +15,10 @@ from planner.budget import Amounts, Most, Usage
 from planner.language.stop import is_stop
 from planner.mission import Leg, Memory
 from planner.mission.errors import BadState, UnknownGoal
+from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
-from planner.vision import Picture, Sight, Thing
+from planner.site import FenceProposals, Site
 from planner.voice import Heard, Sound, VoiceFailure
-from planner.world import FenceProposals, Site
 from tests.wire.examples import STATUS
 from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from fastapi import FastAPI
     from starlette.types import Receive, Scope, Send
 
-    from planner.api.ports import Services
+    from planner.api.interfaces import Services
 
 BASE = "http://127.0.0.1:8420"
 LOCAL = Access("127.0.0.1")

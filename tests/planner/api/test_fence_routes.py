@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from planner.world import FenceProposals
+from planner.site import FenceProposals
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.wire.examples import STATUS

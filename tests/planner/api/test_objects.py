@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 
 from planner.api import Access
-from planner.api.feed import Feed
-from planner.api.sightnews import SAME_S, SIGHT_S
-from planner.vision import Detection, Look, Picture, Sight, Thing
+from planner.api.live_state import Feed
+from planner.api.object_changes import SAME_S, SIGHT_S
+from planner.perception import Detection, Look, Picture, Sight, Thing
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
-from tests.planner.vision.scenes import image
+from tests.planner.perception.scenes import image
 from wire import Pose2
 
 CUP = Thing("cup_1", "cup", "red", 1.234, 2.0, 0.8, 0.05, 0.912, 90.0, 40.0, 7, "kitchen")

@@ -10,10 +10,10 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner.api import Access
-from planner.api.feed import Feed
-from planner.link import Aged
+from planner.api.live_state import Feed
+from planner.bridge_client import Aged
 from planner.mission import Memory
-from planner.world import TaughtPlaces
+from planner.site import TaughtPlaces
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of
 from tests.planner.mission.live import StraightRouter

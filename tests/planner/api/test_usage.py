@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 
-from planner.api.feed import Feed
+from planner.api.live_state import Feed
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of
 

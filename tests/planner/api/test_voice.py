@@ -10,7 +10,7 @@ from starlette.testclient import TestClient
 
 from planner.api import Access
 from planner.api.access import NotAllowed
-from planner.api.guard import MAX_BODY_BYTES
+from planner.api.middleware import MAX_BODY_BYTES
 from planner.plan import Language
 from planner.voice import MAX_BYTES, Heard, VoiceFailure
 from tests.planner.api.fakes import FakeServices

@@ -8,7 +8,7 @@ from math import degrees
 
 import pytest
 
-from planner.brain.offline import Context, plan
+from planner.language.grammar import Context, plan
 from planner.plan import (
     EVERY_KIND,
     Answer,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.brain.looking import Picture
+from planner.brain.image_questions import Picture
 
 
 def jpeg(width: int = 320, height: int = 240, padding: int = 0) -> bytes:

@@ -19,8 +19,8 @@ from planner.brain import (
     Thought,
     mind_of,
 )
-from planner.brain.breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
-from planner.brain.reasons import REASONS, reason
+from planner.brain.circuit_breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
+from planner.brain.model_error_codes import REASONS, reason
 from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, message, same
 
 BY_MODEL = StepPlan(steps=(Wait(seconds=1.0),))

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from planner.brain.offline import Context
-from planner.brain.offline import plan as plan_in
+from planner.language.grammar import Context
+from planner.language.grammar import plan as plan_in
 from planner.plan import (
     EVERY_KIND,
     RUNNABLE,

@@ -9,9 +9,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from rapidfuzz.fuzz import partial_ratio
 
-from planner.brain.offline import Context
-from planner.brain.offline import plan as plan_in
-from planner.brain.offline.normalise import squash
+from planner.language.grammar import Context
+from planner.language.grammar import plan as plan_in
+from planner.language.grammar.normalisation import squash
 from planner.plan import (
     DRIVES,
     EVERY_KIND,

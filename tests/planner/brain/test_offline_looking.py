@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import pytest
 
-from planner.brain.offline.reader import Context, plan
+from planner.language.grammar.parser import Context, plan
 from planner.plan import EVERY_KIND, Clarify, Code, Find, StepPlan, Vocabulary
 
 AT_A_PLACE = {

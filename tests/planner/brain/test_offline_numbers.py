@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.brain.offline.numbers import seconds
+from planner.language.grammar.numbers import seconds
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from planner.brain.offline import Context, plan
+from planner.language.grammar import Context, plan
 from planner.plan import (
     EVERY_KIND,
     Answer,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from planner.brain.offline import Context, plan
-from planner.brain.offline.several import several
+from planner.language.grammar import Context, plan
+from planner.language.grammar.quantifiers import several
 from planner.plan import EVERY_KIND, Clarify, Code, Find, StepPlan, Vocabulary
 
 SEES = Context(

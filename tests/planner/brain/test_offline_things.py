@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.brain.offline.reader import Context, plan
+from planner.language.grammar.parser import Context, plan
 from planner.plan import (
     EVERY_KIND,
     Clarify,

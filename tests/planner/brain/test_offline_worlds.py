@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.brain.offline import plan
+from planner.language.grammar import plan
 from planner.plan import (
     Answer,
     Bilingual,

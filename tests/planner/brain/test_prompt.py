@@ -10,13 +10,13 @@ from typing import Any
 import pytest
 
 from planner.brain import ThinkRequest
+from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.brain.prompt import BUDGET_TOKENS, Prompt, tokens
-from planner.brain.protocol import MAX_OBSERVED, Exchange, Observation
+from planner.brain.prompt_template import FOLDER
 from planner.brain.schema import schema_of, step_models
-from planner.brain.template import FOLDER
-from planner.mission.facts import vocabulary_of
+from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
-from planner.world import Site
+from planner.site import Site
 from tests.conftest import ROOT
 from wire import Misconfigured
 

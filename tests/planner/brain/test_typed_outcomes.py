@@ -7,10 +7,10 @@ import asyncio
 import pytest
 
 from planner.brain import BrainDown, OfflineBrain, ScriptedBrain, ThinkRequest
-from planner.brain.protocol import Observation
+from planner.brain.interface import Observation
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
-from planner.mission.thinking import thinker
+from planner.mission.plan_request import thinker
 from planner.plan import (
     EVERY_KIND,
     Answer,

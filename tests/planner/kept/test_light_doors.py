@@ -7,7 +7,7 @@ import sys
 
 CODE = """
 import sys
-import planner.route, planner.vision, planner.voice, planner.world
+import planner.navigation, planner.perception, planner.voice, planner.site
 print([name for name in ("numpy", "cv2", "onnxruntime", "pocketsphinx") if name in sys.modules])
 """
 

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from planner.brain.intents import Cancel, Pause, Replace, intent_of
+from planner.language.commands import Cancel, Pause, Replace, intent_of
 from planner.language.script_table import SIMPLIFIED, TRADITIONAL
 from planner.language.stop import MAX_READ, StopReading, is_stop, read_stop
 from pons.evals.cases import MissingSuite

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.lockstep import Together
 
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from math import ceil, hypot
 from typing import Any
 
-from planner.mission.records import Facts, Target
+from planner.mission.state import Facts, Target
+from planner.navigation import RoutePoint
 from planner.plan import Bilingual
-from planner.route import RoutePoint
 from wire import (
     IDENTITY,
     PROTOCOL,

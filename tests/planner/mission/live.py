@@ -10,20 +10,20 @@ from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
-from planner.brain.looking import Looker
+from planner.brain.image_questions import Looker
 from planner.brain.scripted import Reply, ScriptedBrain
-from planner.link import Link
+from planner.bridge_client import Link
 from planner.mission import (
     Clocks,
     MissionJournal,
     Missions,
     loop,
 )
-from planner.mission.memory import Memory
+from planner.mission.known_places import Memory
+from planner.navigation import RouteFailure, RouteRequest, RouteResult
+from planner.perception.interfaces import Eyes
 from planner.plan import Goal, GoalState, GoTo, StepPlan
-from planner.route import RouteFailure, RouteRequest, RouteResult
-from planner.vision.ports import Eyes
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
 from wire import Pose2, RobotDescription, Status
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner.link import Identity
+from planner.bridge_client import Identity
 from planner.mission.effects import (
     AskBrain,
     AskRoute,
@@ -19,7 +19,7 @@ from planner.mission.effects import (
 )
 from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Planned, Restarted, Submitted
-from planner.mission.records import Book, Mission
+from planner.mission.state import Book, Mission
 from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
 from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
 from wire import Pose2

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from planner.mission.events import Sighted
 from planner.mission.skills import Eyesight
+from planner.perception.snapshot import Look, Sight, Thing
 from planner.plan import GoalState
-from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.lockstep import Together
 from wire import CameraConfig
 

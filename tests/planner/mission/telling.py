@@ -11,14 +11,15 @@ from dataclasses import dataclass, field, replace
 from math import atan2, hypot
 from typing import TYPE_CHECKING, Any, cast
 
-from lockstep.thinking import at_once
 from planner.brain.errors import BrainDown
-from planner.brain.looking import Asked, Described
+from planner.brain.image_questions import Asked, Described
 from planner.mission.effects import AskBrain, AskEyes, KeepPicture
 from planner.mission.events import Confirm, Planned, Reply, Sighted
-from planner.mission.eyedoor import EyeDoor
-from planner.mission.records import Mission
+from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Eyesight
+from planner.mission.state import Mission
+from planner.perception.interfaces import Picture
+from planner.perception.snapshot import Look, Sight, Thing
 from planner.plan import (
     Bilingual,
     BrainTag,
@@ -30,13 +31,12 @@ from planner.plan import (
     StepState,
     message,
 )
-from planner.vision.ports import Picture
-from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.lockstep import Together
+from tools.lockstep.run_coroutine import at_once
 from wire import CameraConfig, Image, ImageHeader, Pose2, wrap
 
 if TYPE_CHECKING:
-    from planner.vision.ports import Eyes
+    from planner.perception.interfaces import Eyes
 
 CAMERA = CameraConfig()
 EYES = Eyesight(CAMERA, ("cup", "person", "chair", "table"), model=True)

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from planner.mission.events import Cancel, Reply
-from planner.mission.rethought import SAME_AGAIN
+from planner.mission.replan import SAME_AGAIN
 from planner.plan import (
     Answer,
     Ask,

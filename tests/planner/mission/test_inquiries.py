@@ -11,14 +11,14 @@ import pytest
 
 from planner.mission.effects import AskEyes
 from planner.mission.events import Told
-from planner.mission.eyedoor import EyeDoor
-from planner.mission.helpers import Answers, Helpers, Router, Think
-from planner.mission.records import Book, Walk
+from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
-from planner.mission.skills.eyesight import Answer
+from planner.mission.skills.perception import Answer
+from planner.mission.state import Book, Walk
+from planner.mission.tasks import Answers, Helpers, Router, Think
 from planner.plan import Language, same
 from tests.planner.mission.fakes import FACTS
-from tests.planner.vision.watching import World
+from tests.planner.perception.watching import World
 
 Door = Callable[[AskEyes], Awaitable[Told]]
 

@@ -10,8 +10,8 @@ import pytest
 
 from planner.brain.scripted import Reply
 from planner.mission import BadState, JournalDown
+from planner.mission.known_places import Lesson, Memory
 from planner.mission.loop import Loop
-from planner.mission.memory import Lesson, Memory
 from planner.mission.reception import read_utterance
 from planner.plan import (
     ENDED,
@@ -24,7 +24,7 @@ from planner.plan import (
     GoTo,
     StepPlan,
 )
-from planner.world import Site, TaughtPlaces
+from planner.site import Site, TaughtPlaces
 from tests.planner.mission import live
 from tests.planner.mission.live import KITCHEN, LiveBridge, Together, run
 from wire import Pose2, Status

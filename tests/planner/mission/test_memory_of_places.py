@@ -11,11 +11,11 @@ from typing import Any
 
 import pytest
 
+from planner.brain.interface import ThinkRequest
 from planner.brain.prompt import Prompt
-from planner.brain.protocol import ThinkRequest
-from planner.link import Aged
-from planner.mission.memory import Lesson, Memory
-from planner.world import (
+from planner.bridge_client import Aged
+from planner.mission.known_places import Lesson, Memory
+from planner.site import (
     MAX_HERE,
     PlaceRefused,
     Site,
@@ -23,8 +23,8 @@ from planner.world import (
     TaughtPlace,
     TaughtPlaces,
 )
-from planner.world.places import Names
-from planner.world.taught import FILE
+from planner.site.places import Names
+from planner.site.taught_places import FILE
 from tests.planner.mission.fakes import status
 from tests.planner.mission.live import StraightRouter
 from wire import Pose2, Status, Twist2

@@ -13,7 +13,7 @@ from planner.mission.events import (
     Resume,
     Submitted,
 )
-from planner.mission.records import MAX_ENDED
+from planner.mission.state import MAX_ENDED
 from planner.plan import (
     Answer,
     Bilingual,

@@ -12,14 +12,14 @@ from typing import Any
 import pytest
 import sqlalchemy as sa
 
-from planner.link import Identity
+from planner.bridge_client import Identity
 from planner.mission import Engine, MissionJournal
+from planner.mission.api_view import goal_of
 from planner.mission.effects import Journal
 from planner.mission.events import Planned, Reply, Restarted, Resume
-from planner.mission.goals import MAP_CHANGED
-from planner.mission.records import Book, Mission
-from planner.mission.view import goal_of
-from planner.mission.writer import JournalWriter, Wanted
+from planner.mission.goal_lifecycle import MAP_CHANGED
+from planner.mission.journal_thread import JournalWriter, Wanted
+from planner.mission.state import Book, Mission
 from planner.plan import (
     Bilingual,
     Clarify,

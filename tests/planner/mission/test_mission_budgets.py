@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from planner.mission.api_view import goal_of, progress_of
 from planner.mission.events import Pause, Resume
-from planner.mission.view import goal_of, progress_of
 from planner.plan import Code, Move, StepPlan, Wait
 from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.lockstep import Together, go

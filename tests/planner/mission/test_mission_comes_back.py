@@ -7,7 +7,7 @@ from math import hypot
 import pytest
 
 from planner.mission.events import Pause, Resume
-from planner.mission.records import Mission
+from planner.mission.state import Mission
 from planner.plan import (
     Code,
     ComeBack,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 from pathlib import Path
 
-from planner.brain.offline import OfflineBrain
-from planner.brain.protocol import Exchange, Observation, ThinkRequest
+from planner.brain.interface import Exchange, Observation, ThinkRequest
+from planner.brain.offline_brain import OfflineBrain
 from planner.mission.events import Reply
 from planner.plan import (
     Ask,
@@ -20,7 +20,7 @@ from planner.plan import (
     StepPlan,
     same,
 )
-from planner.world import Site
+from planner.site import Site
 from tests.planner.brain.conftest import HOME
 from tests.planner.mission.driving import SUCCEEDED
 from tests.planner.mission.live import KITCHEN, planner, run

@@ -27,8 +27,8 @@ from planner.mission.journal import (
     _keys,
     _upsert_of,
 )
-from planner.mission.records import MAX_ENDED, Mission
-from planner.mission.writer import JournalWriter, Wanted
+from planner.mission.journal_thread import JournalWriter, Wanted
+from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import Code, GoalState, Language, Outcome, message
 from wire import Misconfigured
 

@@ -8,6 +8,7 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.mission.allowed_commands import refusal
 from planner.mission.effects import STAND, AskRoute, Journal, SayAloud
 from planner.mission.events import (
     Cancel,
@@ -29,10 +30,11 @@ from planner.mission.events import (
     Tick,
     Told,
 )
-from planner.mission.records import Book, Mission
 from planner.mission.reducer import advance, wish
 from planner.mission.skills import Answer, Eyesight
-from planner.mission.table import refusal
+from planner.mission.state import Book, Mission
+from planner.perception.snapshot import Look as LookSeen
+from planner.perception.snapshot import Sight, Thing
 from planner.plan import (
     Ask,
     Code,
@@ -56,8 +58,6 @@ from planner.plan import (
     message,
 )
 from planner.plan import Move as MoveStep
-from planner.vision.records import Look as LookSeen
-from planner.vision.records import Sight, Thing
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, row, status
 from wire import Action, CameraConfig, Held, HeldReason, LegReport, Mode, Pose2, Twist2

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from planner.mission.events import Cancel, Pause, Reply, Resume, Tick, Told
-from planner.mission.observed import observed
+from planner.mission.observations import observed
 from planner.mission.reducer import asked_about_picture
 from planner.mission.skills import Answer, Eyesight
 from planner.plan import Code, GoalState, GoTo, GoToObject, StepPlan, StepState

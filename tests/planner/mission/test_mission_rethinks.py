@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from planner.mission.confirmation import ROAMS
 from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply, Resume, Stopped
-from planner.mission.rules import ROAMS
 from planner.mission.skills import Eyesight
 from planner.plan import (
     Answer,

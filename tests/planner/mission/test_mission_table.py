@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from planner.mission.allowed_commands import ALLOWED, refusal
 from planner.mission.events import Cancel, ChangeSpeed, Move, Reply
-from planner.mission.records import Book, Mission
 from planner.mission.reducer import advance
-from planner.mission.table import ALLOWED, refusal
+from planner.mission.state import Book, Mission
 from planner.plan import GoalState, Language
 from tests.planner.mission.fakes import FACTS
 

@@ -12,9 +12,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from planner.brain.protocol import OFFLINE
+from planner.brain.interface import OFFLINE
+from planner.language.yes_no import consents
 from planner.mission.events import Confirm, Pause, Reply, Resume, Stopped, Tick
-from planner.mission.skills.consent import consents
 from planner.plan import (
     Answer,
     Ask,

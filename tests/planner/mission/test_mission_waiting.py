@@ -8,9 +8,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from planner.mission.answer_timeouts import has_room
 from planner.mission.events import Reply, Tick
-from planner.mission.records import MAX_OPEN
-from planner.mission.waiting import has_room
+from planner.mission.state import MAX_OPEN
 from planner.plan import (
     Answer,
     Ask,

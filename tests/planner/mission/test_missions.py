@@ -18,11 +18,11 @@ from planner.mission import (
     QueueFull,
     UnknownGoal,
 )
+from planner.mission.event_hub import MAX_WAITING, Hub
 from planner.mission.events import Journalled
-from planner.mission.hub import MAX_WAITING, Hub
 from planner.mission.loop import Loop
 from planner.plan import Bilingual, Clarify, Code, GoalState, GoTo, Say, StepPlan
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.live import (
     KITCHEN,
     SOFA,
@@ -225,7 +225,7 @@ def test_no_route_is_a_typed_end(tmp_path: Path, site: Site) -> None:
 def test_without_a_journal_no_goal_is_taken(
     tmp_path: Path, site: Site, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("planner.mission.safekeeping.SAFE_WITHIN_S", 0.2)
+    monkeypatch.setattr("planner.mission.journal_sync.SAFE_WITHIN_S", 0.2)
 
     async def story() -> None:
         async with planner(tmp_path, site) as world:

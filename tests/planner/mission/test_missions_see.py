@@ -10,10 +10,13 @@ from pathlib import Path
 import pytest
 
 from planner.brain.errors import BrainDown
-from planner.brain.looking import Asked, Described, NotThere, Pointed
+from planner.brain.image_questions import Asked, Described, NotThere, Pointed
 from planner.mission.effects import AskEyes, KeepPicture
-from planner.mission.eyedoor import EyeDoor
+from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Answer
+from planner.perception.interfaces import Picture, PointRefused, Spot
+from planner.perception.snapshot import Detection, Sight
+from planner.perception.snapshot import Look as Looked
 from planner.plan import (
     Bilingual,
     BrainTag,
@@ -26,10 +29,7 @@ from planner.plan import (
     StepPlan,
     same,
 )
-from planner.vision.ports import Picture, PointRefused, Spot
-from planner.vision.records import Detection, Sight
-from planner.vision.records import Look as Looked
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.live import LiveBridge, Together, planner, run
 from wire import Image, ImageHeader, Pose2
 

@@ -8,17 +8,17 @@ from pathlib import Path
 
 import pytest
 
-from planner.mission.memory import Memory
-from planner.mission.skills import rooms
-from planner.mission.warm import warm_up
-from planner.vision import labels
-from planner.world import Site
+from planner.language import object_names
+from planner.mission.known_places import Memory
+from planner.mission.skills import viewpoints
+from planner.mission.warmup import warm_up
+from planner.site import Site
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.live import planner
 
 
 def forget_rooms() -> None:
-    for kept in (rooms._cover, rooms._before_the_feet, rooms._grid):
+    for kept in (viewpoints._cover, viewpoints._before_the_feet, viewpoints._grid):
         kept.cache_clear()
 
 
@@ -27,21 +27,23 @@ def test_the_spots_of_all_rooms_are_worked_out_beside_the_loop_before_any_goal(
 ) -> None:
     forget_rooms()
     threads: list[threading.Thread] = []
-    grid = rooms._grid
+    grid = viewpoints._grid
 
-    def noted(outline: tuple[rooms.Point, ...], inset_m: float) -> tuple[rooms.Point, ...]:
+    def noted(
+        outline: tuple[viewpoints.Point, ...], inset_m: float
+    ) -> tuple[viewpoints.Point, ...]:
         threads.append(threading.current_thread())
         return grid(outline, inset_m)
 
-    monkeypatch.setattr(rooms, "_grid", noted)
+    monkeypatch.setattr(viewpoints, "_grid", noted)
 
     async def story() -> None:
         async with planner(tmp_path, site):
             began = len(threads)
             for target in Memory(site).facts.targets.values():
                 if target.room:
-                    assert rooms.spots_in(target)
-                    rooms.near_spot(target)
+                    assert viewpoints.spots_in(target)
+                    viewpoints.near_spot(target)
             assert len(threads) == began > 0
             assert threading.main_thread() not in threads
 
@@ -52,21 +54,21 @@ def test_a_search_that_begins_anywhere_lays_no_points_anew(site: Site) -> None:
     facts = Memory(site).facts
     forget_rooms()
     warm_up(facts)
-    laid = rooms._grid.cache_info().misses
+    laid = viewpoints._grid.cache_info().misses
     for target in facts.targets.values():
         if target.room:
             began = target.pose.x_m + 0.123, target.pose.y_m - 0.077
-            assert rooms.spots_in(target, began)[0].at == began
-            rooms.near_spot(target, began)
-    assert rooms._grid.cache_info().misses == laid > 0
+            assert viewpoints.spots_in(target, began)[0].at == began
+            viewpoints.near_spot(target, began)
+    assert viewpoints._grid.cache_info().misses == laid > 0
 
 
 def test_words_are_ready_to_be_read_too() -> None:
-    patterns = (labels._english_patterns, labels._chinese_pattern)
+    patterns = (object_names._english_patterns, object_names._chinese_pattern)
     for pattern in patterns:
         pattern.cache_clear()
     warm_up(FACTS)
     made = [pattern.cache_info().misses for pattern in patterns]
-    assert labels.resolve("red cup") == ("cup", "red")
-    assert labels.resolve("红色的杯子") == ("cup", "red")
+    assert object_names.resolve("red cup") == ("cup", "red")
+    assert object_names.resolve("红色的杯子") == ("cup", "red")
     assert [pattern.cache_info().misses for pattern in patterns] == made == [1, 1]

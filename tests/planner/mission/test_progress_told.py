@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from planner.plan import GoalState
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.live import planner, run
 
 

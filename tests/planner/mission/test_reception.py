@@ -7,14 +7,14 @@ import random
 
 import pytest
 
-from planner.brain.offline import Context, plan
+from planner.language.grammar import Context, plan
 from planner.language.identification import language_of
+from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.events import Confirm, Planned, Submitted
 from planner.mission.reception import is_active, read_utterance, receive
-from planner.mission.records import MAX_OPEN, Book
 from planner.mission.reducer import advance
-from planner.mission.sight import standing
+from planner.mission.state import MAX_OPEN, Book
 from planner.plan import Code, GoalState, Outcome, Vocabulary, message
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason

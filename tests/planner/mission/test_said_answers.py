@@ -6,16 +6,16 @@ from pathlib import Path
 
 import pytest
 
+from planner.language.yes_no import consents
 from planner.mission import QueueFull
-from planner.mission.records import MAX_OPEN
-from planner.mission.skills.consent import consents
+from planner.mission.state import MAX_OPEN
 from planner.plan import (
     Clarify,
     Code,
     GoalState,
     StepPlan,
 )
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.live import KITCHEN, planner, run
 from tests.planner.mission.saying import (
     ASKS,

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from planner.plan import Answer, Bilingual, Clarify, Code, GoalState
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.live import KITCHEN, Together, planner, run
 from wire import HeldReason, OpRequest
 

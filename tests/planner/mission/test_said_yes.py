@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from planner.brain.scripted import Reply
-from planner.mission.records import MAX_OPEN
-from planner.mission.skills.consent import consents
+from planner.language.yes_no import consents
+from planner.mission.state import MAX_OPEN
 from planner.plan import (
     Answer,
     Bilingual,
@@ -17,7 +17,7 @@ from planner.plan import (
     GoalState,
     StepPlan,
 )
-from planner.world import Site
+from planner.site import Site
 from tests.planner.mission.live import KITCHEN, planner, run
 from tests.planner.mission.saying import (
     ASKS,

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.mission.records import Mission
+from planner.mission.state import Mission
 from planner.plan import (
     Answer,
     Ask,

@@ -7,10 +7,10 @@ from typing import get_args
 
 import pytest
 
+from planner.perception.detect.decoders import ALL
+from planner.perception.detect.providers import ORDER
 from planner.settings import FILE, VisionSettings, load_settings
 from planner.settings.vision import DecoderName, ProviderName
-from planner.vision.detect.decoders import ALL
-from planner.vision.detect.providers import ORDER
 from wire import Misconfigured
 
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import psutil
 import pytest
 
-from planner.mission.skills.consent import consents
+from planner.language.yes_no import consents
 from planner.voice import read_wav
-from planner.voice.protocol import Heard
+from planner.voice.recogniser import Heard
 from tests.planner.voice.speech import AUDIO, needs_clips, needs_espeak, speak, wav
 
 pytest.importorskip("pocketsphinx", reason="pocketsphinx has no wheel for this Python")

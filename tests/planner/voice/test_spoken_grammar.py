@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from planner.brain.offline import plan
+from planner.language.grammar import plan
 from planner.plan import Answer, Bilingual, Entry, StepPlan, Vocabulary
 from planner.voice.grammar import MAX_NAMES, language_of
 

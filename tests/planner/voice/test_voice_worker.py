@@ -11,7 +11,7 @@ from contextlib import asynccontextmanager
 import pytest
 
 from planner.kept import frames
-from planner.voice import Heard, Sound, VoiceFailure, VoiceWorker, worker
+from planner.voice import Heard, Sound, VoiceFailure, VoiceWorker, process_client
 from tests.planner.kept.keeping import story
 
 SECOND = Sound(16_000, 1, bytes(32_000))
@@ -94,7 +94,7 @@ async def test_recordings_come_whole_and_one_after_the_other() -> None:
 @story
 async def test_a_fourth_at_once_is_told_to_come_again() -> None:
     async with running(*stub(TELL)) as ears:
-        asked = [asyncio.create_task(ears.hear(SECOND)) for _ in range(worker.MAX_WAITING)]
+        asked = [asyncio.create_task(ears.hear(SECOND)) for _ in range(process_client.MAX_WAITING)]
         await asyncio.sleep(0)
         assert await code_of(ears) == "voice_busy"
         assert all(heard.understood for heard in await asyncio.gather(*asked))
@@ -119,7 +119,7 @@ async def test_a_failure_is_typed_and_the_next_order_gets_a_new_process(act: str
 
 @story
 async def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(worker, "HEAR_S", 0.05)
+    monkeypatch.setattr(process_client, "HEAR_S", 0.05)
     async with running(*stub("import time; time.sleep(60)")) as ears:
         assert await code_of(ears) == "voice_timed_out"
         assert ears.pid is None

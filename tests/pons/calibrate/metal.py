@@ -7,19 +7,19 @@ from functools import cache
 from math import pi
 from typing import TYPE_CHECKING, cast
 
-from lockstep import Together
-from lockstep.forked import forked
 from pons.calibrate.findings import Finding
-from pons.calibrate.flow import Plan, calibrate
+from pons.calibrate.procedure import Plan, calibrate
 from sim import Hardware
 from tests.pons.calibrate.tape import Tape
+from tools.lockstep import Together
+from tools.lockstep.world_fork import forked
 from wire import Pose2, RobotDescription
 from wire.keys import Party
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.calibrate.rig import Rig
+    from pons.calibrate.session import Rig
     from wire.session import Session
 
 TRUE = Hardware(wheel_radius_m=0.1, wheel_separation_m=0.5)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
-from pons.calibrate.rig import Rig
+from pons.calibrate.session import Rig
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,15 +8,15 @@ from math import cos, sin
 
 import pytest
 
-from lockstep import Together
-from pons.calibrate import rig, runs
+from pons.calibrate import runs, session
+from pons.calibrate.clearance import SHORTEST_M
+from pons.calibrate.errors import CalibrationRefused
 from pons.calibrate.findings import Finding, findings, of_straight
-from pons.calibrate.flow import Plan
+from pons.calibrate.procedure import Plan
 from pons.calibrate.reference import TRUTH, went_m
-from pons.calibrate.refusals import CalibrationRefused
-from pons.calibrate.room import SHORTEST_M
 from pons.calibrate.runs import straight
 from tests.pons.calibrate.metal import FACING, TRUE, Bench, gone_through
+from tools.lockstep import Together
 from wire import Mode, Pose2, SimFault, distance
 
 TIGHT = Pose2(0.38, 1.8, 1.5708)
@@ -175,8 +175,8 @@ def under_way(bench: Bench, act: Callable[[Together], None]) -> None:
 def test_encoders_that_fail_during_a_run_end_it(
     fault: SimFault, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(rig, "STAND_S", 2.0)  # in vain: without encoders nobody sees it stand
-    monkeypatch.setattr(rig, "QUIET_S", 1.0)  # likewise: they stay broken
+    monkeypatch.setattr(session, "STAND_S", 2.0)  # in vain: without encoders nobody sees it stand
+    monkeypatch.setattr(session, "QUIET_S", 1.0)  # likewise: they stay broken
     bench = Bench(start=FACING)
     under_way(bench, lambda world: world.sim.break_down(fault))
     assert refusal(bench) == "encoder_fault"

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pons.calibrate.errors import WORDS, CalibrationRefused
 from pons.calibrate.findings import Finding, Straight, findings, gains
-from pons.calibrate.refusals import WORDS, CalibrationRefused
 from wire import RobotDescription
 
 ROBOT = RobotDescription()

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pons.calibrate.errors import RunLost
 from pons.calibrate.motor import braking_radps2, fitted, plateau, statics
-from pons.calibrate.refusals import RunLost
 from pons.calibrate.track import TICK_S, Tick
 
 

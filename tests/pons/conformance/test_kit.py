@@ -15,17 +15,17 @@ import pytest
 
 from pons.conformance import matrix
 from pons.conformance.adapter import CannotTest
-from pons.conformance.brain import Brain
 from pons.conformance.catalogue import FAULTS, chosen
 from pons.conformance.command import EXIT_BROKEN, EXIT_HELD, EXIT_UNTESTED, status_of
 from pons.conformance.driver import pack, plain
-from pons.conformance.fairness import Try
 from pons.conformance.fault import W, X
 from pons.conformance.flooder import halves
 from pons.conformance.proxy import Proxy, Way
-from pons.conformance.rig import unfit
+from pons.conformance.reference_client import Brain
+from pons.conformance.retry_policy import Try
 from pons.conformance.runner import COLUMNS, NAMES, Line
 from pons.conformance.site_track import find_track
+from pons.conformance.system_under_test import unfit
 from pons.conformance.verdict import NOT_ASKED, Cell
 from tests.wire.examples import STATUS
 from wire import GrantLeft, Mode, Owner, Pose2, Record, Status, decode

@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from pons.conformance import verdict
-from pons.conformance.pulse import Kept
 from pons.conformance.record import Record
+from pons.conformance.scheduler_probe import Kept
 from tests.pons.conformance.made_up import BOUNDS, OFFSET, ramp, record
 
 END_S = 2.0

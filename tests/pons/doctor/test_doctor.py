@@ -15,7 +15,7 @@ import pytest
 
 from bridge.realtime import Right
 from pons.__main__ import main
-from pons.doctor import command, jitter, machine, mind, place
+from pons.doctor import command, host_checks, jitter, model_checks, path_checks
 from pons.doctor.finding import Finding, Verdict, Words
 from pons.settings import CHECKOUT, Settings
 from wire.doors import BRIDGE_DOOR
@@ -50,7 +50,7 @@ def examined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Settings, list[F
 def deaf(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave out the one check that costs a second: it loads the recogniser's model."""
     heard = Finding("recogniser", Verdict.OK, Words("left out", "略过"))
-    monkeypatch.setattr(mind, "recogniser", lambda _site: heard)
+    monkeypatch.setattr(model_checks, "recogniser", lambda _site: heard)
 
 
 def assert_says(found: Finding, verdict: Verdict, *parts: str) -> None:
@@ -107,7 +107,7 @@ def test_a_check_that_is_cut_short_hides_no_other(
     def broken() -> Finding:
         raise error
 
-    monkeypatch.setattr(machine, "locked_memory", broken)
+    monkeypatch.setattr(host_checks, "locked_memory", broken)
     found = {one.name: one for one in command.findings(settings)}
     assert len(found) == 15
     assert_says(found["locked_memory"], Verdict.FAIL, "could not be checked", str(error))
@@ -116,7 +116,7 @@ def test_a_check_that_is_cut_short_hides_no_other(
 def test_without_the_recogniser_it_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pocketsphinx", None)
     monkeypatch.delitem(sys.modules, "planner.voice.sphinx", raising=False)
-    found = mind.recogniser(None)
+    found = model_checks.recogniser(None)
     assert_says(found, Verdict.WARN, "no spoken orders")
     assert found.fix is not None
     assert "3.11" in found.fix.en
@@ -157,12 +157,12 @@ def test_json_is_for_machines(
 
 def test_an_old_python_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "version_info", (3, 9, 1))
-    assert_says(machine.python(), Verdict.FAIL, "3.11")
+    assert_says(host_checks.python(), Verdict.FAIL, "3.11")
 
 
 def test_large_pages_are_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "sysconf", lambda _: 16_384)
-    assert_says(machine.page_size(), Verdict.WARN, "16 KiB")
+    assert_says(host_checks.page_size(), Verdict.WARN, "16 KiB")
 
 
 @pytest.mark.parametrize(("virtual", "verdict"), [(True, Verdict.WARN), (False, Verdict.FAIL)])
@@ -170,41 +170,41 @@ def test_no_real_time_is_worse_on_metal(
     monkeypatch: pytest.MonkeyPatch, virtual: bool, verdict: Verdict
 ) -> None:
     refused = Right("fifo", granted=False, detail="priority 60: not permitted")
-    monkeypatch.setattr(machine, "take_fifo", lambda _: refused)
-    assert_says(machine.real_time(60, virtual=virtual), verdict, "not permitted")
+    monkeypatch.setattr(host_checks, "take_fifo", lambda _: refused)
+    assert_says(host_checks.real_time(60, virtual=virtual), verdict, "not permitted")
 
 
 def test_real_time_is_tried_in_a_thread_of_its_own() -> None:
     before = os.sched_getscheduler(0)
-    machine.real_time(60, virtual=True)
+    host_checks.real_time(60, virtual=True)
     assert os.sched_getscheduler(0) == before
 
 
 def test_memory_that_cant_be_locked_is_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(machine, "_LOCK", "print(0, 'RLIMIT_MEMLOCK is 8 bytes')")
-    assert_says(machine.locked_memory(), Verdict.WARN, "8 bytes")
-    monkeypatch.setattr(machine, "_LOCK", "raise SystemExit('broken')")
-    assert_says(machine.locked_memory(), Verdict.WARN, "broken")
+    monkeypatch.setattr(host_checks, "_LOCK", "print(0, 'RLIMIT_MEMLOCK is 8 bytes')")
+    assert_says(host_checks.locked_memory(), Verdict.WARN, "8 bytes")
+    monkeypatch.setattr(host_checks, "_LOCK", "raise SystemExit('broken')")
+    assert_says(host_checks.locked_memory(), Verdict.WARN, "broken")
 
 
 def test_node_is_never_needed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shutil, "which", lambda _: None)
-    assert_says(machine.node(), Verdict.OK, "Python package")
+    assert_says(host_checks.node(), Verdict.OK, "Python package")
     monkeypatch.setattr(shutil, "which", lambda _: "/no/such/node")
-    assert_says(machine.node(), Verdict.OK, "Python package")
+    assert_says(host_checks.node(), Verdict.OK, "Python package")
 
 
 def test_a_home_that_others_may_write_is_a_warning(tmp_path: Path) -> None:
-    assert_says(place.home(tmp_path), Verdict.OK)
+    assert_says(path_checks.home(tmp_path), Verdict.OK)
     tmp_path.chmod(0o777)
-    assert_says(place.home(tmp_path), Verdict.WARN, "others")
+    assert_says(path_checks.home(tmp_path), Verdict.WARN, "others")
     tmp_path.chmod(0o3770)  # as deploy/systemd makes it: one group, none replaces another's
-    assert_says(place.home(tmp_path), Verdict.OK)
+    assert_says(path_checks.home(tmp_path), Verdict.OK)
     tmp_path.chmod(0o2770)
-    assert_says(place.home(tmp_path), Verdict.WARN, "others")
+    assert_says(path_checks.home(tmp_path), Verdict.WARN, "others")
     file = tmp_path / "file"
     file.touch()
-    assert_says(place.home(file / "below"), Verdict.FAIL, "can't be written")
+    assert_says(path_checks.home(file / "below"), Verdict.FAIL, "can't be written")
 
 
 @pytest.mark.parametrize(
@@ -215,18 +215,18 @@ def test_a_full_disk_is_told_before_it_is_full(
 ) -> None:
     usage = shutil.disk_usage(tmp_path)._replace(free=free)
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage)
-    assert_says(place.disk(tmp_path / "not" / "yet"), verdict)
+    assert_says(path_checks.disk(tmp_path / "not" / "yet"), verdict)
 
 
 def test_sockets_too_long_dead_and_alive(tmp_path: Path) -> None:
-    assert_says(place.sockets(tmp_path / ("x" * 120)), Verdict.FAIL, "107")
+    assert_says(path_checks.sockets(tmp_path / ("x" * 120)), Verdict.FAIL, "107")
     path = Endpoints(tmp_path).socket(BRIDGE_DOOR)
     path.parent.mkdir(parents=True)
     with closing(socket.socket(socket.AF_UNIX)) as listener:
         listener.bind(str(path))
         listener.listen()
-        assert_says(place.sockets(tmp_path), Verdict.OK, "running robot: bridge")
-    assert_says(place.sockets(tmp_path), Verdict.OK, "dead processes", "bridge")
+        assert_says(path_checks.sockets(tmp_path), Verdict.OK, "running robot: bridge")
+    assert_says(path_checks.sockets(tmp_path), Verdict.OK, "dead processes", "bridge")
 
 
 def test_a_taken_port_is_a_fault_unless_the_robot_has_it() -> None:
@@ -234,53 +234,55 @@ def test_a_taken_port_is_a_fault_unless_the_robot_has_it() -> None:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         number = int(taken.getsockname()[1])
-        assert_says(place.port("127.0.0.1", number, running=False), Verdict.FAIL, str(number))
-        assert_says(place.port("127.0.0.1", number, running=True), Verdict.OK, "running robot")
-    assert_says(place.port("no.such.host.invalid", 1, running=False), Verdict.FAIL)
+        assert_says(path_checks.port("127.0.0.1", number, running=False), Verdict.FAIL, str(number))
+        assert_says(
+            path_checks.port("127.0.0.1", number, running=True), Verdict.OK, "running robot"
+        )
+    assert_says(path_checks.port("no.such.host.invalid", 1, running=False), Verdict.FAIL)
 
 
 def test_wrong_files_are_quoted(tmp_path: Path) -> None:
     robot = tmp_path / "robot.toml"
     robot.write_text("max_sped = 1\n")
-    found, _ = place.robot(robot)
+    found, _ = path_checks.robot(robot)
     assert_says(found, Verdict.FAIL, "max_sped")
-    found, site = place.site(tmp_path)
+    found, site = path_checks.site(tmp_path)
     assert_says(found, Verdict.FAIL, "map.yaml")
     assert site is None
-    assert mind.recogniser(None).name == "recogniser"
+    assert model_checks.recogniser(None).name == "recogniser"
 
 
 def test_the_model_is_asked_for_nothing_but_a_connection(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv("PONS_MODEL_URL", raising=False)
-    assert_says(mind.model(tmp_path), Verdict.OK, "offline brain")
+    assert_says(model_checks.model(tmp_path), Verdict.OK, "offline brain")
     with closing(socket.socket()) as server:
         server.bind(("127.0.0.1", 0))
         server.listen()
         number = server.getsockname()[1]
         text = f'[model]\nurl = "http://127.0.0.1:{number}/v1"\nname = "m"\n'
         (tmp_path / "settings.toml").write_text(text)
-        assert_says(mind.model(tmp_path), Verdict.OK, "m at 127.0.0.1")
+        assert_says(model_checks.model(tmp_path), Verdict.OK, "m at 127.0.0.1")
         connection, _ = server.accept()
         with closing(connection):
             assert connection.recv(100) == b""
-    assert_says(mind.model(tmp_path), Verdict.WARN, "refused")
+    assert_says(model_checks.model(tmp_path), Verdict.WARN, "refused")
     (tmp_path / "settings.toml").write_text('[model]\nurl = "http://169.254.1.1"\nname = "m"\n')
-    assert_says(mind.model(tmp_path), Verdict.FAIL, "link-local")
+    assert_says(model_checks.model(tmp_path), Verdict.FAIL, "link-local")
     (tmp_path / "settings.toml").write_text("[modle]\n")
-    assert_says(mind.model(tmp_path), Verdict.FAIL, "modle")
+    assert_says(model_checks.model(tmp_path), Verdict.FAIL, "modle")
 
 
 def test_names_that_cant_be_spoken_are_listed(tmp_path: Path) -> None:
     pytest.importorskip("pocketsphinx")
-    _, site = place.site(TWO_ROOM)
+    _, site = path_checks.site(TWO_ROOM)
     assert site is not None
-    assert_says(mind.recogniser(site), Verdict.OK, "names")
+    assert_says(model_checks.recogniser(site), Verdict.OK, "names")
     first = site.places[0]
     odd = first.model_copy(update={"name": first.name.model_copy(update={"en": "qzxv room"})})
     object.__setattr__(site, "places", (odd, *site.places[1:]))
-    assert_says(mind.recogniser(site), Verdict.WARN, "qzxv room")
+    assert_says(model_checks.recogniser(site), Verdict.WARN, "qzxv room")
 
 
 def test_jitter_measures_and_prints_a_table() -> None:
@@ -301,8 +303,8 @@ def test_what_cyclictest_says_is_read_or_left_out() -> None:
 
 
 def test_keys_that_lie_open_are_told(tmp_path: Path) -> None:
-    assert_says(place.secrets(tmp_path, virtual=True), Verdict.OK, "no key lies open")
-    assert_says(place.secrets(tmp_path, virtual=False), Verdict.FAIL, "operator_key_missing")
+    assert_says(path_checks.secrets(tmp_path, virtual=True), Verdict.OK, "no key lies open")
+    assert_says(path_checks.secrets(tmp_path, virtual=False), Verdict.FAIL, "operator_key_missing")
     (tmp_path / "settings.toml").write_text('[model]\nkey = "k"\n')
     (tmp_path / "settings.toml").chmod(0o644)
-    assert_says(place.secrets(tmp_path, virtual=True), Verdict.WARN, "read the key in it")
+    assert_says(path_checks.secrets(tmp_path, virtual=True), Verdict.WARN, "read the key in it")

@@ -12,11 +12,11 @@ from typing import cast
 import pytest
 
 from planner.brain import BrainDown, PlanRejected
-from planner.brain.jpeg import jpeg_size
-from planner.brain.looking import Asked, Described, Looker, NotSent, NotThere, Pointed
+from planner.brain.image_questions import Asked, Described, Looker, NotSent, NotThere, Pointed
+from planner.brain.jpeg_metadata import jpeg_size
 from planner.budget import Ledger, Purse
-from planner.budget.day import utc_date
-from planner.budget.purse import OpenCall
+from planner.budget.budget import OpenCall
+from planner.budget.utc_day import utc_date
 from planner.plan import BrainTag, same
 from planner.settings import (
     FILE,
@@ -28,15 +28,15 @@ from planner.settings import (
     load_settings,
 )
 from pons.__main__ import main
-from pons.doctor.exam import command, show
-from pons.doctor.exam.ask import PROMPT_TOKENS, Caps, examine
-from pons.doctor.exam.eyes import DISC, PICTURE, examine_eyes
-from pons.doctor.exam.grade import grade
-from pons.doctor.exam.questions import QUESTIONS, WORLD, Part
-from pons.doctor.exam.record import Exam, Marked, Result, Rung
 from pons.evals.matchers import wanted
-from pons.modelchoice import chosen
-from tests.pons.mock.mocks import RunningMock, running_mock
+from pons.evals.quick import command, show
+from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
+from pons.evals.quick.eyes import DISC, PICTURE, examine_eyes
+from pons.evals.quick.grade import grade
+from pons.evals.quick.questions import QUESTIONS, WORLD, Part
+from pons.evals.quick.record import Exam, Marked, Result, Rung
+from pons.model_selection import chosen
+from tests.pons.mock_llm.mocks import RunningMock, running_mock
 from wire import Misconfigured
 
 STRICT = (Rung("json_schema", taken=True, right=True),)
@@ -182,7 +182,7 @@ def test_no_call_of_an_exam_passes_what_was_said_to_be_the_most(
             sent.append(prompt_tokens)
             return super().open(prompt_tokens)
 
-    monkeypatch.setattr("pons.doctor.exam.ask.Purse", Noted)
+    monkeypatch.setattr("pons.evals.quick.ask.Purse", Noted)
     for fault in (None, "garbage"):  # with garbage, each second call is a repair
         mock.set(fault=fault)
         taken(mock, tmp_path)

@@ -10,16 +10,16 @@ from pathlib import Path
 import pytest
 
 from planner.brain import BrainDown, PlanRejected, ScriptedBrain
-from planner.budget.page import MAX_ID
+from planner.budget.daily_file import MAX_ID
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
 from pons.evals.cases import Case
-from pons.evals.laws import LAWS
+from pons.evals.category_rules import LAWS
 from pons.evals.matchers import wanted
 from pons.evals.report import passed
 from pons.evals.score import score
 from pons.evals.suites import load
-from tests.pons.mock.mocks import running_mock
+from tests.pons.mock_llm.mocks import running_mock
 
 SUITE = """# split, group, sentence, expectation
 tuned\tdrive\tgo to the kitchen\tgo kitchen

@@ -19,9 +19,9 @@ from planner.plan import (
     same,
 )
 from pons.evals.cases import Case, MissingSuite, read_tsv
-from pons.evals.laws import LAWS
+from pons.evals.category_rules import LAWS
 from pons.evals.matchers import BadMatcher, wanted
-from pons.evals.mentions import label_named, numbers_named, places_named
+from pons.evals.mentioned_names import label_named, numbers_named, places_named
 from pons.evals.motion import wrong_motions
 from pons.evals.score import judge
 from pons.evals.suites import known, load

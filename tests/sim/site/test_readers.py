@@ -8,7 +8,7 @@ import pytest
 
 from bridge.fence_file import load_fence
 from localization import read_map_id
-from planner.world import FREE, Site
+from planner.site import FREE, Site
 from sim.site import load_home
 from sim.site.check import spots
 

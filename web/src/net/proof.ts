@@ -1,6 +1,6 @@
 /**
  * Make the proof that a person meant a request: HMAC-SHA-256 over kind, robot, nonce and id, each
- * preceded by its length, as wire/proof.py does.
+ * preceded by its length, as wire/operator_hmac.py does.
  *
  * Only a page that came by https, or from the robot's own machine, takes the key: any other may have
  * been written by whoever is on the path.

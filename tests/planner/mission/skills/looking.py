@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from planner.mission.skills import Eyesight, act_of
-from planner.mission.skills.notes import Notes
-from planner.vision.records import Look, Sight, Thing
+from planner.mission.skills.skill_state import Notes
+from planner.perception.snapshot import Look, Sight, Thing
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
 

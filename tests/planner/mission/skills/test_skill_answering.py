@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from planner.mission.records import Facts, Target
 from planner.mission.skills import Cannot, Done, Eyesight, Gaze, act_of
-from planner.mission.skills.notes import Notes
+from planner.mission.skills.skill_state import Notes
+from planner.mission.state import Facts, Target
+from planner.perception.snapshot import Look, Sight, Thing
 from planner.plan import Bilingual, Code
-from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2

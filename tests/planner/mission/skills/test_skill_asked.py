@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from planner.mission.records import Facts, Target
 from planner.mission.skills import Cannot, Drive, Eyesight, Gaze, act_of
-from planner.mission.skills.asked import asked_for, unknown_kind
+from planner.mission.skills.object_questions import asked_for, unknown_kind
+from planner.mission.state import Facts, Target
+from planner.perception.snapshot import Look, Sight
 from planner.plan import Bilingual, Code, Language
-from planner.vision.records import Look, Sight
 from tests.planner.mission.fakes import FACTS, room
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2

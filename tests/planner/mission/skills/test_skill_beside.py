@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 
 from planner.mission.skills import Cannot, Done, Drive, Eyesight, Gaze, Wanted, act_of
-from planner.mission.skills.beside import Relation, parted, stands
-from planner.mission.skills.notes import Notes
-from planner.mission.skills.seen import meant, picks_out
+from planner.mission.skills.object_matching import meant, picks_out
+from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.spatial_relations import Relation, parted, stands
+from planner.perception.snapshot import Look, Sight, Thing
 from planner.plan import Code, Language
-from planner.vision.records import Look, Sight, Thing
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planner.mission.skills import Cannot, Done, Drive, Way
-from planner.mission.skills.notes import Notes
+from planner.mission.skills.skill_state import Notes
 from tests.planner.mission.skills.looking import looking, thing
 
 

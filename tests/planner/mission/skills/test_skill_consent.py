@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.brain.intents import Cancel, Pause, intent_of
+from planner.language.commands import Cancel, Pause, intent_of
 from planner.language.stop import is_stop
-from planner.mission.skills.consent import consents
+from planner.language.yes_no import consents
 
 YES_EN = (
     "yes", "yeah", "yep", "ok", "okay", "sure", "of course", "go ahead", "please do", "do it",

@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import pytest
 
-from planner.mission.records import Facts, Target
+from planner.language.object_classes import KINDS
 from planner.mission.skills import Drive, Eyesight, Gaze, Wanted, act_of
-from planner.mission.skills.beside import Relation
-from planner.mission.skills.likely import SORTS, likely_rooms
-from planner.mission.skills.rooms import in_order
+from planner.mission.skills.room_priors import SORTS, likely_rooms
+from planner.mission.skills.spatial_relations import Relation
+from planner.mission.skills.viewpoints import in_order
+from planner.mission.state import Facts, Target
+from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual
-from planner.vision.kinds import KINDS
-from planner.vision.records import Sight, Thing
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
 

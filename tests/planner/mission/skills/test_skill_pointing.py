@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from planner.mission.skills import Act, Cannot, Drive, Eyesight, Gaze, Inquire, Question, act_of
-from planner.mission.skills.eyesight import Answer
-from planner.mission.skills.notes import NOTHING
-from planner.mission.skills.pointing import AGAIN, ANSWER, PROPOSED
+from planner.mission.skills.model_pointing import AGAIN, ANSWER, PROPOSED
+from planner.mission.skills.perception import Answer
+from planner.mission.skills.skill_state import NOTHING
 from planner.plan import Bilingual, Code
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2

@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from planner.mission.records import Facts, Target
 from planner.mission.skills import (
     Cannot,
     Done,
@@ -19,13 +18,14 @@ from planner.mission.skills import (
     Wanted,
     Way,
 )
-from planner.mission.skills.eyesight import Answer
 from planner.mission.skills.go_to_object import FACE, JUDGE
 from planner.mission.skills.look import looks_round
-from planner.mission.skills.notes import Notes
-from planner.mission.skills.rooms import REACH_M, in_order, room_of, spots_in
-from planner.mission.skills.seen import APART_S, apart, confirmed, fits, mentioned
-from planner.mission.skills.tell import counted, found_at, listed, looked_in
+from planner.mission.skills.object_matching import APART_S, apart, confirmed, fits, mentioned
+from planner.mission.skills.perception import Answer
+from planner.mission.skills.result_text import counted, found_at, listed, looked_in
+from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.viewpoints import REACH_M, in_order, room_of, spots_in
+from planner.mission.state import Facts, Target
 from planner.plan import Bilingual, Code
 from planner.settings.model import ModelSettings
 from tests.planner.mission.fakes import FACTS

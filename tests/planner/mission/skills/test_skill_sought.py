@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from planner.mission.records import Facts, Target
 from planner.mission.skills import Wanted
-from planner.mission.skills.beside import Relation
-from planner.mission.skills.sought import FLOOR, Sought, sought_in
+from planner.mission.skills.object_query import FLOOR, Sought, sought_in
+from planner.mission.skills.spatial_relations import Relation
+from planner.mission.state import Facts, Target
 from planner.plan import Bilingual
 from tests.planner.mission.fakes import room
 from wire import Pose2

@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from planner.brain.reasons import reason
+from planner.brain.model_error_codes import reason
 from planner.mission.skills import Scene
-from planner.mission.skills.act import UNSEEN, Cannot, Done, Inquire
-from planner.mission.skills.eyesight import Answer, Eyesight
+from planner.mission.skills.actions import UNSEEN, Cannot, Done, Inquire
 from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.look import ASKED, NO_DETECTOR, look
-from planner.mission.skills.notes import NOTHING
-from planner.mission.skills.pointing import ANSWER
+from planner.mission.skills.model_pointing import ANSWER
+from planner.mission.skills.perception import Answer, Eyesight
+from planner.mission.skills.skill_state import NOTHING
+from planner.perception import Sight
 from planner.plan import Bilingual, Code, same
-from planner.vision import Sight
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig
 

@@ -1,0 +1,160 @@
+"""Meter motion: what a mission may still use, and what was driven since a person last acted.
+
+What is left belongs to the mission id and survives epochs; no later grant adds to it. A hand on the
+stick is a person's, but its messages bear no proof and may be anybody's: it has a meter of its own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bridge.core.authority.epoch import shelved
+from bridge.core.authority.ownership import of_owner
+from bridge.core.authority.request_answers import refuse_openly, settle_openly
+from bridge.core.faults.fault_latch import clear_on_grant
+from bridge.core.modes.mode_table import POWERED
+from bridge.core.state_orders import Grants
+from wire import Mode
+
+if TYPE_CHECKING:
+    from bridge.core.state import BridgeState
+    from bridge.core.tick_context import Tick
+    from wire import Grant
+
+OPERATOR_METRES = 500.0
+OPERATOR_SECONDS = 3600.0
+HAND_METRES = 50.0
+HAND_SECONDS = 600.0
+"""Through a large flat and back; 50 m at 0.2 m/s take 250 s."""
+OUTSIDE_COUNTS = 10.0
+METERED = frozenset({"W", "X"})
+"""Whose motion is metered by mission; a hand on the stick is metered by itself."""
+
+
+def hear_grant(tick: Tick, grant: Grant) -> None:
+    """Allow a mission of the owner to move, unless held, unpowered or spent."""
+    sent_s = of_owner(tick, grant.planner_id, grant.epoch, grant.seen)
+    if sent_s is None or tick.s.grants.mission == grant.mission:
+        return
+    jumped_s = tick.s.pose.jumped_s
+    if jumped_s is not None and not sent_s > jumped_s:
+        tick.drop("grant_before_jump")
+        return
+    metres, seconds = _left(tick.s.grants, grant)
+    refusal = _refusal(tick, metres, seconds)
+    if refusal is not None:
+        refuse_openly(tick, "grant", grant.mission, *refusal)
+        return
+    settle_openly(tick, "grant", grant.mission)
+    grants = shelved(tick.s.grants)
+    book = tuple(item for item in grants.book if item.mission != grant.mission)
+    tick.s.grants = replace(
+        grants,
+        mission=grant.mission,
+        metres=metres,
+        seconds=seconds,
+        book=book,
+        since_arm=True,
+    )
+    clear_on_grant(tick)
+    tick.say("granted", f"{grant.mission} {metres:.1f} m {seconds:.0f} s")
+
+
+def operator_acted(grants: Grants) -> Grants:
+    """Refill what may be driven between two acts of a person."""
+    return replace(
+        grants,
+        operator_metres=OPERATOR_METRES,
+        operator_seconds=OPERATOR_SECONDS,
+        hand_metres=HAND_METRES,
+        hand_seconds=HAND_SECONDS,
+    )
+
+
+def meter(tick: Tick, before: BridgeState) -> None:
+    """Take one tick's way and time off what is left to who caused it.
+
+    The way of a stop counts too, or a planner that is stopped again and again would go further than
+    granted. Its time does not: a robot that must stop uses nothing up.
+    """
+    if before.mode is Mode.TELEOP or (before.stopping and before.stopping.source == "T"):
+        _meter_hand(tick, before)
+        return
+    if before.mode is Mode.ACTIVE:
+        used_s = tick.dt_s
+    elif before.mode is Mode.STOPPING and before.stopping is not None:
+        if before.stopping.source not in METERED:
+            return
+        used_s = 0.0
+    else:
+        return
+    grants = tick.s.grants
+    moved_m = tick.s.odometry.travelled_m - before.odometry.travelled_m
+    granted = grants.mission is not None  # a stop may have taken the grant with it
+    tick.s.grants = Grants(  # every tick: a replace would take three times as long
+        grants.mission,
+        max(0.0, grants.metres - moved_m) if granted else 0.0,
+        max(0.0, grants.seconds - used_s) if granted else 0.0,
+        grants.book,
+        max(0.0, grants.operator_metres - moved_m),
+        max(0.0, grants.operator_seconds - used_s),
+        grants.hand_metres,
+        grants.hand_seconds,
+        grants.since_arm,
+    )
+
+
+def _meter_hand(tick: Tick, before: BridgeState) -> None:
+    """Meter a hand on the stick; its ramp to standstill counts as the ways of other stops do."""
+    grants, s = tick.s.grants, tick.s
+    counts = OUTSIDE_COUNTS if s.watch.outside else 1.0
+    moved_m = counts * (s.odometry.travelled_m - before.odometry.travelled_m)
+    used_s = tick.dt_s if before.mode is Mode.TELEOP else 0.0
+    s.grants = replace(
+        grants,
+        hand_metres=max(0.0, grants.hand_metres - moved_m),
+        hand_seconds=max(0.0, grants.hand_seconds - used_s),
+    )
+
+
+def hand_spent(grants: Grants) -> str | None:
+    """Name what a hand on the stick has used up; None if nothing is."""
+    if not grants.hand_metres > 0.0:
+        return "hand's metres"
+    return None if grants.hand_seconds > 0.0 else "hand's seconds"
+
+
+def spent(grants: Grants) -> str | None:
+    """Name what is used up while a mission is granted; None if nothing is."""
+    if grants.mission is None:
+        return None
+    for name, left in (
+        ("mission's metres", grants.metres),
+        ("mission's seconds", grants.seconds),
+        ("operator's metres", grants.operator_metres),
+        ("operator's seconds", grants.operator_seconds),
+    ):
+        if not left > 0.0:
+            return name
+    return None
+
+
+def _left(grants: Grants, grant: Grant) -> tuple[float, float]:
+    for item in grants.book:
+        if item.mission == grant.mission:
+            return item.metres, item.seconds
+    return grant.metres, grant.seconds
+
+
+def _refusal(tick: Tick, metres: float, seconds: float) -> tuple[str, str] | None:
+    s = tick.s
+    if s.held is not None:
+        return "held", f"{s.held.reason.value} {s.held.id}; arm or resume first"
+    if s.mode not in POWERED:
+        return "not_armed", f"mode is {s.mode.value}"
+    if not (metres > 0.0 and seconds > 0.0):
+        return "budget", f"left for this mission: {metres:.2f} m, {seconds:.1f} s"
+    if not (s.grants.operator_metres > 0.0 and s.grants.operator_seconds > 0.0):
+        return "operator_budget", "the distance or time since the last operator act is spent"
+    return None

@@ -1,0 +1,81 @@
+"""Drop what comes on a command key faster than its sender may speak. Row CMD_FLOOD.
+
+Counted are payloads as they arrive, parsed or not, in a sliding 250 ms made of two halves. A key
+over its limit is not heard in that tick: a flooded heartbeat is no heartbeat. Stops and operators'
+requests are never counted and never dropped here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from bridge.core.geometry.debounce import filled
+from bridge.core.state_detectors import Flood
+
+if TYPE_CHECKING:
+    from bridge.core.faults.fault_latch import Dirty
+    from bridge.core.inbox import Inbox
+    from bridge.core.tick_context import Tick
+
+RATES_HZ = {
+    "cmd/waypoints": 10.0,
+    "cmd/teleop": 20.0,
+    "cmd/external": 20.0,
+    "cmd/grant": 40.0,
+    "cmd/heartbeat": 40.0,
+    "cmd/hello": 40.0,
+}
+"""As often as each may be said; the last three answer statuses, of which there are 40/s at most."""
+WINDOW_S = 0.25
+SLACK, ONE_MORE = 1.2, 1
+FULL_S = 4 * WINDOW_S
+
+_KEYS = tuple(RATES_HZ)
+_LIMITS = tuple(int(rate * WINDOW_S * SLACK) + ONE_MORE for rate in RATES_HZ.values())
+_NONE = (0,) * len(_KEYS)
+_FIELDS = ("waypoints", "teleop", "external", "grants", "heartbeats", "hellos")
+
+
+def thinned(tick: Tick) -> Inbox:
+    """Return this tick's inbox without what came too fast; remember the counts."""
+    inbox, flood = tick.inbox, tick.s.flood
+    goes_on = not flood.counts or tick.now_s - flood.half_since_s < WINDOW_S / 2
+    if goes_on and not inbox.arrived and flood.level_s == 0.0:
+        return inbox
+    counts, before, half_s = _turned(flood, tick.now_s)
+    if inbox.arrived:
+        came = {item.key: item.count for item in inbox.arrived}
+        counts = tuple(n + came.get(key, 0) for n, key in zip(counts, _KEYS, strict=True))
+    over = [
+        index for index, limit in enumerate(_LIMITS) if not counts[index] + before[index] <= limit
+    ]
+    level_s = filled(flood.level_s, tick.dt_s, FULL_S, dirty=bool(over))
+    key = _KEYS[over[0]] if over else flood.key
+    quiet = counts == _NONE and before == _NONE
+    tick.s.flood = Flood(half_s, () if quiet else counts, () if quiet else before, level_s, key)
+    return _without(tick, inbox, over) if over else inbox
+
+
+def judge(tick: Tick, dirty: Dirty) -> None:
+    """Call it a flood once it has lasted for four windows."""
+    flood = tick.s.flood
+    if not flood.level_s < FULL_S:
+        dirty.append(("CMD_FLOOD.0", f"more than allowed on {flood.key}"))
+
+
+def _turned(flood: Flood, now_s: float) -> tuple[tuple[int, ...], tuple[int, ...], float]:
+    """Begin a new half window when it is time to."""
+    counts, before = flood.counts or _NONE, flood.before or _NONE
+    passed_s = now_s - flood.half_since_s
+    if passed_s < WINDOW_S / 2:
+        return counts, before, flood.half_since_s
+    return _NONE, (counts if passed_s < WINDOW_S else _NONE), now_s
+
+
+def _without(tick: Tick, inbox: Inbox, over: list[int]) -> Inbox:
+    for index in over:
+        for _ in getattr(inbox, _FIELDS[index]):
+            tick.drop("flood")
+    none: dict[str, Any] = {_FIELDS[index]: () for index in over}
+    return replace(inbox, **none)

@@ -1,0 +1,1 @@
+"""Detect faults, latch them, and list all of them in one table."""

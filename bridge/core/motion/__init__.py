@@ -1,0 +1,1 @@
+"""Turn a path into the one speed command that the robot may drive."""

@@ -1,0 +1,198 @@
+"""Let through of a command what lidar, fence and bumpers leave of it, by direction.
+
+The gate scales, down to nothing towards the trouble; what loses no clearance passes slowly. Shut
+for 0.5 s while waypoints or external velocities move the robot it is ``blocked``: a HOLD2 that ends
+when the arc that the follower or the external brain asks for has been free in five scans.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bridge.core.geometry.debounce import filled
+from bridge.core.geometry.kinematics import saturate, scaled
+from bridge.core.geometry.message_age import sensor_age_s
+from bridge.core.motion.brake_learning import in_force
+from bridge.core.motion.braking import reaction_s
+from bridge.core.motion.contact_gate import contact_gate, touched
+from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
+from bridge.core.motion.free_distance import free_length
+from bridge.core.motion.obstacle_gate import FREE_M, look_m, obstacle_gate
+from bridge.core.state import Gate
+from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
+from wire import STILL, Mode, Twist2, wrap
+
+if TYPE_CHECKING:
+    from bridge.core.motion.free_distance import FreeLength
+    from bridge.core.tick_context import Tick
+
+SHUT_S = 0.5
+TURNED_RAD = 0.05
+"""Progress by turning, as the row STUCK counts it; a creep of 0.3 rad/s takes a quarter second."""
+FREE_SCANS = 5
+TELEOP_FENCE_MPS = 0.2
+POSE_S = 0.1
+"""Localization's period: the pose moved by odometry is good, its correction may be so late."""
+UNKNOWN_MPS = 0.2
+"""Where fewer than half of the beams came back, silence may be a mirror or a black sofa."""
+
+
+def through(tick: Tick, twist: Twist2) -> Twist2:
+    """Return what may pass of a command; remember how free its way is, and the room to stop in."""
+    s = tick.s
+    motion, picture = s.motion, s.lidar.picture
+    motion.free_m = tick.room_m = None
+    if twist == STILL:
+        _note(tick, "")
+        return twist
+    if picture is None:
+        motion.bound_by = "no_scan"
+        _note(tick, "obstacle")
+        return STILL
+    way = obstacle_gate(
+        picture,
+        s.odometry.base_in_odom,
+        twist,
+        s.odometry.measured,
+        scan_age_s(tick),
+        tick.config.robot,
+        in_force(s.learnt),
+    )
+    motion.free_m, tick.room_m = way.free_m, way.room_m
+    if way.scale < 1.0:
+        motion.bound_by = "obstacle"
+    passed = way.twist
+    fastest = abs(passed.v_mps)
+    if not way.known and fastest > UNKNOWN_MPS:
+        motion.bound_by = "unseen"
+        passed = scaled(passed, UNKNOWN_MPS / fastest)
+    inside = _inside_fence(tick, passed)
+    felt = contact_gate(s.drive.newest, inside)
+    if felt != inside:
+        motion.bound_by = "contact"
+    _note(tick, _shut_by(twist, passed, inside, felt))
+    return felt
+
+
+def _shut_by(asked: Twist2, seen: Twist2, inside: Twist2, felt: Twist2) -> str:
+    """Name the first gate that leaves nothing of the way asked for; "" where some passes."""
+    for name, passed in (("obstacle", seen), ("fence", inside), ("contact", felt)):
+        if _shut(asked, passed):
+            return name
+    return ""
+
+
+def _shut(asked: Twist2, passed: Twist2) -> bool:
+    """Tell whether nothing of the way asked for passes.
+
+    Where a way is asked for, the turn that passes beside it is no way: it would swing to and fro
+    before a closed door for ever.
+    """
+    if abs(asked.v_mps) >= STANDING_MPS:
+        return abs(passed.v_mps) < STANDING_MPS
+    return abs(asked.w_radps) >= STANDING_RADPS > abs(passed.w_radps)
+
+
+def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
+    """Scale a motion so that it stops clear of the fence; a hand on the stick may cross, slowly."""
+    fence, here = tick.config.fence, tick.robot_in_map
+    if fence is None:
+        return twist
+    if here is None:  # where the fence is cannot be told: no row is trusted to have held already
+        if tick.s.mode is Mode.TELEOP:
+            return twist  # POSE_LOST caps it at the speed at which a hand may cross
+        tick.s.motion.bound_by = "pose_lost"
+        return STILL
+    if tick.s.mode is Mode.TELEOP or tick.s.watch.outside:
+        _tell_crossing(tick, fence.margin_m(here.x_m, here.y_m))
+    robot = tick.config.robot
+    learnt = tick.s.learnt
+    lag_s = robot.drive.lag_s + learnt.lag_more_s
+    reaction = reaction_s(0.0, POSE_S, lag_s, robot.limits)
+    share = learnt.decel_share
+    scale = fence_scale(fence, here, twist, robot.base, robot.limits, reaction, share)
+    if scale >= 1.0:
+        return twist
+    tick.s.motion.bound_by = "fence"
+    if tick.s.mode is Mode.TELEOP:
+        scale = max(scale, min(1.0, TELEOP_FENCE_MPS / max(abs(twist.v_mps), 1e-9)))
+    return scaled(twist, scale)
+
+
+def _tell_crossing(tick: Tick, margin_m: float) -> None:
+    """Say once that a hand moves the robot outside the fence.
+
+    Said anew only once it has been inside by the margin: the pose's noise is far smaller.
+    """
+    watch = tick.s.watch
+    if watch.outside:
+        watch.outside = not margin_m >= FENCE_MARGIN_M
+    elif tick.s.mode is Mode.TELEOP and not margin_m >= 0.0:
+        watch.outside = True
+        tick.say("outside_fence", "a hand on the stick moves the robot outside the fence")
+
+
+def scan_age_s(tick: Tick) -> float:
+    """Return the age of the newest scan [s], as its row judges it."""
+    scan, received_s = tick.s.lidar.newest, tick.s.lidar.received_s
+    if scan is None or received_s is None:
+        return 0.0
+    same_host = tick.inbox.sensors_same_host
+    return max(0.0, sensor_age_s(tick.now_s, received_s, scan.stamp_s, same_host=same_host))
+
+
+def look(tick: Tick, twist: Twist2) -> FreeLength | None:
+    """Return how far the arc of a motion is free, as far as one looks; None where no scan says."""
+    picture, robot = tick.s.lidar.picture, tick.config.robot
+    if picture is None:
+        return None
+    here = tick.s.odometry.base_in_odom
+    reach_m = look_m(robot, in_force(tick.s.learnt))
+    return free_length(picture, here, twist, robot.base.radius_m, reach_m)
+
+
+def reconsider(tick: Tick, asked: Twist2) -> None:
+    """Judge a blocked robot once per scan, on the arc that its owner asks, by all three gates."""
+    gate, scan = tick.s.gate, tick.s.lidar.newest
+    if not gate.blocked or scan is None or scan.seq == gate.judged_scan:
+        return
+    if tick.s.mode not in {Mode.HOLD, Mode.STOPPING, Mode.ACTIVE}:
+        return
+    free = look(tick, asked) if asked != STILL else None
+    clear = free is not None and free.s_m >= FREE_M
+    clear = clear and touched(tick.s.drive.newest, asked.v_mps) is None
+    robot = tick.config.robot
+    wish = saturate(asked, robot.base, robot.limits)
+    clear = clear and not _shut(wish, _inside_fence(tick, wish))
+    count = gate.free_scans + 1 if clear else 0
+    if count >= FREE_SCANS:
+        tick.s.gate = Gate()
+        tick.say("unblocked")
+    else:
+        tick.s.gate = replace(gate, free_scans=count, judged_scan=scan.seq)
+
+
+def _note(tick: Tick, shut_by: str) -> None:
+    """Call it blocked after 0.5 s; a robot that turns away meanwhile is given the time anew.
+
+    The follower's wish sways with the pose's noise, so a turn to and fro is no turning away, and a
+    tick in which something passes does not open a way.
+    """
+    s = tick.s
+    gate, yaw_rad, shut = s.gate, s.odometry.base_in_odom.yaw_rad, bool(shut_by)
+    if gate.shut_s == 0.0 and gate.shut_since_s is None and not shut:
+        return
+    turned = abs(wrap(yaw_rad - gate.shut_yaw_rad)) >= TURNED_RAD
+    begins = gate.shut_s == 0.0 or (shut and turned)
+    since_s = gate.shut_since_s if gate.shut_since_s is not None else tick.now_s
+    gate = replace(
+        gate,
+        shut_since_s=since_s if shut else None,
+        shut_s=filled(0.0 if begins else gate.shut_s, tick.dt_s, SHUT_S, dirty=shut),
+        shut_yaw_rad=yaw_rad if begins else gate.shut_yaw_rad,
+    )
+    if shut and s.mode is Mode.ACTIVE and not gate.blocked and gate.shut_s >= SHUT_S:
+        gate = Gate(blocked=True, by=shut_by)
+        tick.say("blocked", f"by {shut_by}, asked {s.motion.asked.v_mps:.2f} m/s")
+    s.gate = gate

@@ -1,0 +1,189 @@
+"""Let pass what the lidar's free space allows of a motion: the OBSTACLE gate.
+
+Owns the joint verdict on what is asked and on what the robot really does, since after a change of
+mind it still follows the old curve for a while. Scales along the curve, down to nothing towards the
+trouble; where nothing is left, the turn in place that loses no clearance still passes, slowly.
+Knows no modes and no rows.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from pydantic import ConfigDict
+
+from bridge.core.geometry.kinematics import scaled
+from bridge.core.motion.braking import (
+    AS_CONFIGURED,
+    CREEP_RADPS,
+    STANDING_MPS,
+    Braking,
+    path_decel_mps2,
+    reaction_s,
+    speed_scale,
+    speed_within,
+)
+from bridge.core.motion.free_distance import MARGIN_M, REACH_M, FreeLength, free_length
+from bridge.core.motion.limiter import PERIOD_S
+from wire.geometry import STILL, Pose2, Twist2
+from wire.value import value
+
+if TYPE_CHECKING:
+    from bridge.core.geometry.lidar_scan import ScanPicture
+    from wire.robot import RobotDescription
+
+FREE_M = 0.3
+"""So much free way ends a block."""
+_SAME_CURVE_PER_M = 0.05
+_FRESH_S = 0.15
+"""No scan is older where each comes in time and is on its way for half a period."""
+_ROUNDING_M = 1e-3
+
+
+@value
+class ObstaclePass:
+    """Tell what passes of a motion, and why."""
+
+    twist: Twist2
+    """What may be asked of the limiter; standstill if the gate is shut."""
+    scale: float
+    """Factor on the motion that was asked."""
+    free_m: float
+    """Free length of the arc asked for, as far as anybody looked: that is not always 2 m."""
+    room_m: float
+    """Path in which the robot must be able to stand, drive lag taken off; for the limiter."""
+    known: bool
+    """Enough beams came back on the way; otherwise the speed is to be capped."""
+    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+    @property
+    def shut(self) -> bool:
+        """Tell whether nothing passes."""
+        return self.twist == STILL
+
+
+def obstacle_gate(
+    picture: ScanPicture,
+    base_in_odom_now: Pose2,
+    asked: Twist2,
+    measured: Twist2,
+    scan_age_s: float,
+    robot: RobotDescription,
+    braking: Braking = AS_CONFIGURED,
+) -> ObstaclePass:
+    """Judge a motion by the newest scan.
+
+    Args:
+        picture: the newest scan's.
+        base_in_odom_now: odometry's pose now.
+        asked: the motion wanted, saturated.
+        measured: what the wheels do.
+        scan_age_s: how old the scan is.
+        robot: limits, lag and size; none of them is assumed better than it says.
+        braking: how much worse than that it has shown to brake.
+    """
+    base, limits, share = robot.base, robot.limits, braking.decel_share
+    lag_s = robot.drive.lag_s + braking.lag_more_s
+    reaction = reaction_s(scan_age_s, robot.lidar.scan_s, lag_s, limits)
+    usual, speed = look_m(robot, braking), abs(asked.v_mps)
+    reach = _reach_m(usual, speed, asked, robot, reaction, share)
+    free = free_length(picture, base_in_odom_now, asked, base.radius_m, reach)
+    scale = speed_scale(free, asked, base, limits, reaction, share)
+    room, known = free.s_m, free.known
+    if abs(measured.v_mps) > STANDING_MPS and not _same_curve(asked, measured):
+        reach = _reach_m(usual, speed, measured, robot, reaction, share)
+        really = free_length(picture, base_in_odom_now, measured, base.radius_m, reach)
+        room, known = min(room, really.s_m), known and really.known
+        if asked.v_mps * measured.v_mps > 0.0:
+            scale = min(scale, _carried_on(really, asked, measured, robot, reaction, share))
+    return ObstaclePass(
+        twist=_passes(asked, scale),
+        scale=scale,
+        free_m=free.s_m,
+        room_m=max(0.0, room - abs(measured.v_mps) * lag_s - weak_m(measured, robot, share)),
+        known=known,
+    )
+
+
+def weak_m(measured: Twist2, robot: RobotDescription, share: float) -> float:
+    """Return how much longer weak brakes make the path until standstill [m]."""
+    if not share < 1.0:
+        return 0.0
+    decel = path_decel_mps2(measured, robot.base, robot.limits, share)
+    return measured.v_mps * measured.v_mps * (1.0 - share) / (2 * decel) if decel > 0.0 else 0.0
+
+
+def look_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
+    """Return how far along an arc one looks as a rule: all that a robot in its limits can need [m].
+
+    That is the path in which it stands still from its fastest, by the gate's law and by the
+    limiter's, which wants it besides what the drive's lag takes (see :func:`stopping_m`).
+    """
+    base, limits = robot.base, robot.limits
+    v, d, j = limits.max_speed_mps, limits.max_decel_mps2, limits.stop_jerk_mps3
+    lag_s = robot.drive.lag_s + braking.lag_more_s
+    turning = limits.max_turn_radps * base.wheel_separation_m / 2
+    rim = min(v + turning, limits.max_wheel_radps * base.wheel_radius_m)
+    gate_s = _FRESH_S + robot.lidar.scan_s + lag_s
+    limiter_m = 2 * v * (PERIOD_S + lag_s) + d * d * d / (24 * j * j)
+    stop = v * d / (2 * j) + v * rim / (2 * d * braking.decel_share) + max(v * gate_s, limiter_m)
+    return min(REACH_M, max(stop, FREE_M) + _ROUNDING_M)
+
+
+def sight_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
+    """Return how far from the robot at the scan a point may be that a tick will need [m]."""
+    moved_m = robot.limits.max_speed_mps * _FRESH_S
+    return look_m(robot, braking) + robot.base.radius_m + MARGIN_M + moved_m + 2 * _ROUNDING_M
+
+
+def _reach_m(
+    usual: float,
+    speed: float,
+    along: Twist2,
+    robot: RobotDescription,
+    reaction: float,
+    share: float,
+) -> float:
+    """Return how far to look along a motion so that more could not change what passes.
+
+    Free for longer than it takes to stop, a speed passes whole. Old scans, tight curves just left
+    and robots faster than they may be look as far as anybody does.
+    """
+    decel = path_decel_mps2(along, robot.base, robot.limits, share)
+    if not (decel > 0.0 and abs(along.v_mps) <= 2 * robot.limits.max_speed_mps):
+        return REACH_M
+    stop = speed * reaction + speed * speed / (2 * decel)
+    return usual if stop + _ROUNDING_M <= usual else REACH_M
+
+
+def _same_curve(a: Twist2, b: Twist2) -> bool:
+    """Tell whether two motions go the same way within what free space can tell apart."""
+    product = a.v_mps * b.v_mps
+    bend = a.w_radps * abs(b.v_mps) - b.w_radps * abs(a.v_mps)
+    return product > 0.0 and abs(bend) <= _SAME_CURVE_PER_M * product
+
+
+def _carried_on(
+    really: FreeLength,
+    asked: Twist2,
+    measured: Twist2,
+    robot: RobotDescription,
+    reaction: float,
+    share: float,
+) -> float:
+    """Return the factor on what is asked that the arc the robot is still on allows."""
+    if really.touching:
+        return 1.0  # it loses no clearance; what is asked has been judged by itself
+    decel = path_decel_mps2(measured, robot.base, robot.limits, share)
+    allowed = speed_within(really.s_m, decel, reaction)
+    return min(1.0, allowed / abs(asked.v_mps))
+
+
+def _passes(asked: Twist2, scale: float) -> Twist2:
+    if scale > 0.0:
+        return scaled(asked, scale)
+    if abs(asked.w_radps) <= CREEP_RADPS:
+        return Twist2(0.0, asked.w_radps)
+    if asked.w_radps > 0.0:
+        return Twist2(0.0, CREEP_RADPS)
+    return Twist2(0.0, -CREEP_RADPS) if asked.w_radps < 0.0 else STILL

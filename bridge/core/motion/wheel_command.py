@@ -1,0 +1,150 @@
+"""Turn what is wanted into the tick's one command. The only place where a command is born.
+
+In ACTIVE and TELEOP the source in charge is followed, through caps, gate and limiter; in every
+other mode the target is zero and the output ramps to it, or the torque is off.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bridge.core.faults.fault_latch import cap
+from bridge.core.geometry.kinematics import saturate, wheels_of
+from bridge.core.modes import external_velocity, teleop
+from bridge.core.modes.mode_table import POWERED
+from bridge.core.modes.transition import profile_of
+from bridge.core.motion import motion_gates
+from bridge.core.motion.limiter import LimiterState, Profile, shape, tick_length
+from bridge.core.motion.pursuit import follow
+from bridge.core.motion.wheel_control import AT_REST, turned
+from wire import STILL, DriveCommand, Mode, Twist2
+
+if TYPE_CHECKING:
+    from bridge.core.tick_context import Tick
+
+STALE = "ENC_STALE.0"
+"""The row that says that nothing is measured: no feedback, so feed-forward alone."""
+
+
+def wanted(tick: Tick) -> tuple[Twist2, bool]:
+    """Return what the source in charge asks for, and whether it is at its leg's end."""
+    s = tick.s
+    if s.mode is Mode.TELEOP:
+        return teleop.wanted(tick), False
+    if s.mode is Mode.ACTIVE and s.source == "X":
+        return external_velocity.wanted(tick), False
+    if s.mode is Mode.ACTIVE:
+        return followed(tick)
+    return STILL, False
+
+
+def followed(tick: Tick) -> tuple[Twist2, bool]:
+    """Return what following the horizon asks for, and whether the robot is at its end."""
+    s = tick.s
+    if s.leg.path is None or tick.robot_in_map is None:
+        return STILL, False
+    robot = tick.config.robot
+    answer = follow(
+        s.motion.follow,
+        s.leg.path,
+        tick.robot_in_map,
+        s.motion.limiter.sent,
+        robot.base,
+        robot.limits,
+        robot.drive.lag_s,
+    )
+    s.motion.follow = answer.state
+    return answer.target, answer.at_end
+
+
+def forget_after_gap(tick: Tick) -> None:
+    """Begin at zero after a gap in which the drive has timed out: it stands, or is coming to.
+
+    A loop that was frozen for seconds would otherwise ramp down a speed that nobody has any more.
+    """
+    if not tick.dt_s <= tick.config.robot.drive.timeout_s:
+        tick.s.motion.limiter = LimiterState()
+        tick.s.motion.left = tick.s.motion.right = AT_REST
+
+
+def shaped(tick: Tick, asked: Twist2) -> LimiterState:
+    """Return what is sent: asked, then caps, gate and rates. Zero is the target unless moving."""
+    s = tick.s
+    robot = tick.config.robot
+    powered = s.mode in POWERED or (s.mode is Mode.ESTOPPED and s.stopping is not None)
+    s.motion.powered = powered
+    if not powered:
+        s.motion.free_m, s.motion.bound_by, s.motion.cap = None, "unpowered", 0.0
+        return LimiterState()
+    target, profile = STILL, Profile.STOP
+    s.motion.cap, s.motion.bound_by = cap(tick)
+    if tick.moving:
+        target = motion_gates.through(tick, saturate(asked, robot.base, robot.limits, s.motion.cap))
+        profile = Profile.NORMAL
+    elif s.stopping is not None:
+        profile = profile_of(s.stopping.action)
+    return shape(
+        target,
+        s.motion.limiter,
+        robot.base,
+        robot.limits,
+        tick.dt_s,
+        period_s=tick.config.period_s,
+        profile=profile,
+        room_m=tick.room_m,
+    )
+
+
+def command(tick: Tick) -> DriveCommand:
+    """Write down what both wheels are told, so that they turn as what is sent means.
+
+    Behind the limiter's memory, which keeps what was meant: rates and stopping stay true.
+    """
+    s = tick.s
+    motion = s.motion
+    if motion.powered:
+        _control(tick)
+    else:
+        motion.left = motion.right = AT_REST
+    s.command_seq += 1
+    return DriveCommand(
+        boot=tick.config.boot,
+        seq=s.command_seq,
+        left_radps=motion.left.told_radps,
+        right_radps=motion.right.told_radps,
+        enable=motion.powered,
+    )
+
+
+def _control(tick: Tick) -> None:
+    """Take both wheels one tick further. Readings of a drive that is not to be trusted are none."""
+    s, robot = tick.s, tick.config.robot
+    motion, drive, report = s.motion, s.drive, s.drive.newest
+    meant = wheels_of(motion.limiter.sent, robot.base)
+    dt_s = tick_length(tick.dt_s, tick.config.period_s)
+    trusted, left_radps, right_radps = False, None, None
+    if report is not None and report.enabled and not report.timed_out and STALE not in s.rows:
+        trusted = drive.reborn_s != tick.now_s
+        if drive.received_s == tick.now_s:
+            left_radps, right_radps = report.left_radps, report.right_radps
+    moving, limiter = tick.moving, motion.limiter
+    motion.left = turned(
+        motion.left,
+        meant.left_radps,
+        limiter.left_mps2,
+        left_radps,
+        dt_s,
+        robot,
+        trusted=trusted,
+        stopping=not moving,
+    )
+    motion.right = turned(
+        motion.right,
+        meant.right_radps,
+        limiter.right_mps2,
+        right_radps,
+        dt_s,
+        robot,
+        trusted=trusted,
+        stopping=not moving,
+    )

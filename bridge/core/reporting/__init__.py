@@ -1,0 +1,1 @@
+"""Report the state of the core as the status message."""

@@ -1,0 +1,1 @@
+"""Take sensor messages into the state, each with its age."""

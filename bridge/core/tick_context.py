@@ -1,0 +1,76 @@
+"""Carry one tick through the core: what is fixed, what is written, what arrived, what is said.
+
+Lives for one ``step`` and is then dropped. Every part of the core takes it and writes only its own
+records of ``s``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from bridge.core.modes.mode_table import MOVING, POWERED
+
+if TYPE_CHECKING:
+    from bridge.core.config import CoreConfig
+    from bridge.core.inbox import Inbox
+    from bridge.core.state import BridgeState
+    from wire import Pose2
+
+STANDING_MPS = 0.02
+STANDING_RADPS = 0.05
+
+
+@dataclass(slots=True)
+class Tick:
+    """Hold one tick in the making."""
+
+    config: CoreConfig
+    s: BridgeState
+    """The draft: written here, unseen by whoever holds the state of the last tick."""
+    inbox: Inbox
+    now_s: float
+    dt_s: float
+    events: list[tuple[str, str]] = field(default_factory=list)
+    """Code and detail, in order."""
+    reasons: list[str] = field(default_factory=list)
+    stopped: bool = False
+    """A stop was obeyed in this tick: what came with it is void."""
+    room_m: float | None = None
+    """Path in which the robot must be able to stand; None where nothing is in the way."""
+    robot_in_map: Pose2 | None = None
+    """None while localization is not to be trusted."""
+
+    @property
+    def epoch(self) -> str:
+        """Return the epoch as it is on the wire."""
+        return f"{self.config.boot}-{self.s.epoch_no}"
+
+    @property
+    def powered(self) -> bool:
+        """Tell whether the mode keeps the drive powered."""
+        return self.s.mode in POWERED
+
+    @property
+    def moving(self) -> bool:
+        """Tell whether the mode follows anybody."""
+        return self.s.mode in MOVING
+
+    def say(self, code: str, detail: str = "") -> None:
+        """Add an event."""
+        self.events.append((code, detail))
+
+    def drop(self, code: str) -> None:
+        """Count a message that is not obeyed, and keep the reason for the record."""
+        self.s.voice = replace(self.s.voice, dropped=self.s.voice.dropped + 1)
+        self.reasons.append(code)
+
+    def still_for(self, seconds: float) -> bool:
+        """Tell whether a reporting drive has been standing for so long."""
+        drive = self.s.drive
+        return (
+            drive.still_since_s is not None
+            and drive.received_s is not None
+            and self.now_s - drive.received_s <= 0.25
+            and self.now_s - drive.still_since_s >= seconds - 1e-9
+        )

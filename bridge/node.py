@@ -1,0 +1,112 @@
+"""Turn the loop: drain, step, drive, tell, record. No `if` about driving lives here.
+
+Owns the order of a tick and the way out. What may move is the core's word alone; what the shell
+adds is that whatever ends the loop, the drive is halted.
+"""
+
+from __future__ import annotations
+
+import logging
+import secrets
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from bridge.core import LoopFacts, initial, step
+from bridge.realtime.stats import LoopStats
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bridge.braking_file import BrakingKeeper
+    from bridge.core import CoreConfig, Inbox
+    from bridge.drive import Drive
+    from bridge.fence_update import FenceDesk
+    from bridge.link import Link
+    from bridge.realtime import Collector, Pacer, Service, Tick
+    from bridge.recording.recorder import Recorder
+
+log = logging.getLogger("bridge")
+
+EXIT_LEFT = 0
+CHANCE_BYTES = 8
+"""Drawn for each tick, 1.3 us: nonces are made of it."""
+EXIT_BROKEN = 70
+"""EX_SOFTWARE of sysexits.h: the step raised, which it never may."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """Hold what the loop works with."""
+
+    link: Link
+    drive: Drive
+    recorder: Recorder
+    collector: Collector
+    service: Service
+    keeper: BrakingKeeper
+    desk: FenceDesk
+
+
+class Shell:
+    """Be the loop of one run."""
+
+    def __init__(self, config: CoreConfig, parts: Parts, now_s: float, *, real_time: bool) -> None:
+        self.state = initial(config, now_s)
+        self._config = config
+        self._parts = parts
+        self._real_time = real_time
+        self._stats = LoopStats()
+
+    def run(self, pacer: Pacer, stopped: Callable[[], bool]) -> int:
+        """Turn until told to stop; return the exit status. The drive is halted either way."""
+        status = EXIT_LEFT
+        try:
+            while not stopped():
+                self.tick(pacer.wait(), pacer.period_s)
+                self._parts.collector.use(pacer.slack_s())
+        except Exception:
+            log.exception("bridge_broken: the loop raised; the drive is halted")
+            status = EXIT_BROKEN
+        finally:
+            self._parts.drive.halt()
+        return status
+
+    def tick(self, tick: Tick, period_s: float) -> None:
+        """Take one tick."""
+        parts = self._parts
+        state, now_s = self.state, tick.now_s
+        inbox = self._inbox(tick)
+        began_ns = time.thread_time_ns()
+        decision = step(self._config, state, inbox, now_s)
+        step_ns = time.thread_time_ns() - began_ns
+        parts.drive.write(decision.command)
+        parts.link.publish(decision)
+        parts.recorder.tick(state, inbox, now_s, decision)
+        self.state = decision.state
+        parts.keeper.note(decision.state.learnt)
+        parts.desk.note(decision.state.fence_asked, now_s)
+        self._stats.add(tick.late_s + tick.missed * period_s, step_ns)
+        parts.service.feed(now_s)
+
+    def _inbox(self, tick: Tick) -> Inbox:
+        """Drain everything that arrived."""
+        parts, figures = self._parts, self._stats.summary
+        unrecorded = parts.recorder.trouble
+        facts = LoopFacts(
+            late_s=tick.late_s,
+            missed_ticks=tick.missed,
+            late_p50_us=figures.late_p50_us,
+            late_max_us=figures.late_max_us,
+            step_max_us=figures.step_max_us,
+            record_gaps=parts.recorder.gaps,
+        )
+        return parts.link.drain(
+            parts.drive.read(),
+            facts,
+            fence_done=parts.desk.take(),
+            real_time=self._real_time,
+            recorder_ok=not unrecorded,
+            recorder_says=unrecorded,
+            chance=secrets.token_hex(CHANCE_BYTES),
+        )

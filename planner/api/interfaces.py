@@ -1,0 +1,170 @@
+"""Say what the routes need of missions, robot, site and ears: small protocols, so that tests can
+stand behind them and the routes know no zenoh and no journal.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Mapping, Sequence
+
+    from planner.brain import Brain
+    from planner.budget import Usage
+    from planner.mission import Leg, Memory
+    from planner.perception import Picture, Sight, Thing
+    from planner.plan import Goal, Language
+    from planner.site import FenceProposals, Site
+    from planner.voice import Recogniser
+    from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
+
+
+class Stopped(Protocol):
+    """Say whether the bridge has confirmed a stop."""
+
+    @property
+    def echoed(self) -> bool: ...
+
+
+class Goals(Protocol):
+    """Keep goals; each method answers at once and raises MissionError with a stable code.
+
+    ``act`` is a person's signed ``op/resume``, which clears what the bridge holds.
+    """
+
+    async def submit(
+        self,
+        text: str,
+        *,
+        language: Language | None = None,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        act: OpRequest | None = None,
+    ) -> Goal: ...
+
+    def hears_stop(self, text: str) -> bool:
+        """Return whether these words would stop the robot now, whatever else they may mean."""
+        ...
+
+    def awaits_answer(self) -> bool:
+        """Return whether a question waits for a yes or no."""
+        ...
+
+    def goal(self, goal_id: str) -> Goal: ...
+
+    def goals(self, limit: int = 50) -> Sequence[Goal]: ...
+
+    async def cancel(self, goal_id: str) -> Goal: ...
+
+    async def pause(self, goal_id: str) -> Goal: ...
+
+    async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal: ...
+
+    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal: ...
+
+    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal: ...
+
+    async def move(self, goal_id: str, before: str | None = None) -> Goal: ...
+
+    async def stop(self, source: str) -> Stopped: ...
+
+    def path(self) -> Leg | None: ...
+
+    def subscribe(self) -> AsyncIterator[tuple[int, dict[str, Any]]]: ...
+
+
+class Robot(Protocol):
+    """Hear the bridge and bring it an operator's requests."""
+
+    @property
+    def status(self) -> Status | None: ...
+
+    @property
+    def description(self) -> RobotDescription: ...
+
+    def obstacles(self) -> Sequence[tuple[float, float]]: ...
+
+    def ages_s(self) -> dict[str, float | None]: ...
+
+    async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None: ...
+
+    async def offer_fence(self, request: FenceRequest) -> Answer | None: ...
+
+    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
+
+
+class Budget(Protocol):
+    """Show what the model has cost; ``changes`` rises with every change."""
+
+    @property
+    def changes(self) -> int: ...
+
+    def usage(self, goal: str | None = None) -> Usage: ...
+
+
+class Eyes(Protocol):
+    """Show what is seen and remembered; ``version`` rises when a thing comes or goes."""
+
+    @property
+    def sight(self) -> Sight: ...
+
+    @property
+    def version(self) -> int: ...
+
+    @property
+    def changed_s(self) -> Mapping[str, float]:
+        """Return when each thing was last seen or doubted, on ``now_s``'s clock."""
+
+    @property
+    def now_s(self) -> float: ...
+
+    @property
+    def classes(self) -> tuple[str, ...]: ...
+
+    @property
+    def counts(self) -> Mapping[str, int]: ...
+
+    @property
+    def skipped(self) -> Mapping[str, int]: ...
+
+    @property
+    def lag_s(self) -> float: ...
+
+    @property
+    def took_s(self) -> float: ...
+
+    async def show(self) -> Picture | None: ...
+
+    def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]: ...
+
+
+class Services(Protocol):
+    """Hold what one planner is made of."""
+
+    @property
+    def goals(self) -> Goals: ...
+
+    @property
+    def robot(self) -> Robot: ...
+
+    @property
+    def site(self) -> Site: ...
+
+    @property
+    def memory(self) -> Memory: ...
+
+    @property
+    def fences(self) -> FenceProposals: ...
+
+    @property
+    def brain(self) -> Brain: ...
+
+    @property
+    def budget(self) -> Budget: ...
+
+    @property
+    def ears(self) -> Recogniser: ...
+
+    @property
+    def eyes(self) -> Eyes: ...

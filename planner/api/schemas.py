@@ -1,0 +1,94 @@
+"""Give the bodies that the routes take: closed, bounded, bilingual where a person writes."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, StrictBool
+
+from planner.plan import Language
+from wire import Proof
+from wire.bounded_types import Name
+from wire.geometry import Mps, Radps
+
+MAX_GOAL_CHARACTERS = 4_000
+"""Of a goal and of an answer; lists, snapshots and the journal keep them many times over."""
+MAX_TEXT_CHARACTERS = 200_000
+"""Of any text: a longer one than a goal may be is still searched for a stop."""
+
+
+class Body(BaseModel):
+    """Refuse unknown fields: a misspelt option must not be ignored."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class OperatorProof(Body):
+    """Carry a proof made in CLI or page; the planner relays what it can't make."""
+
+    id: Name
+    proof: Proof
+
+
+Text = Annotated[
+    str,
+    Field(
+        max_length=MAX_TEXT_CHARACTERS,
+        description=f"At most {MAX_GOAL_CHARACTERS} characters; longer ones may only stop",
+    ),
+]
+
+
+class NewGoal(Body):
+    """Give a goal in words."""
+
+    text: Text
+    language: Language | None = None
+    confirm: StrictBool = False
+    """Show the plan and wait for a yes before the first step."""
+    replace: StrictBool = False
+    """Once understood, end the running goal (where none runs, the one that thinks or asks) and go
+    first; what is paused or queued keeps its place."""
+    operator: OperatorProof | None = None
+    """On a robot of metal: a proof of kind resume, which clears what a stop has held."""
+
+
+class GoalOrder(Body):
+    """Act on a goal; resuming may carry a proof."""
+
+    operator: OperatorProof | None = None
+
+
+class Reply(Body):
+    """Answer a goal's question."""
+
+    text: Text
+    operator: OperatorProof | None = None
+
+
+class Move(Body):
+    """Put a queued goal before another one; last without ``before``."""
+
+    before: Name | None = None
+
+
+class StopOrder(Body):
+    """Stop now; say who asks, for the record."""
+
+    source: Name = "api"
+
+
+class OperatorOrder(Body):
+    """Arm, disarm, protective stop, reset or resume."""
+
+    source: Name = "api"
+    operator: OperatorProof | None = None
+
+
+class Steer(Body):
+    """Steer by hand while ``dead_man`` is held; send at 20 Hz."""
+
+    source: Name
+    v_mps: Annotated[Mps, Field(strict=True)]
+    w_radps: Annotated[Radps, Field(strict=True)]
+    dead_man: StrictBool

@@ -1,0 +1,182 @@
+"""Ask a model about a picture: consent, size, prompt, call, judge, one repair turn, one deadline.
+
+A picture leaves this machine only after the owner's second yes, never larger than 1024 pixels or
+500 kB, and only inside a goal. What comes back is words, a yes or no, or a pixel.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any, TypeVar
+
+from planner.brain.endpoint.image_content import MAX_JPEG_BYTES, data_url
+from planner.brain.endpoint.image_reply import NoPicture, Point, Words, judge_look, judge_point
+from planner.brain.endpoint.reply_validation import Unusable, clean
+from planner.brain.endpoint.session import Line
+from planner.brain.errors import PlanRejected
+from planner.brain.image_prompts import LOOK_SCHEMA, POINT_SCHEMA, LookPrompts, label_of
+from planner.brain.image_questions import (
+    LONG_SIDE_PX,
+    Asked,
+    Described,
+    NotSent,
+    NotThere,
+    Picture,
+    Pointed,
+    View,
+)
+from planner.brain.jpeg_metadata import jpeg_size, without_notes
+from planner.brain.prompt_template import Template, repair
+from planner.brain.response_format import LOOK_FORM, POINT_FORM, Form
+from planner.brain.schema import Message
+from planner.plan import Bilingual, BrainTag
+
+log = logging.getLogger(__name__)
+
+T = TypeVar("T")
+Shrink = Callable[[bytes, int], Awaitable[bytes]]
+"""Returns a JPEG with no longer side than so many pixels, from a process that may decode."""
+LayOut = Callable[[Sequence[tuple[bytes, str]], int], Awaitable[bytes]]
+"""Returns one JPEG with these pictures, each below its label, likewise."""
+
+
+class EndpointLooker:
+    """Look through a model behind an OpenAI-compatible endpoint."""
+
+    def __init__(
+        self, line: Line, shrink: Shrink | None = None, lay_out: LayOut | None = None
+    ) -> None:
+        """Read the prompts.
+
+        Args:
+            line: shared with whoever plans by the same model.
+            shrink: makes a large picture smaller; None: a large one is not sent.
+            lay_out: puts several pictures on one sheet; None: no sheet is sent.
+
+        Raises:
+            Misconfigured: ``prompt_missing``, ``prompt_malformed``.
+        """
+        self._line, self._shrink, self._lay_out = line, shrink, lay_out
+        self._prompts = LookPrompts()
+        self._look, self._point = map(self._tagged, (self._prompts.look, self._prompts.point))
+
+    def _tagged(self, prompt: Template) -> BrainTag:
+        name = clean(self._line.settings.name)
+        return BrainTag(name=name, version=str(prompt.version), prompt=prompt.tag)
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the model's name, and the prompt of a question."""
+        return self._look
+
+    @property
+    def refuses(self) -> str | None:
+        """Return why no picture is sent at all, as far as is known; None where one may be."""
+        settings = self._line.settings
+        if not self._line.address.local and not settings.allow_pictures_offhost:
+            return "pictures_offhost"
+        takes = self._line.asker.pictures if settings.pictures is None else settings.pictures
+        return "no_pictures" if takes is False else None
+
+    async def describe(self, asked: Asked) -> Described:
+        """Return the model's answer; see ``planner.brain.image_questions.Looker``."""
+
+        async def talk(end_s: float) -> Words:
+            picture = await self._sheet(asked.views) if asked.views else asked.picture
+            url = await self._url(picture)
+            messages = self._prompts.look_messages(asked)
+            return await self._twice(messages, (LOOK_FORM, LOOK_SCHEMA), url, end_s, judge_look)
+
+        said = await self._line.turn(asked.goal, talk, "answer")
+        return Described(self._struck(said.text), said.seen, self._look)
+
+    async def point(self, asked: Asked) -> Pointed | NotThere:
+        """Return where the model points; see ``planner.brain.image_questions.Looker``."""
+
+        async def talk(end_s: float) -> object:
+            url = await self._url(asked.picture)
+            messages = self._prompts.point_messages(asked)
+            return await self._twice(messages, (POINT_FORM, POINT_SCHEMA), url, end_s, judge_point)
+
+        found = await self._line.turn(asked.goal, talk, "point")
+        if isinstance(found, Point):
+            return Pointed(found.x, found.y, self._point)
+        return NotThere(self._point)
+
+    async def _url(self, picture: Picture) -> str:
+        """Return the picture as it is sent.
+
+        Raises:
+            NotSent: it is not.
+        """
+        self._consent()
+        jpeg, size = picture.jpeg, _size(picture.jpeg)
+        if size != (picture.width, picture.height):
+            told = f"{size} in the JPEG, {picture.width} x {picture.height} told"
+            raise NotSent(f"the picture is not what it is said to be: {told}", why="bad_picture")
+        if max(size) > LONG_SIDE_PX and self._shrink is not None:
+            jpeg = await self._shrink(jpeg, LONG_SIDE_PX)
+            size = _size(jpeg)
+        if max(size) > LONG_SIDE_PX or len(jpeg) > MAX_JPEG_BYTES:
+            told = f"{size[0]} x {size[1]} px, {len(jpeg)} bytes"
+            most = f"{LONG_SIDE_PX} px, {MAX_JPEG_BYTES} bytes"
+            raise NotSent(f"{told}; at most {most}", why="picture_too_large")
+        return data_url(jpeg if self._line.address.local else without_notes(jpeg))
+
+    def _consent(self) -> None:
+        """Raise NotSent where no picture may leave at all."""
+        refused = self.refuses
+        if refused is not None:
+            raise NotSent(f"{self._line.address.host}: {refused}", why=refused)
+
+    async def _sheet(self, views: Sequence[View]) -> Picture:
+        """Return the pictures of several directions as one, each below its label.
+
+        Raises:
+            NotSent: it can't be made.
+        """
+        self._consent()
+        if self._lay_out is None:
+            raise NotSent(f"nobody can lay out {len(views)} pictures", why="bad_picture")
+        named = [(view.picture.jpeg, label_of(at, view)) for at, view in enumerate(views, start=1)]
+        jpeg = await self._lay_out(named, LONG_SIDE_PX)
+        return Picture(jpeg, *_size(jpeg), views[-1].picture.seq)
+
+    async def _twice(
+        self,
+        messages: list[Message],
+        wanted: tuple[Form, dict[str, Any]],
+        url: str,
+        end_s: float,
+        judged: Callable[[str], T | NoPicture | Unusable],
+    ) -> T:
+        """Return what a reply is judged to be, after one repair turn at most."""
+        reasons: list[str] = []
+        asked = messages
+        for _ in range(2):
+            form, schema = wanted
+            reply = await self._line.asker.ask(asked, schema, end_s, None, form=form, picture=url)
+            if reply.refusal is not None:
+                raise PlanRejected(f"the model declined: {clean(reply.refusal)[:200]}")
+            found = judged(reply.text)
+            if isinstance(found, NoPicture):
+                raise NotSent("the model says that no picture came with it", why="no_pictures")
+            if not isinstance(found, Unusable):
+                return found
+            told = found.reasons if reply.trouble is None else (reply.trouble, *found.reasons)
+            reasons = [self._line.client.secret.struck(each) for each in told]
+            log.info("%s wrote no %s, asked again: %s", self._look.name, form.name, reasons)
+            asked = [*messages, *repair(reply.text, reasons)]
+        raise PlanRejected(f"asked twice: {'; '.join(reasons)}"[:400])
+
+    def _struck(self, text: Bilingual) -> Bilingual:
+        struck = self._line.client.secret.struck
+        return Bilingual(en=struck(text.en), zh=struck(text.zh))
+
+
+def _size(jpeg: bytes) -> tuple[int, int]:
+    size = jpeg_size(jpeg)
+    if size is None or min(size) < 1:
+        raise NotSent(f"{len(jpeg)} bytes are no JPEG with a size", why="bad_picture")
+    return size

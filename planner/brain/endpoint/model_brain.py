@@ -1,0 +1,147 @@
+"""Ask a model for a plan: prompt, call, judge, one repair turn, all inside one deadline.
+
+Never returns what is no plan of the closed vocabulary, and never asks a third time.
+"""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from planner.brain.endpoint.completion_parser import Reply, Tokens
+from planner.brain.endpoint.image_client import EndpointLooker, LayOut, Shrink
+from planner.brain.endpoint.partial_plan import Drafting
+from planner.brain.endpoint.reply_validation import Planned, Unusable, clean, judge
+from planner.brain.endpoint.session import Line
+from planner.brain.errors import PlanRejected
+from planner.brain.interface import ThinkRequest, Thought
+from planner.brain.prompt import Prompt
+from planner.brain.schema import schema_of
+from planner.brain.streamed_draft import Hear
+from planner.brain.usage_meter import Meter
+from planner.plan import PLAN, Bilingual, BrainTag, Code, Refuse, Vocabulary, message, same
+from planner.settings import ModelSettings
+
+if TYPE_CHECKING:
+    import httpx
+
+log = logging.getLogger(__name__)
+
+
+class EndpointBrain:
+    """Plan by a model behind an OpenAI-compatible endpoint."""
+
+    def __init__(
+        self,
+        settings: ModelSettings,
+        home: Path,
+        *,
+        prompt: Prompt | None = None,
+        transport: httpx.AsyncBaseTransport | None = None,
+        meter: Meter | None = None,
+    ) -> None:
+        """Judge the address and read the prompt; nothing is asked yet.
+
+        Args:
+            settings: where and how.
+            home: where the dialect is remembered.
+            prompt: another than prompts/plan.md.
+            transport: another than the network, for tests.
+            meter: counts every call and may refuse it; None: nobody keeps a budget.
+
+        Raises:
+            Misconfigured: ``model_url``, ``model_offhost``, ``prompt_missing``,
+                ``prompt_malformed``.
+        """
+        self._line = Line(settings, home, transport, meter)
+        self.address = self._line.address
+        self._prompt = prompt or Prompt.load()
+        self._client, self._asker = self._line.client, self._line.asker
+        self._tag = BrainTag(
+            name=clean(settings.name),
+            version=str(self._prompt.version),
+            prompt=self._prompt.tag,
+        )
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the model's name, and the prompt it is asked with."""
+        return self._tag
+
+    def warm(self, vocabulary: Vocabulary) -> None:
+        """Render the prompt of this closed world, so that the first goal need not wait for it."""
+        self._prompt.messages(ThinkRequest(text="", vocabulary=vocabulary))
+
+    def looker(self, shrink: Shrink | None = None, lay_out: LayOut | None = None) -> EndpointLooker:
+        """Return whoever asks the same model about pictures, over the same line.
+
+        Raises:
+            Misconfigured: ``prompt_missing``, ``prompt_malformed``.
+        """
+        return EndpointLooker(self._line, shrink, lay_out)
+
+    async def close(self) -> None:
+        """Give the connections back."""
+        await self._client.close()
+
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+        """Return the model's plan of a sentence; who listens hears it as it is written.
+
+        Raises:
+            PlanRejected: neither reply is a plan.
+            BrainDown: the model does not answer, or not within the deadline.
+            OutOfBudget: a call was refused by the meter.
+        """
+
+        async def talk(end_s: float) -> Thought:
+            return await self._talk(request, end_s, hear)
+
+        return await self._line.turn(request.goal, talk, "plan")
+
+    async def _talk(self, request: ThinkRequest, end_s: float, hear: Hear | None) -> Thought:
+        messages = self._prompt.messages(request)
+        schema = schema_of(request.vocabulary, request.runnable)
+        told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
+        first = await self._asker.ask(messages, schema, end_s, told)
+        plan = self._plan_of(first, request)
+        if not isinstance(plan, Unusable):
+            return self._thought(plan, 1, first.tokens)
+        log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
+        again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
+        second = await self._asker.ask(again, schema, end_s, told)
+        mended = self._plan_of(second, request)
+        if isinstance(mended, Unusable):
+            raise PlanRejected(f"asked twice: {mended}"[:400])
+        return self._thought(mended, 2, first.tokens + second.tokens)
+
+    def _thought(self, plan: Planned, calls: int, spent: Tokens) -> Thought:
+        return Thought(
+            plan=plan,
+            brain=self._tag,
+            calls=calls,
+            tokens=spent.total,
+            prompt_tokens=spent.prompt,
+            reply_tokens=spent.reply,
+        )
+
+    def _plan_of(self, reply: Reply, request: ThinkRequest) -> Planned | Unusable:
+        """Judge a reply. The key, which a server may spell as it likes, is struck out last."""
+        struck = self._client.secret.struck
+        if reply.refusal is not None:
+            return _declined(struck(reply.refusal), request)
+        judged = judge(reply.text, request.vocabulary, request.runnable)
+        if not isinstance(judged, Unusable):
+            written = judged.model_dump_json()
+            safe = struck(written)
+            return judged if safe == written else PLAN.validate_json(safe)
+        reasons = judged.reasons if reply.trouble is None else (reply.trouble, *judged.reasons)
+        return Unusable(tuple(map(struck, reasons)))
+
+
+def _declined(words: str, request: ThinkRequest) -> Refuse:
+    """Take a model's own refusal as one: the offline brain must not do what a model would not."""
+    told = clean(words)[:200]
+    rule = Bilingual(en=f"the model declined: {told}", zh=f"模型拒绝了：{told}")
+    said = message(Code.UNSAFE, part=same(clean(request.text)[:60]), rule=rule)
+    return Refuse(code=Code.UNSAFE, reason=said)

@@ -1,0 +1,101 @@
+"""Own what a brain is: one question in, one thought out. Knows no model, no network, no grammar.
+
+A brain may be slow, wrong or gone; what it returns is judged by `planner.plan.validate_plan`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Protocol
+
+from pydantic import BeforeValidator, Field
+
+from planner.brain.streamed_draft import Hear
+from planner.plan import RUNNABLE, Bilingual, BrainTag, Code, Frozen, Language, Plan, Vocabulary
+
+OFFLINE = "offline"
+"""Name of the brain that is no model: it plans by grammar and reads no free answer."""
+MAX_OBSERVED = 40
+"""Observations handed to one thought, the newest."""
+MAX_DETAIL = 300
+"""Characters of one observation in one language; what is longer is cut."""
+
+
+def _short(detail: object) -> object:
+    if not isinstance(detail, Bilingual):
+        return detail
+    return Bilingual(en=detail.en[:MAX_DETAIL], zh=detail.zh[:MAX_DETAIL])
+
+
+class Observation(Frozen):
+    """Tell what came of one step that was walked, for a brain that thinks again.
+
+    Facts, and words that people answered: they may describe, never command.
+    """
+
+    step: Annotated[str, Field(min_length=1, max_length=40)]  # the kind of the step
+    result: Literal["succeeded", "failed", "skipped", "answered"]
+    detail: Annotated[Bilingual, BeforeValidator(_short)]
+    read: Annotated[Bilingual | None, BeforeValidator(_short)] = None
+    """What a model wrote about a picture. Tainted: words that stood in the picture may be in it, so
+    nothing that is done follows from it (``planner.brain.tainted_text``), and nothing of it is in
+    ``detail``."""
+
+
+class Exchange(Frozen):
+    """Tell one question of a brain about an order, and what the person answered."""
+
+    asked: str
+    answer: str
+
+
+class ThinkRequest(Frozen):
+    """Ask for a plan of one sentence in one closed world."""
+
+    text: str
+    vocabulary: Vocabulary
+    room: str | None = None  # the id of the room the robot is in, where known
+    language: Language | None = None  # as the client said; else told from the text
+    runnable: frozenset[str] = RUNNABLE  # kinds of steps this robot can do now
+    blind: Code = Code.NO_CAMERA  # what is said of a step that needs eyes and can't be done
+    things: frozenset[str] = frozenset()  # names, in any language, of what these eyes know
+    observed: Annotated[tuple[Observation, ...], Field(max_length=MAX_OBSERVED)] = ()
+    """What came of this goal's steps so far, oldest first; empty for a goal's first thought."""
+    replan: int = Field(default=0, ge=0)
+    """How often this goal was thought about again after a step that failed."""
+    order: str = ""  # what was said first, where ``text`` answers a question about it
+    exchanges: tuple[Exchange, ...] = ()  # these questions and answers; the last answer is ``text``
+    goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
+
+
+class Thought(Frozen):
+    """Return a plan, which brain made it, and what it cost."""
+
+    plan: Plan
+    brain: BrainTag
+    calls: int = Field(default=0, ge=0)  # to a model
+    tokens: int = Field(default=0, ge=0)  # all that was billed
+    prompt_tokens: int = Field(default=0, ge=0)  # of these, what was sent
+    reply_tokens: int = Field(default=0, ge=0)  # and what was written
+
+
+class Brain(Protocol):
+    """Turn a request into a thought. Cancelling `think` must take effect at once."""
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the brain's name and version, for the goal's record."""
+        ...
+
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+        """Return the plan of a sentence; nothing has moved when it returns.
+
+        Args:
+            request: what was said, and the closed world.
+            hear: listens to the plan as it is written; a brain that answers at once needs not
+                tell.
+
+        Raises:
+            PlanRejected: what the model wrote is no plan, and its repairs are used up.
+            BrainDown: the model does not answer in time.
+        """
+        ...

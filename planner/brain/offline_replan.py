@@ -1,0 +1,47 @@
+"""Think again after something came of the steps: what is left of the same plan, and nothing twice.
+
+A grammar has no second idea. It never orders a step again that is over, and says so where the rest
+is not its own plan's. What a person answered it does not read: that is no reason to go on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planner.brain.interface import Observation
+from planner.plan import Answer, Bilingual, Clarify, Code, Refuse, StepPlan, message
+
+_READS_NO_ANSWER = Bilingual(
+    en="the built-in brain can't tell what the answer means", zh="内置大脑不明白这个回答的意思"
+)
+_NO_OTHER_WAY = Bilingual(en="the built-in brain knows no other way", zh="内置大脑没有别的办法")
+
+
+def _whole(seen: Observation) -> Bilingual:
+    """Return what is known of a step, and beside it what a model read."""
+    if seen.read is None:
+        return seen.detail
+    return Bilingual(
+        en=f"{seen.detail.en} {seen.read.en}".strip(), zh=f"{seen.detail.zh}{seen.read.zh}"
+    )
+
+
+def rest_of(
+    plan: StepPlan | Answer | Clarify | Refuse, observed: Sequence[Observation]
+) -> StepPlan | Answer | Clarify | Refuse:
+    """Return what is left of a sentence's plan after what was observed."""
+    if not observed or not isinstance(plan, StepPlan):
+        return plan
+    if observed[-1].step == "ask":  # neither yes nor no: a person is asked again, nothing goes on
+        return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=_READS_NO_ANSWER))
+    kinds = [step.kind for step in plan.steps]
+    walked = [seen.step for seen in observed]
+    if kinds[: len(walked)] != walked:  # another brain's plan was walked
+        return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=_NO_OTHER_WAY))
+    failed = observed[-1].result == "failed"
+    left = plan.steps[len(walked) - int(failed) :]
+    if left:
+        return StepPlan(steps=left)
+    told = [_whole(seen) for seen in observed if seen.step != "decide"]
+    told = told or [_NO_OTHER_WAY]
+    return Answer(text=told[-1])

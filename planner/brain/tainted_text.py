@@ -1,0 +1,84 @@
+"""Think again about a goal in whose course a picture was described by a model.
+
+Law: what was read in a picture may change what is said, never what is done. What is done comes from
+a thought that was not shown those words; a second thought, which is, may only put other words into
+an answer or a ``say``, and is dropped where it differs in anything else. So a sign can add no step,
+move none and take none away, however the model that reads it or the one that plans obeys it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from planner.brain.errors import BrainDown, PlanRejected
+from planner.plan import Answer, Bilingual, StepPlan
+
+if TYPE_CHECKING:
+    from planner.brain.interface import Brain, Observation, ThinkRequest, Thought
+    from planner.brain.streamed_draft import Hear
+    from planner.plan import Plan
+
+_SAID = Bilingual(en="Said something.", zh="说了话。")
+"""Words that were said after a picture was read may repeat it, so they are withheld as well."""
+
+
+def tainted(request: ThinkRequest) -> bool:
+    """Tell whether this goal has words in its course that may have stood in a picture."""
+    return any(seen.read is not None for seen in request.observed)
+
+
+def withheld(request: ThinkRequest) -> ThinkRequest:
+    """Return the request without any words that may have stood in a picture."""
+    kept: list[Observation] = []
+    after = False
+    for seen in request.observed:
+        after = after or seen.read is not None
+        words = {"read": None, "detail": _SAID} if after and seen.step == "say" else {"read": None}
+        kept.append(seen.model_copy(update=words))
+    return request.model_copy(update={"observed": tuple(kept)})
+
+
+def deeds(plan: Plan) -> dict[str, Any]:
+    """Return all of a plan but the words that an answer or a ``say`` gives to people.
+
+    A question stays: it is looked at with, decided by, or answered by a person who is then obeyed.
+    """
+    if isinstance(plan, Answer):
+        return {"kind": plan.kind}
+    if not isinstance(plan, StepPlan):
+        return plan.model_dump()
+    steps = (step.model_dump() for step in plan.steps)
+    return {
+        "kind": plan.kind,
+        "steps": [{"kind": "say"} if step["kind"] == "say" else step for step in steps],
+    }
+
+
+def speaks(plan: Plan) -> bool:
+    """Tell whether a plan has words that what was read might fill."""
+    if isinstance(plan, StepPlan):
+        return any(step.kind == "say" for step in plan.steps)
+    return isinstance(plan, Answer)
+
+
+async def think_warily(brain: Brain, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    """Return a brain's thought; nothing that is done in it follows from words in a picture.
+
+    Raises:
+        PlanRejected, BrainDown: as the brain does, before it was shown any such words.
+    """
+    if not tainted(request):
+        return await brain.think(request, hear)
+    acts = await brain.think(withheld(request))
+    if not speaks(acts.plan):
+        return acts
+    try:
+        says = await brain.think(request)
+    except (BrainDown, PlanRejected):
+        return acts
+    cost = {
+        name: getattr(acts, name) + getattr(says, name)
+        for name in ("calls", "tokens", "prompt_tokens", "reply_tokens")
+    }
+    better = says if deeds(says.plan) == deeds(acts.plan) else acts
+    return better.model_copy(update=cost)

@@ -1,0 +1,211 @@
+"""Speak with the bridge from the event loop: newest word in, commands out, requests until echoed.
+
+Knows the wire and our own monotonic clock. Decides nothing about driving; what an owner says is
+``owner``'s business, what is wanted the mission's. ``poll`` never blocks; the only waiting is that
+of ``stop`` and ``operate`` for an echo, and others go on meanwhile.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+import uuid
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
+
+from planner.bridge_client.errors import BridgeSilent
+from planner.bridge_client.scan_to_map import points_in_map
+from planner.bridge_client.transport import Bus
+from wire import (
+    Answer,
+    Event,
+    FenceRequest,
+    Localization,
+    Odometry,
+    OpKind,
+    OpRequest,
+    Record,
+    RobotDescription,
+    Scan,
+    Status,
+    Stop,
+    Velocity,
+)
+
+ECHO_S = 2.0
+REPEAT_S = 0.05
+SCAN_FRESH_S = 0.5
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Aged(Generic[T]):
+    """Give the newest of something, with its age on our own clock [s]."""
+
+    value: T
+    age_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class StopResult:
+    """Tell whether the bridge has echoed a stop."""
+
+    id: str
+    echoed: bool
+    waited_s: float
+
+
+class Follower(Protocol):
+    """Be told all odometry and localization as it comes, to know later where the robot was."""
+
+    def odometry(self, odometry: Odometry) -> None: ...
+
+    def localization(self, localization: Localization) -> None: ...
+
+
+class Link:
+    """Be the planner's one way to the bridge."""
+
+    def __init__(
+        self,
+        bus: Bus,
+        robot: RobotDescription,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
+    ) -> None:
+        self._bus = bus
+        self._robot = robot
+        self._clock = clock
+        self._new_id = new_id
+        self._status: tuple[Status, float] | None = None
+        self._localization: tuple[Localization, float] | None = None
+        self._odometry: tuple[Odometry, float] | None = None
+        self._scan: tuple[Scan, float] | None = None
+        self._waiting: dict[str, asyncio.Future[Answer]] = {}
+        self._followers: list[Follower] = []
+
+    # What was heard -----------------------------------------------------------------------------
+
+    def poll(self) -> Status | None:
+        """Drain the rings once; return the status that came since the last poll, if one did."""
+        now_s = self._clock()
+        if (localization := self._bus.localization()) is not None:
+            self._localization = (localization, now_s)
+            for follower in self._followers:
+                follower.localization(localization)
+        if (odometry := self._bus.odometry()) is not None:
+            self._odometry = (odometry, now_s)
+            for follower in self._followers:
+                follower.odometry(odometry)
+        if (scan := self._bus.scan()) is not None:
+            self._scan = (scan, now_s)
+        status = self._bus.status()
+        if status is not None:
+            self._status = (status, now_s)
+            self._resolve(status)
+        return status
+
+    def tell(self, follower: Follower) -> None:
+        """Tell somebody, from now on, how the robot moves and where it is."""
+        self._followers.append(follower)
+
+    def events(self) -> tuple[Event, ...]:
+        """Take the bridge's events since the last call. For people; never relied upon."""
+        return self._bus.events()
+
+    @property
+    def status(self) -> Aged[Status] | None:
+        """Return the newest bridge status, however old."""
+        return self._aged(self._status)
+
+    @property
+    def localization(self) -> Aged[Localization] | None:
+        """Return the newest localization, however old."""
+        return self._aged(self._localization)
+
+    @property
+    def odometry(self) -> Aged[Odometry] | None:
+        """Return the newest odometry, however old."""
+        return self._aged(self._odometry)
+
+    @property
+    def scan(self) -> Aged[Scan] | None:
+        """Return the newest scan, however old."""
+        return self._aged(self._scan)
+
+    def obstacles(self) -> tuple[tuple[float, float], ...]:
+        """Return what the lidar sees now as points in ``map`` [m]; none without scan or pose."""
+        scan, status = self.scan, self.status
+        if scan is None or status is None or not scan.age_s <= SCAN_FRESH_S:
+            return ()
+        pose = status.value.base_in_map
+        return () if pose is None else points_in_map(scan.value, self._robot.lidar, pose)
+
+    def _aged(self, kept: tuple[T, float] | None) -> Aged[T] | None:
+        return None if kept is None else Aged(kept[0], self._clock() - kept[1])
+
+    # What is said -------------------------------------------------------------------------------
+
+    def send(self, messages: tuple[Record, ...]) -> None:
+        """Send what the owner says, in order."""
+        for message in messages:
+            self._bus.send(message)
+
+    def teleop(self, velocity: Velocity) -> None:
+        """Relay a velocity by hand; the bridge judges its age, its source and its dead-man."""
+        self._bus.steer(velocity)
+
+    async def stop(self, source: str) -> StopResult:
+        """Say stop at 20 Hz until the bridge echoes it, 2 s at most. Never raises for silence."""
+        began_s, stop_id = self._clock(), self._new_id()
+        message = Stop(id=stop_id, source=source)
+        answer = await self._until_echoed(stop_id, lambda: self._bus.send(message))
+        return StopResult(stop_id, answer is not None, self._clock() - began_s)
+
+    async def operate(self, kind: OpKind, request: OpRequest) -> Answer:
+        """Bring an operator's request to the bridge and return its verdict.
+
+        Raises:
+            BridgeSilent: it was not echoed within 2 s.
+        """
+        answer = await self._until_echoed(request.id, lambda: self._bus.ask(kind, request))
+        if answer is None:
+            raise BridgeSilent(kind, ECHO_S)
+        return answer
+
+    async def offer_fence(self, request: FenceRequest) -> Answer:
+        """Bring an operator's fence to the bridge and return its verdict.
+
+        Raises:
+            BridgeSilent: it was not echoed within 2 s.
+        """
+        answer = await self._until_echoed(request.id, lambda: self._bus.send(request))
+        if answer is None:
+            raise BridgeSilent("fence", ECHO_S)
+        return answer
+
+    def _resolve(self, status: Status) -> None:
+        if not self._waiting:
+            return
+        for answer in status.answers:
+            future = self._waiting.get(answer.id)
+            if future is not None and not future.done():
+                future.set_result(answer)
+
+    async def _until_echoed(self, request_id: str, say: Callable[[], None]) -> Answer | None:
+        """Repeat until the answer stands in a status; ``poll`` must go on meanwhile."""
+        future: asyncio.Future[Answer] = asyncio.get_running_loop().create_future()
+        self._waiting[request_id] = future
+        deadline_s = self._clock() + ECHO_S
+        try:
+            while self._clock() < deadline_s:
+                say()
+                done, _ = await asyncio.wait({future}, timeout=REPEAT_S)
+                if done:
+                    return future.result()
+            return None
+        finally:
+            del self._waiting[request_id]

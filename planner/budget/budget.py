@@ -1,0 +1,190 @@
+"""Spend: the one place where a call is allowed or refused, counted before it goes, and settled.
+
+A call is counted at its worst when it goes out (one call, the tokens that are sent, a reply of full
+length) and corrected when it ends, so that one which dies with the process stays counted.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import asdict
+from datetime import date
+from typing import TYPE_CHECKING
+
+from planner.brain.errors import OutOfBudget
+from planner.brain.usage_meter import THINKING_ABOUT
+from planner.budget.messages import IDLE, UNWRITABLE, refusal
+from planner.budget.report import Amounts, Most, Refused, Usage
+from planner.budget.totals import Overrun, Spent, cost, overrun
+from planner.budget.utc_day import Clocks, Days
+
+if TYPE_CHECKING:
+    from planner.budget.ledger import Ledger
+    from planner.settings import BudgetSettings
+
+log = logging.getLogger(__name__)
+
+MAX_TOKENS = 10_000_000
+"""Of one call; a server that claims more is not believed."""
+
+
+class Purse:
+    """Keep one home's budget."""
+
+    def __init__(
+        self,
+        budget: BudgetSettings,
+        ledger: Ledger,
+        *,
+        model: str | None = None,
+        most_reply: int = 0,
+        clocks: Clocks | None = None,
+    ) -> None:
+        """Take up what was spent before.
+
+        Args:
+            budget: limits and prices.
+            ledger: where it is kept.
+            model: whose calls these are, for people; None without a model.
+            most_reply: tokens that one reply may have.
+            clocks: other clocks than the system's.
+
+        Raises:
+            Misconfigured: ``budget_unreadable``.
+        """
+        self._budget, self._ledger, self._model = budget, ledger, model
+        self._most_reply = most_reply
+        self._clocks = clocks or Clocks()
+        self._days = Days(ledger.newest, self._clocks)
+        self._day = self._days.today()
+        ledger.remember(self._day)
+        self._under_way = self._calls = self._idle = 0
+        self._refused: Refused | None = None
+        self.changes = 0
+        """Rises with every change of the meter, so that who shows it knows when to look."""
+
+    def open(self, prompt_tokens: int) -> OpenCall:
+        """Count a call that is about to go out.
+
+        Raises:
+            OutOfBudget: it may not go out.
+        """
+        goal = THINKING_ABOUT.get()
+        if goal is None:
+            self._idle += 1
+            log.error("a call that no goal asked for was refused")
+            raise self._refuse(OutOfBudget("no goal asked for this call", IDLE))
+        worst = self._priced(1, prompt_tokens, self._most_reply)
+        day = self._today()
+        try:
+            over = self._over(day, goal, worst)
+            if over is not None:
+                raise self._refuse(refusal(over, self._days.resets_in_s(), self._currency))
+            self._ledger.append(day, goal, worst, sync=True)
+        except OSError as error:
+            log.warning("what the model costs can't be written: %s", error.strerror)
+            raise self._refuse(OutOfBudget("it can't be written down", UNWRITABLE)) from None
+        self._under_way += 1
+        self._calls += 1
+        self._refused = None
+        self.changes += 1
+        return OpenCall(self, day, goal, worst, self._clocks.monotonic_s())
+
+    def settle(self, call: OpenCall, prompt_tokens: int, reply_tokens: int) -> None:
+        """Correct what was counted for a call by what it came to."""
+        prompt, reply = (min(MAX_TOKENS, max(0, n)) for n in (prompt_tokens, reply_tokens))
+        seconds = max(0.0, self._clocks.monotonic_s() - call.began_s)
+        came_to = self._priced(1, prompt, reply) + Spent(seconds=seconds)
+        self._under_way -= 1
+        self.changes += 1
+        try:
+            self._ledger.append(call.day, call.goal, came_to - call.counted, sync=False)
+        except OSError as error:  # it stays counted at its worst
+            log.warning("what a call came to can't be written: %s", error.strerror)
+
+    def usage(self, goal: str | None = None) -> Usage:
+        """Return the meter as of now."""
+        day = self._today()
+        return Usage(
+            model=self._model,
+            day=day,
+            resets_in_s=round(self._days.resets_in_s()),
+            currency=self._currency,
+            today=_amounts(self._spent_on(day)),
+            day_limits=Most(**self._budget.day.model_dump()),
+            goal=None if goal is None else _amounts(self._ledger.of_goal(goal)),
+            goal_limits=Most(**self._budget.goal.model_dump()),
+            under_way=self._under_way,
+            calls_since_start=self._calls,
+            idle_calls=self._idle,
+            refused=self._refused,
+        )
+
+    def close(self) -> None:
+        """Give the ledger back."""
+        self._ledger.close()
+
+    @property
+    def _currency(self) -> str | None:
+        return self._budget.price.currency if self._budget.price is not None else None
+
+    def _priced(self, calls: int, prompt: int, reply: int) -> Spent:
+        money = cost(self._budget.price, prompt, reply)
+        return Spent(calls=calls, prompt_tokens=prompt, reply_tokens=reply, money=money)
+
+    def _over(self, day: date, goal: str, worst: Spent) -> Overrun | None:
+        today = self._ledger.of_day(day)  # first: it also reads what others spent on this goal
+        mine = self._ledger.of_goal(goal)
+        return overrun("goal", mine, worst, self._budget.goal) or overrun(
+            "day", today, worst, self._budget.day
+        )
+
+    def _today(self) -> date:
+        day = self._days.today()
+        if day < self._day:  # a clock that had leapt ahead was found out
+            log.warning("the day is %s again; what was spent on later days is set aside", day)
+            try:
+                self._ledger.set_aside(day)
+            except OSError as error:
+                log.warning("later days could not be set aside: %s", error.strerror)
+        if day != self._day:
+            self._day = day
+            self.changes += 1
+        return day
+
+    def _spent_on(self, day: date) -> Spent:
+        try:
+            return self._ledger.of_day(day)
+        except OSError as error:
+            log.warning("what was spent can't be read: %s", error.strerror)
+            return Spent()
+
+    def _refuse(self, error: OutOfBudget) -> OutOfBudget:
+        self._refused = Refused(code=error.code, message=error.said)
+        self.changes += 1
+        return error
+
+
+class OpenCall:
+    """Be one call that has gone out; see `planner.brain.usage_meter.Bill`."""
+
+    def __init__(self, purse: Purse, day: date, goal: str, counted: Spent, began_s: float) -> None:
+        self._purse = purse
+        self.day, self.goal, self.counted, self.began_s = day, goal, counted, began_s
+        self._open = True
+
+    @property
+    def most(self) -> int:
+        """Return the tokens that the reply may have at most."""
+        return self.counted.reply_tokens
+
+    def close(self, prompt_tokens: int, reply_tokens: int) -> None:
+        """Settle the call, once."""
+        if self._open:
+            self._open = False
+            self._purse.settle(self, prompt_tokens, reply_tokens)
+
+
+def _amounts(spent: Spent) -> Amounts:
+    rounded = asdict(spent) | {"seconds": round(spent.seconds, 3), "money": round(spent.money, 6)}
+    return Amounts(**rounded)

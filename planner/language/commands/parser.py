@@ -1,0 +1,195 @@
+"""Read a whole sentence as something said to the planner itself, or as nothing of the kind.
+
+The stop lane comes before this, a brain after it. A sentence that goes on ("continue to the
+kitchen"), is denied ("don't continue") or asks ("continue?") is none of these and is left to the
+brain. Same text, same answer; needs no vocabulary and no state.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+from itertools import islice
+from types import ModuleType
+
+from planner.language.commands import chinese, english
+from planner.language.commands.command import (
+    Cancel,
+    Doing,
+    Faster,
+    Forget,
+    Intent,
+    Pause,
+    Remember,
+    Replace,
+    Resume,
+    Slower,
+    Where,
+)
+from planner.language.folding import fold_script, fold_width
+from planner.language.stop import is_stop
+
+MAX_READ = 300
+"""Characters; a longer sentence is no order to the planner itself."""
+_SIMPLE: tuple[tuple[str, Intent], ...] = (
+    ("RESUME", Resume()),
+    ("PAUSE", Pause()),
+    ("CANCEL", Cancel()),
+    ("WHERE", Where()),
+    ("DOING", Doing()),
+    ("SLOWER", Slower()),
+    ("FASTER", Faster()),
+)
+_CJK = re.compile(r"[\u3400-\u9fff]")
+_END = " .!,;:。~…"
+_QUOTES = "\"'「」『』“”‘’《》"
+_APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
+_SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and then) ")
+
+
+@dataclass(frozen=True, slots=True)
+class _Said:
+    """Hold a sentence twice: to match, and as it was written; character for character alike."""
+
+    folded: str
+    written: str
+
+    def part(self, start: int, end: int) -> _Said:
+        return _Said(self.folded[start:end], self.written[start:end])
+
+    def stripped(self, characters: str) -> _Said:
+        start = len(self.folded) - len(self.folded.lstrip(characters))
+        return self.part(start, max(start, len(self.folded.rstrip(characters))))
+
+
+def intent_of(text: str) -> Intent | None:
+    """Return what a sentence asks of the planner itself, or None."""
+    if not text.strip() or len(text) > MAX_READ or any(map(_unseen, text)):
+        return None
+    said = _said(text)
+    if not _CJK.search(said.folded):
+        return _read(said, english)
+    heard = _read(said, chinese)
+    return heard or (_read(said, english) if said.folded[0].isascii() else None)
+
+
+def _read(said: _Said, grammar: ModuleType) -> Intent | None:
+    asks = said.folded.rstrip(_END).endswith("?")
+    said = said.stripped(_END + "?")
+    if grammar.COURTEOUS.match(said.folded):  # "can you continue?" asks for it, not about it
+        asks, said = False, said.part(0, len(grammar.ASKING.sub("", said.folded)))
+    said = _plain(said, grammar)
+    if not said.folded:
+        return None
+    simple = _simple(said.folded, grammar, asks=asks)
+    if simple is not None or asks:
+        return simple
+    return _taught(said, grammar) or _replacing(said, grammar) or _slowing(said, grammar)
+
+
+def _slowing(said: _Said, grammar: ModuleType) -> Intent | None:
+    """Read "slow down, there is a child": a reason behind it changes nothing."""
+    cut = _SEPARATOR.search(said.folded)
+    first = _plain(said.part(0, cut.start()), grammar).folded if cut is not None else ""
+    return Slower() if grammar.SLOWER.fullmatch(first) else None
+
+
+def _unseen(char: str) -> bool:
+    """Tell what may make a person see another sentence than the one that is read."""
+    return unicodedata.category(char) in ("Cc", "Cf", "Cs", "Co") and char not in "\t\n\r"
+
+
+def _said(text: str) -> _Said:
+    written = " ".join(fold_width(text).translate(_APOSTROPHES).split())
+    folded = written.lower()
+    if len(folded) != len(written):  # a few letters grow in lower case
+        written = folded
+    return _Said(fold_script(folded), written)
+
+
+def _plain(said: _Said, grammar: ModuleType) -> _Said:
+    """Take the courtesy off both ends."""
+    while True:
+        before = said
+        if (found := grammar.POLITE.match(said.folded)) and found.end() < len(said.folded):
+            said = said.part(found.end(), len(said.folded)).stripped(_END)
+        if (found := grammar.THANKS.search(said.folded)) and found.start() > 0:
+            said = said.part(0, found.start()).stripped(_END)
+        if said == before:
+            return said
+
+
+def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
+    words = re.sub(r"[\s,]+", "" if grammar is chinese else " ", folded).strip()
+    for name, intent in _SIMPLE:
+        if getattr(grammar, name).fullmatch(words) is not None:
+            question = isinstance(intent, (Where, Doing))
+            return None if asks and not question else intent
+    return None
+
+
+def _taught(said: _Said, grammar: ModuleType) -> Intent | None:
+    """Read what is to be remembered or forgotten; the name as it was written."""
+    kinds: tuple[tuple[str, type[Remember] | type[Forget]], ...] = (
+        ("REMEMBER", Remember),
+        ("FORGET", Forget),
+    )
+    for pattern, kind in kinds:
+        found = getattr(grammar, pattern).fullmatch(said.folded)
+        if found is None:
+            continue
+        group = next(name for name, text in found.groupdict().items() if text is not None)
+        name = _name(said.part(*found.span(group)))
+        return None if name is None else kind(name)
+    return None
+
+
+def _name(said: _Said) -> str | None:
+    """Return a name without quotes and determiners, or None where the words are no name."""
+    said = said.stripped(" " + _QUOTES + _END)
+    grammar = chinese if _CJK.search(said.folded) else english
+    found = grammar.DETERMINER.match(said.folded)
+    if found is not None:
+        said = said.part(found.end(), len(said.folded))
+    if not said.folded or grammar.NO_NAME.fullmatch(said.folded):
+        return None
+    return said.written
+
+
+def _replacing(said: _Said, grammar: ModuleType) -> Intent | None:
+    """Read "forget that, come here" and "go to the kitchen instead"."""
+    found = grammar.INSTEAD.fullmatch(said.folded)
+    if found is not None:
+        group = "rest" if found["rest"] is not None else "rest2"
+        return _replace(said.part(*found.span(group)), now=False)
+    bare = grammar.UNPUNCTUATED.match(said.folded)
+    if bare is not None:
+        return _replace(said.part(bare.end(), len(said.folded)), now=True)
+    for cut in islice(_SEPARATOR.finditer(said.folded), 2):  # behind a courtesy at most
+        first = _plain(said.part(0, cut.start()), grammar)
+        if grammar.TAKEN_BACK.fullmatch(first.folded.replace(" ", _gap(grammar))):
+            if grammar.DENIES.fullmatch(first.folded) and _goes_on(said, cut, grammar):
+                return None
+            return _replace(said.part(cut.end(), len(said.folded)), now=True)
+    return None
+
+
+def _goes_on(said: _Said, cut: re.Match[str], grammar: ModuleType) -> bool:
+    """Tell whether a clause is joined to the next: then "don't" may well mean both."""
+    joined = said.folded[cut.start() :].lstrip(_END)
+    return grammar.GOES_ON.match(joined) is not None
+
+
+def _gap(grammar: ModuleType) -> str:
+    return "" if grammar is chinese else " "
+
+
+def _replace(rest: _Said, *, now: bool) -> Intent | None:
+    """Take the rest as the new order; where it is none by itself, leave all to the brain."""
+    rest = rest.stripped(_END)
+    if not any(map(str.isalnum, rest.folded)):
+        return None
+    if not is_stop(rest.written) and intent_of(rest.written) is not None:
+        return None  # "never mind, continue": whichever is meant, a person must say
+    return Replace(rest.written, now)

@@ -1,0 +1,227 @@
+"""Own the English rules about people: meet, greet, follow, guide, introduce, tell, ask."""
+
+from __future__ import annotations
+
+import re
+from re import Match
+
+from planner.language.grammar.en.words import DESCRIPTION, PERSON, THE, loc
+from planner.language.grammar.grammar import QUOTE, ahead, lacks, rule, where
+from planner.language.grammar.lexicon import MARK
+from planner.language.grammar.object_targets import known
+from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
+from planner.language.grammar.quantifiers import several
+from planner.language.grammar.small_talk import Topic, told, topic_of
+from planner.language.grammar.step_builders import (
+    follow,
+    guide,
+    label_of,
+    look,
+    meet,
+    one_at_a_time,
+    place_of,
+    saying,
+    spoken,
+)
+from planner.plan import Ask, Code, Decide, GoToObject, Say
+
+_FIND = (
+    r"(?:find|locate|look for|search for|seek|spot|pinpoint|identify|meet(?: with)?|contact|"
+    r"see|"
+    r"visit|get acquainted with|get to know|talk to|speak (?:to|with)|"
+    r"check (?:up )?on|"
+    r"join|call on|go and see)"
+)
+_GO_UP = r"(?:(?:go|walk|come|drive|move) (?:up |over )?to|approach|face)"
+_SEEKS = re.compile(r"(?:find|locate|look for|search for|seek|spot|pinpoint)\b")
+_GREET = (
+    r"(?:greet|welcome|say (?:hello|hi|good (?:morning|evening|afternoon|night)|welcome|"
+    r"goodbye|bye) to|wish)"
+)
+_FOLLOW = (
+    r"(?:follow|(?:start|keep|keep on|continue|begin) following|come after|go after|go behind|"
+    r"come behind|run after|walk behind|drive behind|trail|"
+    r"walk with|keep behind|come along with|"
+    r"go along with|come with|go with|stay (?:behind|close to|with)|keep up with)"
+)
+_GUIDE = r"(?:take|guide|lead|escort|accompany|conduct|bring|walk|show|usher|direct|drive)"
+_FOUND = (
+    r"(?:,? (?:and )?(?:who |whom )?you (?:may|can|will|could|might|should|'ll)(?: also)? (?:find|"
+    r"meet|see) "
+    r"(?:them|him|her) "
+    rf"(?:at|in|on|near|by) (?P<found>{THE}{MARK}))?"
+)
+_TO = rf"(?: (?:(?:back )?(?:to|into|towards?|up to) (?P<to>{THE}[^,]+?)|(?P<back>back)))?"
+
+
+def _meet(found: Match[str], reading: Reading) -> Meaning:
+    if _SEEKS.match(found[0]) and several(found["who"]) is not None:
+        place = place_of(where(found, "at"), reading)
+        return place if isinstance(place, Problem) else one_at_a_time(found["who"], place, reading)
+    return meet(found["who"], where(found, "at"), reading)
+
+
+def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
+    """Drive up to somebody whom eyes know for a person; who is only named is met."""
+    who, place = found["who"], place_of(where(found, "at"), reading)
+    if isinstance(place, Problem) or not known(who, reading.things):
+        return _meet(found, reading)
+    if several(who) is not None:
+        return one_at_a_time(who, place, reading)
+    person = label_of(who, reading)
+    return Steps((GoToObject(object=person, place=place),), person=person)
+
+
+def _greet(found: Match[str], reading: Reading) -> Meaning:
+    hello = spoken("Hello!", "你好！", reading)
+    name = label_of(found["who"], reading) if found["who"] not in ("them", "him", "her") else ""
+    said = f"Hello, {name}!" if name[:1].isupper() else hello
+    return meet(found["who"], where(found, "at"), reading, said)
+
+
+def _present_itself(found: Match[str], reading: Reading) -> Meaning:
+    said = told(Topic.SELF, None)
+    words = said.of(reading.language) if said else ""
+    return meet(found["who"], where(found, "at"), reading, words)
+
+
+def _follow(found: Match[str], reading: Reading) -> Meaning:
+    return follow(found["who"], where(found, "at") or found["start"], found["to"], reading)
+
+
+def _guide(found: Match[str], reading: Reading) -> Meaning:
+    start = found["found"] or where(found, "at") or found["start"]
+    return guide(found["who"], start, found["to"] or found["back"], reading)
+
+
+def _introduce(found: Match[str], reading: Reading) -> Meaning:
+    """Lead one person to another, and name both."""
+    first = meet(found["who"], where(found, "at"), reading)
+    if not isinstance(first, Steps):
+        return first
+    then = ahead(reading, first)
+    second = meet(found["other"], where(found, "at2"), then)
+    if not isinstance(second, Steps):
+        return second
+    words = spoken(f"This is {first.person}.", f"这是{first.person}。", reading)
+    come = Say(text=spoken("Please come with me.", "请跟我来。", reading))
+    return Steps((*first.steps, come, *second.steps, Say(text=words)), person=second.person)
+
+
+def _tell(found: Match[str], reading: Reading) -> Meaning | None:
+    """Tell a topic: to whoever is there, or to somebody who is found first."""
+    topic = topic_of(found["topic"])
+    if topic is None:
+        return None
+    who = found.groupdict().get("who")
+    if who is None:
+        return About(topic)
+    said = told(topic, reading.now)
+    return meet(who, where(found, "at"), reading, said.of(reading.language)) if said else None
+
+
+def _tell_words(found: Match[str], reading: Reading) -> Meaning:
+    words = found["words"]
+    return meet(found["who"], where(found, "at"), reading, reading.marked.restore(words)[:500])
+
+
+def _quote_to(found: Match[str], reading: Reading) -> Meaning:
+    words = reading.quotes[ord(found["quote"]) - ord(QUOTE[1])]
+    return meet(found["who"], where(found, "at"), reading, words[:500])
+
+
+def _request(found: Match[str], reading: Reading) -> Meaning:
+    words = f"Please {reading.marked.restore(found['deed'])}."
+    if found["who"] is None:
+        return saying(words, reading)
+    return meet(found["who"], where(found, "at"), reading, words[:500])
+
+
+def _ask(found: Match[str], reading: Reading) -> Meaning:
+    question = Ask(question=reading.marked.restore(found["question"])[:500])
+    if found["who"] is None:
+        return Steps((question,))
+    met = meet(found["who"], where(found, "at"), reading)
+    return Steps((*met.steps, question), person=met.person) if isinstance(met, Steps) else met
+
+
+def _describe(found: Match[str], reading: Reading) -> Meaning:
+    """Look at somebody or something and tell about it, here or to another person."""
+    seen = look(found["what"], where(found, "at"), reading)
+    if not isinstance(seen, Steps) or not found.groupdict().get("who"):
+        return seen
+    met = meet(found["who"], where(found, "at2"), ahead(reading, seen))
+    if not isinstance(met, Steps):
+        return met
+    tell = Decide(question=reading.marked.restore(found[0])[:500])
+    return Steps((*seen.steps, *met.steps, tell), person=met.person, seen=True)
+
+
+def _no_dialogue(found: Match[str], reading: Reading) -> Meaning:
+    """Say no to a conversation; offer to go to whom it is to be held with."""
+    who = found.groupdict().get("who")
+    met = meet(who, where(found, "at"), reading) if who else None
+    before = met.steps if isinstance(met, Steps) else ()
+    return reading.problem(Code.NO_CAPABILITY, found[0], before)
+
+
+_AT = loc("at")
+_WHO = rf"(?P<who>{PERSON})"
+
+RULES: tuple[Rule, ...] = (
+    rule(rf"introduce (?P<who>{PERSON}){_AT} to (?P<other>{PERSON}){loc('at2')}", _introduce),
+    rule(rf"(?:introduce|present) yourself(?: to {_WHO}{_AT})", _present_itself),
+    rule(rf"{_GREET} {_WHO}{_AT}", _greet),
+    rule(
+        rf"(?:answer|reply to|take|respond to) (?:a|an|the|some|any|his|her|their)?(?: |)questions?"
+        rf"(?: (?:to|of|from|by|for) {_WHO}{_AT})?",
+        _no_dialogue,
+    ),
+    rule(
+        r"(?:tell|say|speak|give|report|announce)(?: (?:me|"
+        rf"us))? ?(?P<topic>{DESCRIPTION})(?: to {_WHO}{_AT})?",
+        _tell,
+    ),
+    rule(rf"tell {_WHO}{_AT} (?P<topic>{DESCRIPTION})", _tell),
+    rule(rf"(?:say|announce|tell) ?(?P<quote>{QUOTE}) to {_WHO}{_AT}", _quote_to),
+    rule(rf"tell {_WHO}{_AT} ?(?P<quote>{QUOTE})", _quote_to),
+    rule(
+        rf"{_FOLLOW} (?P<who>me|us|{PERSON}){_AT}"
+        rf"(?: (?:from|starting at) (?P<start>{THE}{MARK}))?(?: (?:to|into) (?P<to>{THE}{MARK}))?",
+        _follow,
+    ),
+    rule(
+        rf"{_GUIDE} {_WHO}{_AT}(?: from (?P<start>{THE}{MARK}))?{_TO}{_FOUND}",
+        _guide,
+    ),
+    rule(rf"{_FIND} {_WHO}{_AT}", _meet),
+    rule(rf"{_GO_UP} {_WHO}{_AT}", _go_up_to),
+    rule(
+        r"(?:describe|tell (?:me|us) (?:about|how(?! many))|report (?:about|"
+        rf"on)) (?P<what>{DESCRIPTION}){_AT}"
+        rf"(?: (?:looks?(?: like)?|is|are))?(?: to (?:me|us|(?P<who>{PERSON}){loc('at2')}))?",
+        _describe,
+    ),
+    rule(
+        rf"(?:tell|ask|let|have|make|invite|remind|order) (?P<who>{PERSON}){_AT} to (?P<deed>.+)",
+        _request,
+    ),
+    rule(
+        rf"ask(?: (?P<who>{PERSON}){_AT})? (?P<question>(?:what|where|who|how|when|why|which|for|"
+        r"about|their|his|her) .+)",
+        _ask,
+    ),
+    rule(
+        rf"(?:tell|inform|remind) (?P<who>{PERSON}){_AT} (?:that )?(?P<words>(?!(?:in|at|on|near|"
+        r"by|from) )[^,]+)",
+        _tell_words,
+    ),
+    rule(
+        rf"(?:chat|talk|converse|have a (?:chat|talk|conversation))(?: (?:with|to) {_WHO}{_AT})?",
+        _no_dialogue,
+    ),
+    rule(
+        r"(?:wave|bow|nod|shake hands|handshake|high five|hug|kiss|dance|sing|call|phone)\b.*",
+        lacks(Code.NO_CAPABILITY),
+    ),
+)

@@ -1,0 +1,208 @@
+"""Find the vocabulary's names in a sentence, exactly or by a typo that can mean nothing else.
+
+Names found exactly are replaced by one private character each, so that a grammar can treat "the
+dining table" as one word. Spaces and hyphens inside a name do not matter; its borders do.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import lru_cache
+
+from rapidfuzz.distance import OSA
+from rapidfuzz.fuzz import ratio
+
+from planner.language.grammar.normalisation import squash
+from planner.plan import Bilingual, Entry, Vocabulary
+
+FIRST_MARK = 0xE000
+MARKS = 2048  # no sentence of readable length names more places
+MARK = rf"[{chr(FIRST_MARK)}-{chr(FIRST_MARK + MARKS - 1)}]"
+
+FIRST_NAME = 0xE900
+NAMES = 256
+NAME = rf"[{chr(FIRST_NAME)}-{chr(FIRST_NAME + NAMES - 1)}]"
+"""What stands for a person's name."""
+
+# "home" is a step of its own (return_home), whatever a site calls its home.
+_RESERVED = frozenset({"home", "base", "家", "here", "there", "it", "back"})
+_PIECE = re.compile(r"[a-z0-9']+|\S")
+_TYPO_LETTERS = 6  # shorter words have too many neighbours that are words: desk/deck, couch/coach
+_SLIPS = (
+    re.compile(r"(?<![a-z'])[a-z]{3,} [a-z]{3,}(?![a-z'])"),
+    re.compile(r"(?<![a-z'])[a-z]{5,}(?![a-z'])"),
+)
+_NEAR = 66.0  # of 100; below it two names only share letters
+_TYPO_ROOM = 3  # no other place may be this near
+
+
+@dataclass(frozen=True, slots=True)
+class Mention:
+    """Remember which places a marked name can mean, and how it was written."""
+
+    ids: tuple[str, ...]
+    written: str
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """Hold a sentence whose place names are private characters, and what they stand for."""
+
+    text: str
+    mentions: tuple[Mention, ...]
+    people: tuple[str, ...] = ()  # names of persons, marked by FIRST_NAME and up
+
+    def mention(self, mark: str) -> Mention:
+        """Return what a private character stands for."""
+        return self.mentions[ord(mark) - FIRST_MARK]
+
+    def restore(self, part: str) -> str:
+        """Write a part of the sentence with its names again."""
+        named = re.sub(MARK, lambda found: self.mention(found[0]).written, part).strip()
+        return re.sub(NAME, lambda found: self.people[ord(found[0]) - FIRST_NAME], named)
+
+
+class Lexicon:
+    """Know every spelling of every place of one vocabulary."""
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        ids: dict[str, list[str]] = defaultdict(list)
+        spaced: dict[str, str] = {}
+        for entry in vocabulary.entries:
+            for spelling in entry.spellings:
+                key = squash(spelling)
+                if key and key not in _RESERVED and entry.id not in ids[key]:
+                    ids[key].append(entry.id)
+                    spaced.setdefault(key, " ".join(spelling.casefold().split()))
+        self._ids = {key: tuple(found) for key, found in ids.items() if found}
+        self._spaced = spaced
+        self._longest = max(map(len, self._ids), default=0)
+
+    def mark(self, text: str) -> Marked:
+        """Replace each place name of a normalised sentence, the longest first."""
+        pieces = [(found.start(), found.end()) for found in _PIECE.finditer(text)]
+        out: list[str] = []
+        mentions: list[Mention] = []
+        at, copied = 0, 0
+        while at < len(pieces):
+            after = self._match(text, pieces, at)
+            if after > at and len(mentions) < MARKS:
+                start, end = pieces[at][0], pieces[after - 1][1]
+                key = _joined(text, pieces, at, after)
+                out += (text[copied:start], chr(FIRST_MARK + len(mentions)))
+                mentions.append(Mention(self._ids[key], text[start:end]))
+                copied = end
+            at = max(after, at + 1)
+        return Marked("".join(out) + text[copied:], tuple(mentions))
+
+    def mark_slips(self, marked: Marked) -> Marked:
+        """Replace misspelt place names as well, where one can mean nothing else."""
+        mentions = list(marked.mentions)
+        text = marked.text
+        for pattern in _SLIPS:
+            text = pattern.sub(lambda found: self._slip(found[0], mentions), text)
+        return Marked(text, tuple(mentions))
+
+    def _slip(self, written: str, mentions: list[Mention]) -> str:
+        place = self.typo(written) if len(mentions) < MARKS else None
+        if place is None:
+            return written
+        mentions.append(Mention((place,), written))
+        return chr(FIRST_MARK + len(mentions) - 1)
+
+    def _match(self, text: str, pieces: list[tuple[int, int]], at: int) -> int:
+        """Return the piece after the longest name that starts here, or `at` where none does."""
+        best, key = at, ""
+        for after in range(at, len(pieces)):
+            key += text[slice(*pieces[after])].replace("'", "")
+            if len(key) > self._longest:
+                break
+            if key in self._ids:
+                best = after + 1
+        return best
+
+    def typo(self, name: str) -> str | None:
+        """Return the one place that a misspelt name can mean, or None where in any doubt.
+
+        One letter wrong, missing, doubled or swapped, inside a word of six letters or more, and no
+        other place within three: "kitchn" is the kitchen; "dining room" is no living room, and
+        "bedroom 2" no bedroom 1.
+        """
+        key = squash(name)
+        if len(key) > self._longest + 1 or not key.isascii() or not key.isalpha():
+            return None
+        near = {
+            place
+            for spelling, places in self._ids.items()
+            for place in places
+            if OSA.distance(key, spelling, score_cutoff=_TYPO_ROOM) <= _TYPO_ROOM
+        }
+        sure = {
+            place
+            for spelling, places in self._ids.items()
+            for place in places
+            if place in near and _one_slip(name, self._spaced[spelling])
+        }
+        return next(iter(sure)) if len(sure) == 1 and near == sure else None
+
+    def own_name(self, entry: Entry) -> Bilingual:
+        """Return a place's name, or its id in words where another place has the same name."""
+        words = entry.id.replace("_", " ")
+        en, zh = entry.name.en, entry.name.zh
+        return Bilingual(en=en if self._only(en) else words, zh=zh if self._only(zh) else words)
+
+    def _only(self, name: str) -> bool:
+        return len(self._ids.get(squash(name), ())) == 1
+
+    def near(self, name: str, limit: int = 3) -> tuple[str, ...]:
+        """Return the places whose names look most like an unknown one, for a person to choose."""
+        key = squash(name[:80])
+        scored: dict[str, float] = {}
+        for spelling, places in self._ids.items():
+            score = ratio(key, spelling)
+            if not spelling.isascii() and set(key) & set(spelling):
+                score = max(score, _NEAR)  # one character of two is already near in Chinese
+            for place in places:
+                scored[place] = max(score, scored.get(place, 0.0))
+        best = sorted(scored, key=lambda place: -scored[place])
+        return tuple(place for place in best[:limit] if scored[place] >= _NEAR)
+
+
+def _joined(text: str, pieces: list[tuple[int, int]], at: int, after: int) -> str:
+    return "".join(text[slice(*piece)] for piece in pieces[at:after]).replace("'", "")
+
+
+def _one_slip(written: str, name: str) -> bool:
+    """Tell whether exactly one inner letter of one long word is wrong."""
+    ours, theirs = written.split(), name.split()
+    if len(ours) != len(theirs):
+        ours, theirs = ["".join(ours)], ["".join(theirs)]
+    wrong = [(a, b) for a, b in zip(ours, theirs, strict=True) if a != b]
+    if len(wrong) != 1:
+        return False
+    (a, b) = wrong[0]
+    same_ends = a[0] == b[0] and a[-1] == b[-1]
+    return len(b) >= _TYPO_LETTERS and same_ends and OSA.distance(a, b) == 1
+
+
+@lru_cache(maxsize=16)
+def _built(vocabulary: Vocabulary) -> Lexicon:
+    return Lexicon(vocabulary)
+
+
+_KEPT: dict[int, tuple[Vocabulary, Lexicon]] = {}
+"""By identity: comparing two vocabularies costs more than reading a sentence."""
+
+
+def lexicon_of(vocabulary: Vocabulary) -> Lexicon:
+    """Return the lexicon of a vocabulary, built once."""
+    kept = _KEPT.get(id(vocabulary))
+    if kept is not None and kept[0] is vocabulary:
+        return kept[1]
+    lexicon = _built(vocabulary)
+    if len(_KEPT) >= 16:
+        _KEPT.clear()
+    _KEPT[id(vocabulary)] = (vocabulary, lexicon)
+    return lexicon

@@ -1,0 +1,160 @@
+"""Own what one clause can mean: steps, a question to the robot, or a problem with its code."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from re import Match, Pattern
+
+from planner.language.grammar.lexicon import MARK, Lexicon, Marked
+from planner.language.grammar.small_talk import Topic
+from planner.plan import Bilingual, Code, Find, Language, Step, Turn, Vocabulary
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """Hold the steps that a clause orders, and of whom or what it spoke."""
+
+    steps: tuple[Step, ...]
+    person: str | None = None
+    thing: str | None = None
+    part: str = ""  # the clause, as said
+    seen: bool = False  # something is looked at, which a later clause may ask to be told
+
+
+@dataclass(frozen=True, slots=True)
+class About:
+    """Hold a question to the robot."""
+
+    topic: Topic
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Say why a clause can't be done: the part of the sentence, and what may be offered."""
+
+    code: Code
+    part: str
+    places: tuple[str, ...] = ()  # places the clause names: offered, never driven to unasked
+    before: tuple[Step, ...] = ()  # what could be done of the clause, or ahead of it
+    name: str = ""  # the unknown name
+    what: Bilingual | None = None  # what is missing
+    instead: tuple[Step, ...] = ()  # offered in its stead: it was asked about, not ordered
+    choices: tuple[tuple[Step, ...], ...] = ()  # offered in its stead, one of them
+
+
+Meaning = Steps | About | Problem
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """Hold one clause, and whether it opens or closes the sentence or follows a go-to."""
+
+    text: str
+    first: bool
+    last: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Remember what the clauses before spoke of, for "there", "her" and "it"."""
+
+    place: str | None = None
+    person: str | None = None
+    thing: str | None = None
+    seen: bool = False
+    kind: str = ""  # of the last step
+    met: str | None = None  # where somebody was met: "take them back"
+    turned_rad: float | None = None  # by the last turn, where nothing was driven since
+
+    def after(self, meaning: Meaning) -> Scene:
+        """Return the scene behind one more clause."""
+        if not isinstance(meaning, Steps):
+            return replace(self, kind="")
+        place = self.place
+        for step in meaning.steps:
+            if step.kind in ("go_to", "patrol", "find", "count", "look"):
+                named = (
+                    getattr(step, "place", None) or (getattr(step, "places", None) or (None,))[-1]
+                )
+                place = named or place
+            elif step.kind in ("come_back", "return_home", "move", "follow"):
+                place = None
+        finds = [step for step in meaning.steps if isinstance(step, Find)]
+        met = (finds[0].place if meaning.person and finds else None) or self.met
+        return Scene(
+            met=met,
+            place=place,
+            person=meaning.person or self.person,
+            thing=meaning.thing or self.thing,
+            seen=self.seen or meaning.seen,
+            kind=meaning.steps[-1].kind if meaning.steps else self.kind,
+            turned_rad=_turned_rad(self.turned_rad, meaning.steps),
+        )
+
+
+def _turned_rad(before_rad: float | None, steps: Sequence[Step]) -> float | None:
+    """Return the last turn [rad]; None where the robot has driven, or searched, since."""
+    for step in steps:
+        if isinstance(step, Turn):
+            before_rad = step.angle_rad
+        elif step.kind not in ("look", "say", "wait", "ask"):
+            before_rad = None
+    return before_rad
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """Carry what the rules of a grammar need besides the clause."""
+
+    marked: Marked
+    lexicon: Lexicon
+    vocabulary: Vocabulary
+    language: Language
+    quotes: tuple[str, ...] = ()
+    now: datetime | None = None
+    things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
+    scene: Scene = field(default_factory=Scene)
+    opens: bool = False  # the clause opens the sentence, and others follow
+
+    @property
+    def going(self) -> bool:
+        """Tell whether the clause before drove somewhere: "…, then the bedroom"."""
+        return self.scene.kind in ("go_to", "patrol")
+
+    def at(self, clause: Clause, scene: Scene) -> Reading:
+        """Return the reading of one clause after another."""
+        return replace(self, scene=scene, opens=clause.first and not clause.last)
+
+    def problem(
+        self,
+        code: Code,
+        part: str,
+        before: tuple[Step, ...] = (),
+        what: Bilingual | None = None,
+    ) -> Problem:
+        """Name the part of the sentence that makes trouble, with the places it mentions."""
+        ids = [self.marked.mention(char).ids for char in part if MARK[1] <= char <= MARK[3]]
+        sure = tuple(dict.fromkeys(found[0] for found in ids if len(found) == 1))
+        return Problem(code, self.marked.restore(part), sure, before, what=what)
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """Read a clause that matches the pattern whole; what the pattern leaves out is unread."""
+
+    pattern: Pattern[str]
+    build: Callable[[Match[str], Reading], Meaning | None]
+
+
+def read_by(rules: Sequence[Rule], clause: str, reading: Reading) -> Meaning:
+    """Return what the first fitting rule reads; a clause that no rule reads whole is a problem."""
+    for rule in rules:
+        found = rule.pattern.fullmatch(clause)
+        meaning = rule.build(found, reading) if found else None
+        if isinstance(meaning, Steps):
+            return replace(meaning, part=reading.marked.restore(clause))
+        if meaning is not None:
+            return meaning
+    return reading.problem(Code.NOT_UNDERSTOOD, clause)

@@ -1,0 +1,245 @@
+"""Read a sentence into a plan: the offline brain, as one pure function.
+
+The law: every word of the sentence is accounted for by the grammar, or nothing moves; and every
+place that a plan drives to is named by the sentence.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from itertools import chain
+
+from planner.language.folding import has_chinese
+from planner.language.grammar.clause_order import in_order
+from planner.language.grammar.denial import withholds_offers
+from planner.language.grammar.en.driving import TALK
+from planner.language.grammar.en.orders import ENGLISH
+from planner.language.grammar.grammar import Grammar
+from planner.language.grammar.input_checks import EXAMPLE, refuse_bad_text
+from planner.language.grammar.lexicon import MARK, Marked, lexicon_of
+from planner.language.grammar.multi_place import Heard, at_each
+from planner.language.grammar.normalisation import normalise
+from planner.language.grammar.parse_result import (
+    About,
+    Meaning,
+    Problem,
+    Reading,
+    Scene,
+    Steps,
+    read_by,
+)
+from planner.language.grammar.person_names import mark_people
+from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
+from planner.language.grammar.quoted_speech import take_quotes
+from planner.language.grammar.refused_orders import TAMPERING, broken_rule
+from planner.language.grammar.typos import mend, words_of
+from planner.language.grammar.vetoes import vetoed
+from planner.language.grammar.zh.driving import TALK as ZH_TALK
+from planner.language.grammar.zh.orders import CHINESE
+from planner.language.identification import language_of
+from planner.language.stop import is_stop
+from planner.plan import (
+    NEEDS_CAMERA,
+    RUNNABLE,
+    Answer,
+    Clarify,
+    Code,
+    Frozen,
+    GoTo,
+    Language,
+    Option,
+    Patrol,
+    Refuse,
+    StepPlan,
+    Vocabulary,
+    lacking,
+    message,
+)
+
+_OTHER = rf"(?:{MARK}|[\u3400-\u9fff])"
+_SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
+_BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
+_LATIN = re.compile(r"[a-z]")
+
+_SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
+
+
+class Context(Frozen):
+    """Tell a brain what it may know besides the sentence: where and when it is, what it can do."""
+
+    room: str | None = None
+    language: Language | None = None
+    now: datetime | None = None  # for "what time is it"
+    runnable: frozenset[str] = RUNNABLE  # kinds of steps the robot can do
+    blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
+    things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
+
+
+NOWHERE = Context()
+
+
+def plan(
+    text: str, vocabulary: Vocabulary, context: Context = NOWHERE
+) -> StepPlan | Answer | Clarify | Refuse:
+    """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
+    refused = refuse_bad_text(text)
+    if refused is not None:
+        return refused
+    if is_stop(text):  # the stop lane comes first; should one get here, it stays a stop
+        return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
+    apart, quotes = take_quotes(text)
+    said = normalise(apart)
+    sentence = _Sentence(text, apart, quotes)
+    made = _offering(said, sentence, vocabulary, context)
+    if isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD:
+        mended = mend(said, _SPELT)  # only now: "the green cup" is no "greet"
+        if mended != said:
+            second = _offering(mended, sentence, vocabulary, context)
+            lost = isinstance(second, Clarify) and second.code is Code.NOT_UNDERSTOOD
+            return made if lost else second
+    return made
+
+
+@dataclass(frozen=True, slots=True)
+class _Sentence:
+    """Hold a sentence as written, without its quotations, and these."""
+
+    text: str
+    apart: str
+    quotes: tuple[str, ...]
+
+
+def _offering(
+    said: str, sentence: _Sentence, vocabulary: Vocabulary, context: Context
+) -> StepPlan | Answer | Clarify | Refuse:
+    """Read a sentence; where an option would be no order by itself, ask without any."""
+    made = _understood(said, sentence, vocabulary, context)
+    options = made.options if isinstance(made, Clarify) else ()
+    if all(_reads_back(option, vocabulary, context) for option in options):
+        return made
+    return _understood(said, sentence, vocabulary, context, offers=False)
+
+
+def _reads_back(option: Option, vocabulary: Vocabulary, context: Context) -> bool:
+    """Tell whether an option's text is by itself an order that is planned."""
+    apart, quotes = take_quotes(option.text)
+    sentence = _Sentence(option.text, apart, quotes)
+    made = _understood(normalise(apart), sentence, vocabulary, context)
+    return isinstance(made, StepPlan)
+
+
+def _understood(
+    said: str,
+    sentence: _Sentence,
+    vocabulary: Vocabulary,
+    context: Context,
+    offers: bool = True,
+) -> StepPlan | Answer | Clarify | Refuse:
+    """Read a normalised sentence once."""
+    text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
+    lexicon = lexicon_of(vocabulary)
+    marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
+    language = context.language or language_of(text)
+    offers = offers and not withholds_offers(marked.text)
+    setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers)
+    vetoed = _vetoed(marked, setting)
+    if vetoed is not None:
+        return vetoed
+    bare = _BORDERS.sub("", marked.text)
+    things = context.things if "go_to_object" in context.runnable else frozenset()
+    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now, things)
+    topic = read_by((*TALK, *ZH_TALK), bare, reading)
+    if isinstance(topic, About):
+        return compose([topic], bare, setting)
+    ordered = replace(marked, text=in_order(marked.text))
+    meanings = [
+        _within(meaning, context.runnable, context.blind)
+        for meaning in _meanings(
+            ordered, reading, Language.ZH if has_chinese(text) else Language.EN
+        )
+    ]
+    if not meanings:
+        return Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example=EXAMPLE))
+    return compose(meanings, marked.restore(marked.text), setting)
+
+
+def _within(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
+    """Turn steps that this robot can't do into the problem that it lacks the means."""
+    if isinstance(meaning, Problem):
+        can = tuple(step for step in meaning.before if step.kind in runnable)
+        offered = chain(meaning.instead, *meaning.choices)
+        if all(step.kind in runnable for step in offered):
+            return replace(meaning, before=can)
+        return Problem(blind, meaning.part, before=can)
+    lacks = (
+        [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
+    )
+    if not lacks or not isinstance(meaning, Steps):
+        return meaning
+    code = blind if any(s.kind in NEEDS_CAMERA for s in lacks) else lacking(lacks[0])
+    patrolled = [p for s in lacks if isinstance(s, Patrol) for p in s.places]
+    can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
+    can = (*can, *(GoTo(place=place) for place in patrolled))
+    return Problem(code, meaning.part, before=can)
+
+
+def _vetoed(marked: Marked, setting: Setting) -> StepPlan | Answer | Clarify | Refuse | None:
+    """Look for words that turn an order into something else, in both languages at once."""
+    text = marked.restore(marked.text)
+    if TAMPERING.pattern.search(text):
+        return unsafe(TAMPERING.rule, text)
+    found = vetoed(asks_whether(marked.text), (ENGLISH.vetoes, CHINESE.vetoes))
+    if found is None or not found.denies:  # "don't hit the wall" is a no; "hit the wall" a rule
+        rule = broken_rule(marked.text)
+        if rule is not None:
+            return unsafe(rule, text)
+    return veto(found, marked, setting) if found else None
+
+
+_WHETHER = re.compile(
+    r"\b(tell (?:me|us)|check|see|look|find out|report) (?:if|whether)\b"
+    r"|(?<=[看查认下])(?:一下|看)?(?:是否|是不是|有没有)"
+)
+
+
+_A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
+"""看看她在不在: to be looked at, no negation."""
+
+_DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?[着了])没有?(?=[,。;!?]|$)")
+"""看看电视开着没有, 看看门关了没: likewise."""
+
+
+def asks_whether(text: str) -> str:
+    """Return the text without the "if" of a question that looking answers: no condition."""
+    plain = _DONE_OR_NOT.sub(r"\1", _A_NOT_A.sub(r"\1\2", text))
+    return _WHETHER.sub(lambda found: found[1] or "有", plain)
+
+
+def _meanings(marked: Marked, reading: Reading, language: Language) -> list[Meaning]:
+    """Read the clauses; a Chinese sentence with Latin words is also tried as an English one."""
+    if language is Language.EN:
+        return _read(ENGLISH, marked.text, reading)
+    meanings = _read(CHINESE, marked.text, reading)
+    if _LATIN.search(marked.text) and _lost(meanings):
+        mixed = _read(ENGLISH, _SEAM.sub(" ", marked.text), reading)
+        return meanings if _lost(mixed) else mixed
+    return meanings
+
+
+def _lost(meanings: Sequence[Meaning]) -> bool:
+    lost = {Code.NOT_UNDERSTOOD, Code.UNKNOWN_PLACE}
+    return any(isinstance(meaning, Problem) and meaning.code in lost for meaning in meanings)
+
+
+def _read(grammar: Grammar, text: str, reading: Reading) -> list[Meaning]:
+    heard: list[Heard] = []
+    scene = Scene()
+    for clause in grammar.clauses(text):
+        here = reading.at(clause, scene)
+        meaning = grammar.read(clause, here)
+        heard.append(Heard(clause, meaning, here))
+        scene = scene.after(meaning)
+    return list(at_each(heard, grammar.read))

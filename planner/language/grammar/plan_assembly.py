@@ -1,0 +1,245 @@
+"""Make one plan of what the clauses mean: all of them, or a question, or an honest no.
+
+One clause that can't be read or done holds the whole sentence back; what could be done without it
+is offered, never done unasked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
+
+from planner.language.grammar.lexicon import Lexicon, Marked
+from planner.language.grammar.parse_result import About, Meaning, Problem, Steps
+from planner.language.grammar.small_talk import Topic, told
+from planner.language.grammar.step_text import option, sentence
+from planner.language.grammar.vetoes import Veto
+from planner.plan import (
+    DRIVES,
+    MAX_STEPS,
+    Answer,
+    Bilingual,
+    Clarify,
+    Code,
+    ComeBack,
+    Count,
+    Find,
+    GoTo,
+    Language,
+    Option,
+    Patrol,
+    Refuse,
+    ReturnHome,
+    Say,
+    Step,
+    StepPlan,
+    Vocabulary,
+    message,
+    same,
+)
+
+# What no other wording can mend is told first.
+_RANK = (
+    Code.UNSAFE,
+    Code.NO_CAPABILITY,
+    Code.NO_CAMERA,
+    Code.NO_DETECTOR,
+    Code.BAD_PLAN,
+    Code.NOT_UNDERSTOOD,
+    Code.UNKNOWN_PLACE,
+    Code.INCOMPLETE,
+    Code.AMBIGUOUS,
+)
+_LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA, Code.NO_DETECTOR})
+_SHOWN = 60  # characters of the sentence that a message repeats
+_SPAN = Bilingual(en="a wait is at most 600 seconds", zh="等待时间最多 600 秒")
+_ONLY = Bilingual(en=" Shall I do only this: {order}?", zh="要不要只做这些：{order}？")
+_NO_ROOM = Bilingual(en="I don't know where I am yet.", zh="我还不知道自己在哪里。")
+_I_KNOW = Bilingual(en="I can drive to: {names}.", zh="我可以去：{names}。")
+_I_AM_IN = Bilingual(en="I am in the {name}.", zh="我在{name}。")
+
+Plan = StepPlan | Answer | Clarify | Refuse
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """Carry what plans are made against: the names, the language, and where the robot is."""
+
+    vocabulary: Vocabulary
+    lexicon: Lexicon
+    language: Language
+    room: str | None
+    now: datetime | None = None
+    offers: bool = True  # false where the sentence denies: what it names may be what it forbids
+
+    def button(self, steps: Sequence[Step]) -> Option:
+        """Return a button that stands for these steps."""
+        return option(steps, self.vocabulary, self.lexicon, self.language)
+
+
+def compose(meanings: Sequence[Meaning], text: str, setting: Setting) -> Plan:
+    """Return the plan of a sentence from the meanings of its clauses."""
+    problems = [meaning for meaning in meanings if isinstance(meaning, Problem)]
+    if problems:
+        worst = min(problems, key=lambda problem: _RANK.index(problem.code))
+        return _explain(worst, problems, meanings, setting)
+    if len(meanings) == 1 and isinstance(meanings[0], About):
+        return _answer(meanings[0].topic, setting)
+    meanings = [_aloud(meaning, setting) for meaning in meanings]
+    steps = _joined(_steps_of(meanings))
+    if not steps or any(isinstance(meaning, About) for meaning in meanings):
+        return _ask(Problem(Code.NOT_UNDERSTOOD, text), (), setting)
+    return _checked(steps, text, setting)
+
+
+def veto(found: Veto, marked: Marked, setting: Setting) -> Plan:
+    """Return the no, or for "or" the question, to a sentence that may not be read as an order."""
+    part = marked.restore(found.part)
+    if found.code not in (Code.AMBIGUOUS, Code.NOT_UNDERSTOOD):
+        return Refuse(code=found.code, reason=message(found.code, part=_cut(part)))
+    named = dict.fromkeys(m.ids[0] for m in marked.mentions if len(m.ids) == 1)
+    several = found.code is Code.AMBIGUOUS or len(named) == 1
+    buttons = tuple(setting.button((GoTo(place=place),)) for place in named)
+    return _ask(Problem(found.code, part), buttons if several and found.only else (), setting)
+
+
+def unsafe(rule: Bilingual, part: str) -> Refuse:
+    """Return the no to an order that would do harm, with the rule that it breaks."""
+    return Refuse(code=Code.UNSAFE, reason=message(Code.UNSAFE, part=_cut(part), rule=rule))
+
+
+def _aloud(meaning: Meaning, setting: Setting) -> Meaning:
+    """Say what a topic tells, where it is one part of an order."""
+    words = told(meaning.topic, setting.now) if isinstance(meaning, About) else None
+    return Steps((Say(text=words.of(setting.language)),)) if words else meaning
+
+
+def _joined(steps: Sequence[Step]) -> tuple[Step, ...]:
+    """Join patrols that follow each other: "the kitchen and the study" are one round."""
+    joined: list[Step] = []
+    for step in steps:
+        before = joined[-1] if joined else None
+        if isinstance(step, Patrol) and isinstance(before, Patrol) and before.places != step.places:
+            joined[-1] = Patrol(places=(*before.places, *step.places)[:MAX_STEPS])
+        else:
+            joined.append(step)
+    return tuple(joined)
+
+
+def _checked(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
+    if len(steps) > MAX_STEPS:
+        why = Bilingual(
+            en=f"{len(steps)} steps; at most {MAX_STEPS}",
+            zh=f"{len(steps)} 步，最多 {MAX_STEPS} 步",
+        )
+        return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=why))
+    drives = (step for step in steps if step.kind in DRIVES or isinstance(step, Count))
+    first = next(drives, None)
+    if isinstance(first, ComeBack):  # back from where? nothing was driven before it
+        home = (setting.button((ReturnHome(),)),)
+        return _ask(Problem(Code.AMBIGUOUS, text), home, setting)
+    return StepPlan(steps=steps)
+
+
+def _explain(
+    worst: Problem, problems: Sequence[Problem], meanings: Sequence[Meaning], setting: Setting
+) -> Plan:
+    alone = len(problems) == 1
+    if worst.code in _LACKING:
+        understood = all(problem.code in _LACKING for problem in problems)
+        return _lacking(worst, _offer(meanings) if understood else (), setting)
+    if worst.code is Code.BAD_PLAN:
+        return Refuse(code=worst.code, reason=message(worst.code, why=worst.what or _SPAN))
+    if worst.code is Code.NOT_UNDERSTOOD:
+        offered = _offer(meanings)
+        # Of two places the order was not understood either.
+        certain = len(offered) == 1 and _drives(offered)
+        return _ask(worst, (setting.button(offered),) if certain else (), setting)
+    stead = worst.choices or ((worst.instead,) if worst.instead else ())
+    stead = stead or tuple((GoTo(place=place),) for place in worst.places)
+    choices = stead if alone else ()
+    options = tuple(setting.button(_steps_of(meanings, worst, steps)) for steps in choices)
+    return _ask(worst, options, setting)
+
+
+def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Plan:
+    said = message(worst.code, part=_cut(worst.part))
+    if not _drives(offered) or not setting.offers:
+        return Refuse(code=worst.code, reason=said)
+    order = sentence(offered, setting.vocabulary, setting.lexicon)
+    question = Bilingual(
+        en=said.en + _ONLY.en.format(order=order.en),
+        zh=said.zh + _ONLY.zh.format(order=order.zh),
+    )
+    return Clarify(code=worst.code, question=question, options=(setting.button(offered),))
+
+
+def _ask(problem: Problem, options: tuple[Option, ...], setting: Setting) -> Clarify:
+    if problem.code is Code.INCOMPLETE:
+        what = problem.what or same("?")
+        question = message(problem.code, part=_cut(problem.part), what=what)
+    elif problem.code is Code.UNKNOWN_PLACE:
+        question = _unknown(problem, setting)
+    else:
+        question = message(problem.code, part=_cut(problem.part))
+    return Clarify(code=problem.code, question=question, options=options if setting.offers else ())
+
+
+def _unknown(problem: Problem, setting: Setting) -> Bilingual:
+    vocabulary = setting.vocabulary
+    names = [vocabulary.name(place) for place in problem.places if setting.offers]
+    near = Bilingual(
+        en=f" Did you mean {', '.join(name.en for name in names)}?" if names else "",
+        zh=f"您是指{'、'.join(name.zh for name in names)}吗？" if names else "",
+    )
+    return message(problem.code, name=_cut(problem.name), near=near, known=vocabulary.known())
+
+
+def _answer(topic: Topic, setting: Setting) -> Answer:
+    if topic is Topic.PLACES:
+        names = setting.vocabulary.known()
+        return Answer(text=_filled(_I_KNOW, "names", names))
+    words = told(topic, setting.now)
+    if words is not None:
+        return Answer(text=words)
+    if setting.room is None:
+        return Answer(text=_NO_ROOM)
+    return Answer(text=_filled(_I_AM_IN, "name", setting.vocabulary.name(setting.room)))
+
+
+def _filled(text: Bilingual, key: str, fact: Bilingual) -> Bilingual:
+    return Bilingual(en=text.en.format(**{key: fact.en}), zh=text.zh.format(**{key: fact.zh}))
+
+
+def _steps_of(
+    meanings: Sequence[Meaning], instead_of: Problem | None = None, instead: tuple[Step, ...] = ()
+) -> tuple[Step, ...]:
+    """Return all steps in order, one problem replaced by other steps."""
+    steps: list[Step] = []
+    for meaning in meanings:
+        if isinstance(meaning, Steps):
+            steps.extend(meaning.steps)
+        elif meaning is instead_of:
+            steps.extend(instead)
+    return tuple(steps)
+
+
+def _offer(meanings: Sequence[Meaning]) -> tuple[Step, ...]:
+    """Return what could be driven without the parts that can't be done."""
+    steps: list[Step] = []
+    for meaning in meanings:
+        if isinstance(meaning, Steps):
+            steps.extend(meaning.steps)
+        elif isinstance(meaning, Problem):
+            named = meaning.places if meaning.code is not Code.NO_CAPABILITY else ()
+            steps.extend(meaning.before or tuple(GoTo(place=place) for place in named))
+    return tuple(steps[:MAX_STEPS])
+
+
+def _drives(steps: Sequence[Step]) -> bool:
+    return any(isinstance(step, GoTo | ReturnHome | Find | Patrol) for step in steps)
+
+
+def _cut(part: str) -> Bilingual:
+    return same(part if len(part) <= _SHOWN else part[: _SHOWN - 1] + "…")

@@ -1,0 +1,244 @@
+"""Make steps of what a rule found: meet, follow, guide, find, count, look. One way for all tongues.
+
+A person known only by name has to be somewhere that the sentence names; what is missing is asked
+for, never guessed.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from pydantic import ValidationError
+
+from planner.language.grammar.lexicon import MARK, NAME
+from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
+from planner.language.grammar.place_names import go_to
+from planner.language.grammar.quantifiers import ONE_AT_A_TIME, several
+from planner.plan import (
+    MAX_STEPS,
+    Bilingual,
+    Code,
+    Count,
+    Find,
+    Follow,
+    GoTo,
+    Language,
+    Look,
+    Say,
+    Step,
+)
+
+WHERE_IS = Bilingual(en="where is {name}? Name the place.", zh="{name}在哪里？请说出地点。")
+WHERE_TO = Bilingual(en="where to?", zh="要去哪里？")
+HOW_LONG = Bilingual(en="how long? For example: ten seconds.", zh="等多久？例如：十秒。")
+WHO = Bilingual(en="who or what is meant?", zh="指的是谁或什么？")
+WHERE_LOOK = Bilingual(en="in which places? Name them.", zh="看哪些地方？请说出地点。")
+SEARCH = Bilingual(en="shall I go and look for it?", zh="要我去找吗？")
+WHERE_ARE_YOU = Bilingual(en="where are you? Name the place.", zh="您在哪里？请说出地点。")
+
+_SELF = frozenset({"me", "us", "我", "我们"})
+_THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta"})
+_IT = frozenset({"it", "them", "one", "它", "它们"})
+_WHO_IS_THERE = re.compile(r"\b(?:any|some)(?:one|body)\b|\bwho\b|\bpeople\b|有(?:没有)?人|谁|有人")
+"""A question about people: "tell them …" means whoever is found."""
+_ANYBODY = re.compile(r"(?:any|some)(?:one|body)")
+_THERE = frozenset({"there", "over there", "那里", "那儿", "那边"})
+_HERE = frozenset({"here", "over here", "这里", "这儿", "这边"})
+_ARTICLE = re.compile(
+    r"^(?:(?:the|a|an|my|our|your|some|any|that|this|all|all of|of|every|each|me)\s+)+"
+    r"|^(?:这个|那个|一个|一下|一只|一位|一些|所有的?|我的|咱们?的)"
+)
+_AT_HAND = re.compile(
+    r" (?:in (?:all (?:of )?(?:the )?|every |each )rooms?"
+    r"|(?:right |just )?in front of (?:you|me)|ahead(?: of you)?|before you|"
+    r"(?:that |which |who )?you (?:see|saw|found|have seen)|"
+    r"(?:somewhere |anywhere )?in (?:the|this) (?:whole |entire )?(?:house|home|flat))$"
+    r"|^(?:你|您)?(?:前面|面前|眼前|前方)的?(?=.)|^(?:家里|家中|屋里)(?:所有)?的?(?=.)"
+    r"|^(?:所有|全部|每个|各个)的?房间(?:里面?)?的(?=.)"
+)
+"""What says no more of a thing than that the robot is to see it, in the home that it is in."""
+_TITLE = 80
+_DONE = re.compile(r"了|完$|[过吗]$|没有?$")
+"""What no thing's name holds: "找到杯子了吗" and "数完了" tell or ask of what was done."""
+ASIDE = re.compile(
+    r"\b(?:behind (?:you|me|us)|(?:on|to|at|by) (?:your|my|the) (?:left|right)"
+    r"|(?:left|right) of (?:you|me))\b|^[你您我]?的?(?:[身背]后|后[面边方]|[左右]手?[边侧面])的"
+)
+"""A side of the robot: eyes look ahead, and a map has no sides."""
+
+
+def place_of(phrase: str | None, reading: Reading) -> str | Problem | None:
+    """Return the id of a place phrase; None where no place is named and none was before."""
+    if phrase is None or phrase in _THERE:
+        return reading.scene.place
+    if phrase in _HERE:
+        return None
+    meaning = go_to(phrase, reading)
+    if isinstance(meaning, Steps) and isinstance(meaning.steps[0], GoTo):
+        return meaning.steps[0].place
+    return meaning if isinstance(meaning, Problem) else None
+
+
+def arrive(place: str | None, reading: Reading) -> tuple[Step, ...]:
+    """Return the way to a place, where the clauses before have not led there."""
+    there = place is None or (place == reading.scene.place and reading.scene.kind != "follow")
+    return () if there or place is None else (GoTo(place=place),)
+
+
+def label_of(words: str, reading: Reading) -> str:
+    """Return what to look for, in the sentence's own words."""
+    said = _AT_HAND.sub("", reading.marked.restore(words).strip(" ,的"))
+    return _ARTICLE.sub("", said).strip()[:_TITLE]
+
+
+def person_of(words: str, reading: Reading) -> str | Problem:
+    """Return whom a phrase means."""
+    if words in _SELF:
+        return "person"
+    if words in _THEY or words in _IT:
+        known = reading.scene.person
+        return known or reading.problem(Code.INCOMPLETE, words, what=WHO)
+    return label_of(words, reading) or reading.problem(Code.INCOMPLETE, words, what=WHO)
+
+
+def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> Meaning:
+    """Go to where somebody is, and look for them."""
+    person, place = person_of(words, reading), place_of(where, reading)
+    if isinstance(person, Problem):
+        return person
+    if isinstance(place, Problem):
+        return place
+    if place is None and re.search(NAME, words):
+        return missing(WHERE_IS, words, reading, person)
+    # Who was met is still there; who was only asked about may be nowhere.
+    again = words in _THEY and where is None and reading.scene.kind != "look"
+    steps: tuple[Step, ...] = () if again else (Find(object=person, place=place),)
+    said = (Say(text=saying),) if saying else ()
+    return Steps((*arrive(place, reading), *steps, *said), person=person, seen=True)
+
+
+def follow(words: str, start: str | None, end: str | None, reading: Reading) -> Meaning:
+    """Find somebody, follow them, and end at a place where one is named."""
+    found = meet(words, start, reading)
+    to = place_of(end, reading) if end else None
+    if not isinstance(found, Steps) or found.person is None:
+        return found
+    if isinstance(to, Problem):
+        return to
+    last = (GoTo(place=to),) if to else ()
+    return Steps((*found.steps, Follow(object=found.person), *last), person=found.person)
+
+
+def guide(words: str, start: str | None, end: str | None, reading: Reading) -> Meaning:
+    """Find somebody and drive ahead of them to a place."""
+    found = meet(words, start, reading)
+    if not isinstance(found, Steps):
+        return found
+    if end is None:
+        return missing(WHERE_TO, words, reading)
+    back = end in ("back", "回去", "回来")
+    to = reading.scene.met if back else place_of(end, reading)
+    if isinstance(to, Problem):
+        return to
+    if to is None:
+        return missing(WHERE_TO, words, reading)
+    come = spoken("Please come with me.", "请跟我来。", reading)
+    return Steps((*found.steps, Say(text=come), GoTo(place=to)), person=found.person)
+
+
+def find(words: str, where: str | None, reading: Reading) -> Meaning:
+    """Go to a place and look for a thing there; for a place, go there."""
+    if re.fullmatch(rf"(?:(?:the|my|our) )?{MARK}", words) and where is None:
+        return go_to(words, reading)
+    place = place_of(where, reading)
+    if isinstance(place, Problem):
+        return place
+    if words in _IT or words in _THEY:
+        thing = reading.scene.thing or reading.scene.person
+    else:
+        thing = label_of(words, reading)
+    if not thing:
+        return missing(WHO, words, reading)
+    if _DONE.search(thing) or ASIDE.search(thing):
+        return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())
+    if several(words) is not None:
+        return one_at_a_time(words, place, reading)
+    return Steps((*arrive(place, reading), Find(object=thing, place=place)), thing=thing, seen=True)
+
+
+def one_at_a_time(words: str, place: str | None, reading: Reading) -> Meaning:
+    """Offer to count what can't be found, or driven up to, all at once."""
+    label = label_of(several(words) or words, reading)
+    if not label:
+        return missing(WHO, words, reading)
+    counted = (*arrive(place, reading), Count(object=label, place=place))
+    return replace(missing(ONE_AT_A_TIME, words, reading), places=(), instead=counted)
+
+
+def count(words: str, where: str | None, reading: Reading) -> Meaning:
+    """Go to a place and count things or people there."""
+    place, label = place_of(where, reading), label_of(words, reading)
+    if isinstance(place, Problem):
+        return place
+    if not label:
+        return missing(WHO, words, reading)
+    if _DONE.search(label):
+        return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())
+    steps = (*arrive(place, reading), Count(object=label, place=place))
+    return Steps(steps, thing=label, seen=True)
+
+
+def look(question: str, where: str | None, reading: Reading) -> Meaning:
+    """Go to a place and answer a question by looking."""
+    place = place_of(where, reading)
+    if isinstance(place, Problem):
+        return place
+    asked = reading.marked.restore(question)[:500]
+    somebody = spoken("person", "人", reading) if _WHO_IS_THERE.search(question) else None
+    steps = (*arrive(place, reading), Look(question=asked, place=place))
+    return Steps(steps, person=somebody, seen=True)
+
+
+def look_everywhere(question: str, reading: Reading) -> Meaning:
+    """Go to every room and answer a question by looking round in it."""
+    rooms = [entry.id for entry in reading.vocabulary.entries if entry.kind == "room"]
+    asked = reading.marked.restore(question)[:500]
+    looks = ((GoTo(place=room), Look(question=asked, place=room)) for room in rooms)
+    steps = tuple(step for look_there in looks for step in look_there)
+    if not 0 < len(steps) <= MAX_STEPS:
+        return missing(WHERE_LOOK, question, reading)
+    return Steps(steps, seen=True)
+
+
+def offer_search(words: str, part: str, reading: Reading) -> Meaning:
+    """Offer to search for what a question asks the whereabouts of: no word of it orders a drive.
+
+    Where a clause before it drove somewhere, it is looked for there.
+    """
+    if reading.scene.place is not None:
+        return find(words, "there", reading)
+    label = "person" if _ANYBODY.fullmatch(words) else label_of(words, reading)
+    asked = missing(SEARCH, part, reading)
+    sought = label and not re.search(NAME, words)  # who is who, no eye tells
+    return replace(asked, instead=(Find(object=label),)) if sought else asked
+
+
+def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:
+    """Say what the sentence leaves open."""
+    filled = Bilingual(en=what.en.format(name=name), zh=what.zh.format(name=name))
+    return reading.problem(Code.INCOMPLETE, part, what=filled)
+
+
+def spoken(en: str, zh: str, reading: Reading) -> str:
+    """Return words to say, in the language of the goal."""
+    return zh if reading.language is Language.ZH else en
+
+
+def saying(words: str, reading: Reading) -> Meaning:
+    """Say words of the sentence."""
+    said = reading.marked.restore(words).strip(" \"'")
+    try:
+        return Steps((Say(text=said),))
+    except ValidationError:
+        return reading.problem(Code.NOT_UNDERSTOOD, words)

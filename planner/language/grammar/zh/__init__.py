@@ -1,0 +1,1 @@
+"""Hold the Chinese patterns of the grammar."""

@@ -1,0 +1,166 @@
+"""Own the Chinese rules about driving: places, home, waiting, turns, moves, patrols."""
+
+from __future__ import annotations
+
+from re import Match
+
+from planner.language.grammar.grammar import (
+    QUOTE,
+    about,
+    come_back,
+    drive_to,
+    home,
+    lacks,
+    on_topic,
+    route,
+    rule,
+    say,
+    set_out,
+    stand,
+    unread,
+    wait,
+)
+from planner.language.grammar.lexicon import MARK
+from planner.language.grammar.motion_steps import (
+    in_all,
+    move,
+    patrol,
+    patrol_all,
+    turn,
+    turn_and_move,
+    wander,
+)
+from planner.language.grammar.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
+from planner.language.grammar.parse_result import Meaning, Reading, Rule, Steps
+from planner.language.grammar.small_talk import Topic
+from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
+from planner.language.grammar.zh.words import ALL_ROOMS, GO
+from planner.plan import Code, Say
+
+_AFTER = r"(?:去一下|去一趟|去|来|过去|待命|停下来?|等我|一下|一趟|走一趟|转转|转一圈)?"
+_LEAD = r"(?:(?:带|领|引导|陪|护送|送)(?:着)?(?:我们|我))?"
+_ORIGIN = (
+    r"(?:原地|原位|原处|原来的?(?:地方|位置)|起点|出发点|出发的?地方|起始(?:点|位置)|这里|这儿|"
+    r"我这里|我这儿|我这|刚才的?(?:地方|位置))"
+)
+_HELLO = (
+    r"你好|您好|大家好|早上好|下午好|晚上好|晚安|再见|拜拜|谢谢|欢迎光临|欢迎|我来了|我到了|"
+    r"我回来了"
+)
+_WHO = r"(?:你|您|机器人|小车|我们|我)?(?:现在|目前)?"
+_WHERE = (
+    rf"{_WHO}(?:在|位于|到)(?:了)?(?:哪里|哪儿|哪|什么地方|哪个房间|什么位置|哪个位置|哪个地方)了?"
+    r"|(?:你的|当前|现在的|目前的|你现在的|报告|的)?位置(?:是|在)?(?:哪里|哪儿|哪|什么)?|"
+    r"这是(?:哪里|哪儿|哪)"
+)
+_PLACES = (
+    r"(?:你)?(?:都)?(?:知道|认识|能去|可以去|会去)(?:哪些|什么)(?:地方|房间|位置)?"
+    r"|有(?:哪些|什么)(?:地方|房间)|去哪(?:里|儿)?"
+)
+_HELP = (
+    r"会?做(?:些)?(?:什么|啥)|帮助|有什么(?:功能|本事|本领)|会(?:干|做)?(?:些)?(?:什么|啥)|"
+    r"干(?:什么|啥)"
+)
+_SIDE = r"(?P<side>左|右|顺时针|逆时针)"
+_FACE = r"(?:往|向|朝|原地)?(?:着)?"
+_TURN = r"(?:方向)?(?:转动?|旋转|拐|转弯|转身|转过去|转向|偏)"
+_RUN = r"(?:走|移动|前进|行进|行驶|开|挪|直行|移)"
+_AHEAD = r"(?P<way>前|后|前方|后方|正前方|正后方|前面|后面)"
+
+
+def _greet(_found: Match[str], _reading: Reading) -> Meaning:
+    return Steps((Say(text="你好"),))
+
+
+def _come_here(found: Match[str], reading: Reading) -> Meaning:
+    return missing(WHERE_ARE_YOU, found[0], reading)
+
+
+def _how_long(found: Match[str], reading: Reading) -> Meaning:
+    return missing(HOW_LONG, found[0], reading)
+
+
+def _leave(found: Match[str], reading: Reading) -> Meaning:
+    return missing(WHERE_TO, reading.marked.restore(found[0]), reading)
+
+
+TALK: tuple[Rule, ...] = (
+    rule(_WHERE, about(Topic.WHERE)),
+    rule(_PLACES, about(Topic.PLACES)),
+    rule(_HELP, about(Topic.HELP)),
+    rule(r"你好|您好|嗨|哈喽|早上好|早安|下午好|晚上好|大家好|你好呀", about(Topic.HELLO)),
+    rule(r"谢谢(?:你|您)?|多谢|感谢|辛苦了|干得好|真棒|做得好", about(Topic.THANKS)),
+    rule(r"(?P<topic>.+)", on_topic),
+)
+
+RULES: tuple[Rule, ...] = (
+    *TALK,
+    rule(
+        r"回家(?:去|吧)?|(?:回去|去|回)?充电(?:去)?|回充|返航|回桩|"
+        r"(?:回到?|返回|去|到)(?:充电(?:桩|座|站|器)|基地|家里?)",
+        home,
+    ),
+    rule(
+        r"(?:回来|返回来|开回来|走回来|回去|返回|折返|原路返回)(?:吧|这里|这儿|我这里)?|(?:回到?|"
+        rf"返回|回去){_ORIGIN}(?:来)?",
+        come_back,
+    ),
+    rule(
+        r"(?:在?(?:那里|那儿|这里|这儿|原地))?(?:等待|等候|等上?|停留|待|休息|停)(?:我|"
+        rf"上)?{ZH_DURATION}",
+        wait,
+    ),
+    rule(
+        r"(?:在?(?:这里|这儿|那里|那儿))?(?:等一下|等一等|等等|等一会儿?|稍等|等我|等着|等待|等)",
+        _how_long,
+    ),
+    rule(rf"离开{MARK}(?:里)?", _leave),
+    rule(rf"{GO}完(?P<place>{MARK})(?:以后|之后|后)?", drive_to),
+    rule(r"(?:在那里|在那儿)(?:停下来?|停住|停|待命|等着|等待)|待命", stand),
+    rule(rf"(?:说|喊|播报|讲)(?:一声|一句|一下|出)?[:]?(?P<quote>{QUOTE})", say),
+    rule(rf"(?:(?:和|跟|向|对)(?:我|大家))?(?:说|喊|讲)(?:一声|一句)?(?P<words>{_HELLO})", say),
+    rule(r"打(?:个|一?声)?招呼", _greet),
+    rule(rf"从(?P<start>.+?)(?:出发)?{GO}(?P<place>{MARK}.*)", route),
+    rule(r"从(?P<place>.+?)(?:出发|开始|起步)", set_out),
+    rule(
+        r"(?:快)?过来|来这里|来我这里?|到我这(?:里|儿)?来?|来我(?:身边|面前|旁边)|来找我",
+        _come_here,
+    ),
+    rule(rf"{_FACE}{_SIDE}(?:边|侧|手边)?{_TURN}(?:个|了)?(?:{ZH_ANGLE})?(?:个?弯)?", turn),
+    rule(rf"{_TURN}(?:{ZH_ANGLE})", turn),
+    rule(r"(?P<about>掉头|调头|转身|向后转|转过身(?:来|去)?|掉个头)", turn),
+    rule(r"(?:原地)?(?:转|旋转)(?P<whole>一?圈|一周|1圈)", turn),
+    rule(
+        rf"(?:朝|向|往|沿)(?:着)?{_SIDE}前方(?:偏)?{ZH_ANGLE}(?:的)?(?:方向|"
+        rf"角度)?(?:向前)?{_RUN}{ZH_LENGTH}",
+        turn_and_move,
+    ),
+    rule(rf"{_FACE}{_AHEAD}{_RUN}(?:了|大约|大概|约)?(?:{ZH_LENGTH})?", move),
+    rule(
+        rf"(?:{_FACE})(?P<way>前进|后退|倒退|倒车|直行|直走|往后退|退后|退)(?:了|大约|大概|"
+        rf"约)?(?:{ZH_LENGTH})?",
+        move,
+    ),
+    rule(rf"(?:走|移动|行驶){ZH_LENGTH}", move),
+    rule(
+        rf"(?:去|到)?(?:巡逻|巡检|巡视|巡查)(?:一下|一遍|一圈)?(?P<place>{MARK})(?:一圈|一遍)?",
+        patrol,
+    ),
+    rule(
+        rf"(?:去)?(?:巡逻|巡检|巡视|巡查|检查|看看|走遍|逛遍|去到|走到|去|到)(?:一下|一遍)?{ALL_ROOMS}"
+        r"|全屋巡逻|巡逻全屋",
+        patrol_all,
+    ),
+    rule(rf"在?{ALL_ROOMS}", in_all),
+    rule(
+        r"(?:巡逻|巡检|巡视|巡查|到处走走|随处走走|转转|转一转|逛逛|遛遛|溜达)[^\ue000-\ue7ff]*",
+        wander,
+    ),
+    rule(r"(?:往上|向上)?(?:跳|爬|飞起来).*", lacks(Code.NO_CAPABILITY)),
+    rule(
+        r"(?:往|向|朝|沿)(?:着)?[^\ue000-\ue7ff]*(?:走|移动|前进|转|开|退|行驶|旋转|挪).*"
+        r"|(?:旋转|转|绕).*|走\d.*",
+        unread,
+    ),
+    rule(rf"{_LEAD}{GO}(?P<place>.+?){_AFTER}", drive_to),
+)

@@ -1,0 +1,198 @@
+"""Own the Chinese rules about looking: find, count, look, questions about what is there."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from re import Match
+
+from planner.language.grammar.grammar import ahead, rule, where
+from planner.language.grammar.lexicon import MARK
+from planner.language.grammar.object_targets import by_neighbour, known
+from planner.language.grammar.parse_result import Meaning, Reading, Rule, Steps
+from planner.language.grammar.step_builders import count, find, look, offer_search
+from planner.language.grammar.zh.words import SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
+from planner.plan import Code, Step
+
+_AT = rf"(?:{loc('at')})?"
+_MUST = loc("at")
+_FIND = r"(?:找到|寻找|找找看?|找一找|找一下|找|搜索|搜寻|搜一下|定位|识别|寻)(?:一下|一个|个)?"
+_IS_THERE = rf"(?:{WHETHER}|[都还]?有)"
+_ASKS = r"(?:吗|呢|么|嘛|啊)?"
+_ASKING = re.compile(r"[吗谁啥哪几]|[什怎]么|么$|如何|多少|有没有|有无|是否|是不是")
+"""What makes a question of words that else only tell: "客厅的灯亮着" asks for nothing."""
+_AND_MANY = re.compile(rf"(?:和|与|跟|以及|还有)有?(?:几|多少){UNIT}")
+_AROUND = (
+    r"(?:在?(?:你|您)?的?(?:这里|这儿|这边|那里|那儿|那边|附近|周围|四周|身边|旁边|边上|面前|眼前|"
+    r"前面|前方)|(?:地上|地板上|地面上)|(?:这个?|这间)?(?:屋里|屋子里|房间里面?|房里))"
+)
+"""Where the robot is anyhow: a question about it drives nowhere."""
+_WHOLE = r"(?:家里|家中|屋子里|房子里|哪里|哪儿|哪个(?:房间|屋子?)里?面?|什么地方)"
+_ALL_OVER = r"(?:(?:在?家里|屋里|全家|全屋|整个(?:家|屋子|房子)|每个房间)?(?:到处|四处|挨个|都)?)"
+
+
+def _find(found: Match[str], reading: Reading) -> Meaning:
+    return find(found["what"], where(found, "at"), reading)
+
+
+def _find_under(found: Match[str], reading: Reading) -> Meaning:
+    named = by_neighbour(found["what"], found["how"], found["by"], reading)
+    if named is None:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    return find(named, found["by"], reading)
+
+
+def _find_all(found: Match[str], reading: Reading) -> Meaning:
+    """Find one thing after the other: "杯子和球"; in 暖和的毯子, 和平鸽 no word joins things."""
+    parts = re.split(r"和|以及|还有|与", found["what"])
+    several = all(known(part, reading.things) for part in parts)
+    steps: tuple[Step, ...] = ()
+    meaning: Meaning = Steps(())
+    for what in parts if several else [found["what"]]:
+        meaning = find(what, None, reading)
+        if not isinstance(meaning, Steps):
+            return meaning
+        steps += meaning.steps
+    return replace(meaning, steps=steps) if isinstance(meaning, Steps) else meaning
+
+
+def _count(found: Match[str], reading: Reading) -> Meaning:
+    """Count one kind after the other: "几个人和几把椅子"."""
+    place = found.groupdict().get("at2") or where(found, "at")
+    steps: tuple[Step, ...] = ()
+    meaning: Meaning = Steps(())
+    for what in _AND_MANY.split(found["what"]):
+        meaning = count(what, place, reading)
+        if not isinstance(meaning, Steps):
+            return meaning
+        steps += meaning.steps
+        reading = ahead(reading, meaning)
+    return replace(meaning, steps=steps) if isinstance(meaning, Steps) else meaning
+
+
+def _look(found: Match[str], reading: Reading) -> Meaning:
+    groups = found.groupdict()
+    here = reading.scene.place and ("那里" if "at" not in groups else None)
+    return look(found[0], where(found, "at") or here, reading)
+
+
+def _reported(_found: Match[str], reading: Reading) -> Meaning | None:
+    return Steps(()) if reading.scene.seen else None
+
+
+def _look_here(found: Match[str], reading: Reading) -> Meaning | None:
+    """Look where nothing named a place; what is counted elsewhere is read by the next rules."""
+    return None if reading.scene.place else _look(found, reading)
+
+
+def _asked(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read a question about what is there; said flatly it is none: "厨房有杯子" only tells."""
+    flat = found.groupdict().get("flat") is not None
+    said = reading.marked.text
+    asked = said.rstrip(" 。!").endswith("?") or "请问" in said or _ASKING.search(found[0])
+    return None if flat and not asked else _look(found, reading)
+
+
+def _sought(found: Match[str], reading: Reading) -> Meaning:
+    return offer_search(
+        found["what"] or found["what2"] or found["what3"] or found["what4"], found[0], reading
+    )
+
+
+RULES: tuple[Rule, ...] = (
+    rule(
+        r"(?:然后)?(?:告诉|通知|报告|汇报)(?:给)?(?:我|我们)?(?:一下)?(?:结果|数量|情况|有几个|"
+        r"有多少|在哪(?:里|儿)?)?|汇报",
+        _reported,
+    ),
+    rule(
+        rf"(?:{SEE}|数一数|数一下|数数|数|清点)?(?:{_AROUND})(?:现在|一共|总共)?(?:有|坐着|站着)?(?:几|多少)"
+        rf"{UNIT}{THING}|有(?:几|多少){UNIT}(?!岁|点){THING}"
+        rf"|(?:数一数|数一下|数数|数|清点)(?:{_AROUND})的?{THING}",
+        _look_here,
+    ),
+    rule(
+        rf"(?:{SEE}|数一数|数一下|数数|数)?(?:家里|全家|屋子里|整个屋子)的?(?:一共|总共)?有?(?:几|多少){UNIT}"
+        rf"(?P<what>{THING})",
+        _count,
+    ),
+    rule(
+        rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT})(?:里面?|上面?|"
+        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
+        _count,
+    ),
+    rule(
+        rf"(?:{SEE})?{_AT}(?:{SEE})?(?:一共|总共|现在)?(?:有|坐着|站着|躺着|摆着|放着|停着|坐了|"
+        rf"站了)?(?:几|多少){UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
+        _count,
+    ),
+    rule(
+        rf"(?:{SEE})(?P<what>{THING})(?:在不在|是不是在|是否在)(?P<at>{SPOT})(?:里面?|上面?|那里|"
+        r"旁边)?",
+        _look,
+    ),
+    rule(
+        rf"{_WHOLE}(?:{WHETHER}|有)(?P<what>(?!什么|谁|事|问题|异常|情况|[几多]){THING}){_ASKS}"
+        rf"|{WHETHER}?有?(?P<what4>人)在家(?:里)?{_ASKS}"
+        rf"|你?(?:有没有)?见过(?P<what3>{THING})(?:吗|没有)?"
+        rf"|(?:告诉我|你?知不?知?道|你?知道)?(?P<what2>(?![他她它你您我]们?在|大家|告诉|知道){THING})"
+        r"(?:现在|都)?在(?:哪里|哪儿|哪|什么地方|哪个房间)(?:里|呢|啊|呀|吗)?",
+        _sought,
+    ),
+    rule(
+        rf"{_FIND}(?:{WHETHER})?(?P<by>{MARK})(?P<how>下面?|下边|底下)的(?P<what>{THING})",
+        _find_under,
+    ),
+    rule(rf"{_ALL_OVER}{_FIND}(?:{WHETHER})?(?P<what>{THING})", _find_all),
+    rule(rf"{_AT}{_FIND}(?:{WHETHER})?(?P<what>{THING})", _find),
+    rule(rf"{_FIND}{_MUST}(?:{WHETHER})?(?P<what>{THING})", _find),
+    rule(rf"(?:把)?(?P<what>{THING})(?:给我)?找(?:出来|到)", _find),
+    rule(
+        rf"(?:(?:{SEE})(?:{WHETHER}|是不是有|有)|{WHETHER}|(?P<flat>有)){THING}在(?P<at>{SPOT})"
+        rf"(?:里面?|上面?|那里|旁边)?{_ASKS}",
+        _asked,
+    ),
+    rule(
+        rf"{_MUST}(?:的?人)?(?:是谁|都?有(?:些)?谁|现在)?(?:的?情况)?"
+        r"(?:怎么样|怎样|如何|什么情况|啥情况|是谁|有谁)(?:了|啊|呀)?",
+        _look,
+    ),
+    rule(rf"拍一?张?{_MUST}照片?", _look),
+    rule(r"[这那]?(?:个)?(?:东西)?是(?:什么|谁|啥)(?:东西)?", _look),
+    rule(rf"(?:{SEE}){_MUST}(?:{WHAT}|{_IS_THERE}{THING}){_ASKS}", _look),
+    rule(
+        rf"{_MUST}(?:(?:{SEE}){_IS_THERE}|{WHETHER}|[都还]?(?P<flat>有)"
+        rf"(?!什么|啥|谁|哪些)){THING}{_ASKS}",
+        _asked,
+    ),
+    rule(
+        rf"(?:{SEE})?有?(?:几|多少){UNIT}(?P<what>(?!岁|点){THING}){_MUST}",
+        _count,
+    ),
+    rule(
+        rf"{THING}(?:现在)?还?在(?P<at>{SPOT})(?:里面?|上面?|那里|旁边)?(?:吗|没有)",
+        _look,
+    ),
+    rule(rf"(?:(?:{SEE})(?:谁|什么)?(?:人)?|谁(?:正?[坐站躺睡待](?=在))?){_MUST}(?:[^,]*)", _look),
+    rule(rf"{_MUST}(?:{SEE})(?P<flat>[到见])?(?:[^,\ue000-\ue8ff]*)", _asked),
+    rule(
+        rf"{_MUST}(?:{WHAT}|(?:[^,\ue000-\ue8ff]{{1,4}}(?=[开亮关锁]着))?(?:是|在)?(?:什么|怎么样|"
+        r"(?P<flat>干净|整洁|安全|空的?|开着|亮着)))[^,\ue000-\ue8ff]*",
+        _asked,
+    ),
+    rule(
+        rf"(?:{SEE})?(?:{_AROUND})?(?:{WHAT}[^,\ue000-\ue8ff]*|{WHETHER}{THING}{_ASKS}|"
+        rf"(?P<flat>有){THING})",
+        _asked,
+    ),
+    rule(
+        rf"你?(?:能|可以|有没有)?(?:看得到|看得见|看到|看见|见到|瞧见|发现)(?:了|过)?{THING}(?:了|没有)?"
+        rf"{_ASKS}",
+        _look,
+    ),
+    rule(
+        rf"(?:四处|到处|周围|环顾)?(?:{SEE})(?:四周|周围|环境|情况)?[^,\ue000-\ue8ff]*|"
+        r"你?看到了?什么|看见什么|环顾四周",
+        _look,
+    ),
+)

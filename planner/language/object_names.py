@@ -1,0 +1,211 @@
+"""Turn a person's words into a class and a colour, and a detector's names into classes. Pure.
+
+A phrase is understood as a whole or not at all: what cannot be told by sight ("the bottle of my
+sister", "a man in a red shirt") is unknown, never rounded to what it resembles.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache, lru_cache
+from typing import TYPE_CHECKING
+
+from planner.language import color_names
+from planner.language.folding import fold, fold_words
+from planner.language.object_classes import KINDS, Kind, kind_of
+from planner.plan import Bilingual, Language
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+_IRREGULAR = {
+    "person": ("people", "persons"), "man": ("men",), "woman": ("women",), "child": ("children",),
+    "lady": ("ladies",), "baby": ("babies",), "gentleman": ("gentlemen",), "knife": ("knives",),
+    "mouse": ("mice",), "puppy": ("puppies",), "people": (), "somebody": (), "someone": (),
+    "anybody": (), "anyone": (), "scissors": (), "skis": (), "sheep": (), "broccoli": (),
+    "luggage": (), "teddy": ("teddies",),
+}  # fmt: skip
+_FILLER_EN = (
+    r"(?:the|a|an|my|our|your|his|her|their|this|that|these|those|some|any|every|each|all|both|of|"
+    r"one|two|three|four|five|six|seven|eight|nine|ten|\d{1,3}|another|other|more|many|nearest|"
+    r"closest|next|pair|pieces?|big|small|little|large|tall|old|new|empty)"
+)
+_PLACED_EN = r"(?: (?:on|near|next to|beside|by|under|behind|in front of|at|inside|in) .{1,40})?"
+_PLACED_PERSON_EN = _PLACED_EN.replace("|inside|in)", ")")
+"""People "in red" wear it: clothes cannot be told, so such a phrase is not cut short."""
+_COUNT_ZH = (
+    r"(?:这|那|某|每|所有的?|全部的?|任何|一些|几|多少|半|一|二|两|三|四|五|六|七|八|九|十|\d{1,3}|"
+    r"我们的|我的|你的|您的|他的|她的|家里的|最近的|附近的|另外?|其他|其它|别的|大的?|小的?|"
+    r"个|只|张|把|台|瓶|杯|本|盆|棵|株|扇|位|名|条|件|罐|支|双|辆|架|块|面|口|盏|头|匹|颗|副|部|间|些|款)"
+)
+_PLACED_ZH = r"(?:.{1,12}(?:上面?|里面?|里|旁边|边上|下面?|底下|附近|前面|后面|中间|那边|这边)的)?"
+_WHICH_EN = re.compile(
+    r"\b(?:another|other|next|big|small|little|large|tall|old|new|empty)\b"
+    r"|\b(?:on|near|beside|by|under|behind|in front of|at|inside|in) "
+)
+_WHICH_ZH = re.compile(
+    r"另|其他|其它|别的|大|小|(?:上面?|里面?|旁边|边上|下面?|底下|前面|后面|中间|那边|这边)的"
+)
+_ANY_ZH = re.compile(r"家里的|附近的|最近的")
+
+
+def canonical(name: str) -> str:
+    """Return the class id of a detector's own name: "Dining Table", "tvmonitor", "couch"."""
+    words = " ".join(re.split(r"[\s_\-]+", fold(name))).strip()
+    found = _english_names().get(words) or _chinese_names().get(words)
+    return found or re.sub(r"[^\w]+", "_", words)[:64].strip("_") or "thing"
+
+
+def resolve(
+    words: str, language: Language | None = None, classes: Collection[str] = ()
+) -> tuple[str, str | None] | None:
+    """Return the class and the colour that words mean: "red cup", "红色的杯子", "two mugs".
+
+    Args:
+        words: a plan's ``object``, in the person's own words.
+        language: read first; the other one is tried after it.
+        classes: what the detector can find. Where given, anything else means nothing; a name of its
+            own that is in no table is understood as it is written.
+    """
+    readers = (_in_chinese, _in_english)
+    for read in readers if language is Language.ZH else reversed(readers):
+        found = read(_plain(words), _own_names(classes))
+        if found is not None and (not classes or found[0] in classes):
+            return found
+    return None
+
+
+def prepare(classes: Collection[str]) -> None:
+    """Make what reads words in these classes. Takes long once: call it off the event loop."""
+    own = _own_names(classes)
+    _english_patterns(own)
+    _chinese_pattern(own)
+
+
+def singles_out(words: str, classes: Collection[str] = ()) -> bool:
+    """Tell whether words say which one is meant by more than its kind and colour.
+
+    Size, age and where it stands beside other things are not seen here: "the small cup", "the other
+    person", "窗边的椅子" mean one among several, and what resolves is any of them.
+    """
+    text, own = _plain(words), _own_names(classes)
+    found = _english_match(text, own)
+    if found is not None:
+        return _WHICH_EN.search(_besides(found)) is not None
+    found = _chinese_match(text, own)
+    return found is not None and _WHICH_ZH.search(_ANY_ZH.sub("", _besides(found))) is not None
+
+
+def named(label: str, color: str | None = None) -> Bilingual:
+    """Return what to call a thing."""
+    kind = kind_of(label)
+    if color is None:
+        return Bilingual(en=kind.en, zh=kind.zh)
+    en, zh = color_names.names_of(color)
+    return Bilingual(en=f"{en} {kind.en}", zh=f"{zh}的{kind.zh}")
+
+
+def listed(labels: Iterable[str], limit: int = 20) -> Bilingual:
+    """Return class names for a sentence: "person, chair and sofa"."""
+    kinds = [kind_of(label) for label in labels]
+    more = len(kinds) - limit
+    en, zh = [k.en for k in kinds[:limit]], [k.zh for k in kinds[:limit]]
+    tail_en, tail_zh = (f", and {more} more", f"等另外 {more} 种") if more > 0 else ("", "")
+    return Bilingual(en=(", ".join(en) or "nothing") + tail_en,
+                     zh=("、".join(zh) or "无") + tail_zh)  # fmt: skip
+
+
+def _plain(words: str) -> str:
+    return fold_words(words).strip(" .,!?，。！？")
+
+
+def _in_english(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
+    found = _english_match(text, own)
+    return None if found is None else _meant(found, _english_names())
+
+
+def _in_chinese(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
+    found = _chinese_match(text, own)
+    return None if found is None else _meant(found, _chinese_names())
+
+
+def _english_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
+    plain = re.sub(r"[-_]", " ", text)
+    matches = (pattern.fullmatch(plain) for pattern in _english_patterns(own))
+    return next((found for found in matches if found is not None), None)
+
+
+def _chinese_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
+    return _chinese_pattern(own).fullmatch(text.replace(" ", ""))
+
+
+def _besides(found: re.Match[str]) -> str:
+    """Return what a phrase says besides the thing's name and colour."""
+    rest = found.string
+    for start, end in sorted((found.span(g) for g in "cdn"), reverse=True):
+        rest = rest[:start] + " " + rest[end:] if start >= 0 else rest
+    return rest
+
+
+def _meant(found: re.Match[str], names: dict[str, str]) -> tuple[str, str | None]:
+    color = found["c"] or found["d"]
+    label = names.get(found["n"]) or canonical(found["n"])
+    return label, color_names.color_of(color) if color else None
+
+
+@lru_cache(maxsize=8)
+def _english_patterns(own: tuple[str, ...]) -> tuple[re.Pattern[str], ...]:
+    """Return the patterns of things and of people, which differ in what may follow them."""
+    people = [w for w, label in _english_names().items() if label == "person"]
+    things = [w for w, label in _english_names().items() if label != "person"]
+    own_words = [re.escape(name.replace("_", " ")) for name in own]
+    return tuple(
+        re.compile(
+            rf"(?:{_FILLER_EN} )*(?:(?P<c>{color_names.ENGLISH}) )?(?:{_FILLER_EN} )*"
+            rf"(?P<n>{'|'.join(_by_length(names))})"
+            rf"(?: (?:that|which) (?:is|are) (?P<d>{color_names.ENGLISH}))?{placed}"
+        )
+        for names, placed in (((*things, *own_words), _PLACED_EN), (people, _PLACED_PERSON_EN))
+    )
+
+
+@lru_cache(maxsize=8)
+def _chinese_pattern(own: tuple[str, ...]) -> re.Pattern[str]:
+    names = "|".join((*_by_length(_chinese_names()), *map(re.escape, own)))
+    return re.compile(
+        rf"{_PLACED_ZH}{_COUNT_ZH}*(?:(?P<c>{color_names.CHINESE})的?)?{_COUNT_ZH}*"
+        rf"(?P<n>{names})(?:们|儿)?(?:是(?P<d>{color_names.CHINESE})的)?"
+    )
+
+
+def _own_names(classes: Collection[str]) -> tuple[str, ...]:
+    return tuple(name for name in classes if name not in KINDS)
+
+
+def _by_length(names: Iterable[str]) -> list[str]:
+    return sorted(names, key=len, reverse=True)
+
+
+@cache
+def _english_names() -> dict[str, str]:
+    """Return every English word of every class, plurals too."""
+    return {word: kind.id for kind in KINDS.values() for word in _forms(kind)}
+
+
+@cache
+def _chinese_names() -> dict[str, str]:
+    return {word: kind.id for kind in KINDS.values() for word in (kind.zh, *kind.also_zh)}
+
+
+def _forms(kind: Kind) -> Iterable[str]:
+    for word in (kind.id.replace("_", " "), kind.en, *kind.also_en):
+        yield word
+        *first, last = word.split(" ")
+        for many in _plurals(last):
+            yield " ".join((*first, many))
+
+
+def _plurals(word: str) -> tuple[str, ...]:
+    if word in _IRREGULAR:
+        return _IRREGULAR[word]
+    return (f"{word}es",) if word.endswith(("s", "x", "ch", "sh")) else (f"{word}s",)

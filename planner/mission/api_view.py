@@ -1,0 +1,60 @@
+"""Show missions as the API does. Reads the book, changes nothing."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from math import isfinite
+
+from planner.mission.state import Book, Mission
+from planner.plan import Goal, PlanRecord
+
+Progress = dict[str, float | int | str]
+"""The goal, the number of its step, and what is left of it: ``left_m``, ``left_rad``, ``left_s``.
+"""
+
+
+def goal_of(book: Book, mission: Mission) -> Goal:
+    """Return a mission as a goal, with its place in the queue."""
+    position = book.queue.index(mission.id) if mission.id in book.queue else None
+    return Goal(
+        id=mission.id,
+        text=mission.text,
+        language=mission.language,
+        state=mission.state,
+        reason="held" if mission.held and mission.reason is None else mission.reason,
+        plan=_plan_now(book, mission),
+        outcome=mission.outcome,
+        brain=mission.brain,
+        position=position,
+        created=datetime.fromtimestamp(mission.created_unix_s, UTC),
+        updated=datetime.fromtimestamp(mission.updated_unix_s, UTC),
+    )
+
+
+def progress_of(book: Book) -> Progress | None:
+    """Return what is left of the running step: metres, radians or seconds; None of no motion."""
+    mission, walk = book.missions.get(book.running or ""), book.walk
+    if mission is None or walk is None or mission.now is None:
+        return None
+    step, left = mission.now, dict[str, float]()
+    if walk.until_s is not None:
+        left["left_s"] = (
+            round(max(0.0, walk.until_s - book.status_s)) if isfinite(book.status_s) else 0
+        )
+    elif walk.kind == "drive" and step.kind == "turn":
+        left["left_rad"] = round((step.angle_rad or 0.0) - mission.done - walk.amount, 2)
+    elif walk.kind == "drive" and walk.left_m is not None:
+        left["left_m"] = round(walk.left_m, 2)
+    return {"goal": mission.id, "step": mission.step, **left} if left else None
+
+
+def _plan_now(book: Book, mission: Mission) -> PlanRecord | None:
+    """Return the plan with what is left of the step that runs now."""
+    plan = mission.plan
+    progress = progress_of(book) if mission.id == book.running else None
+    if plan is None or progress is None:
+        return plan
+    left = {name: value for name, value in progress.items() if name.startswith("left_")}
+    steps = list(plan.steps)
+    steps[mission.step] = steps[mission.step].model_copy(update=left)
+    return plan.model_copy(update={"steps": tuple(steps)})

@@ -1,0 +1,25 @@
+"""End a goal that a person said no to: nothing of it moves, and what it was to do is told."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from planner.mission.outcomes import ended
+from planner.mission.queue import finish, note_step, settle_walk
+from planner.plan import Bilingual, Code, GoalState, StepState
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission
+    from planner.mission.transaction import Turn
+
+
+def decline(turn: Turn, mission: Mission, said: Bilingual) -> None:
+    """End a goal where the robot stands; a question that was answered is over, the rest skipped."""
+    if turn.book.running == mission.id:
+        mission = settle_walk(turn) or mission
+    if mission.now is not None and mission.now.kind == "ask" and mission.now.answer is not None:
+        mission = note_step(turn, mission, state=StepState.SUCCEEDED)
+    now_unix_s = turn.now_s + turn.book.wall_offset_s
+    outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
+                    code=Code.DECLINED, said=said)  # fmt: skip
+    finish(turn, mission, GoalState.CANCELLED, outcome, Code.DECLINED.value)

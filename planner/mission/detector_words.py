@@ -1,0 +1,50 @@
+"""Let what a detector knows be known to missions once words can be read in it without delay.
+
+A detector says what it knows when it is ready, long after the start. To read words in class names
+of its own takes patterns that cost tens of milliseconds, more than the event loop may be held up
+for (docs/adr/0026): a thread makes them, and until they are there its classes count as not known.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+from planner.language.object_names import prepare
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+
+
+class Wording:
+    """Make the newest classes readable, beside the loop."""
+
+    def __init__(
+        self,
+        ready: tuple[str, ...],
+        spawn: Callable[[Coroutine[Any, Any, None]], None],
+        told: Callable[[], None],
+    ) -> None:
+        """Begin with classes that are readable already.
+
+        Args:
+            ready: those.
+            spawn: runs something beside, and keeps hold of it.
+            told: called when others have become readable.
+        """
+        self._ready = self._newest = ready
+        self._spawn, self._told = spawn, told
+
+    def of(self, classes: tuple[str, ...]) -> tuple[str, ...]:
+        """Return these classes, or none while they are not readable yet."""
+        if classes == self._ready:
+            return classes
+        if classes != self._newest:
+            self._newest = classes
+            self._spawn(self._prepare(classes))
+        return ()
+
+    async def _prepare(self, classes: tuple[str, ...]) -> None:
+        await asyncio.to_thread(prepare, classes)
+        self._ready = classes
+        self._told()

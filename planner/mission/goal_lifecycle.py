@@ -1,0 +1,341 @@
+"""Take goals in and carry them to the queue: given, understood, asked back, confirmed, stopped."""
+
+from __future__ import annotations
+
+from planner.language.yes_no import consents
+from planner.mission.answer_timeouts import ask_anew, close_older, make_room, waiting_since
+from planner.mission.effects import AskBrain
+from planner.mission.events import Planned, Restarted, Submitted
+from planner.mission.observations import exchanges_of
+from planner.mission.open_questions import (
+    ask_plainly,
+    asks,
+    confirms,
+    offered,
+    take_answer,
+    take_no,
+    take_sentence,
+)
+from planner.mission.outcomes import spot_at
+from planner.mission.plan_check import unwalkable
+from planner.mission.queue import (
+    cancel,
+    clear_hold,
+    enqueue,
+    finish,
+    hold_now,
+    hold_queue,
+    pardon,
+    pause_planning,
+    pause_running,
+    release_answered,
+    release_queue,
+)
+from planner.mission.replan import fingerprint, rethought
+from planner.mission.skills import NOTHING
+from planner.mission.spoken_status import go_on_told, stop_told
+from planner.mission.state import Book, Mission
+from planner.mission.transaction import Turn
+from planner.plan import (
+    Answer,
+    Bilingual,
+    Clarify,
+    Code,
+    GoalState,
+    Outcome,
+    PauseReason,
+    Refuse,
+    StepPlan,
+    message,
+    plan_record,
+)
+
+MAP_CHANGED = Bilingual(
+    en="The map has changed since: places are found on the new one, but there is no way back.",
+    zh="地图已更换：地点以新地图为准，但无法返回原来的位置。",
+)
+HOW_FAR_UNKNOWN = Bilingual(
+    en="The map has changed since: how far this step had come is not known, so the goal ends.",
+    zh="地图已更换：无法得知这一步完成了多少，任务到此结束。",
+)
+LEGS_UNWRITTEN = 100
+"""More legs than a planner can have streamed and not yet written when it died: the bridge latches
+what was reached by leg, so no number is ever streamed twice."""
+IN_HAND = frozenset(
+    {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
+)
+UNCONFIRMED = Bilingual(
+    en="No more waypoints are sent, but the bridge did not confirm the stop.",
+    zh="已不再发送路径点，但安全桥没有确认停止。",
+)
+
+
+def submit(turn: Turn, event: Submitted) -> None:
+    """Take a goal in. One id is one goal: a repeated id changes nothing."""
+    if event.id in turn.book.missions:
+        return
+    if event.stop or event.doubtful_stop:
+        stop(turn)
+    elif event.resumes:
+        pardon(turn)
+    if not (event.stop or event.local):
+        make_room(turn, event.text)
+    order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
+    turn.set(order=order)
+    pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    mission = Mission(
+        id=event.id,
+        order=order,
+        text=event.text,
+        language=event.language,
+        state=GoalState.PLANNING,
+        confirm=event.confirm,
+        replace=event.replace,
+        first=event.first,
+        doubtful_stop=event.doubtful_stop,
+        given_under_hold=hold_now(turn),
+        source=event.source,
+        map_id=turn.book.facts.map_id,
+        accepted_at=(pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None,
+        created_unix_s=now_unix_s,
+        updated_unix_s=now_unix_s,
+    )
+    if event.stop or (event.doubtful_stop and not event.echoed):
+        _stopped(turn, mission, event.echoed)
+        return
+    if event.asking:
+        asking = take_sentence(turn, mission, event.asking)
+        if asking is not None:
+            reply(turn, asking, event.text)
+        return
+    _think(turn, mission)
+
+
+def _stopped(turn: Turn, mission: Mission, echoed: bool) -> None:
+    if echoed:
+        said = Outcome(code=Code.STOPPED, message=stop_told(turn.book))
+        finish(turn, mission, GoalState.SUCCEEDED, said)
+        return
+    said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
+    turn.put(mission, state=GoalState.FAILED, reason="bridge_silent", outcome=said)
+
+
+def _think(turn: Turn, mission: Mission) -> None:
+    turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None, plan=None)
+    pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    room = spot_at(turn.book.facts, pose).room
+    said = exchanges_of(mission)
+    turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
+                       order=mission.text, exchanges=said))  # fmt: skip
+
+
+def planned(turn: Turn, event: Planned) -> None:
+    """Take the brain's answer, if somebody still waits for it."""
+    mission = turn.mission(event.id)
+    walk = turn.book.walk
+    if mission is not None and mission is turn.running and walk and walk.kind == "think":
+        rethought(turn, mission, event)
+        return
+    if mission is None or mission.state is not GoalState.PLANNING:
+        return
+    plan = event.plan
+    if mission.doubtful_stop and not isinstance(plan, StepPlan):
+        _stopped(turn, turn.put(mission, brain=event.brain), echoed=True)
+        return
+    if plan is None:
+        outcome = event.failure or _bad_plan("no answer")
+        state = GoalState.FAILED if outcome.code is Code.MODEL_UNAVAILABLE else GoalState.REFUSED
+        turn.put(mission, brain=event.brain)
+        finish(turn, turn.book.missions[mission.id], state, outcome, outcome.code.value)
+        return
+    mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
+    if isinstance(plan, StepPlan | Clarify):  # surely an order
+        close_older(turn, mission)
+    match plan:
+        case Answer():
+            words = message(Code.ANSWERED, text=plan.text)
+            _done(turn, mission, GoalState.SUCCEEDED, Code.ANSWERED, Outcome(
+                code=Code.ANSWERED, message=words))  # fmt: skip
+        case Refuse():
+            told = go_on_told(turn.book, plan.reason, turn.now_s)
+            outcome = Outcome(code=plan.code, message=told)
+            _done(turn, mission, GoalState.REFUSED, plan.code, outcome)
+        case Clarify():
+            told = go_on_told(turn.book, plan.question, turn.now_s)
+            said = Outcome(code=plan.code, message=told)
+            turn.put(
+                mission, state=GoalState.NEEDS_CLARIFICATION, reason=plan.code.value, outcome=said
+            )
+        case StepPlan():
+            _walkable(turn, mission)
+
+
+def _ask_what_was_meant(book: Book, mission: Mission) -> Bilingual:
+    """Ask whether a sentence with a stop word in it was an order to do something."""
+    told, text = stop_told(book), mission.text[:60]
+    return Bilingual(
+        en=f"{told.en} Did you mean “{text}” as an order to go on with? Say yes, or cancel.",
+        zh=f"{told.zh}您是要我执行“{text}”吗？请确认或取消。",
+    )
+
+
+def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: Outcome) -> None:
+    reason = code.value if state is GoalState.REFUSED else None
+    finish(turn, mission, state, outcome, reason)
+
+
+def _walkable(turn: Turn, mission: Mission) -> None:
+    """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
+    outcome = unwalkable(turn.book, mission, mission.steps)
+    if outcome is not None and mission.doubtful_stop:
+        _stopped(turn, mission, echoed=True)
+        return
+    if outcome is not None:
+        finish(turn, mission, GoalState.REFUSED, outcome, outcome.code.value)
+        return
+    mission = turn.put(mission, tried=(fingerprint(mission.steps),))
+    if mission.doubtful_stop:
+        said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
+        turn.put(
+            mission, state=GoalState.AWAITING_CONFIRMATION, reason="doubtful_stop", outcome=said
+        )
+    elif mission.confirm:
+        turn.put(mission, state=GoalState.AWAITING_CONFIRMATION)
+    else:
+        ready(turn, mission)
+
+
+def _bad_plan(why: str) -> Outcome:
+    return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
+
+
+def ready(turn: Turn, mission: Mission) -> None:
+    """Let a planned goal wait for the robot, or take it from the one it replaces."""
+    clear_hold(turn, mission)
+    if mission.begun:  # it was asked under way, and goes on where it stood
+        release_answered(turn)
+        enqueue(turn, mission, first=True)
+        return
+    if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
+        cancel(turn, replaced)
+    enqueue(turn, mission, first=mission.replace or mission.first)
+
+
+def _in_hand(turn: Turn, new: Mission) -> Mission | None:
+    """Return what "forget that" means: the running goal, else the newest that thinks or asks.
+
+    A goal that a person paused keeps its place, and so do those that wait.
+    """
+    if turn.running is not None:
+        return turn.running
+    open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
+    return max(open_, key=lambda m: m.order, default=None)
+
+
+def confirm(turn: Turn, mission: Mission) -> None:
+    """Take a person's yes."""
+    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)))
+
+
+def reply(turn: Turn, mission: Mission, text: str) -> None:
+    """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
+    mission = turn.put(mission, given_under_hold=hold_now(turn))
+    ask_anew(turn, mission)
+    agreed, order = consents(text), offered(mission)
+    if asks(mission):
+        take_answer(turn, mission, text)
+    elif agreed is False and (order is not None or confirms(mission)):
+        take_no(turn, mission)
+    elif confirms(mission) and agreed:
+        ready(turn, mission)
+    elif confirms(mission):
+        ask_plainly(turn, mission)
+    else:
+        _reply_about_order(turn, mission, order if agreed and order is not None else text)
+
+
+def _reply_about_order(turn: Turn, mission: Mission, text: str) -> None:
+    """Think about the order again, with the brain's own question and this answer to it."""
+    said = mission.outcome.message.of(mission.language) if mission.outcome is not None else ""
+    unknown = ("" for _ in mission.replies[len(mission.questions) :])
+    questions = (*mission.questions, *unknown, said)
+    replies = (*mission.replies, text)
+    _think(turn, turn.put(mission, replies=replies, questions=questions))
+
+
+def pause(turn: Turn, mission: Mission) -> None:
+    """Pause a goal; if it was running, those who wait are kept waiting."""
+    reason = PauseReason.OPERATOR.value
+    if mission.state is GoalState.RUNNING:
+        pause_running(turn, reason)
+    elif mission.state is GoalState.PLANNING:
+        pause_planning(turn, mission, reason)
+    else:
+        turn.put(mission, held=True, kept=True)
+
+
+def resume(turn: Turn, mission: Mission) -> None:
+    """Go on with a paused goal and let the queue go on; or let one that is kept waiting go."""
+    pardon(turn)
+    if mission.state is GoalState.QUEUED:
+        turn.put(mission, held=False, kept=False)
+        return
+    release_queue(turn)
+    if mission.plan is None or not mission.steps:
+        _think(turn, mission)
+    else:
+        turn.put(mission, outcome=None)
+        enqueue(turn, turn.book.missions[mission.id], first=True)
+
+
+def stop(turn: Turn) -> None:
+    """Stand. Running and thinking goals pause; those who wait are kept waiting."""
+    reason = PauseReason.STOP.value
+    pause_running(turn, reason)
+    for mission in tuple(turn.book.missions.values()):
+        if mission.state is GoalState.PLANNING:
+            pause_planning(turn, mission, reason)
+    turn.set(pardoned=None, pardon_until_s=float("-inf"))
+
+
+def restart(turn: Turn, event: Restarted) -> None:
+    """Take up the journal of a process that is gone: nothing of it goes on by itself."""
+    missions = {m.id: m for m in sorted(event.missions, key=lambda m: m.order)}
+    order = max((m.order for m in missions.values()), default=0)
+    turn.set(
+        missions=missions,
+        queue=_queue(event, missions),
+        running=None,
+        walk=None,
+        order=order,
+        wall_offset_s=event.wall_offset_s,
+        asked_s=waiting_since(missions, turn.now_s),
+    )
+    for mission in missions.values():
+        if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
+            reason = PauseReason.PLANNER_RESTARTED.value
+            leg = mission.leg + LEGS_UNWRITTEN
+            turn.put(mission, state=GoalState.PAUSED, reason=reason, leg=leg)
+        if not mission.ended and mission.map_id != turn.book.facts.map_id:
+            _forget_poses(turn, turn.book.missions[mission.id])
+    hold_queue(turn)
+
+
+def _forget_poses(turn: Turn, mission: Mission) -> None:
+    """Drop where a goal began on another map: a point of that map is nowhere on this one."""
+    if mission.map_id and mission.began_at is not None:  # better unfinished than done twice
+        said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
+        finish(turn, mission, GoalState.FAILED, said, "map_changed")
+    elif mission.map_id:
+        mission = turn.put(mission, accepted_at=None, notes=NOTHING)
+        if mission.state is GoalState.PAUSED:
+            said = Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED)
+            turn.put(mission, outcome=said)
+    turn.put(turn.book.missions[mission.id], map_id=turn.book.facts.map_id)
+
+
+def _queue(event: Restarted, missions: dict[str, Mission]) -> tuple[str, ...]:
+    """Return who waits, in the order that was journalled; whoever is missing there comes last."""
+    waiting = [m.id for m in missions.values() if m.state is GoalState.QUEUED]
+    known = [i for i in dict.fromkeys(event.queue) if i in waiting]
+    return (*known, *(i for i in waiting if i not in known))

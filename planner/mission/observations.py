@@ -1,0 +1,89 @@
+"""Tell what came of a goal's steps, for a brain that thinks again. Facts and figures, no advice.
+
+What a person answered is quoted, and cut to what an observation holds: it may inform a plan, and
+every plan is validated whatever informed it.
+"""
+
+from __future__ import annotations
+
+from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
+from planner.language.formatting import angle, metres
+from planner.mission.state import Facts, Mission
+from planner.plan import Bilingual, StepRecord, StepState, same
+
+RESULTS = {
+    StepState.SUCCEEDED: "succeeded",
+    StepState.FAILED: "failed",
+    StepState.SKIPPED: "skipped",
+}
+
+
+def observed(facts: Facts, mission: Mission) -> tuple[Observation, ...]:
+    """Return one observation a step that is over, and the question of a step that decides."""
+    over = mission.steps[: mission.step]
+    now = mission.now
+    if now is not None and _is_over(now):
+        over = (*over, now)
+    last = len(over) - 1
+    seen = [
+        _observation(facts, mission, step, newest=index == last) for index, step in enumerate(over)
+    ]
+    return tuple(seen[-MAX_OBSERVED:])
+
+
+def exchanges_of(mission: Mission) -> tuple[Exchange, ...]:
+    """Return what was asked about the order and answered, before any step; oldest first."""
+    asked = (*mission.questions, *("" for _ in mission.replies))
+    pairs = zip(asked, mission.replies, strict=False)
+    return tuple(Exchange(asked=question, answer=answer) for question, answer in pairs)
+
+
+def _is_over(step: StepRecord) -> bool:
+    """Tell whether there is something to tell of the current step: it failed, or was answered."""
+    answered = step.kind == "ask" and step.answer is not None
+    return answered or step.kind == "decide" or step.state is StepState.FAILED
+
+
+def _observation(facts: Facts, mission: Mission, step: StepRecord, *, newest: bool) -> Observation:
+    answered = step.kind == "ask" and step.answer is not None
+    result = "answered" if answered else RESULTS.get(step.state, "succeeded")
+    detail = _detail(facts, step)
+    if newest and step.state is StepState.FAILED and mission.failure is not None:
+        detail = mission.failure.message
+    return Observation.model_validate(
+        {"step": step.kind, "result": result, "detail": detail, "read": step.read}
+    )
+
+
+def _detail(facts: Facts, step: StepRecord) -> Bilingual:
+    text = step.text or ""
+    if step.said is not None:
+        return step.said
+    match step.kind:
+        case "ask":
+            answer = step.answer if step.answer is not None else "-"
+            return Bilingual(
+                en=f"Asked “{text[:120]}”. Answer: “{answer[:150]}”",
+                zh=f"问：“{text[:120]}”。答：“{answer[:150]}”",
+            )
+        case "decide":
+            return Bilingual(en=f"To decide now: {text}", zh=f"现在需要决定：{text}")
+        case "say":
+            return Bilingual(en=f"Said “{text}”", zh=f"说了“{text}”")
+        case "turn":
+            return angle(step.turned_rad if step.turned_rad is not None else step.angle_rad or 0.0)
+        case "move":
+            return metres(step.moved_m if step.moved_m is not None else step.distance_m or 0.0)
+        case "wait":
+            return Bilingual(en=f"{step.seconds or 0:.0f} s", zh=f"{step.seconds or 0:.0f} 秒")
+        case _:
+            return _where(facts, step)
+
+
+def _where(facts: Facts, step: StepRecord) -> Bilingual:
+    wanted = (step.place,) if step.place else step.places
+    names = [facts.targets[p].name if p in facts.targets else same(p) for p in wanted]
+    en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
+    if step.reason is not None:
+        return Bilingual(en=f"{en} ({step.reason})".strip(), zh=f"{zh}（{step.reason}）")
+    return Bilingual(en=en, zh=zh)

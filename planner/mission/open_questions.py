@@ -1,0 +1,122 @@
+"""Keep what waits for a person's word: a step's question, a plan's yes, a brain's only offer.
+
+The robot stands and is free for other goals meanwhile; who waits behind the asking goal waits on.
+What an answer to a step means is for the skill that asked to say. A plain yes or no that is said as
+a goal is the answer where one thing alone can be meant: a wrong guess would move the robot.
+"""
+
+from __future__ import annotations
+
+from planner.brain.interface import OFFLINE
+from planner.language.stop import is_stop
+from planner.language.yes_no import consents
+from planner.mission.declined_goals import decline
+from planner.mission.motion_on_yes import DO_THAT, first_deed, upon_yes
+from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
+from planner.mission.skills import Cannot
+from planner.mission.skills.ask import ask, declined
+from planner.mission.state import Mission
+from planner.mission.step_execution import scene_of
+from planner.mission.transaction import Turn
+from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message
+
+MAX_ANSWER = 2000
+WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
+_YES_OR_NO = Bilingual(en="Please answer yes or no. ", zh="请回答“是”或“不”。")
+
+
+def asks(mission: Mission) -> bool:
+    """Tell whether a goal waits for the answer to a question of one of its own steps."""
+    step = mission.now
+    return (
+        mission.state is GoalState.NEEDS_CLARIFICATION
+        and step is not None
+        and step.state is StepState.RUNNING
+    )
+
+
+def confirms(mission: Mission) -> bool:
+    """Tell whether a plan waits for a yes."""
+    return mission.state is GoalState.AWAITING_CONFIRMATION
+
+
+def offered(mission: Mission) -> str | None:
+    """Return the one order that a brain's question offers; None where it offers none or several.
+
+    An order to stop is none: it is taken from a person's own words alone.
+    """
+    plan = mission.plan
+    if mission.state is not GoalState.NEEDS_CLARIFICATION or plan is None or asks(mission):
+        return None
+    only = plan.options[0].text if len(plan.options) == 1 else None
+    return only if only is not None and not is_stop(only) else None
+
+
+def asks_freely(mission: Mission) -> bool:
+    """Tell whether a model asks about an order and offers none: it reads whatever is answered."""
+    plan, brain = mission.plan, mission.brain
+    about_order = mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
+    model = brain is not None and brain.name != OFFLINE
+    return about_order and model and plan is not None and not plan.options
+
+
+def takes_yes(mission: Mission) -> bool:
+    """Tell whether a plain yes or no answers what a goal waits for."""
+    return asks(mission) or confirms(mission) or offered(mission) is not None
+
+
+def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
+    """End a goal whose words answer another; return whose they answer, None of several."""
+    names = [f"“{turn.book.missions[asked].text[:60]}”" for asked in asking]
+    en, zh = ", ".join(names), "、".join(names)
+    if len(asking) > 1:
+        said = Bilingual(
+            en=f"More than one goal waits for you: {en}. I take this for none of them.",
+            zh=f"有不止一个任务在等待您：{zh}。这句话没有用于其中任何一个。",
+        )
+        outcome = Outcome(code=Code.AMBIGUOUS, message=said)
+        turn.put(mission, state=GoalState.REFUSED, reason=Code.AMBIGUOUS.value, outcome=outcome)
+        return None
+    said = Bilingual(en=f"Taken as the answer for {en}.", zh=f"已作为{zh}的回答。")
+    outcome = Outcome(code=Code.ANSWERED, message=said)
+    turn.put(mission, state=GoalState.SUCCEEDED, outcome=outcome)
+    return turn.book.missions[asking[0]]
+
+
+def take_answer(turn: Turn, mission: Mission, text: str) -> None:
+    """Write the answer into its step, and go on in it first of all who wait.
+
+    What ends the goal ends it now, whatever else runs or holds the robot.
+    """
+    facts, agreed = turn.book.facts, consents(text)
+    if agreed or (agreed is None and upon_yes(facts, mission) is None):
+        clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
+    mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
+    release_answered(turn)
+    if mission.now is not None and mission.now.kind == "ask":
+        act = ask(scene_of(turn, mission).but(mission.notes))
+        if isinstance(act, Cannot) and act.said is not None:
+            decline(turn, mission, act.said)
+            return
+    enqueue(turn, turn.put(mission, outcome=None), first=True)
+
+
+def take_no(turn: Turn, mission: Mission) -> None:
+    """End a goal whose plan or only offer a person said no to."""
+    if mission.begun:
+        release_answered(turn)
+    deed = first_deed(turn.book.facts, mission.steps[mission.step :]) or DO_THAT
+    decline(turn, mission, declined(deed))
+
+
+def ask_plainly(turn: Turn, mission: Mission) -> None:
+    """Ask for a yes or no to a plan, after an answer that is neither."""
+    asked = mission.outcome.message if mission.outcome is not None else _shall_i(mission.text)
+    if not asked.en.startswith(_YES_OR_NO.en):
+        asked = Bilingual(en=_YES_OR_NO.en + asked.en, zh=_YES_OR_NO.zh + asked.zh)
+    turn.put(mission, outcome=Outcome(code=Code.CONFIRM, message=asked))
+
+
+def _shall_i(text: str) -> Bilingual:
+    return message(Code.ASKED, text=Bilingual(
+        en=f"Shall I do “{text[:200]}”?", zh=f"要执行“{text[:200]}”吗？"))  # fmt: skip

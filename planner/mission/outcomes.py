@@ -1,0 +1,117 @@
+"""Say how a goal ended, with figures: what was asked, what was reached, how far, what limited it.
+
+"Arrived" is what odometry and the bridge say, never a model.
+"""
+
+from __future__ import annotations
+
+from planner.mission.account import MOTION, account, place_name
+from planner.mission.skills.look import looks_round
+from planner.mission.state import Facts, Mission, Walk
+from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message
+from planner.site.polygon import area_m2, contains
+from wire import Pose2, Status
+
+MAX_LIMITS_NAMED = 5
+MIN_LIMIT_SHARE = 0.02
+"""A limit that was the nearest one in under 2 % of the statuses explains nothing."""
+SEEKS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point"})
+BUDGET = Bilingual(en="distance or time", zh="里程或时间")
+
+
+def moves(step: StepRecord) -> bool:
+    """Tell whether a step may move the robot: a look ahead does not."""
+    if step.kind == "look":
+        return step.place is not None or looks_round(step.text or "")
+    return step.kind in MOTION or step.kind in SEEKS
+
+
+def spot_at(facts: Facts, pose: Pose2 | None, place: str | None = None) -> Spot:
+    """Name where a pose is: its room and the point itself."""
+    if pose is None:
+        return Spot(place=place)
+    rooms = [
+        (area_m2(t.polygon), t.id)
+        for t in facts.targets.values()
+        if t.room and t.polygon is not None and contains(t.polygon, pose.x_m, pose.y_m)
+    ]
+    return Spot(
+        place=place,
+        room=min(rooms)[1] if rooms else None,
+        x_m=round(pose.x_m, 3),
+        y_m=round(pose.y_m, 3),
+        yaw_rad=round(pose.yaw_rad, 4),
+    )
+
+
+def asked_spot(facts: Facts, mission: Mission, step: StepRecord) -> Spot | None:
+    """Name where a step was to go, or None where it goes nowhere."""
+    if step.kind == "come_back":
+        return spot_at(facts, accepted_at(mission))
+    target = facts.targets.get(facts.home if step.kind == "return_home" else step.place or "")
+    if target is None:
+        return Spot(place=step.place) if step.kind in MOTION else None
+    return spot_at(facts, target.pose, target.id)
+
+
+def accepted_at(mission: Mission) -> Pose2 | None:
+    """Return the pose in ``map`` at which the goal was accepted, where it was known."""
+    return Pose2(*mission.accepted_at) if mission.accepted_at is not None else None
+
+
+def limits(mission: Mission, walk: Walk | None) -> tuple[str, ...]:
+    """Return the bridge's names for what held the speed down, the longest first."""
+    counts = dict(mission.limited)
+    for name, count in (walk.limited if walk is not None else {}).items():
+        counts[name] = counts.get(name, 0) + count
+    total = sum(counts.values())
+    named = sorted((-n, name) for name, n in counts.items() if n >= MIN_LIMIT_SHARE * total)
+    return tuple(name for _, name in named[:MAX_LIMITS_NAMED])
+
+
+def ended(
+    facts: Facts,
+    mission: Mission,
+    walk: Walk | None,
+    status: Status | None,
+    now_unix_s: float,
+    *,
+    code: Code,
+    said: Bilingual | None,
+) -> Outcome:
+    """Return the outcome of a mission that had begun: what came of each step, and the figures.
+
+    ``said``: how it ends, where no step tells that.
+    """
+    drives = [s for s in mission.steps if moves(s)]
+    tried = [s for s in drives if s.state not in (StepState.PENDING, StepState.SKIPPED)]
+    last = tried[-1] if tried else (drives[0] if drives else None)
+    pose = status.base_in_map if status is not None else None
+    return Outcome(
+        code=code,
+        message=account(facts, mission, code, said),
+        asked=asked_spot(facts, mission, last) if last is not None else None,
+        reached=(last.reached if last is not None and last.reached else None)
+        or (spot_at(facts, pose) if tried else None),
+        metres=round(mission.metres + (walk.metres if walk is not None else 0.0), 3),
+        seconds=round(max(0.0, now_unix_s - mission.created_unix_s), 3),
+        limited_by=limits(mission, walk),
+    )
+
+
+def thoughts(count: int) -> Bilingual:
+    """Name the thoughts that a goal may have under way, as a budget."""
+    return Bilingual(en=f"{count} thoughts under way", zh=f"途中 {count} 次思考机会")
+
+
+def failure(
+    facts: Facts, mission: Mission, step: StepRecord | None, code: Code, row: str
+) -> Bilingual:
+    """Return the sentence of a mission that failed on its way."""
+    if code in (Code.BLOCKED, Code.NO_ROUTE):
+        return message(code, place=place_name(facts, mission, step))
+    if code is Code.OUT_OF_BUDGET:
+        return message(code, budget=BUDGET)
+    if code is Code.FAULT:
+        return message(code, row=row)
+    return message(code)

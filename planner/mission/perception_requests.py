@@ -1,0 +1,154 @@
+"""Ask about the picture: a vision model in words, or the eyes what a pixel shows. One task each.
+
+Law: a goal's pixel counts in the picture that was the newest when its plan was asked for, or when
+the model was asked, and in no other: once that is gone, the point is. What a model says is words
+for people and never a step. A look in several directions is asked about with a picture of each,
+kept here as it went on; where one is missing, after a restart, with the newest alone, and the
+answer says so. Whatever fails comes back as a code inside the answer.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.image_questions import MAX_VIEWS, Asked, Pointed, View
+from planner.brain.image_questions import Picture as Shown
+from planner.mission.events import Told
+from planner.mission.skills.perception import Answer
+from planner.perception.interfaces import PointRefused
+
+if TYPE_CHECKING:
+    from planner.brain.image_questions import Looker
+    from planner.mission.effects import AskEyes, KeepPicture
+    from planner.perception.interfaces import Eyes, Picture
+    from planner.perception.snapshot import Detection
+
+log = logging.getLogger(__name__)
+
+KEPT = 64
+"""Pictures kept for goals: more than can be open."""
+LOOKS = 2
+"""Goals whose looks keep pictures: more than one only where one was interrupted by another."""
+AS_NEW_S = 1.0
+"""A picture with what was found in it is shown rather than one newer by so little without."""
+
+
+class EyeDoor:
+    """Stand between the missions and whoever sees."""
+
+    def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
+        """Ask these eyes, and this model about their pictures."""
+        self._eyes, self._looker = eyes, looker
+        self._pictures: dict[str, asyncio.Future[Picture | None]] = {}
+        self._views: dict[str, dict[int, tuple[Shown, tuple[Detection, ...]]]] = {}
+        """By goal, and by the number of the direction."""
+
+    def note(self, goal_id: str) -> None:
+        """Keep the newest picture: a plan for this goal is asked for now.
+
+        Where nobody wanted pictures so far, the next one counts.
+        """
+        if self._eyes is None:
+            return
+        loop, newest = asyncio.get_running_loop(), self._eyes.picture
+        self._pictures.pop(goal_id, None)
+        if newest is None:
+            self._pictures[goal_id] = loop.create_task(self._eyes.fresh())
+        else:
+            self._pictures[goal_id] = loop.create_future()
+            self._pictures[goal_id].set_result(newest)
+        if len(self._pictures) > KEPT:
+            self._pictures.pop(next(iter(self._pictures))).cancel()
+
+    def keep(self, keep: KeepPicture) -> None:
+        """Keep the picture of one direction, if it is the one that is meant and still there."""
+        before = self._views.pop(keep.id, {})
+        views = self._views[keep.id] = before if keep.number > 0 else {}
+        if len(self._views) > LOOKS:
+            del self._views[next(iter(self._views))]
+        picture = self._eyes.looked if self._eyes is not None else None
+        same = picture is not None and picture.color.header.seq == keep.seq
+        if self._eyes is not None and picture is not None and same and len(views) < MAX_VIEWS:
+            views[keep.number] = _shown(self._eyes, picture), _detections(self._eyes, picture)
+
+    async def ask(self, ask: AskEyes) -> Told:
+        """Return the answer to one question."""
+        return Told(ask.id, ask.ticket, await self._answer(ask))
+
+    async def _answer(self, ask: AskEyes) -> Answer:
+        eyes = self._eyes
+        picture = _newest(eyes, await eyes.fresh()) if eyes is not None else None
+        if eyes is None or picture is None:
+            return Answer(failure="camera_silent")
+        if ask.x is not None and ask.y is not None:
+            noted = self._pictures.get(ask.id)
+            meant = None if noted is None else await asyncio.shield(noted)
+            if meant is None:  # planned by a planner that is gone, or before any picture came
+                return Answer(failure="point_no_pose")
+            return await _point(eyes, meant, ask.x, ask.y)
+        if self._looker is None:
+            return Answer(failure="no_vision_model")
+        try:
+            return await self._model(self._looker, eyes, picture, ask)
+        except (BrainDown, PlanRejected) as failure:
+            code = failure.why if isinstance(failure, BrainDown) else failure.code
+            log.warning("goal %s: nobody looked at the picture: %s", ask.id, failure)
+            return Answer(failure=code)
+
+    async def _model(self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes) -> Answer:
+        seen = _detections(eyes, picture)
+        asked = Asked(_shown(eyes, picture), ask.words, ask.language, seen, ask.id)
+        if ask.point:
+            found = await looker.point(asked)
+            if not isinstance(found, Pointed):
+                return Answer(failure="not_in_picture")
+            return await _point(eyes, picture, found.x, found.y)
+        views = self._looked_at(ask)
+        said = await looker.describe(replace(asked, direction=ask.now, views=views))
+        if said.brain.fallback_from is not None:  # the detector spoke: the skill does that itself
+            return Answer(failure=said.brain.fallback_reason)
+        return Answer(text=said.text, seen=said.seen, shown=max(1, len(views)))
+
+    def _looked_at(self, ask: AskEyes) -> tuple[View, ...]:
+        """Return the pictures of a look's directions where there are several and all are here."""
+        kept = self._views.pop(ask.id, {})
+        if len(ask.views) < 2 or kept.keys() != set(range(len(ask.views))):
+            return ()
+        return tuple(View(kept[n][0], name, kept[n][1]) for n, name in enumerate(ask.views))
+
+
+def _newest(eyes: Eyes, picture: Picture | None) -> Picture | None:
+    """Return the newest picture; one that was thought upon where that is about as new.
+
+    What was found in it, and from where it was taken, then belong to what is shown.
+    """
+    looked = eyes.looked
+    if picture is None or looked is None or picture.taken_s - looked.taken_s > AS_NEW_S:
+        return picture
+    return looked
+
+
+async def _point(eyes: Eyes, picture: Picture, x: float, y: float) -> Answer:
+    """Return the point of the world that a pixel shows."""
+    try:
+        spot = await eyes.spot(picture, x, y)
+    except PointRefused as refused:
+        return Answer(failure=refused.code)
+    return Answer(at=(spot.x_m, spot.y_m, spot.z_m))
+
+
+def _shown(eyes: Eyes, picture: Picture) -> Shown:
+    header, look = picture.color.header, eyes.sight.look
+    pose = look.base_in_map if look is not None and look.seq == header.seq else None
+    return Shown(picture.color.data, header.width, header.height, header.seq, pose)
+
+
+def _detections(eyes: Eyes, picture: Picture) -> tuple[Detection, ...]:
+    """Return what was found in this very picture, where it was thought upon."""
+    look = eyes.sight.look
+    same = look is not None and look.seq == picture.color.header.seq
+    return look.detections if look is not None and same else ()

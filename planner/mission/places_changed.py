@@ -1,0 +1,64 @@
+"""Take other places for the old ones while goals are open: what was forgotten is driven to no more.
+
+Law: a goal that still names a forgotten place ends at once, typed, and the robot stands; a leg to a
+place that was moved is laid anew.
+"""
+
+from __future__ import annotations
+
+from planner.mission.queue import end_running, finish, settle_walk
+from planner.mission.state import Facts, Mission
+from planner.mission.step_execution import begin_step
+from planner.mission.transaction import Turn
+from planner.plan import Bilingual, Code, GoalState, Outcome, StepRecord, StepState, message
+
+GONE = "place_gone"
+_AHEAD = (StepState.PENDING, StepState.RUNNING)
+
+
+def on_known(turn: Turn, facts: Facts) -> None:
+    """Let the book know these places from now on."""
+    before = turn.book.facts
+    turn.set(facts=facts)
+    for mission in tuple(turn.book.missions.values()):
+        gone = _gone(mission, before, facts)
+        if gone is not None:
+            _end(turn, mission, before.targets[gone].name, facts)
+    _lay_anew(turn, before)
+
+
+def _gone(mission: Mission, before: Facts, now: Facts) -> str | None:
+    """Return a place that a goal still has to visit and that is no more, or None."""
+    if mission.ended:
+        return None
+    ahead = (step for step in mission.steps[mission.step :] if step.state in _AHEAD)
+    named = (place for step in ahead for place in _named(step))
+    return next((p for p in named if p in before.targets and p not in now.targets), None)
+
+
+def _named(step: StepRecord) -> tuple[str, ...]:
+    return (step.place,) if step.place else step.places
+
+
+def _end(turn: Turn, mission: Mission, name: Bilingual, facts: Facts) -> None:
+    known = Bilingual(
+        en=", ".join(t.name.en for t in facts.targets.values()),
+        zh="、".join(t.name.zh for t in facts.targets.values()),
+    )
+    said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
+    if turn.book.running == mission.id:
+        end_running(turn, GoalState.FAILED, Code.UNKNOWN_PLACE, GONE, said=said)
+        return
+    outcome = Outcome(code=Code.UNKNOWN_PLACE, message=said)
+    finish(turn, mission, GoalState.FAILED, outcome, GONE)
+
+
+def _lay_anew(turn: Turn, before: Facts) -> None:
+    """Begin the running step again where its place is another point now."""
+    walk = turn.book.walk
+    if turn.running is None or walk is None or walk.target is None:
+        return
+    old, new = before.targets.get(walk.target), turn.book.facts.targets.get(walk.target)
+    if old is not None and new is not None and old.pose != new.pose:
+        settle_walk(turn)
+        begin_step(turn)

@@ -1,0 +1,144 @@
+"""Take a second thought: the new steps take the place of the rest, or the goal ends as it stood.
+
+Law: the same steps again are no new plan, so a brain whose answer to a sentence is always the same
+(the offline brain's is) ends a goal after one thought instead of trying for ever.
+"""
+
+from __future__ import annotations
+
+import json
+
+from planner.brain.interface import OFFLINE
+from planner.mission.confirmation import needs_yes
+from planner.mission.events import Planned
+from planner.mission.plan_check import NO_STEPS, unwalkable
+from planner.mission.queue import clear_hold, end_running, note_step, step_aside
+from planner.mission.skills.ask import ask_again
+from planner.mission.state import Mission
+from planner.mission.step_execution import begin_step, carry_out, next_step, scene_of
+from planner.mission.step_failure import give_up
+from planner.mission.transaction import Turn
+from planner.plan import (
+    Answer,
+    Bilingual,
+    Clarify,
+    Code,
+    GoalState,
+    Outcome,
+    Plan,
+    PlanRecord,
+    Refuse,
+    StepPlan,
+    StepRecord,
+    StepState,
+    message,
+    plan_record,
+)
+
+SAME_AGAIN = Bilingual(en="the same steps again", zh="与试过的步骤相同")
+
+
+def fingerprint(steps: tuple[StepRecord, ...]) -> str:
+    """Return what steps ask for, whatever came of them."""
+    asked = {"kind", "place", "places", "object", "text", "seconds", "angle_rad", "distance_m"}
+    asked |= {"x", "y"}
+    return json.dumps([s.model_dump(mode="json", include=asked) for s in steps], sort_keys=True)
+
+
+def rethought(turn: Turn, mission: Mission, event: Planned) -> None:
+    """Take the answer of a brain that was asked again while the goal runs."""
+    turn.set(walk=None)
+    if event.brain is not None:
+        mission = turn.put(mission, brain=event.brain)
+    plan = event.plan
+    steps = _steps(plan, mission)
+    if _answered(mission) and _of_no_use(turn, mission, event, steps):
+        carry_out(turn, mission, ask_again(scene_of(turn, mission)))
+        return
+    if steps is None:
+        _no_steps(turn, mission, plan, event.failure)
+        return
+    refused = unwalkable(turn.book, mission, steps) or _same_again(mission, steps)
+    if refused is not None:
+        _end(turn, mission, GoalState.FAILED, refused)
+        return
+    _adopt(turn, mission, steps)
+
+
+def _steps(plan: Plan | None, mission: Mission) -> tuple[StepRecord, ...] | None:
+    """Return the new steps; a question under way is a step that asks and one that decides."""
+    if isinstance(plan, StepPlan):
+        return plan_record(plan).steps
+    if isinstance(plan, Clarify):
+        question = plan.question.of(mission.language)
+        return (
+            StepRecord(kind="ask", text=question),
+            StepRecord(kind="decide", text=mission.words[:500]),
+        )
+    return None
+
+
+def _answered(mission: Mission) -> bool:
+    """Tell whether an answer that was neither yes nor no is what is thought about."""
+    return mission.now is not None and mission.now.kind == "ask"
+
+
+def _of_no_use(
+    turn: Turn, mission: Mission, event: Planned, steps: tuple[StepRecord, ...] | None
+) -> bool:
+    """Tell whether a thought leaves nothing better than to ask the person once more."""
+    if steps is not None:
+        return bool(unwalkable(turn.book, mission, steps) or _same_again(mission, steps))
+    offline = event.brain is not None and event.brain.name == OFFLINE
+    return event.plan is None or (isinstance(event.plan, Refuse) and offline)
+
+
+def _same_again(mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
+    tried = {*mission.tried, fingerprint(mission.steps[mission.step :])}
+    if fingerprint(steps) not in tried:
+        return None
+    said = message(Code.BAD_PLAN, why=SAME_AGAIN)
+    return Outcome(code=Code.BAD_PLAN, message=said)
+
+
+def _no_steps(turn: Turn, mission: Mission, plan: Plan | None, failure: Outcome | None) -> None:
+    decides = mission.failure is None
+    if isinstance(plan, Answer) and decides:
+        note_step(turn, mission, state=StepState.SUCCEEDED)
+        said = message(Code.ANSWERED, text=plan.text)
+        end_running(turn, GoalState.SUCCEEDED, Code.ANSWERED, said=said)
+        return
+    if isinstance(plan, Refuse):
+        _end(turn, mission, GoalState.REFUSED, Outcome(code=plan.code, message=plan.reason))
+        return
+    why = message(Code.BAD_PLAN, why=NO_STEPS)
+    _end(turn, mission, GoalState.FAILED, failure or Outcome(code=Code.BAD_PLAN, message=why))
+
+
+def _end(turn: Turn, mission: Mission, state: GoalState, why: Outcome) -> None:
+    """End the goal; where a step had failed, that failure is what is told."""
+    if mission.failure is not None:
+        give_up(turn, mission)
+        return
+    note_step(turn, mission, state=StepState.FAILED, reason=why.code.value)
+    end_running(turn, state, why.code, why.code.value, said=why.message)
+
+
+def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
+    question, heard = needs_yes(turn.book.facts, mission, steps), _answered(mission)
+    if mission.failure is None:
+        mission = note_step(turn, mission, state=StepState.SUCCEEDED)
+    before = mission.steps[: mission.step + 1]
+    mission = turn.put(
+        mission,
+        plan=PlanRecord(kind="plan", steps=(*before, *steps)),
+        tried=(*mission.tried, fingerprint(steps)),
+        failure=None,
+    )
+    mission = next_step(turn, mission)
+    if mission.confirm or question is not None:
+        reason = None if question is None else "new_plan" if heard else "new_place"
+        step_aside(turn, mission, GoalState.AWAITING_CONFIRMATION, reason, question)
+    else:
+        clear_hold(turn, mission)
+        begin_step(turn)

@@ -1,0 +1,298 @@
+"""Take goals and commands in and answer for them: the door that the API uses, with what it shows.
+
+Every call is judged against the book at once, journalled before it returns, and carried out by the
+loop. An order to stop is judged before anything else and waits for no brain and no disk.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import uuid
+
+from planner.brain.image_questions import Looker
+from planner.brain.interface import Brain
+from planner.bridge_client import Identity, Link, StopResult
+from planner.language.commands import Cancel as TakeBack
+from planner.language.commands import Replace
+from planner.language.commands import Resume as GoOn
+from planner.language.identification import language_of
+from planner.language.yes_no import consents
+from planner.mission.allowed_commands import refusal
+from planner.mission.draft_events import Hearing
+from planner.mission.effects import AskBrain
+from planner.mission.engine import Engine
+from planner.mission.errors import (
+    JournalDown,
+    MissionError,
+    NothingToResume,
+    QueueFull,
+)
+from planner.mission.events import (
+    Cancel,
+    Command,
+    Confirm,
+    Known,
+    Move,
+    Pause,
+    Planned,
+    Reply,
+    Resume,
+    Stopped,
+    Submitted,
+)
+from planner.mission.idempotency import Repeats, body_of
+from planner.mission.journal import MissionJournal
+from planner.mission.known_places import Memory
+from planner.mission.loop import Clocks, Loop
+from planner.mission.open_questions import takes_yes
+from planner.mission.plan_request import thinker
+from planner.mission.planner_commands import Local
+from planner.mission.queue import to_resume
+from planner.mission.reception import Reception, is_active, read_utterance, receive
+from planner.mission.route_prefetch import RouteAhead
+from planner.mission.service_view import Shown
+from planner.mission.state import Book, Rules
+from planner.mission.tasks import Router
+from planner.perception.interfaces import Eyes
+from planner.plan import Goal, Language
+from planner.site import Site
+from wire import OpRequest, RobotDescription
+
+
+class Missions(Shown):
+    """Take goals, drive them, answer for them. See the package's door for the API."""
+
+    def __init__(
+        self,
+        *,
+        site: Site | Memory,
+        robot: RobotDescription,
+        link: Link,
+        router: Router,
+        brain: Brain,
+        journal: MissionJournal,
+        planner_id: str | None = None,
+        clocks: Clocks | None = None,
+    ) -> None:
+        """Put the parts together; ``site`` is a site, or the memory of its places."""
+        self.link, self.memory = link, site if isinstance(site, Memory) else Memory(site)
+        self.memory.use(link, router)
+        site = self.memory.site
+        planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
+        identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
+        engine = Engine(Book(self.memory.facts), identity)
+        self._clocks, self._robot = clocks or Clocks(), robot
+        super().__init__(Loop(engine, link, journal, self._clocks), planner_id)
+        self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
+        self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
+        self._think = Local(
+            self._ask_brain, self.memory, lambda: self._book, self._obey, self._age_s
+        ).think
+        self._repeats = Repeats()
+        self.memory.listen(lambda: self._loop.event(Known(self.memory.facts)))
+
+    def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
+        """See with these eyes, and ask this model about their pictures. Before any start."""
+        self._loop.see(eyes, looker, self._robot.camera)
+
+    # Life ---------------------------------------------------------------------------------------
+
+    async def start(self, *, freeze: bool = False, rules: Rules | None = None) -> None:
+        """Take up the journal and begin to listen to the bridge. Nothing of before goes on.
+
+        Args:
+            freeze: take the garbage collector over, which concerns the whole process.
+            rules: how far a goal may go by itself.
+
+        Raises:
+            Misconfigured: the journal holds what this version can't read.
+        """
+        self._loop.rule(rules or Rules())
+        kept = await self._loop.start(self._think, self._router, freeze=freeze)
+        self._repeats = Repeats(kept)
+
+    async def close(self) -> None:
+        """End everything; a running goal comes back paused in the next process."""
+        await self._loop.close()
+        await self._router.close()
+
+    # Goals --------------------------------------------------------------------------------------
+
+    async def submit(
+        self,
+        text: str,
+        *,
+        language: Language | None = None,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        act: OpRequest | None = None,
+        source: str = "api",
+        answers: bool = True,
+    ) -> Goal:
+        """Take a goal in and return it, usually still in planning. An order to stop stops first.
+
+        A plain yes or no answers the one question, plan or offer that alone can be meant.
+
+        Args:
+            text: what the person said.
+            language: of ``text``; found out where not given.
+            confirm: wait for a yes between plan and first step.
+            replace: end the running goal once this one is understood, and go first.
+            idempotency_key: the same key and request return the same goal.
+            act: the person's ``op/resume``, signed, which clears the bridge's hold.
+            source: who asks, for the bridge's record of stops.
+            answers: it may answer a question; never where ``confirm`` or ``replace`` is set.
+
+        Raises:
+            QueueFull: 33 goals are open, and none of them waits for an answer alone.
+            IdempotencyConflict: the key came with another request before.
+            JournalDown: it can't be written down, so it was not taken.
+        """
+        spoken, goal_id = language or language_of(text), self._clocks.new_id()
+        given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
+        heard = self._receive(given, answers=answers)
+        if heard.stops:
+            return await self._stop_goal(heard.given, source)
+        body = body_of(text, spoken, confirm, replace)
+        if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
+            return self.goal(known)
+        if heard.crowded:
+            raise QueueFull(sum(not m.ended for m in self._book.missions.values()))
+        key = self._repeats.remember(idempotency_key, body, goal_id)
+        if heard.given.resumes:
+            self._loop.clear_hold(act)
+        else:
+            for behind in (goal_id, *heard.given.asking):
+                self._loop.keep_act(behind, act)
+        self._loop.accepted.note(goal_id, self._clocks.monotonic())
+        self._loop.event(heard.given, key)
+        if heard.takes_back is not None:
+            self._loop.event(Cancel(heard.takes_back))
+        await self._written(goal_id, idempotency_key)
+        return self.goal(goal_id)
+
+    def hears_stop(self, text: str) -> bool:
+        """Return whether these words would stop the robot now, whatever else they may mean."""
+        said = read_utterance(text)
+        active = is_active(self._book, self._clocks.monotonic())
+        return said.orders_stop or (said.may_mean_stop and active)
+
+    def awaits_answer(self) -> bool:
+        """Return whether a question waits for a yes or no."""
+        return any(takes_yes(mission) for mission in self._book.missions.values())
+
+    def _receive(self, given: Submitted, *, answers: bool = True) -> Reception:
+        said, now_s = read_utterance(given.text), self._clocks.monotonic()
+        return receive(self._book, said, given, now_s, answers=answers)
+
+    async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
+        """Wait until a goal is written down; what can't be is taken back."""
+        try:
+            await self._loop.settled()
+        except JournalDown:
+            self._loop.event(Cancel(goal_id))
+            self._repeats.forget(idempotency_key)
+            raise
+
+    async def cancel(self, goal_id: str) -> Goal:
+        """End a goal. Raises UnknownGoal, BadState."""
+        return await self._command(Cancel(goal_id))
+
+    async def pause(self, goal_id: str) -> Goal:
+        """Keep a goal's place, standing. Raises UnknownGoal, BadState."""
+        return await self._command(Pause(goal_id))
+
+    async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal:
+        """Go on with a goal; without an id, with the one that was paused last.
+
+        Raises:
+            UnknownGoal, BadState: as named.
+            NothingToResume: no id was given and nothing is paused or kept waiting.
+        """
+        return await self._command(Resume(goal_id or self._newest_paused()), act)
+
+    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal:
+        """Say yes to a plan. Raises UnknownGoal, BadState."""
+        return await self._command(Confirm(goal_id), act)
+
+    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
+        """Answer a goal's question, or say yes or no to its plan; an order to stop always stops.
+
+        What is said to the planner itself ("where are you", "hold on") is done beside the question,
+        which stays open: no sentence that needs no proof is ever taken as the answer.
+
+        Raises:
+            UnknownGoal, BadState: as named.
+        """
+        said = read_utterance(text)
+        intent = said.intent
+        if said.orders_stop or (consents(text) is None and self.hears_stop(text)):
+            await self.stop("answer")
+            if isinstance(intent, Replace):
+                self._obey(Cancel(goal_id))
+            return self.goal(goal_id)
+        if (error := refusal(self._book, Reply(goal_id, text))) is not None:
+            raise error
+        if isinstance(intent, TakeBack):
+            return await self.cancel(goal_id)
+        own_question = takes_yes(self._book.missions[goal_id])  # "go on" may be its answer
+        if said.stays_put or (isinstance(intent, GoOn) and not own_question):
+            await self.submit(text, act=act)
+            return self.goal(goal_id)
+        if isinstance(intent, Replace):
+            taken_back = await self.cancel(goal_id)
+            await self.submit(intent.rest, act=act, answers=False)
+            return taken_back
+        return await self._command(Reply(goal_id, text), act)
+
+    async def move(self, goal_id: str, before: str | None = None) -> Goal:
+        """Put a queued goal before another, or last. Raises UnknownGoal, BadState."""
+        return await self._command(Move(goal_id, before))
+
+    async def stop(self, source: str = "api") -> StopResult:
+        """Stop now: horizon, brains and queue at once, and the bridge until it echoes, or 2 s."""
+        saying = asyncio.ensure_future(self.link.stop(source))
+        await asyncio.sleep(0)  # the first stop is on the wire before anything is written
+        self._loop.event(Stopped(source))
+        return await saying
+
+    # Inside -------------------------------------------------------------------------------------
+
+    async def _stop_goal(self, given: Submitted, source: str) -> Goal:
+        result = await self.stop(source)
+        self._loop.event(dataclasses.replace(given, echoed=result.echoed))
+        return self.goal(given.id)
+
+    def _newest_paused(self) -> str:
+        if (goal_id := to_resume(self._book)) is None:
+            raise NothingToResume
+        return goal_id
+
+    async def _ask_brain(self, ask: AskBrain) -> Planned:
+        eyes = (self._hearing, self._book.means, self._book.eyes.classes)
+        return await thinker(self._brain, self.memory.vocabulary, *eyes)(ask)
+
+    def _age_s(self) -> float:
+        heard = self.link.status
+        return heard.age_s if heard is not None else float("inf")
+
+    def _obey(self, command: Command) -> MissionError | None:
+        """Obey a command at once, or say why it can't be obeyed."""
+        error = refusal(self._book, command)
+        if error is None:
+            self._loop.event(command)
+        return error
+
+    async def _command(self, command: Command, act: OpRequest | None = None) -> Goal:
+        error = refusal(self._book, command)
+        if error is not None:
+            raise error
+        if isinstance(command, Resume):
+            self._loop.clear_hold(act)
+        else:
+            self._loop.keep_act(command.id, act)
+        self._loop.event(command)
+        await self._loop.settled()
+        return self.goal(command.id)

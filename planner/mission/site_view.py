@@ -1,0 +1,40 @@
+"""Take from a site what the reducer needs of it, and what a brain may name."""
+
+from __future__ import annotations
+
+from planner.mission.state import Facts, Target
+from planner.plan import Bilingual, Entry, Vocabulary
+from planner.site import Place, Site
+
+
+def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> Facts:
+    """Return the rooms and places of a site, and the taught ones, as targets; and its home."""
+    places = (*site.places, *taught)
+    return Facts({place.id: _target(place) for place in places}, site.home.id, site.map_id)
+
+
+def _target(place: Place) -> Target:
+    return Target(
+        id=place.id,
+        room=place.kind == "room",
+        name=Bilingual(en=place.name.en, zh=place.name.zh),
+        pose=place.pose,
+        polygon=place.polygon,
+        aliases=(*place.aliases.en, *place.aliases.zh),
+    )
+
+
+def vocabulary_of(site: Site, taught: tuple[Place, ...] = ()) -> Vocabulary:
+    """Return the names that a plan for this site may use, the taught ones last."""
+    return Vocabulary(entries=tuple(_entry(site, place) for place in (*site.places, *taught)))
+
+
+def _entry(site: Site, place: Place) -> Entry:
+    room = site.room_at(place.pose.x_m, place.pose.y_m) if place.kind == "place" else None
+    return Entry(
+        id=place.id,
+        kind=place.kind,
+        name=Bilingual(en=place.name.en, zh=place.name.zh),
+        aliases=(*place.aliases.en, *place.aliases.zh),
+        room=room.id if room is not None else None,
+    )

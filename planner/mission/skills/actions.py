@@ -1,0 +1,208 @@
+"""Define what a skill is told and what it may ask for. Data only: no book, no bridge, no clock.
+
+A skill is a pure function of a :class:`Scene`: asked when its step begins, after each leg of it was
+reached, and again after a pause or a crash. It answers with one act; the mission carries it out.
+What a skill must remember it hands over with its act: ``notes`` hold while the act lasts, ``then``
+once it is done, ``otherwise`` where its way turns out to be shut.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any
+
+from planner.mission.skills.perception import NO_EYES, Answer, Eyesight, Wanted
+from planner.mission.skills.skill_state import NOTHING, Notes
+from planner.perception.snapshot import Sight
+from planner.plan import Language
+
+if TYPE_CHECKING:
+    from planner.mission.state import Facts
+    from planner.plan import Bilingual, Code, StepRecord
+    from wire import Pose2
+
+UNSEEN = Sight()
+"""Nothing was ever seen."""
+ANSWER_S = 125.0
+"""Longest wait for an answer about a picture. A model has its own time, set to 120 s at most, and
+says so when that is over: this is for an answer that gets lost."""
+
+
+class Way(StrEnum):
+    """How a leg gets to its goal."""
+
+    ROUTE = "route"
+    """By the search, round what stands in the way."""
+    STRAIGHT = "straight"
+    """Straight along the heading, ahead or backwards, or not at all."""
+    SPIN = "spin"
+    """On the spot: the bridge turns to the heading by the shorter way."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Tell a skill where its step stands."""
+
+    step: StepRecord
+    facts: Facts
+    pose: Pose2 | None
+    """The robot in ``map`` now, where known."""
+    began: Pose2 | None
+    """The robot in ``map`` when the step began."""
+    done: float
+    """What odometry says was done of the step: radians of a turn, else metres along the heading."""
+    part: int
+    """Legs of this step that were reached."""
+    accepted: Pose2 | None
+    """The robot in ``map`` when the goal was accepted, where it was known."""
+    language: Language = Language.EN
+    """Of the order."""
+    notes: Notes = NOTHING
+    """What the skill handed over with what it asked for before."""
+    eyes: Eyesight = NO_EYES
+    sight: Sight = UNSEEN
+    now_s: float = 0.0
+    """On the clock of the sight."""
+    gazed_s: float | None = None
+    """Since when was gazed, where a gaze has just ended."""
+    spent_s: float = 0.0
+    """Time for which this step was worked on."""
+    spent_m: float = 0.0
+    """What was driven for this step."""
+    answer: Answer | None = None
+    """What came of a question about the picture that was just asked."""
+    upon: Bilingual | None = None
+    """What moves next upon a yes to the question that the step asks; None: nothing does."""
+    thinks: bool = False
+    """The brain may read an answer that is neither yes nor no, and plan anew."""
+
+    def but(self, notes: Notes) -> Scene:
+        """Return the scene with other notes."""
+        return replace(self, notes=notes)
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """Drive one leg, within its budget."""
+
+    goal: Pose2
+    heading: bool
+    """The goal's yaw matters too."""
+    way: Way = Way.ROUTE
+    target: str | None = None
+    """The place that is driven to."""
+    limit_s: float | None = None
+    """Longest time in motion; None: the bridge's grant bounds it."""
+    limit_m: float | None = None
+    """Longest way; None: the bridge's grant bounds it."""
+    notes: Notes | None = None
+    then: Notes | None = None
+    otherwise: Notes | None = None
+    """The step goes on with these where there is no way; None: it fails."""
+    wanted: Wanted | None = None
+    """As soon as this is seen for sure the skill is asked again."""
+    watch: bool = False
+    """The skill is asked again as the sight changes, twice a second at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Gaze:
+    """Stand and look, until so many new pictures were thought upon, or for so long."""
+
+    looks: int
+    seconds: float = 6.0
+    """Longest wait for them; without any the robot is blind, and the step fails."""
+    notes: Notes | None = None
+    then: Notes | None = None
+    wanted: Wanted | None = None
+    watch: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Inquire:
+    """Ask about the picture, standing: a vision model in words, or what a pixel shows.
+
+    With ``x`` and ``y`` (0 to 1000) the point there; else with ``point`` where these words are;
+    else what is seen, as an answer to these words: in the pictures of all ``views``, the names of
+    the directions gazed in, where they are still there; else in the newest one, of ``now``.
+    """
+
+    words: str = ""
+    point: bool = False
+    x: int | None = None
+    y: int | None = None
+    views: tuple[Bilingual, ...] = ()
+    now: Bilingual | None = None
+    seconds: float = ANSWER_S
+    notes: Notes | None = None
+    then: Notes | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """Stand for a while [s]."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Speak:
+    """Say words, at most once."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """Ask a person, standing; the skill is asked again with the answer in its step's record."""
+
+    text: Bilingual
+    notes: Notes | None = None
+    """Held from now on, also while nobody has answered yet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Think:
+    """Have the brain think again with what was seen and heard."""
+
+    notes: Notes | None = None
+    """Held from now on; a thought with the same notes as before is the same one, interrupted."""
+
+
+@dataclass(frozen=True, slots=True)
+class Later:
+    """Wait, standing, until the robot knows where it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """End the step well; ``figures`` go into its record."""
+
+    figures: dict[str, Any] = field(default_factory=dict)
+    code: Code | None = None
+    """What the step came to, where it has something to tell."""
+    said: Bilingual | None = None
+    read: Bilingual | None = None
+    """What a model said of a picture: for people alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Skip:
+    """Leave the step out, for a reason."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Cannot:
+    """End the step without success: a precondition does not hold, or odometry disagrees."""
+
+    code: Code
+    reason: str
+    said: Bilingual | None = None
+    """The sentence for people where the code's own would not do."""
+    figures: dict[str, Any] = field(default_factory=dict)
+
+
+Act = Drive | Stand | Gaze | Inquire | Speak | Question | Think | Later | Done | Skip | Cannot

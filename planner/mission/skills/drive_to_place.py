@@ -1,0 +1,29 @@
+"""Drive to places of the site: ``go_to``, ``return_home`` and ``come_back`` share this.
+
+Law: a place that is gone is not driven to, however recently it was there.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from planner.mission.skills.actions import Cannot, Drive, Scene
+from planner.plan import Code, message, same
+
+if TYPE_CHECKING:
+    from planner.mission.state import Facts
+
+
+def drive_to(scene: Scene, place: str) -> Drive | Cannot:
+    """Return the leg to a place: into a room at any heading, to anything else at its own."""
+    target = scene.facts.targets.get(place)
+    if target is None:
+        return place_gone(scene.facts, place)
+    return Drive(target.pose, heading=not target.room, target=target.id)
+
+
+def place_gone(facts: Facts, place: str) -> Cannot:
+    """Say that a place was forgotten since the plan was made, and what there is."""
+    known = same(", ".join(sorted(facts.targets)))
+    said = message(Code.UNKNOWN_PLACE, name=place, near="", known=known)
+    return Cannot(Code.UNKNOWN_PLACE, "place_gone", said)

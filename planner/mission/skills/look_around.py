@@ -1,0 +1,132 @@
+"""Look round: from one spot in all directions, from several spots one after the other. Pure.
+
+Shared by the skills that look. A spot is driven to, then turned about by a little less than the
+field of view, with a gaze at fresh pictures in each direction. What was looked at is in the notes.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING
+
+from planner.mission.skills.actions import Drive, Gaze, Scene, Way
+from planner.mission.skills.object_matching import away_m
+from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.viewpoints import HERE, Spot, room_at
+from wire import Pose2, wrap
+
+if TYPE_CHECKING:
+    from planner.mission.skills.perception import Wanted
+
+LOOKS = 3
+"""New pictures in each direction: a detector misses now and then."""
+FACING_RAD = 0.12
+"""The bridge calls a heading reached within 0.10."""
+THERE_M = 0.35
+SPIN_S, SPIN_M = 15.0, 0.5
+MORE_M, SLOWEST_MPS, LEG_S = 10.0, 0.1, 60.0
+
+
+def look_round(
+    scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
+) -> Drive | Gaze | Notes:
+    """Return the next leg or gaze; the notes alone once every spot was looked round from."""
+    notes = _without_way(scene, pose, spots)
+    scene = scene.but(notes)
+    here = next((s for s in spots if s.key == notes.spot), None)
+    if here is None:
+        return _go(scene, pose, spots, wanted)
+    view = _next_view(scene, pose, notes)
+    if view is None:
+        done = over(notes, here)
+        return _go(scene.but(done), pose, spots, wanted)
+    heading = _heading(scene, view)
+    if notes.turned != view and abs(wrap(heading - pose.yaw_rad)) > FACING_RAD:
+        return spin(pose, heading, notes.but(turned=view))
+    then = notes.but(views=(*notes.views, view), turned=None)
+    return Gaze(LOOKS, then=then, wanted=wanted)
+
+
+def over(notes: Notes, spot: Spot) -> Notes:
+    """Return the notes of a spot that was looked round from."""
+    rooms = notes.rooms
+    if spot.room is not None and spot.room not in rooms:
+        rooms = (*rooms, spot.room)
+    return notes.but(spot=None, views=(), turned=None, spots=(*notes.spots, spot.key), rooms=rooms)
+
+
+def spin(pose: Pose2, heading: float, then: Notes, *, watch: bool = False) -> Drive:
+    """Return the turn on the spot to a heading."""
+    goal = Pose2(pose.x_m, pose.y_m, wrap(heading))
+    return Drive(
+        goal, True, Way.SPIN, limit_s=SPIN_S, limit_m=SPIN_M, then=then, otherwise=then, watch=watch
+    )
+
+
+def leg_to(
+    pose: Pose2,
+    at: tuple[float, float],
+    heading: float | None,
+    then: Notes,
+    otherwise: Notes,
+    wanted: Wanted | None = None,
+) -> Drive:
+    """Return the way to a point, bounded by its distance; without a way the step goes on."""
+    far_m = away_m(pose, at)
+    goal = Pose2(at[0], at[1], heading if heading is not None else pose.yaw_rad)
+    return Drive(
+        goal,
+        heading is not None,
+        limit_s=LEG_S + far_m * 2.0 / SLOWEST_MPS,
+        limit_m=MORE_M + 3.0 * far_m,
+        then=then,
+        otherwise=otherwise,
+        wanted=wanted,
+    )
+
+
+def _go(
+    scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
+) -> Drive | Gaze | Notes:
+    """Return the way to the next spot, or the first gaze where the robot is there already."""
+    notes = scene.notes
+    spot = next((s for s in spots if s.key not in notes.spots), None)
+    if spot is None:
+        return notes
+    there = notes.but(spot=spot.key, views=(), turned=None)
+    if spot.key == HERE or away_m(pose, spot.at) <= THERE_M:
+        return look_round(scene.but(there), pose, spots, wanted)
+    return leg_to(pose, spot.at, None, there, notes.but(missed=spot.key), wanted)
+
+
+def _without_way(scene: Scene, pose: Pose2, spots: tuple[Spot, ...]) -> Notes:
+    """Give up a spot to which the way was shut; in its room, look round from where one stands."""
+    notes = scene.notes
+    spot = next((s for s in spots if s.key == notes.missed), None)
+    if spot is None:
+        return notes
+    if spot.room in notes.rooms:  # it was looked round in, but for what this spot shows better
+        return notes.but(missed=None, spots=(*notes.spots, spot.key))
+    if spot.room is not None and room_at(scene.facts, (pose.x_m, pose.y_m)) == spot.room:
+        return notes.but(missed=None, spot=spot.key, views=(), turned=None)
+    shut = (*notes.shut, spot.room) if spot.room and spot.room not in notes.shut else notes.shut
+    return notes.but(missed=None, spots=(*notes.spots, spot.key), shut=shut)
+
+
+def _heading(scene: Scene, view: int) -> float:
+    return wrap(view * 2.0 * pi / scene.eyes.views)
+
+
+def _next_view(scene: Scene, pose: Pose2, notes: Notes) -> int | None:
+    """Return the direction to look in next: the one turned to, else the nearest."""
+    if notes.turned is not None and notes.turned not in notes.views:
+        return notes.turned
+    left = [v for v in range(scene.eyes.views) if v not in notes.views]
+    return min(
+        left, key=lambda v: _turn_cost(wrap(_heading(scene, v) - pose.yaw_rad)), default=None
+    )
+
+
+def _turn_cost(turn: float) -> float:
+    """Return the turn needed; rightwards counts a little more, so that one way is kept."""
+    return turn if turn >= 0.0 else -1.3 * turn

@@ -1,0 +1,198 @@
+"""Read a sight for what a skill wants of it: which things fit, which of them are sure. Pure."""
+
+from __future__ import annotations
+
+import re
+from math import atan2, hypot
+from typing import TYPE_CHECKING
+
+from planner.language.object_classes import kind_of
+from planner.language.object_names import resolve, singles_out
+from planner.mission.skills.perception import Wanted
+from planner.mission.skills.spatial_relations import parted, stands
+from planner.plan import Found, Language
+from wire import wrap
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from planner.mission.skills.actions import Scene
+    from planner.perception.snapshot import Sight, Thing
+    from wire import Pose2
+
+SURE = 0.6
+"""Confidence from which a thing is told of."""
+SIGHTINGS = 2
+"""One picture may err; two that agree seldom do."""
+APART_S = 0.5
+"""Between the first picture and the newest, where the robot is to set off: what one jolt, one flash
+or one exposure shows is over by then, and who drives stands elsewhere."""
+WORTH = 0.3
+"""Confidence from which a remembered thing is worth a second look."""
+SOMEBODY = frozenset(
+    {"me", "us", "you", "him", "her", "them", "he", "she", "they", "我", "我们", "你", "您"}
+    | {"他", "她", "他们", "她们"}
+)
+"""People by pronoun: who is meant, no eye can tell."""
+_WORD = re.compile(r"[a-z0-9'-]+")
+_CHINESE = re.compile(r"[\u3400-\u9fff]+")
+LONGEST_EN, LONGEST_ZH = 3, 8
+READ = 120
+"""Characters of a question: each piece is looked up, on the event loop."""
+
+
+def wanted_of(scene: Scene) -> Wanted | None:
+    """Return what the step's words mean to these eyes, or None."""
+    return meant(scene.step.object or "", scene.language, scene.eyes.classes)
+
+
+def meant(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+    """Return what words mean to eyes that know these classes (none: not known yet), or None."""
+    somebody = words.strip().casefold() in SOMEBODY
+    related = _related(words, language, classes)
+    found = resolve("person" if somebody else words, language, classes) if not related else None
+    return related or (Wanted(*found) if found is not None else None)
+
+
+def _related(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+    """Return what is meant by a neighbour that these eyes know, too; None without one."""
+    parts = parted(words)
+    if parts is None or any(singles_out(parts[at], classes) for at in (0, 2)):
+        return None
+    what, by = (resolve(parts[at], language, classes) for at in (0, 2))
+    return Wanted(*what, parts[1], Wanted(*by)) if what is not None and by is not None else None
+
+
+def picks_out(words: str, kind: str, language: Language, classes: tuple[str, ...]) -> bool:
+    """Tell whether words mean one among several by what this kind of step can't judge.
+
+    Where a thing stands by another can be judged of things, not of somebody who walks.
+    """
+    related = kind != "follow" and _related(words, language, classes) is not None
+    return singles_out(words, classes) and not related
+
+
+def one_of(scene: Scene) -> Wanted | None:
+    """Return what the words mean where the robot goes up to it, or None: any of a kind won't do."""
+    step, classes = scene.step, scene.eyes.classes
+    picked = picks_out(step.object or "", step.kind, scene.language, classes)
+    return None if picked else wanted_of(scene)
+
+
+def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:
+    """Return the first thing that a whole sentence names, the longest name that fits."""
+    for words in _pieces(text[:READ].casefold()):
+        found = resolve(words, None, classes)
+        if found is not None:
+            return Wanted(*found)
+    return None
+
+
+def _pieces(text: str) -> Iterable[str]:
+    """Yield the runs of words of a sentence that may be a name, the longest first."""
+    for run in _CHINESE.findall(text):
+        for length in range(min(LONGEST_ZH, len(run)), 0, -1):
+            yield from (run[at : at + length] for at in range(len(run) - length + 1))
+    words = _WORD.findall(text)
+    for length in range(LONGEST_EN, 0, -1):
+        yield from (" ".join(words[at : at + length]) for at in range(len(words) - length + 1))
+
+
+def fits(thing: Thing, wanted: Wanted | None) -> bool:
+    """Tell whether a thing is of the kind and colour that is wanted; None wants all."""
+    if wanted is None:
+        return True
+    return thing.label == wanted.label and wanted.color in (None, thing.color)
+
+
+def placed(thing: Thing, wanted: Wanted | None, things: Iterable[Thing]) -> bool:
+    """Tell whether a thing stands by such a neighbour as is wanted; True where none is."""
+    if wanted is None or wanted.by is None or wanted.relation is None:
+        return True
+    by, relation = wanted.by, wanted.relation
+    return any(sure(t) and fits(t, by) and stands(thing, relation, t) for t in things)
+
+
+def may_fit(thing: Thing, wanted: Wanted) -> bool:
+    """Tell whether a second look may show that a thing fits: its colour is not known yet."""
+    return thing.label == wanted.label and (wanted.color is None or thing.color is None)
+
+
+def sure(thing: Thing) -> bool:
+    """Tell whether a thing is there beyond doubt."""
+    return thing.confidence >= SURE and twice(thing)
+
+
+def twice(thing: Thing) -> bool:
+    """Tell whether two pictures at least showed a thing: one alone proves nothing."""
+    return thing.sightings >= SIGHTINGS
+
+
+def lasting(thing: Thing) -> bool:
+    """Tell whether pictures some time apart showed a thing: those of one moment err alike."""
+    return twice(thing) and thing.seen_s - thing.first_s >= APART_S
+
+
+def fresh(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:
+    """Return what fits and was seen since then, sure or not."""
+    seen = (t for t in sight.things if t.seen_s >= since_s and fits(t, wanted))
+    return tuple(t for t in seen if placed(t, wanted, sight.things))
+
+
+def confirmed(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:
+    """Return what fits, is sure, and was seen since then."""
+    return tuple(t for t in fresh(sight, wanted, since_s) if sure(t))
+
+
+def seen_now(scene: Scene, wanted: Wanted | None) -> tuple[Thing, ...]:
+    """Return what fits and the gaze that has just ended has shown, sure or not."""
+    return fresh(scene.sight, wanted, scene.gazed_s) if scene.gazed_s is not None else ()
+
+
+def away_m(pose: Pose2, at: tuple[float, float]) -> float:
+    """Return how far a point is from the robot [m]."""
+    return hypot(at[0] - pose.x_m, at[1] - pose.y_m)
+
+
+def bearing(pose: Pose2, at: tuple[float, float]) -> float:
+    """Return the heading in ``map`` at which the robot faces a point [rad]."""
+    return atan2(at[1] - pose.y_m, at[0] - pose.x_m)
+
+
+def turn_to(pose: Pose2, at: tuple[float, float]) -> float:
+    """Return by how much the robot must turn to face a point [rad]."""
+    return wrap(bearing(pose, at) - pose.yaw_rad)
+
+
+def spot_of(thing: Thing) -> tuple[float, float, float]:
+    """Return where a thing's middle is: x, y, height [m]."""
+    return thing.x_m, thing.y_m, thing.z_m
+
+
+def found(thing: Thing, pose: Pose2 | None, now_s: float) -> Found:
+    """Return the record of a thing that was found."""
+    return Found(
+        label=thing.label,
+        color=thing.color,
+        x_m=round(thing.x_m, 3),
+        y_m=round(thing.y_m, 3),
+        sigma_m=round(thing.sigma_m, 3),
+        room=thing.room,
+        distance_m=round(away_m(pose, (thing.x_m, thing.y_m)), 2) if pose is not None else None,
+        age_s=round(max(0.0, now_s - thing.seen_s), 1),
+    )
+
+
+def apart(things: Iterable[Thing]) -> tuple[Thing, ...]:
+    """Return things that stand apart: of two of one kind on one spot the better known one."""
+    kept: list[Thing] = []
+    for thing in sorted(things, key=lambda t: -t.sightings):
+        near_m = max(0.15, kind_of(thing.label).reach_m)
+        if all(
+            other.label != thing.label
+            or other.color != thing.color
+            or hypot(other.x_m - thing.x_m, other.y_m - thing.y_m) > near_m
+            for other in kept
+        ):
+            kept.append(thing)
+    return tuple(kept)

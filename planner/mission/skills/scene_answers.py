@@ -1,0 +1,186 @@
+"""Answer a question by what was seen in its step, in both languages. Pure.
+
+Yes is what stands where it was asked for; no needs the neighbour to be seen now; what the eyes
+can't judge, or don't know well enough where it is, is said to be so.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from planner.language.object_names import named, resolve
+from planner.mission.skills.object_matching import apart, confirmed, fits, sure
+from planner.mission.skills.object_query import FLOOR, sought_in
+from planner.mission.skills.object_questions import unknown_kind
+from planner.mission.skills.result_text import counted, listed, unknown_name
+from planner.mission.skills.search import within
+from planner.mission.skills.spatial_relations import SAID, Relation, judged, on_floor
+from planner.plan import Bilingual
+
+if TYPE_CHECKING:
+    from planner.mission.skills.actions import Scene
+    from planner.mission.skills.perception import Wanted
+    from planner.perception.snapshot import Thing
+
+    Things = tuple[Thing, ...]
+
+_FLOOR = Bilingual(en="floor", zh="地板")
+
+
+class Judged(NamedTuple):
+    """Sort things by whether they stand where it was asked for."""
+
+    there: Things
+    unsure: Things
+    elsewhere: Things
+
+
+class Spot(NamedTuple):
+    """Say where was looked, and beside what."""
+
+    at: Bilingual
+    """With a preposition, or empty: `` in the kitchen``, ``在厨房``."""
+    by: Bilingual
+    beside: Bilingual
+    """With a preposition: `` on the table in the kitchen``, ``在厨房的桌子上``."""
+
+
+class Told(NamedTuple):
+    """Hold the answer, and whether it is a yes."""
+
+    said: Bilingual
+    yes: bool | None = None
+    """None: nothing is asked for that is there or not, or it can't be told."""
+
+
+def answer(scene: Scene, question: str) -> Told:
+    """Say what was seen during this step; where one thing is asked for, whether it was."""
+    sought = sought_in(question, scene.facts, scene.step.place, scene.eyes.classes)
+    late = _unknown(scene, question) if sought.what is None else None
+    if late is not None:
+        return Told(late)
+    inside, since_s = within(scene), scene.now_s - scene.spent_s
+    seen = apart(t for t in confirmed(scene.sight, None, since_s) if inside(t))
+    fitting = tuple(t for t in seen if fits(t, sought.what))
+    at = _at(scene, sought.by)
+    if sought.by is not None and sought.relation is not None:
+        known = [t for t in scene.sight.things if inside(t) and sure(t) and fits(t, sought.by)]
+        there = sought.by is FLOOR or any(t.seen_s >= since_s for t in known)
+        judged_so = _judged(fitting, sought.relation, None if sought.by is FLOOR else known)
+        return _beside(sought.what, judged_so, _spot(sought.by, sought.relation, at), seen=there)
+    if sought.unclear and fitting:
+        what = _said(fitting, sought.what)
+        return Told(
+            Bilingual(
+                en=f"I see {what.en}{at.en}; whether “{sought.unclear}”, I can't tell by sight.",
+                zh=f"{at.zh}看到 {what.zh}；是不是“{sought.unclear}”，我看不出来。",
+            )
+        )
+    return _plainly(sought.what, fitting, at)
+
+
+def _unknown(scene: Scene, question: str) -> Bilingual | None:
+    """Say that the eyes don't know the kind that is asked for: at the beginning they told none."""
+    eyes = scene.eyes
+    name = unknown_kind(question, scene.facts, scene.language, eyes.classes)
+    return unknown_name(name, eyes.classes) if name is not None and not eyes.model else None
+
+
+def _judged(things: Things, relation: Relation, by: list[Thing] | None) -> Judged:
+    """Sort things by how they stand to the nearest to yes of these; None: to the floor."""
+    sorts: dict[bool | None, list[Thing]] = {True: [], None: [], False: []}
+    for thing in things:
+        told = [on_floor(thing)] if by is None else [judged(thing, relation, t) for t in by]
+        sorts[True if True in told else None if None in told else False].append(thing)
+    return Judged(tuple(sorts[True]), tuple(sorts[None]), tuple(sorts[False]))
+
+
+def _beside(what: Wanted | None, so: Judged, spot: Spot, *, seen: bool) -> Told:
+    """Say whether what is asked for stands by its neighbour; ``seen``: that one was seen now."""
+    at, beside = spot.at, spot.beside
+    if so.there:
+        found = _said(so.there, what)
+        yes = ("Yes, ", "有，") if what is not None else ("", "")
+        return Told(
+            Bilingual(
+                en=f"{yes[0]}I see {found.en}{beside.en}.",
+                zh=f"{yes[1]}{beside.zh}看到 {found.zh}。",
+            ),
+            None if what is None else True,
+        )
+    if so.unsure:
+        found = _said(so.unsure, what)
+        return Told(
+            Bilingual(
+                en=f"I can't tell: I see {found.en}{at.en}, but not well enough where.",
+                zh=f"说不准：{at.zh}看到 {found.zh}，但位置不够确定。",
+            )
+        )
+    if not seen:
+        return Told(_without_neighbour(what, so.elsewhere, spot))
+    no = _plainly(what, (), beside)
+    if what is None or not so.elsewhere:
+        return no
+    found = _said(so.elsewhere, what)
+    said = Bilingual(
+        en=f"{no.said.en} I see {found.en} elsewhere.", zh=f"{no.said.zh}别处看到 {found.zh}。"
+    )
+    return Told(said, no.yes)
+
+
+def _without_neighbour(what: Wanted | None, elsewhere: Things, spot: Spot) -> Bilingual:
+    """Say that it can't be told, since the neighbour was not seen."""
+    at, by = spot.at, spot.by
+    if what is None:
+        return Bilingual(en=f"I can't tell: I see no {by.en}{at.en}.",
+                         zh=f"说不准：{at.zh}没有看到{by.zh}。")  # fmt: skip
+    if not elsewhere:
+        name = named(what.label, what.color)
+        return Bilingual(en=f"I can't tell: I see no {name.en} and no {by.en}{at.en}.",
+                         zh=f"说不准：{at.zh}没有看到{name.zh}，也没有看到{by.zh}。")  # fmt: skip
+    found = _said(elsewhere, what)
+    return Bilingual(en=f"I can't tell: I see {found.en}, but no {by.en}{at.en}.",
+                     zh=f"说不准：{at.zh}看到 {found.zh}，但没有看到{by.zh}。")  # fmt: skip
+
+
+def _plainly(what: Wanted | None, things: Things, at: Bilingual) -> Told:
+    """Say what was seen of what is asked for, without any neighbour."""
+    if what is None:
+        if not things:
+            return Told(Bilingual(en=f"I see nothing that I know{at.en}.",
+                                  zh=f"{at.zh}没有看到我认识的东西。"))  # fmt: skip
+        found = listed(things)
+        return Told(Bilingual(en=f"I see {found.en}{at.en}.", zh=f"{at.zh}看到 {found.zh}。"))
+    if not things:
+        name = named(what.label, what.color)
+        return Told(Bilingual(en=f"No, I see no {name.en}{at.en}.",
+                              zh=f"没有，{at.zh}没有看到{name.zh}。"), False)  # fmt: skip
+    found = _said(things, what)
+    said = Bilingual(en=f"Yes, I see {found.en}{at.en}.", zh=f"有，{at.zh}看到 {found.zh}。")
+    return Told(said, True)
+
+
+def _said(things: Things, what: Wanted | None) -> Bilingual:
+    return counted(len(things), what.label, what.color) if what is not None else listed(things)
+
+
+def _at(scene: Scene, by: Wanted | None) -> Bilingual:
+    """Say where was looked; nothing of a place that is the neighbour itself."""
+    target = scene.facts.targets.get(scene.step.place or "")
+    if target is None:
+        return Bilingual(en="", zh="")
+    if target.room:
+        return Bilingual(en=f" in the {target.name.en}", zh=f"在{target.name.zh}")
+    if by is not None and (resolve(target.name.en) or ("",))[0] == by.label:
+        return Bilingual(en="", zh="")
+    return Bilingual(en=f" near the {target.name.en}", zh=f"在{target.name.zh}附近")
+
+
+def _spot(by: Wanted, relation: Relation, at: Bilingual) -> Spot:
+    name = _FLOOR if by is FLOOR else named(by.label, by.color)
+    en, zh = SAID[relation]
+    beside = Bilingual(
+        en=f" {en} the {name.en}{at.en}",
+        zh=f"{at.zh}的{name.zh}{zh}" if at.zh else f"在{name.zh}{zh}",
+    )
+    return Spot(at, name, beside)

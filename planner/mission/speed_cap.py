@@ -1,0 +1,21 @@
+"""Change the speed cap that a person leaves to a running goal: slower only, and back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission
+    from planner.mission.transaction import Turn
+
+LEAST_SPEED_SHARE = 0.25
+"""Slower than that a robot blocks people's way for minutes; who wants less says stop."""
+
+
+def change_speed(turn: Turn, mission: Mission, *, slower: bool) -> None:
+    """Halve the speed cap of a running goal, or double it up to the whole; no lower than a quarter.
+
+    The bridge's own limits hold as ever: this can only make the robot slower than planned.
+    """
+    share = mission.speed_share / 2.0 if slower else mission.speed_share * 2.0
+    turn.put(mission, speed_share=min(1.0, max(LEAST_SPEED_SHARE, share)))

@@ -1,0 +1,277 @@
+"""Own what is remembered of missions: one record each, and the book of one robot.
+
+A ``Mission`` is what the journal keeps; it changes only at transitions. ``Walk`` is what the
+running step needs between two statuses and dies with the process. Data only, no clock: ``*_s`` are
+on the caller's monotonic clock, ``*_unix_s`` for people.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from pydantic import Field
+
+from planner.mission.skills.actions import UNSEEN, Way
+from planner.mission.skills.perception import NO_EYES, Eyesight, Wanted
+from planner.mission.skills.skill_state import NOTHING, Notes
+from planner.perception.snapshot import Sight
+from planner.plan import (
+    ENDED,
+    Bilingual,
+    BrainTag,
+    Frozen,
+    GoalState,
+    Language,
+    Means,
+    Outcome,
+    PlanRecord,
+    StepRecord,
+    StepState,
+)
+from wire import Pose2, Status
+
+MAX_OPEN = 33
+"""Goals that have not ended: one running and 32 that wait."""
+MAX_ENDED = 200
+"""Ended goals kept at hand; the journal keeps ten times as many."""
+
+
+class Mission(Frozen):
+    """Keep one goal whole: enough to show it, and to take it up again after a crash."""
+
+    id: str
+    order: int
+    """Rises with every goal given."""
+    text: str
+    language: Language
+    state: GoalState
+    reason: str | None = None
+    replies: tuple[str, ...] = ()
+    """What the person answered to our questions, in order."""
+    questions: tuple[str, ...] = ()
+    """What was asked before each of them; empty where an older program kept none."""
+    source: str = "api"
+    """Who gave it: a new order of the same source closes what a brain asked about older ones."""
+    plan: PlanRecord | None = None
+    outcome: Outcome | None = None
+    brain: BrainTag | None = None
+    confirm: bool = False
+    """Wait for a yes before the first step."""
+    replace: bool = False
+    first: bool = False
+    """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
+    doubtful_stop: bool = False
+    """Its sentence holds a stop word and stopped the robot before it was thought about."""
+    given_under_hold: str | None = None
+    """The bridge's hold that stood when a person last spoke for this goal. Once a plan is made and
+    accepted, that hold is cleared, and no hold that came later."""
+    held: bool = False
+    """Queued, and kept there until a person resumes or cancels it."""
+    kept: bool = False
+    """It is held by more than a question of the goal before it: no answer lets it go."""
+    map_id: str = ""
+    """The map that every pose here is on; empty in records of older programs."""
+    step: int = 0
+    part: int = 0
+    """Legs of the current step that were reached: what was done of it is not done again."""
+    began_at: tuple[float, float, float] | None = None
+    """Where the robot stood when the current step began: x [m], y [m], yaw [rad] in ``map``."""
+    done: float = 0.0
+    """What odometry says was done of the current step: radians of a turn, else metres ahead."""
+    notes: Notes = NOTHING
+    """What the skill of the current step remembers: where it looked, and what it saw."""
+    step_s: float = 0.0
+    """Time for which the current step was worked on."""
+    step_m: float = 0.0
+    """What was driven for it."""
+    replans: int = 0
+    """Thoughts spent on steps that failed."""
+    decides: int = 0
+    """Thoughts spent on ``decide`` steps."""
+    tried: tuple[str, ...] = ()
+    """Fingerprints of the plans that were taken: the same again leads nowhere."""
+    failure: Outcome | None = None
+    """Why a step failed, while a new plan is thought about or the robot drives back after it."""
+    leg: int = 0
+    """The newest leg of this mission; legs only rise."""
+    accepted_at: tuple[float, float, float] | None = None
+    """Where the robot stood when the goal was accepted: x [m], y [m], yaw [rad] in ``map``."""
+    speed_share: float = Field(default=1.0, ge=0.0, le=1.0)
+    """Of the planned speeds' cap: a person said "slow down" while it ran."""
+    metres: float = 0.0
+    limited: dict[str, int] = Field(default_factory=dict)
+    """Statuses during which the bridge's limit of that name was the nearest one."""
+    created_unix_s: float
+    updated_unix_s: float
+
+    @property
+    def ended(self) -> bool:
+        return self.state in ENDED
+
+    @property
+    def steps(self) -> tuple[StepRecord, ...]:
+        return self.plan.steps if self.plan is not None else ()
+
+    @property
+    def words(self) -> str:
+        """Return the newest thing that the person said about this goal, to be understood."""
+        return self.replies[-1] if self.replies else self.text
+
+    @property
+    def now(self) -> StepRecord | None:
+        """Return the current step; None before the plan and after its last step."""
+        return self.steps[self.step] if self.step < len(self.steps) else None
+
+    @property
+    def returning(self) -> bool:
+        """Tell whether the goal has failed, and only its way back is left."""
+        failed = self.now is not None and self.now.state is StepState.FAILED
+        return self.failure is not None and not failed
+
+    @property
+    def begun(self) -> bool:
+        """Tell whether any step was begun: from then on the goal keeps its place at the front."""
+        return self.step > 0 or (self.now is not None and self.now.state is not StepState.PENDING)
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Describe a room or place that can be driven to."""
+
+    id: str
+    room: bool
+    name: Bilingual
+    pose: Pose2
+    polygon: tuple[tuple[float, float], ...] | None = None
+    aliases: tuple[str, ...] = ()
+    """What else people call it, in both languages."""
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Hold what the reducer knows of the site. No map: routes are somebody else's."""
+
+    targets: dict[str, Target]
+    home: str
+    map_id: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """Bound what a mission may do by itself. Data, from the owner's settings."""
+
+    replans: int = 2
+    """New plans for a goal whose step failed; then it fails."""
+    decides: int = 3
+    """Times that a goal may think again because its plan says so."""
+    answer_s: float = 600.0
+    """How long an answer to a question of any kind is waited for, standing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """Remember the running step between two statuses."""
+
+    kind: Literal["drive", "gaze", "inquire", "wait", "say", "ask", "think"]
+    record: int
+    """The journal entry that says this step started; nothing moves or speaks before it is safe."""
+    goal: Pose2 | None = None
+    heading: bool = False
+    """The goal's yaw matters too."""
+    way: Way = Way.ROUTE
+    target: str | None = None
+    """The place that is driven to."""
+    limit_s: float | None = None
+    limit_m: float | None = None
+    """The skill's budget for this leg."""
+    moving_s: float = 0.0
+    """Time for which the leg was followed and nothing held it."""
+    left_m: float | None = None
+    """Along the path, as of the newest status."""
+    since_s: float | None = None
+    """When this act began, where the step's time is counted."""
+    notes: Notes | None = None
+    """What the skill remembers while this act lasts."""
+    then: Notes | None = None
+    """And once it is done."""
+    otherwise: Notes | None = None
+    """And where its way is shut; None: then the step fails."""
+    wanted: Wanted | None = None
+    """As soon as this is seen for sure the skill is asked again."""
+    watch: bool = False
+    """The skill is asked again as the sight changes."""
+    asked_s: float | None = None
+    """When it was asked last."""
+    looks: int = 0
+    """New pictures that a gaze still waits for."""
+    look_seq: int = -1
+    """The newest picture that was counted."""
+    gazed: int = 0
+    """Pictures that were counted."""
+    gaze_s: float | None = None
+    """Since when the robot stands and pictures count."""
+    gaze_until_s: float | None = None
+    """When a gaze, or the wait for an answer about a picture, ends anyhow."""
+    amount: float = 0.0
+    """What odometry says was done in this leg, as in ``Mission.done``."""
+    until_s: float | None = None
+    """When a wait ends."""
+    question: Bilingual | None = None
+    """What a person is asked."""
+    aloud: bool = True
+    """A question is spoken; False where it was perhaps spoken before."""
+    ticket: int | None = None
+    """The route that is being searched."""
+    ticket_detour: bool = False
+    """It is to lead round what the lidar sees."""
+    leg: int | None = None
+    """The leg that is streamed; None: stand."""
+    route_when_standing: bool = False
+    routes: int = 0
+    """Routes asked for in this step because one was lost or refused, not because of obstacles."""
+    detours_failed: int = 0
+    detours: int = 0
+    retry_s: float | None = None
+    """When the next try is due after a failed route."""
+    blocked_since_s: float | None = None
+    refused_since_s: float | None = None
+    row_since_s: float | None = None
+    idle_since_s: float | None = None
+    jumped: bool = False
+    metres: float = 0.0
+    limited: dict[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Book:
+    """Hold all missions of one robot. Frozen; dictionaries in it are replaced, never changed."""
+
+    facts: Facts
+    rules: Rules = Rules()
+    wall_offset_s: float = 0.0
+    """Unix time less the monotonic clock that ``now_s`` is on."""
+    missions: dict[str, Mission] = field(default_factory=dict)
+    queue: tuple[str, ...] = ()
+    running: str | None = None
+    walk: Walk | None = None
+    status: Status | None = None
+    status_s: float = float("-inf")
+    eyes: Eyesight = NO_EYES
+    sight: Sight = UNSEEN
+    pardoned: str | None = None
+    """The bridge's hold that stood when a person last acted; it is given time to clear."""
+    pardon_until_s: float = float("-inf")
+    asked_s: dict[str, float] = field(default_factory=dict)
+    """Since when each goal waits for a person's word."""
+    order: int = 0
+    tickets: int = 0
+    written: int = 0
+    """Journal entries asked for."""
+    safe: int = 0
+    """Journal entries known to be on disk."""
+
+    @property
+    def means(self) -> Means:
+        """Return what the robot can do besides driving and talking, as its eyes are now."""
+        return self.eyes.means(self.sight.blind)

@@ -1,0 +1,146 @@
+"""Let a step fail: think again with the observation in hand, or end the goal honestly.
+
+Law: at most as many thoughts as the rules allow; what no other plan could mend ends at once. The
+robot stands while the brain thinks, and keeps its place: it is this goal's turn. Who was sent to
+look and to come back comes back with nothing, too: that way alone is still driven.
+"""
+
+from __future__ import annotations
+
+from planner.mission.account import BACK
+from planner.mission.declined_goals import decline
+from planner.mission.effects import AskBrain
+from planner.mission.observations import exchanges_of, observed
+from planner.mission.outcomes import failure, spot_at
+from planner.mission.queue import end_running, note_step, settle_walk
+from planner.mission.skills import NOTHING, Cannot, Notes
+from planner.mission.state import Mission, Walk
+from planner.mission.transaction import Turn
+from planner.plan import Bilingual, Code, GoalState, Outcome, StepState
+
+MENDABLE = frozenset(
+    {Code.NO_ROUTE, Code.BLOCKED, Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE}
+    | {Code.NOT_FOUND, Code.LOST_PERSON}
+)
+"""Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
+SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED})
+IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON})
+"""Nothing was wrong but that it was not there: the way back that the person ordered holds."""
+AGAIN_S = 1.0
+"""A way that is shut stays so for a while: a step that goes on without it is asked no sooner."""
+
+
+def fail_step(turn: Turn, cannot: Cannot) -> None:
+    """End the running step without success; then think again, or end the goal.
+
+    A leg whose skill knows what to do without it ends alone, and the step goes on. What a person
+    declined ends at once: no other plan is thought about.
+    """
+    walk = turn.book.walk
+    if walk is not None and walk.otherwise is not None and cannot.code in SHUT:
+        _without(turn, walk.otherwise)
+        return
+    mission = settle_walk(turn)
+    if mission is None:
+        return
+    if cannot.code is Code.DECLINED and cannot.said is not None:
+        decline(turn, mission, cannot.said)
+        return
+    said = cannot.said or failure(turn.book.facts, mission, mission.now, cannot.code, "")
+    before = mission.failure if mission.returning else None
+    why = Outcome(code=cannot.code, message=said) if before is None else _beside(before, said)
+    mission = note_step(
+        turn, mission, state=StepState.FAILED, reason=cannot.reason, said=said, **cannot.figures
+    )
+    mission = turn.put(mission, failure=why)
+    mendable = cannot.code in MENDABLE and before is None
+    if mendable and mission.replans < turn.book.rules.replans:
+        think(turn, turn.put(mission, replans=mission.replans + 1))
+        return
+    give_up(turn, mission)
+
+
+def _without(turn: Turn, notes: Notes) -> None:
+    """Go on in the step without this leg: its skill is asked soon, standing."""
+    mission = settle_walk(turn)
+    if mission is None:
+        return
+    turn.put(mission, notes=notes)
+    retry_s = turn.now_s + AGAIN_S
+    turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s, since_s=turn.now_s))
+
+
+def give_up(turn: Turn, mission: Mission) -> None:
+    """End the running goal with what failed in it, where no way back is left to drive."""
+    why = mission.failure
+    if why is not None and why.code in IN_VAIN and _go_back(turn, mission):
+        return
+    end_failed(turn, mission, why.message if why is not None else None)
+
+
+def end_failed(turn: Turn, mission: Mission, said: Bilingual | None) -> None:
+    """End the running goal by its failure, told in these words."""
+    code = mission.failure.code if mission.failure is not None else Code.BAD_PLAN
+    failed = [s for s in mission.steps[: mission.step + 1] if s.state is StepState.FAILED]
+    looked = [s for s in failed if s.kind not in BACK] or failed
+    reason = looked[-1].reason if looked else None
+    own = failed[-1].said if failed else None  # a step that failed tells why by itself
+    end_running(turn, GoalState.FAILED, code, reason, said=own or said)
+
+
+def _go_back(turn: Turn, mission: Mission) -> bool:
+    """Leave out all that was still to be done but the first way back; say if there is one."""
+    left = range(mission.step + 1, len(mission.steps))
+    pending = (i for i in left if mission.steps[i].state is StepState.PENDING)
+    back = next((i for i in pending if mission.steps[i].kind in BACK), None)
+    if back is None or mission.plan is None or mission.failure is None:
+        return False
+    skipped = {"state": StepState.SKIPPED, "reason": mission.failure.code.value}
+    steps = tuple(
+        step.model_copy(update=skipped) if i in left and i != back else step
+        for i, step in enumerate(mission.steps)
+    )
+    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": steps}))
+    to_step(turn, mission, back)
+    turn.set(walk=Walk("drive", turn.next_entry, retry_s=turn.now_s))
+    return True
+
+
+def _beside(before: Outcome, said: Bilingual) -> Outcome:
+    """Return a failure with what failed on the way back told after it."""
+    told = before.message
+    both = Bilingual(en=f"{told.en} {said.en}", zh=f"{told.zh}{said.zh}")
+    return Outcome(code=before.code, message=both)
+
+
+def to_step(turn: Turn, mission: Mission, index: int) -> Mission:
+    """Point at a step, of which nothing is done yet."""
+    return turn.put(
+        mission,
+        step=index,
+        part=0,
+        began_at=None,
+        done=0.0,
+        notes=NOTHING,
+        step_s=0.0,
+        step_m=0.0,
+    )
+
+
+def think(turn: Turn, mission: Mission) -> None:
+    """Have the brain think again, standing, with all that came of the goal so far."""
+    facts, status = turn.book.facts, turn.book.status
+    room = spot_at(facts, status.base_in_map if status is not None else None).room
+    turn.set(walk=Walk("think", turn.next_entry))
+    turn.emit(
+        AskBrain(
+            mission.id,
+            mission.words,
+            mission.language,
+            room,
+            observed(facts, mission),
+            mission.replans,
+            order=mission.text,
+            exchanges=exchanges_of(mission),
+        )
+    )

@@ -1,0 +1,142 @@
+"""Ask brain and router in tasks, and bring their answers back as events. One task per question."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable, Coroutine
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, KeepPicture
+from planner.mission.events import Planned, Told
+from planner.mission.perception_requests import EyeDoor
+from planner.mission.skills import Way
+from planner.mission.skills.perception import Answer
+from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
+from planner.plan import Code, Outcome, message
+
+log = logging.getLogger(__name__)
+
+Think = Callable[[AskBrain], Awaitable[Planned]]
+"""Understand a sentence. Cancelled at once when nobody waits for the answer any more."""
+
+
+class Router(Protocol):
+    """Find routes, in another process."""
+
+    async def route(self, request: RouteRequest) -> RouteResult:
+        """Find the way, or raise ``RouteFailure``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """Say where answers go, and what the lidar sees when a way round is wanted."""
+
+    planned: Callable[[Planned], None]
+    routed: Callable[[AskRoute, tuple[RoutePoint, ...] | None, str | None], None]
+    obstacles: Callable[[], tuple[tuple[float, float], ...]]
+    told: Callable[[Told], None]
+    broken: Callable[[BaseException], None]
+    """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
+
+
+class Helpers:
+    """Own the tasks."""
+
+    def __init__(
+        self,
+        think: Think,
+        router: Router,
+        answers: Answers,
+        eyes: EyeDoor | None = None,
+    ) -> None:
+        self._think = think
+        self._eyes = eyes or EyeDoor(None)
+        self._router = router
+        self._answers = answers
+        self._thoughts: dict[str, asyncio.Task[None]] = {}
+        self._inquiries: dict[int, asyncio.Task[None]] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def help(self, ask: AskBrain | AskRoute | AskEyes | KeepPicture | DropBrain) -> None:
+        """Start to think, to search or to ask about pictures; keep one; stop thinking."""
+        match ask:
+            case AskBrain():
+                self._drop(ask.id)
+                self._eyes.note(ask.id)
+                self._thoughts[ask.id] = self._start(self._understand(ask))
+            case DropBrain():
+                self._drop(ask.id)
+            case AskRoute():
+                self.spawn(self._search(ask))
+            case KeepPicture():
+                self._eyes.keep(ask)
+            case AskEyes():
+                self._inquiries[ask.ticket] = self._start(self._inquire(ask))
+
+    def await_answer(self, ticket: int | None) -> None:
+        """Cancel every question about a picture but this one: nobody waits for the others."""
+        for other in [t for t in self._inquiries if t != ticket]:
+            self._inquiries.pop(other).cancel()
+
+    def spawn(self, work: Coroutine[Any, Any, None]) -> None:
+        """Run something beside, and keep hold of it until it ends."""
+        self._tasks.add(self._start(work))
+
+    def _start(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._ended)
+        return task
+
+    def _ended(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled() and (error := task.exception()) is not None:
+            self._answers.broken(error)
+
+    def _drop(self, mission_id: str) -> None:
+        task = self._thoughts.pop(mission_id, None)
+        if task is not None:
+            task.cancel()
+
+    async def close(self) -> None:
+        """Cancel everything and wait until it is gone."""
+        tasks = tuple(self._tasks)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    async def _understand(self, ask: AskBrain) -> None:
+        try:
+            answer = await self._think(ask)
+        except Exception:
+            # Whatever a brain may be, its fault must not end the planner: the goal fails, typed.
+            log.exception("the brain failed on goal %s", ask.id)
+            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
+            answer = Planned(ask.id, None, said)
+        if self._thoughts.get(ask.id) is asyncio.current_task():
+            del self._thoughts[ask.id]
+            self._answers.planned(answer)
+
+    async def _inquire(self, ask: AskEyes) -> None:
+        try:
+            told = await self._eyes.ask(ask)
+        except Exception:
+            # As with a brain: whatever sees, its fault must not end the planner.
+            log.exception("the eyes failed on goal %s", ask.id)
+            told = Told(ask.id, ask.ticket, Answer(failure="unavailable"))
+        if self._inquiries.get(ask.ticket) is asyncio.current_task():
+            del self._inquiries[ask.ticket]
+            self._answers.told(told)
+
+    async def _search(self, ask: AskRoute) -> None:
+        obstacles = self._answers.obstacles() if ask.obstacles else ()
+        try:
+            request = RouteRequest(ask.start, ask.goal, obstacles, straight=ask.way is Way.STRAIGHT)
+            result = await self._router.route(request)
+        except RouteFailure as failure:
+            log.warning("no route for goal %s: %s", ask.id, failure)
+            self._answers.routed(ask, None, failure.code)
+            return
+        self._answers.routed(ask, result.points, None)

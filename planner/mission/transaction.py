@@ -1,0 +1,78 @@
+"""Give the reducer its one working copy: changes collect here, effects queue here, then both leave.
+
+Local to one ``advance``; outside it nothing is mutable.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from planner.mission.effects import Changed, Effect, Journal
+from planner.mission.state import MAX_ENDED, Book, Mission, Walk
+
+
+class Turn:
+    """Work on one event."""
+
+    def __init__(self, book: Book, now_s: float) -> None:
+        self._before = book
+        self.book = book
+        self.now_s = now_s
+        self._effects: list[Effect] = []
+
+    def emit(self, effect: Effect) -> None:
+        """Queue an effect."""
+        self._effects.append(effect)
+
+    def set(self, **changes: Any) -> None:
+        """Change fields of the book."""
+        self.book = replace(self.book, **changes)
+
+    def mission(self, mission_id: str | None) -> Mission | None:
+        """Return a mission, or None."""
+        return self.book.missions.get(mission_id) if mission_id is not None else None
+
+    @property
+    def running(self) -> Mission | None:
+        """Return the mission that has the robot, or None."""
+        return self.mission(self.book.running)
+
+    def put(self, mission: Mission, **changes: Any) -> Mission:
+        """Keep a mission with changes, stamped."""
+        stamp = self.now_s + self.book.wall_offset_s
+        # Wall clocks step back; a record's times never do.
+        changes["updated_unix_s"] = max(stamp, mission.updated_unix_s)
+        changed = mission.model_copy(update=changes)
+        self.set(missions={**self.book.missions, mission.id: changed})
+        return changed
+
+    def walk(self, **changes: Any) -> Walk | None:
+        """Change the running step's memory, if a step runs."""
+        walk = self.book.walk
+        if walk is not None and any(getattr(walk, k) != v for k, v in changes.items()):
+            self.set(walk=replace(walk, **changes))
+        return self.book.walk
+
+    @property
+    def next_entry(self) -> int:
+        """Return the journal entry that will hold what this turn changes."""
+        return self.book.written + 1
+
+    def close(self) -> tuple[Book, tuple[Effect, ...]]:
+        """Journal what changed, before anything else is asked; forget the oldest ended goals."""
+        before = self._before.missions
+        changed = tuple(m for i, m in self.book.missions.items() if before.get(i) is not m)
+        if changed:
+            self.set(written=self.next_entry)
+            journal = Journal(self.book.written, changed, self.book.queue)
+            self._effects = [journal, *self._effects, *(Changed(m.id) for m in changed)]
+            self._forget()
+        return self.book, tuple(self._effects)
+
+    def _forget(self) -> None:
+        ended = [m for m in self.book.missions.values() if m.ended]
+        if len(ended) > MAX_ENDED:
+            ended.sort(key=lambda m: m.order)
+            gone = {m.id for m in ended[: len(ended) - MAX_ENDED]}
+            self.set(missions={i: m for i, m in self.book.missions.items() if i not in gone})

@@ -1,0 +1,35 @@
+"""Run the route process: ``planner.navigation.process_main SITE LIMITS``.
+
+Started by :class:`planner.navigation.RouteWorker` alone. While nobody asks, it works out
+the exact costs to the places that people name.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from planner.kept import Frame, Parent, run
+from planner.navigation.ipc import read_limits, read_request, result_frame
+from planner.navigation.process_client import CODES
+from planner.navigation.router import Router
+from planner.site import Site, SiteError
+
+
+def main(parent: Parent, folder: str, limits: str) -> int:
+    """Load the site named by path, say ready, and answer until the input ends."""
+    try:
+        site = Site.load(Path(folder))
+    except SiteError as error:
+        return parent.refuse(CODES.down, str(error))
+    router = Router(site, read_limits(limits))
+    parent.write({"ready": site.map_id})
+    return parent.serve(partial(_answer, router), router.warm())
+
+
+def _answer(router: Router, asked: Frame) -> Frame:
+    return result_frame(router.route(read_request(asked)))
+
+
+if __name__ == "__main__":
+    run(main)

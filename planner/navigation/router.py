@@ -1,0 +1,168 @@
+"""Turn a request into a route: the one place where the pieces meet. No processes, no sockets.
+
+Brings numpy and OpenCV along, so the planner's own process uses :class:`RouteWorker` instead; the
+worker, the lockstep harness and benches use this.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from math import hypot, isfinite
+from time import perf_counter
+
+import numpy as np
+
+from planner.navigation.costmap import Costmap, static_costmap
+from planner.navigation.route import (
+    RouteFailure,
+    RouteLimits,
+    RoutePoint,
+    RouteRequest,
+    RouteResult,
+)
+from planner.navigation.search import Lattice, costs_in_slices, find_path
+from planner.navigation.smoothing import Line, densify, is_free, relax, straighten
+from planner.navigation.start_and_goal import Cell, Ends, choose_ends, moved_m
+from planner.navigation.straight_line import BACK_MPS, backwards, straight_line
+from planner.navigation.waypoints import evenly, speeds, thin
+from planner.site import Site
+
+MAX_FIELD_BYTES = 64_000_000
+"""All exact costs kept: 130 places on a home of 10 x 12 m, none that matter on a huge map."""
+
+MAX_OUTSIDE_M = 0.28
+"""A horizon begins within 0.3 m of the robot, and inside the fence."""
+
+
+class Router:
+    """Find routes on one site for one robot. The map's part of the work is done once."""
+
+    def __init__(self, site: Site, limits: RouteLimits) -> None:
+        """Prepare the costmap of the map as it is."""
+        self._site = site
+        self._limits = limits
+        self._mapped = static_costmap(site, limits.radius_m)
+        self._lattice = Lattice.of(self._mapped.cost)
+        self._fields: dict[int, array[float]] = {}
+
+    def warm(self) -> Iterator[None]:
+        """Work out the exact cost to every place, a few milliseconds at each turn.
+
+        The first turn drives home in thought, so that the first real request finds all it needs.
+        """
+        with suppress(RouteFailure):
+            self.route(RouteRequest(self._site.places[0].pose, self._site.home.pose))
+        yield
+        size = 8 * len(self._lattice.cost)
+        for place in self._site.places[: MAX_FIELD_BYTES // size]:
+            column, row = self._site.grid.cell_of(place.pose.x_m, place.pose.y_m)
+            if self._mapped.free[row, column]:
+                goal = self._lattice.index(column, row)
+                self._fields[goal] = yield from costs_in_slices(self._lattice, goal)
+
+    @property
+    def goals_known(self) -> int:
+        """Return to how many goals the exact costs are worked out."""
+        return len(self._fields)
+
+    def route(
+        self, request: RouteRequest, clock: Callable[[], float] = perf_counter
+    ) -> RouteResult:
+        """Find the way.
+
+        Raises:
+            RouteFailure: there is none; the code says why.
+        """
+        began_s = clock()
+        _check(request)
+        start_m = (request.start.x_m, request.start.y_m)
+        costmap = self._mapped.with_obstacles(request.obstacles, start_m)
+        if request.straight:
+            return self._straight(costmap, request, began_s, clock)
+        ends = choose_ends(costmap, self._site, request)
+        line = self._line(costmap, request, ends)
+        return RouteResult(
+            points=self._points(costmap, line),
+            length_m=float(np.hypot(*np.diff(line, axis=0).T).sum()),
+            moved_goal_m=moved_m(costmap, request, ends),
+            start_escaped=ends.start_escaped,
+            took_s=clock() - began_s,
+        )
+
+    def _straight(
+        self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
+    ) -> RouteResult:
+        line = straight_line(costmap, request)
+        points = self._points(costmap, line)
+        if backwards(request):
+            points = tuple(
+                RoutePoint(point.x_m, point.y_m, -min(point.speed_mps, BACK_MPS))
+                for point in points
+            )
+        goal_m = np.asarray((request.goal.x_m, request.goal.y_m))
+        return RouteResult(
+            points=points,
+            length_m=float(np.hypot(*np.diff(line, axis=0).T).sum()),
+            moved_goal_m=float(hypot(*(goal_m - line[-1]))),
+            start_escaped=False,
+            took_s=clock() - began_s,
+        )
+
+    def _line(self, costmap: Costmap, request: RouteRequest, ends: Ends) -> Line:
+        cells = self._search(costmap, ends.start, ends.goal)
+        line = np.asarray([costmap.grid.centre_of(*cell) for cell in cells])
+        start_m = np.asarray((request.start.x_m, request.start.y_m))
+        if not ends.goal_moved:
+            line[-1] = (request.goal.x_m, request.goal.y_m)
+        if not ends.start_escaped:
+            line = np.concatenate([[start_m], line[1:] if len(line) > 1 else line])
+            return _shaped(costmap, line)
+        return np.concatenate([self._way_out(start_m, line[0]), _shaped(costmap, line)[1:]])
+
+    def _way_out(self, start_m: Line, free_m: Line) -> Line:
+        """Return the straight way from a tight spot to free floor, without what the bridge refuses.
+
+        The bridge lets a robot outside the fence come back in, but takes no point outside it.
+        """
+        out = evenly(np.stack([start_m, free_m]))
+        inside = [self._site.fence.allows(x_m, y_m) for x_m, y_m in out.tolist()]
+        out = np.asarray(out[inside], np.float64)
+        if len(out) == 0 or hypot(*(out[0] - start_m)) > MAX_OUTSIDE_M:
+            raise RouteFailure("start_blocked", f"more than {MAX_OUTSIDE_M} m outside the fence")
+        return out
+
+    def _search(self, costmap: Costmap, start: Cell, goal: Cell) -> list[Cell]:
+        as_mapped = costmap is self._mapped
+        lattice = self._lattice if as_mapped else Lattice.of(costmap.cost)
+        # Obstacles only ever raise costs, so what the map says is never more than the truth.
+        field = self._fields.get(lattice.index(*goal))
+        path = find_path(lattice, lattice.index(*start), lattice.index(*goal), field)
+        if path is None:
+            raise RouteFailure("no_route", "no free floor joins them")
+        return [lattice.cell(index) for index in path]
+
+    def _points(self, costmap: Costmap, line: Line) -> tuple[RoutePoint, ...]:
+        fence = self._site.fence
+        zone_mps = np.asarray([fence.max_speed_mps(x_m, y_m) for x_m, y_m in line.tolist()])
+        wanted = speeds(costmap, line, zone_mps, self._limits)
+        return tuple(
+            RoutePoint(x_m, y_m, speed_mps)
+            for (x_m, y_m), speed_mps in zip(line.tolist(), wanted.tolist(), strict=True)
+        )
+
+
+def _shaped(costmap: Costmap, line: Line) -> Line:
+    """Return the best-shaped version of a way of cells that stays on free floor."""
+    straight = straighten(costmap, line)
+    for smooth in (evenly(relax(costmap, densify(straight))), evenly(straight, 0.06)):
+        if is_free(costmap, smooth):
+            return smooth
+    return thin(line)
+
+
+def _check(request: RouteRequest) -> None:
+    ends = (request.start, request.goal)
+    if not all(isfinite(pose.x_m) and isfinite(pose.y_m) for pose in ends):
+        raise RouteFailure("route_request_malformed", "a coordinate is not a finite number")

@@ -1,0 +1,169 @@
+"""Choose where a route begins and ends when what was asked for is blocked. Knows the costmap."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, hypot
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.navigation.costmap import Costmap
+from planner.navigation.route import RouteFailure, RouteRequest
+from planner.navigation.smoothing import sample
+from planner.site import Site
+
+ESCAPE_M = 0.6
+"""A robot squeezed in deeper than this does not stand where the map says."""
+GOAL_MOVE_M = 0.5
+ROOM_M = 0.10
+"""Kept clear about a robot that stands: the bridge's gate stops it 0.05 m before anything, and the
+pose and the map's cells err by about as much."""
+SHIFT_M = 0.15
+"""A goal is moved by so much for the sake of room; what is meant by it stays the same."""
+
+Cell = tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """Hold the free cells (column, row) between which to search."""
+
+    start: Cell
+    goal: Cell
+    start_escaped: bool
+    goal_moved: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Near:
+    """List free cells around a point, the nearest first."""
+
+    columns: NDArray[np.intp]
+    rows: NDArray[np.intp]
+    away_m: NDArray[np.float64]
+
+    def keep(self, wanted: NDArray[np.bool_]) -> _Near:
+        return _Near(self.columns[wanted], self.rows[wanted], self.away_m[wanted])
+
+    def before(self, wanted: NDArray[np.bool_]) -> _Near:
+        """Put the cells that are wanted before all others, in the order that they have."""
+        order = np.argsort(~wanted, kind="stable")
+        return _Near(self.columns[order], self.rows[order], self.away_m[order])
+
+    def first(self) -> Cell:
+        return int(self.columns[0]), int(self.rows[0])
+
+
+def choose_ends(costmap: Costmap, site: Site, request: RouteRequest) -> Ends:
+    """Find the nearest free start and goal that are joined by free floor.
+
+    Raises:
+        RouteFailure: ``start_outside_map``, ``goal_outside_map``, ``goal_blocked``,
+            ``start_blocked`` or ``no_route``.
+    """
+    start_m, goal_m = _xy(costmap, request, "start"), _xy(costmap, request, "goal")
+    goals = _goals(costmap, site, goal_m)
+    starts = _starts(costmap, start_m)
+    labels = costmap.labels
+    joined = starts.keep(
+        np.isin(labels[starts.rows, starts.columns], labels[goals.rows, goals.columns])
+    )
+    if len(joined.rows) == 0:
+        raise RouteFailure("no_route", "no free floor joins them")
+    start = joined.first()
+    goal = goals.keep(labels[goals.rows, goals.columns] == labels[start[1], start[0]]).first()
+    return Ends(
+        start,
+        goal,
+        start_escaped=start != costmap.grid.cell_of(*start_m),
+        goal_moved=goal != costmap.grid.cell_of(*goal_m),
+    )
+
+
+def _xy(costmap: Costmap, request: RouteRequest, which: str) -> tuple[float, float]:
+    pose = request.start if which == "start" else request.goal
+    if not costmap.grid.inside(pose.x_m, pose.y_m):
+        raise RouteFailure(f"{which}_outside_map", f"({pose.x_m:.2f}, {pose.y_m:.2f})")
+    return pose.x_m, pose.y_m
+
+
+def _goals(costmap: Costmap, site: Site, goal_m: tuple[float, float]) -> _Near:
+    """List where to end: with room to stand, where that is about as near as any free floor."""
+    column, row = costmap.grid.cell_of(*goal_m)
+    stands = costmap.clearance_m >= costmap.radius_m + ROOM_M
+    if costmap.free[row, column] and stands[row, column]:
+        return _only(column, row)
+    near = _free_near(costmap, goal_m, GOAL_MOVE_M)
+    room = site.room_at(*goal_m)
+    if room is not None:
+        # Half a metre may reach through a wall; what was meant is on this side of it.
+        centres = [
+            costmap.grid.centre_of(*cell) for cell in zip(near.columns, near.rows, strict=True)
+        ]
+        near = near.keep(np.array([room.contains(*xy) for xy in centres], bool))
+    if len(near.rows) == 0:
+        text = f"({goal_m[0]:.2f}, {goal_m[1]:.2f}), none within {GOAL_MOVE_M} m"
+        raise RouteFailure("goal_blocked", text)
+    roomy = stands[near.rows, near.columns] & (near.away_m <= near.away_m[0] + SHIFT_M)
+    if costmap.free[row, column] and not roomy.any():
+        return _only(column, row)
+    return near.before(roomy)
+
+
+def _starts(costmap: Costmap, start_m: tuple[float, float]) -> _Near:
+    column, row = costmap.grid.cell_of(*start_m)
+    if costmap.free[row, column]:
+        return _only(column, row)
+    near = _free_near(costmap, start_m, ESCAPE_M)
+    near = near.keep(
+        np.array(
+            [
+                _leads_out(costmap, start_m, cell)
+                for cell in zip(near.columns, near.rows, strict=True)
+            ],
+            bool,
+        )
+    )
+    if len(near.rows) == 0:
+        text = f"({start_m[0]:.2f}, {start_m[1]:.2f}), none within {ESCAPE_M} m"
+        raise RouteFailure("start_blocked", text)
+    return near
+
+
+def _leads_out(costmap: Costmap, start_m: tuple[float, float], cell: Cell) -> bool:
+    """Tell whether a straight line leaves the tight spot without coming nearer to any obstacle."""
+    line = sample(np.asarray(start_m), np.asarray(costmap.grid.centre_of(*cell)))
+    clearance_m = costmap.clearance_at(line)
+    # One cell of tolerance: clearance is known per cell, and the pose to a few centimetres.
+    lowest_m = max(0.0, float(clearance_m[0]) - costmap.grid.resolution_m)
+    inside = costmap.fence_gap_at(line) > 0.0
+    leaves_fence = inside[:-1] & ~inside[1:]
+    return bool((clearance_m >= lowest_m).all() and not leaves_fence.any())
+
+
+def _free_near(costmap: Costmap, xy_m: tuple[float, float], reach_m: float) -> _Near:
+    grid = costmap.grid
+    column, row = grid.cell_of(*xy_m)
+    reach = ceil(reach_m / grid.resolution_m)
+    left, low = max(0, column - reach), max(0, row - reach)
+    window = costmap.free[low : row + reach + 1, left : column + reach + 1]
+    rows, columns = np.nonzero(window)
+    rows, columns = rows + low, columns + left
+    x_m = grid.origin_x_m + (columns + 0.5) * grid.resolution_m
+    y_m = grid.origin_y_m + (rows + 0.5) * grid.resolution_m
+    away_m = np.hypot(x_m - xy_m[0], y_m - xy_m[1])
+    order = np.argsort(away_m, kind="stable")
+    return _Near(columns[order], rows[order], away_m[order]).keep(away_m[order] <= reach_m)
+
+
+def _only(column: int, row: int) -> _Near:
+    return _Near(np.array([column]), np.array([row]), np.zeros(1))
+
+
+def moved_m(costmap: Costmap, request: RouteRequest, ends: Ends) -> float:
+    """Return how far the goal was moved [m]."""
+    if not ends.goal_moved:
+        return 0.0
+    x_m, y_m = costmap.grid.centre_of(*ends.goal)
+    return hypot(x_m - request.goal.x_m, y_m - request.goal.y_m)

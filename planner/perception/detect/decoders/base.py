@@ -1,0 +1,72 @@
+"""Define what each decoder can do, and what several of them share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.perception.detect.detections import Row
+from planner.perception.detect.model_info import Facts
+from planner.perception.detect.preprocess import Floats, Recipe
+
+GRIDS = ((8, 16, 32), (8, 16, 32, 64))
+"""The strides of the YOLO families' heads."""
+UNTOLD = 0
+"""Classes that the shape of an output does not count."""
+
+
+class Decoder(Protocol):
+    """Read one layout of outputs."""
+
+    NAME: ClassVar[str]
+    RECIPE: ClassVar[Recipe]
+    """How its family wants the picture."""
+    SUPPRESS: ClassVar[bool]
+    """Several boxes come for one thing."""
+    SPARE: ClassVar[int]
+    """Classes at the end that may go without a name."""
+
+    def __init__(self, facts: Facts) -> None:
+        """Get ready for outputs of these shapes."""
+
+    @classmethod
+    def classes_of(cls, facts: Facts) -> int | None:
+        """Return how many classes the outputs tell of; None where they are of another layout."""
+
+    def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
+        """Return boxes in input pixels. What is not finite is left out, or left to `believed`."""
+
+
+def floats(output: NDArray[np.generic]) -> Floats:
+    """Return an output without its batch, as single precision; a copy only where it is not."""
+    return np.asarray(output[0], np.float32)
+
+
+def finite_rows(rows: Floats) -> NDArray[np.bool_]:
+    """Tell which rows hold numbers alone."""
+    return np.asarray(np.isfinite(rows).all(axis=1))
+
+
+def integral(classes: Floats) -> NDArray[np.bool_]:
+    """Tell which numbers can be a class's."""
+    return np.asarray((classes >= 0.0) & (classes == np.rint(classes)))
+
+
+def by_objectness(rows: Floats, min_score: float) -> tuple[Floats, Floats, NDArray[np.intp]]:
+    """Read rows of box, objectness and one score a class.
+
+    Returns:
+        The boxes' four numbers as they are, objectness x best class score, and that class.
+    """
+    scores, best = best_class(rows)
+    kept = (scores >= min_score) & finite_rows(rows)
+    return rows[kept, :4], scores[kept], best[kept]
+
+
+def best_class(rows: Floats) -> tuple[Floats, NDArray[np.intp]]:
+    """Return objectness x best class score, and that class, of rows as above."""
+    classes = rows[:, 5:]
+    return rows[:, 4] * classes.max(axis=1), classes.argmax(axis=1)

@@ -1,0 +1,169 @@
+"""Look at one picture after another: bytes in, detections in picture pixels out.
+
+Whatever a picture is, the answer is detections or a code that says why it was skipped. Knows no map
+and no process.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+
+import numpy as np
+
+from planner.language.object_classes import kind_of
+from planner.language.object_names import canonical
+from planner.perception.color_classifier import dark, exposure
+from planner.perception.detect.depth_hints import hints
+from planner.perception.detect.depth_sampling import ANY, look_inside
+from planner.perception.detect.detections import Row, believed, in_picture
+from planner.perception.detect.image_decode import Depth, Picture, unpack_color, unpack_depth
+from planner.perception.detect.model_file import Model, Wanted, open_model
+from planner.perception.detect.nms import strongest, suppress
+from planner.perception.detect.preprocess import Preparer
+from planner.perception.detect.preprocess_bytes import preparer
+from planner.perception.detect.score_thresholds import least_scores
+from planner.perception.detect.session import RUN_ERRORS, Array, last_words, senseless
+from planner.perception.failure import VisionFailure
+from planner.perception.result import About, LookResult
+from planner.perception.snapshot import Detection
+
+EMPTY = "depth_empty"
+"""The camera measures nothing here, or no longer: what it sees is placed without."""
+
+
+class Detector:
+    """Find things with one model."""
+
+    def __init__(self, wanted: Wanted, min_score: float | None = None) -> None:
+        """Open the model.
+
+        Args:
+            wanted: what the owner sets about it.
+            min_score: what is believed of every class; None: what the model's file says.
+
+        Raises:
+            VisionFailure: it is refused.
+        """
+        self.model: Model = open_model(wanted)
+        choice, taken = self.model.choice, self.model.input
+        metadata, count = self.model.session.metadata, len(choice.classes)
+        scores, least = least_scores(metadata, count, min_score)
+        self._least, self._lowest = scores, min(scores)
+        self._decoder, self._classes = choice.decoder, choice.classes
+        self._kinds = [kind_of(canonical(label)) for label in self._classes]
+        self._preparer: Preparer = preparer(self._decoder.RECIPE, taken)
+        self._feeds = self.feeds(self._preparer.buffer)
+        session = self.model.session
+        try:
+            session.fix(self._feeds, session.run(self._feeds))
+        except RUN_ERRORS as error:
+            text = f"it failed on its second picture: {last_words(error)}"
+            raise VisionFailure("model_broken", text) from None
+        self.about = About(
+            model=self.model.name,
+            decoder=self._decoder.NAME,
+            why=choice.why,
+            provider=session.provider,
+            provider_why=session.provider_why,
+            classes=self._classes,
+            width=taken.width,
+            height=taken.height,
+            least=least,
+        )
+
+    def look(
+        self,
+        color: bytes,
+        depth: bytes | None = None,
+        said: tuple[int, int] | None = None,
+        focal_px: float | None = None,
+    ) -> LookResult:
+        """Return what a picture shows.
+
+        Args:
+            color: JPEG, or PNG of eight bits.
+            depth: 16-bit PNG in millimetres, of the same size.
+            said: width and height as whoever sent the picture said.
+            focal_px: the camera's, where it is known: how large a thing shows bounds how near.
+        """
+        began_s = time.monotonic()
+        try:
+            return self._looked(color, depth, said, focal_px, began_s)
+        except RUN_ERRORS:
+            return _skipped("detector_failed", began_s)
+
+    def _looked(
+        self,
+        color: bytes,
+        depth: bytes | None,
+        said: tuple[int, int] | None,
+        focal_px: float | None,
+        began_s: float,
+    ) -> LookResult:
+        """Look as above, or end in ``RUN_ERRORS``."""
+        picture = unpack_color(color, said)
+        if isinstance(picture, str):
+            return _skipped(picture, began_s)
+        if dark(picture):
+            return _skipped("picture_dark", began_s)
+        height, width = picture.shape[:2]
+        far = unpack_depth(depth, (width, height)) if depth is not None else None
+        lost = far if isinstance(far, str) else None
+        if lost is not None and lost != EMPTY:
+            return _skipped(lost, began_s)
+        detections = self.find(picture, None if isinstance(far, str) else far, focal_px)
+        took_s = time.monotonic() - began_s
+        return LookResult(detections, width, height, took_s, depth_lost=lost)
+
+    def find(
+        self, picture: Picture, depth: Depth | None = None, focal_px: float | None = None
+    ) -> tuple[Detection, ...]:
+        """Return the detections in an unpacked picture, the surest first.
+
+        Raises:
+            RuntimeError: or another of ``RUN_ERRORS``: the model failed on it.
+        """
+        return self._detections(self.boxes(picture), picture, depth, focal_px)
+
+    def boxes(self, picture: Picture) -> list[Row]:
+        """Return the boxes in an unpacked picture, in its pixels, the surest first."""
+        _, placed = self._preparer.prepare(picture)
+        outputs = self.model.session.run(self._feeds)
+        found = believed(self._decoder.decode(outputs, self._lowest), self._least)
+        if not found and senseless(outputs):
+            # To be told of as a failure: an empty picture would be a thing's absence.
+            raise ArithmeticError("no number came out that is finite")
+        found = in_picture(found, placed, picture.shape[1], picture.shape[0])
+        return suppress(found) if self._decoder.SUPPRESS else strongest(found)
+
+    def prepare(self, picture: Picture) -> Array:
+        """Return the model's input for a picture; the next picture is written over it."""
+        return self._preparer.prepare(picture)[0]
+
+    def feeds(self, buffer: Array) -> Mapping[str, Array]:
+        """Return all that the model is fed with such an input."""
+        return {self.model.input.name: buffer, **self.model.beside}
+
+    def _detections(
+        self, rows: list[Row], picture: Picture, depth: Depth | None, focal_px: float | None
+    ) -> tuple[Detection, ...]:
+        if not rows:
+            return ()
+        told = [ANY] * len(rows)
+        if depth is not None:
+            boxes = np.array([row[:4] for row in rows], np.float32)
+            kinds = [self._kinds[row[5]] for row in rows]
+            told = hints(boxes, kinds, (picture.shape[1], picture.shape[0]), focal_px)
+        gain = exposure(picture)
+        made: list[Detection] = []
+        for (left, top, right, bottom, score, number), hint in zip(rows, told, strict=True):
+            if label := self._classes[number]:
+                box = (left, top, right, bottom)
+                seen = look_inside(picture, depth, box, hint, gain)
+                made.append(Detection(label, score, box, seen.color, seen.depth_m, seen.spread_m))
+        return tuple(made)
+
+
+def _skipped(code: str, began_s: float) -> LookResult:
+    return LookResult((), 0, 0, time.monotonic() - began_s, code)

@@ -1,0 +1,142 @@
+"""Open a model file: refuse it clearly, or return a session that was tried and a fitting decoder.
+
+One trial picture, all grey, is run before anything is chosen: it warms the session up, and the
+shapes that come out count where those in the file are left open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.perception.detect.class_names import names_in, names_of
+from planner.perception.detect.decoders import Choice, choose
+from planner.perception.detect.input_size import Input, find_input
+from planner.perception.detect.model_info import Facts, Shape
+from planner.perception.detect.onnx_file import OnnxFile, examine
+from planner.perception.detect.session import (
+    FRACTIONS,
+    RUN_ERRORS,
+    Array,
+    Session,
+    is_starved,
+    kind_of,
+    last_words,
+    senseless,
+)
+from planner.perception.failure import VisionFailure
+
+GREY = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Hold what the owner sets about a model."""
+
+    path: Path
+    labels: Path | None = None
+    decoder: str | None = None
+    provider: str | None = None
+    threads: int = 1
+    input_px: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """Hold a model that is ready to look."""
+
+    name: str
+    file: OnnxFile
+    session: Session
+    input: Input
+    choice: Choice
+    beside: dict[str, Array]
+    """What it is fed beside the picture."""
+
+
+def open_model(wanted: Wanted) -> Model:
+    """Return the model of a file.
+
+    Raises:
+        VisionFailure: a code of :data:`planner.perception.failure.REFUSALS`.
+    """
+    file = examine(wanted.path)
+    session = Session(wanted.path, file, wanted.threads, wanted.provider)
+    taken = find_input(session.inputs, session.metadata, wanted.input_px)
+    beside: dict[str, Array] = {}
+    if taken.sizes is not None:
+        # The input's own size: boxes then come in input pixels, as from every other family.
+        beside[taken.sizes] = np.array([[taken.width, taken.height]], np.int64)
+    outputs = _tried(session, taken, beside)
+    choice = choose(_facts(wanted, session, taken, outputs), wanted.decoder)
+    try:
+        choice.decoder.decode(outputs, GREY)
+    except RUN_ERRORS as error:
+        text = f"as {choice.decoder.NAME}: {last_words(error)}"
+        raise VisionFailure("model_layout_unknown", text) from None
+    return Model(wanted.path.name, file, session, taken, choice, beside)
+
+
+def _tried(session: Session, taken: Input, beside: dict[str, Array]) -> Sequence[Array]:
+    """Return what comes out for a grey picture; refuse where that can't be boxes of any layout."""
+    try:
+        outputs = session.run({taken.name: _grey(taken), **beside})
+    except RUN_ERRORS as error:
+        if is_starved(error):
+            raise VisionFailure("model_too_hungry", "on a trial picture") from None
+        text = f"it failed on a trial picture: {last_words(error)}"
+        raise VisionFailure("model_broken", text) from None
+    if not any(kind_of(found) == FRACTIONS for found in outputs):
+        shown = "; ".join(slot.shown() for slot in session.outputs)
+        raise VisionFailure(
+            "model_not_detector", f"no output holds fractions, as scores are: {shown}"
+        )
+    if senseless(outputs):
+        raise VisionFailure("model_broken", "on a trial picture no number came out that is finite")
+    return outputs
+
+
+def _grey(taken: Input) -> Array:
+    """Return a grey picture as the model takes one."""
+    if taken.bytes_in is None:
+        return np.full((1, 3, taken.height, taken.width), GREY, np.float32)
+    return np.full((1, taken.height, taken.width, 3), round(255 * GREY), np.uint8)
+
+
+def _facts(wanted: Wanted, session: Session, taken: Input, outputs: Sequence[Array]) -> Facts:
+    labels = wanted.labels
+    names = [slot.name for slot in session.outputs]
+    return Facts(
+        outputs={name: _shape(found) for name, found in zip(names, outputs, strict=True)},
+        metadata=session.metadata,
+        names=names_in(session.metadata) if labels is None else names_of(labels),
+        names_from="metadata" if labels is None else "labels",
+        width=taken.width,
+        height=taken.height,
+        largest=_largest(outputs[0]),
+        trial=_numbers(outputs[0]),
+        promised=session.outputs[0].shape,
+    )
+
+
+def _largest(found: object) -> float:
+    """Return the largest number by size; NaN where one is none or there are none."""
+    if isinstance(found, np.ndarray) and found.dtype.kind == "f" and found.size:
+        return float(np.abs(found).max())
+    return float("nan")
+
+
+def _numbers(found: object) -> NDArray[np.float32] | None:
+    """Return an output of numbers as single precision; None where it is another."""
+    if isinstance(found, np.ndarray) and found.dtype.kind == "f" and found.size:
+        return np.asarray(found, np.float32)
+    return None
+
+
+def _shape(found: object) -> Shape:
+    """Return an output's shape; that of a lone number for what is no tensor."""
+    return found.shape if isinstance(found, np.ndarray) else ()

@@ -1,0 +1,126 @@
+"""Say what others ask of the eyes, and what the eyes ask of a detector. Protocols and data only.
+
+Missions, routes and lockstep stand behind these, so that no test needs a camera or a model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from planner.perception.snapshot import Detection, Sight
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from wire import Image
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """Hold one picture as it came, with its depth where there is some."""
+
+    color: Image
+    depth: Image | None
+    taken_s: float
+    """On this planner's clock; never later than when it came."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """Name a point of the world that a pixel shows."""
+
+    x_m: float
+    y_m: float
+    """In ``map``."""
+    z_m: float
+    sigma_m: float
+
+
+class PointRefused(Exception):
+    """A pixel leads to no point that one can drive up to; ``code`` is stable.
+
+    ``point_no_pose``, ``point_no_depth``, ``point_too_far``, ``point_on_wall``, ``point_off_map``.
+    """
+
+    def __init__(self, code: str, detail: str = "") -> None:
+        super().__init__(f"{code}: {detail}" if detail else code)
+        self.code = code
+
+
+class Eyes(Protocol):
+    """See. What is asked here answers at once, but for ``spot``."""
+
+    @property
+    def sight(self) -> Sight:
+        """Return the newest look and all that is remembered."""
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """Return the class ids that can be seen now; none where nothing can be."""
+
+    @property
+    def picture(self) -> Picture | None:
+        """Return the newest picture; None before one came, and while nobody wants any."""
+
+    @property
+    def looked(self) -> Picture | None:
+        """Return the picture of the newest look; None before there was one."""
+
+    async def fresh(self) -> Picture | None:
+        """Return the newest picture; where nobody wanted any so far, wait a moment for one."""
+
+    def listen(self, told: Callable[[Sight], None]) -> None:
+        """Have something called after each look and when ``blind`` changes. It must be quick."""
+
+    def attend(self, who: str, wanted: bool) -> None:
+        """Say that somebody needs eyes now, or no longer: looks come at the full rate meanwhile."""
+
+    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+        """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
+
+        Raises:
+            PointRefused: nothing there can be driven up to.
+        """
+
+
+class Looked(Protocol):
+    """Report what a detector made of one picture."""
+
+    @property
+    def detections(self) -> tuple[Detection, ...]: ...
+
+    @property
+    def width(self) -> int: ...
+
+    @property
+    def height(self) -> int: ...
+
+    @property
+    def took_s(self) -> float: ...
+
+    @property
+    def skipped(self) -> str | None:
+        """Return why it was not thought upon (a stable code); then nothing else counts."""
+
+    @property
+    def depth_lost(self) -> str | None:
+        """Return why it was thought upon without its depth (a stable code)."""
+
+
+class Detector(Protocol):
+    """Find things in pictures, in a process of its own."""
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """Return the ids of what it can find; none until it is ready."""
+
+    async def look(self, color: Image, depth: Image | None) -> Looked:
+        """Think upon one picture. Never raises for what a picture holds.
+
+        Raises:
+            VisionFailure: the detector itself is down, or there is none.
+        """
+
+    async def depth_at(self, depth: Image, u_px: float, v_px: float) -> float | None:
+        """Return what was measured around a pixel [m]; None where nothing was."""

@@ -1,0 +1,39 @@
+"""Put what was seen, and what sees, into the frames of the vision process. Pure."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from planner.kept import Frame
+from planner.perception.result import About, LookResult
+from planner.perception.snapshot import Detection
+
+
+def look_frame(result: LookResult) -> Frame:
+    """Return a result as a frame."""
+    return asdict(result), b""
+
+
+def read_look(frame: Frame) -> LookResult:
+    """Return the result that :func:`look_frame` wrote. Raises KeyError, TypeError or ValueError."""
+    head, _ = frame
+    skipped, depth_lost = head["skipped"], head["depth_lost"]
+    return LookResult(
+        detections=tuple(map(_detection, head["detections"])),
+        width=int(head["width"]),
+        height=int(head["height"]),
+        took_s=float(head["took_s"]),
+        skipped=None if skipped is None else str(skipped),
+        depth_lost=None if depth_lost is None else str(depth_lost),
+    )
+
+
+def _detection(item: dict[str, Any]) -> Detection:
+    left, top, right, bottom = (float(side) for side in item["box"])
+    return Detection(**{**item, "box": (left, top, right, bottom)})
+
+
+def read_about(head: dict[str, Any] | None) -> About | None:
+    """Return what runs; None where no model does. Raises KeyError or TypeError."""
+    return None if head is None else About(**{**head, "classes": tuple(head["classes"])})

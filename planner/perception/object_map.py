@@ -1,0 +1,97 @@
+"""Hold what is known by eye, tell it to who listens, and bring it to the disk. Looks at nothing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from planner.perception.frame_update import saw
+from planner.perception.object_saving import Keeper
+from planner.perception.object_tracker import Remembered, aged, forget, recalled
+from planner.perception.object_versions import Changes
+from planner.perception.snapshot import Sight
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from planner.perception.frame_update import Scenery
+    from planner.perception.interfaces import Looked, Picture
+    from planner.perception.object_store import ThingStore
+    from planner.perception.pose_buffer import Stance
+    from planner.perception.snapshot import Look, Thing
+
+AGING_S = 0.5
+
+
+class Known:
+    """Remember, and make the sight anew when something in it has changed."""
+
+    def __init__(self, scenery: Scenery, store: ThingStore | None, blind: str | None) -> None:
+        """Begin with nothing; ``blind``: why nothing is seen now, if so."""
+        self._scenery, self._keeper = scenery, Keeper(store)
+        self._memory = Remembered()
+        self._look: Look | None = None
+        self._changes = Changes()
+        self._listeners: list[Callable[[Sight], None]] = []
+        self._aged_s = float("-inf")
+        self.sight = Sight(blind=blind)
+        """The newest look and all that is remembered."""
+
+    @property
+    def version(self) -> int:
+        """Return a number that rises when a thing comes, goes, or gets another colour or room."""
+        return self._changes.version
+
+    @property
+    def changed_s(self) -> Mapping[str, float]:
+        """Return when each thing was last seen or doubted."""
+        return self._changes.changed_s
+
+    def listen(self, told: Callable[[Sight], None]) -> None:
+        """Have something called with each new sight. It must be quick."""
+        self._listeners.append(told)
+
+    async def load(self, now_s: float) -> None:
+        """Take up what an earlier process remembered; it is told with the next sight."""
+        self._memory = recalled(await self._keeper.load(now_s), now_s)
+
+    async def close(self, now_s: float) -> None:
+        """Keep what is remembered."""
+        await self._keeper.close(self.sight.things, now_s)
+
+    def took(self) -> None:
+        """Take what is told for what the disk holds."""
+        self._keeper.took(self.sight.things, self.version)
+
+    def keep(self, now_s: float) -> None:
+        """Bring it to the disk, where it is time."""
+        self._keeper.keep(self.sight.things, self.version, now_s)
+
+    def take(self, picture: Picture, result: Looked, stance: Stance | None) -> None:
+        """Take in what a look found; it is told with the next sight."""
+        self._memory, self._look = saw(
+            self._scenery, self._memory, picture, result.detections, stance
+        )
+
+    def age(self, now_s: float) -> bool:
+        """Let go of what time alone takes; say whether anything went."""
+        if now_s - self._aged_s < AGING_S:
+            return False
+        self._aged_s, before = now_s, self._memory
+        self._memory = aged(before, now_s)
+        return self._memory is not before
+
+    def forget(self, thing_id: str | None) -> tuple[Thing, ...]:
+        """Forget one thing, or all; return what was forgotten."""
+        before = self._memory
+        self._memory = forget(before, thing_id)
+        left = {thing.id for thing in self._memory.things}
+        return tuple(thing for thing in before.things if thing.id not in left)
+
+    def tell(self, blind: str | None, now_s: float) -> None:
+        """Make the new sight, and tell it."""
+        told_of, things = self.sight.things, self._memory.things
+        things = told_of if things == told_of else things
+        self._changes.note(told_of, things, now_s)
+        self.sight = Sight(self._look, things, blind)
+        for told in self._listeners:
+            told(self.sight)

@@ -1,0 +1,131 @@
+"""Put the eyes together: camera, detector, poses and memory, and the model asked about pictures."""
+
+from __future__ import annotations
+
+import logging
+import time
+from typing import TYPE_CHECKING
+
+from planner.brain import FallbackBrain
+from planner.brain.image_question_fallback import FallbackLooker
+from planner.brain.image_questions import Detected, NotSent
+from planner.language.object_names import named
+from planner.perception import VisionFailure, VisionWorker
+from planner.perception.dependencies import Means
+from planner.perception.failure import REFUSALS
+from planner.perception.frame_source import WireCamera
+from planner.perception.frame_update import Scenery
+from planner.perception.object_store import ThingStore
+from planner.perception.perception_loop import Sightseer
+from planner.perception.pose_buffer import Poses
+from planner.plan import Bilingual
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from planner.brain import Brain
+    from planner.brain.endpoint import EndpointBrain
+    from planner.bridge_client import Link
+    from planner.settings import VisionSettings
+    from planner.site import Site
+    from wire import RobotDescription
+    from wire.session import Session
+
+log = logging.getLogger(__name__)
+
+REFUSED_WITHIN_S = 20.0
+"""Later the robot may be at work: it then goes on without eyes, and says why."""
+
+
+class Opening:
+    """Own the detector's process: open it beside everything else, and say if it is refused."""
+
+    def __init__(
+        self,
+        settings: VisionSettings,
+        robot: RobotDescription,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.worker, self._clock = VisionWorker(settings), clock
+        self.refused: VisionFailure | None = None
+        """Why the owner's detector can't be used, found at the start: a person must act."""
+        self._owners = settings.model is not None
+        self._wanted = robot.camera.kind != "none"
+
+    async def open(self) -> None:
+        """Start the process, if there is a camera; a process that dies later is started anew."""
+        if not self._wanted:
+            return
+        began_s = self._clock()
+        try:
+            await self.worker.start()
+        except VisionFailure as failure:
+            early = self._clock() - began_s <= REFUSED_WITHIN_S
+            if self._owners and early and failure.code in REFUSALS:
+                self.refused = failure
+            else:
+                log.error("the robot goes on without eyes: %s", failure)
+
+
+def eyes_of(
+    worker: VisionWorker,
+    settings: VisionSettings,
+    link: Link,
+    session: Session,
+    robot: RobotDescription,
+    site: Site,
+    home: Path,
+) -> Sightseer:
+    """Return the eyes, which the link tells from now on how the robot moves."""
+    poses = Poses(site.map_id)
+    link.tell(poses)
+    return Sightseer(
+        Means(
+            scenery=Scenery(site, robot.camera),
+            camera=WireCamera(session),
+            detector=worker,
+            has_model=worker.has_model,
+            poses=poses,
+            store=ThingStore.in_home(home, site.map_id),
+            rate_hz=settings.rate_hz,
+        )
+    )
+
+
+def looker_of(
+    model: EndpointBrain | None, brain: Brain, worker: VisionWorker
+) -> FallbackLooker | None:
+    """Return whoever asks the owner's model about pictures; None without a model.
+
+    Where no picture may be sent to it, each goal that would have sent one is told why.
+    """
+    if model is None:
+        return None
+
+    async def shrink(jpeg: bytes, long_side: int) -> bytes:
+        try:
+            return await worker.crop(jpeg, long_side)
+        except VisionFailure as failure:
+            raise NotSent(str(failure), why="bad_picture") from None
+
+    async def lay_out(pictures: Sequence[tuple[bytes, str]], long_side: int) -> bytes:
+        try:
+            return await worker.sheet(pictures, long_side)
+        except VisionFailure as failure:
+            raise NotSent(str(failure), why="bad_picture") from None
+
+    looker = model.looker(shrink, lay_out)
+    if looker.refuses is not None:
+        log.info("no picture goes to %s: %s", model.address.host, looker.refuses)
+    breaker = brain.breaker if isinstance(brain, FallbackBrain) else None
+    return FallbackLooker(looker, _by_detector, breaker)
+
+
+def _by_detector(_: str, seen: Sequence[Detected]) -> tuple[Bilingual, bool | None]:
+    """Tell what the detector saw; whether that answers the question nobody says."""
+    names = [named(one.label, one.color) for one in seen]
+    en = ", ".join(name.en for name in names) or "nothing that I know"
+    zh = "、".join(name.zh for name in names) or "没有认识的物体"
+    return Bilingual(en=f"I see: {en}.", zh=f"我看到：{zh}。"), None

@@ -1,0 +1,58 @@
+"""Own the four things a brain may answer: a plan, an answer, a question, or an honest no.
+
+Only `StepPlan` can lead to motion, and only after `validate_plan`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, TypeAdapter
+
+from planner.plan.base import Bilingual, Frozen
+from planner.plan.outcome_codes import Code
+from planner.plan.steps import Step
+
+MAX_STEPS = 20
+
+
+class StepPlan(Frozen):
+    """Do these steps in this order. Emptiness and the cap are judged by `validate_plan`."""
+
+    kind: Literal["plan"] = "plan"
+    steps: tuple[Step, ...]
+
+
+class Answer(Frozen):
+    """Answer a question; nothing moves."""
+
+    kind: Literal["answer"] = "answer"
+    text: Bilingual
+
+
+class Option(Frozen):
+    """Offer one reply to a question: what the button says, and the sentence it stands for."""
+
+    label: Bilingual
+    text: str = Field(min_length=1, max_length=2000)
+
+
+class Clarify(Frozen):
+    """Ask the person; nothing moves until a reply is itself understood as a goal."""
+
+    kind: Literal["clarify"] = "clarify"
+    code: Code
+    question: Bilingual
+    options: tuple[Option, ...] = ()
+
+
+class Refuse(Frozen):
+    """Say no, with a code and the reason; nothing moves."""
+
+    kind: Literal["refuse"] = "refuse"
+    code: Code
+    reason: Bilingual
+
+
+Plan = Annotated[StepPlan | Answer | Clarify | Refuse, Field(discriminator="kind")]
+PLAN: TypeAdapter[StepPlan | Answer | Clarify | Refuse] = TypeAdapter(Plan)

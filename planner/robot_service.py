@@ -1,0 +1,81 @@
+"""Give the API the robot it asks for: the link's newest word, ages, requests, steering by hand."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING, Any
+
+from planner.bridge_client import BridgeSilent, Link
+from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status, Velocity
+
+if TYPE_CHECKING:
+    from planner.bridge_client import Aged
+
+log = logging.getLogger(__name__)
+
+
+class LinkedRobot:
+    """Answer the routes from one link. Never blocks."""
+
+    def __init__(self, link: Link, description: RobotDescription) -> None:
+        self._link = link
+        self.description = description
+        self._steered: tuple[str, int] = ("", 0)
+
+    @property
+    def status(self) -> Status | None:
+        """Return the newest status, however old; its age stands in ``ages_s``."""
+        return self._link.status.value if self._link.status else None
+
+    def obstacles(self) -> tuple[tuple[float, float], ...]:
+        """Return what the lidar sees now as points in ``map`` [m]."""
+        return self._link.obstacles()
+
+    def ages_s(self) -> dict[str, float | None]:
+        """Return how long ago each source was last heard, on our own clock."""
+        return {
+            "status": _age(self._link.status),
+            "localization": _age(self._link.localization),
+            "odometry": _age(self._link.odometry),
+            "scan": _age(self._link.scan),
+        }
+
+    async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None:
+        """Return the bridge's verdict, or None where it stayed silent."""
+        try:
+            return await self._link.operate(kind, request)
+        except BridgeSilent as silence:
+            log.warning("%s: %s", kind, silence)
+            return None
+
+    async def offer_fence(self, request: FenceRequest) -> Answer | None:
+        """Return the bridge's verdict on an operator's fence, or None where it stayed silent."""
+        try:
+            return await self._link.offer_fence(request)
+        except BridgeSilent as silence:
+            log.warning("fence: %s", silence)
+            return None
+
+    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:
+        """Relay a velocity by hand under the newest epoch; without a status nothing is said."""
+        status = self.status
+        if status is None:
+            return
+        epoch, seq = self._steered
+        seq = seq + 1 if epoch == status.epoch else 0
+        self._steered = (status.epoch, seq)
+        self._link.teleop(
+            Velocity(
+                source_id=source,
+                epoch=status.epoch,
+                seq=seq,
+                seen=status.seq,
+                v_mps=v_mps,
+                w_radps=w_radps,
+                dead_man=dead_man,
+            )
+        )
+
+
+def _age(aged: Aged[Any] | None) -> float | None:
+    return None if aged is None else aged.age_s

@@ -1,0 +1,41 @@
+"""Know a site: its map, its rooms and places, its fence. The one door of this package."""
+
+from planner.site.errors import SiteError
+from planner.site.fence import Fence, SpeedZone
+from planner.site.fence_check import FenceRefused, check_fence
+from planner.site.fence_diff import FenceDiff, fence_diff
+from planner.site.fence_store import FenceProposal, FenceProposals
+from planner.site.grid import FREE, OCCUPIED, UNKNOWN, GridMap
+from planner.site.map_file import LoadedMap, load_map
+from planner.site.places import Place, normalised
+from planner.site.site import Site
+from planner.site.taught_place_check import check_spot, plain_name
+from planner.site.taught_place_errors import PlaceRefused
+from planner.site.taught_places import MAX_HERE, TaughtPlace, TaughtPlaces
+
+__all__ = [
+    "FREE",
+    "MAX_HERE",
+    "OCCUPIED",
+    "UNKNOWN",
+    "Fence",
+    "FenceDiff",
+    "FenceProposal",
+    "FenceProposals",
+    "FenceRefused",
+    "GridMap",
+    "LoadedMap",
+    "Place",
+    "PlaceRefused",
+    "Site",
+    "SiteError",
+    "SpeedZone",
+    "TaughtPlace",
+    "TaughtPlaces",
+    "check_fence",
+    "check_spot",
+    "fence_diff",
+    "load_map",
+    "normalised",
+    "plain_name",
+]

@@ -1,0 +1,64 @@
+"""Read the fence: where the robot's centre may be, and how fast. Knows no map."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+
+from planner.site.errors import SiteError
+from planner.site.polygon import Polygon, border_distance_m, contains
+from planner.site.yaml_records import parse_json, read_bytes
+from wire.fence import FenceFile, Outline, SpeedZone, flaw
+from wire.fingerprint import fingerprint
+
+__all__ = ["Fence", "Outline", "SpeedZone", "load_fence"]
+
+_FLAWS = {
+    "fence_degenerate": "polygon_degenerate",
+    "fence_crosses_itself": "polygon_crosses_itself",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Fence:
+    """Bound the robot's centre: inside an allowed outline and inside no keep-out."""
+
+    record: FenceFile
+    fence_hash: str
+
+    @property
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Return every outline that the robot's centre may not cross."""
+        return self.record.allowed + self.record.keep_outs
+
+    def allows(self, x_m: float, y_m: float) -> bool:
+        """Tell whether the robot's centre may be at a point of ``map``."""
+        inside = any(contains(outline, x_m, y_m) for outline in self.record.allowed)
+        return inside and not any(contains(hole, x_m, y_m) for hole in self.record.keep_outs)
+
+    def border_distance_m(self, x_m: float, y_m: float) -> float:
+        """Return how far a point is from the nearest line of the fence [m]."""
+        return min(border_distance_m(outline, x_m, y_m) for outline in self.outlines)
+
+    def max_speed_mps(self, x_m: float, y_m: float) -> float:
+        """Return the slowest zone's speed at a point; infinite where there is no zone."""
+        zones = self.record.speed_zones
+        return min(
+            (zone.max_speed_mps for zone in zones if contains(zone.polygon, x_m, y_m)), default=inf
+        )
+
+
+def load_fence(path: Path) -> Fence:
+    """Load fence.json.
+
+    Raises:
+        SiteError: ``polygon_degenerate``, ``polygon_crosses_itself`` and the codes of
+            :mod:`planner.site.yaml_records`.
+    """
+    data = read_bytes(path)
+    record = parse_json(data, FenceFile, path)
+    wrong = flaw(record)
+    if wrong is not None:
+        raise SiteError(_FLAWS[wrong[0]], f"{path}: {wrong[1]}")
+    return Fence(record, fingerprint(data))

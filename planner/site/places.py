@@ -1,0 +1,110 @@
+"""Read the rooms and places of a site and what people call them. Knows no map and no fence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from planner.language.folding import fold_words
+from planner.site.errors import SiteError
+from planner.site.fence import Outline
+from planner.site.polygon import area_m2, contains
+from planner.site.yaml_records import Record, parse_yaml, read_bytes
+from wire.geometry import Pose2
+
+Name = Annotated[str, Field(min_length=1, max_length=80)]
+PlaceId = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
+
+
+class Names(Record):
+    """Name a place in English and in Chinese."""
+
+    en: Name
+    zh: Name
+
+
+class Aliases(Record):
+    """Give the other names people use, by language."""
+
+    en: tuple[Name, ...] = ()
+    zh: tuple[Name, ...] = ()
+
+
+class Place(Record):
+    """Describe a room or a place: its names, its outline where it has one, where to stand."""
+
+    id: PlaceId
+    kind: Literal["room", "place"]
+    name: Names
+    aliases: Aliases = Aliases()
+    polygon: Outline | None = None  # in ``map`` [m]
+    pose: Pose2  # in ``map``; where the robot stands when it is there
+
+    @model_validator(mode="after")
+    def _room_has_an_outline(self) -> Place:
+        if self.kind == "room" and self.polygon is None:
+            raise ValueError(f"the room {self.id!r} needs a polygon")
+        if self.polygon is not None and not area_m2(self.polygon) > 0.0:
+            raise ValueError(f"the outline of {self.id!r} has no area")
+        return self
+
+    @property
+    def spoken(self) -> tuple[str, ...]:
+        """Return every name by which a person may mean this place; the id is one."""
+        plain = self.id.replace("_", " ")
+        names = (self.name.en, self.name.zh, *self.aliases.en, *self.aliases.zh)
+        return (self.id, plain, *names)
+
+    @property
+    def said_in_english(self) -> tuple[str, ...]:
+        """Return the English names, as a recogniser of speech may expect them."""
+        return (self.name.en, *self.aliases.en)
+
+    def contains(self, x_m: float, y_m: float) -> bool:
+        """Tell whether a point of ``map`` lies in the outline; never where there is none."""
+        return self.polygon is not None and contains(self.polygon, x_m, y_m)
+
+
+class PlacesRecord(Record):
+    """Mirror places.yaml."""
+
+    version: Annotated[int, Field(ge=1, le=1)] = 1
+    home: PlaceId
+    places: Annotated[tuple[Place, ...], Field(min_length=1, max_length=10_000)]
+
+
+def normalised(name: str) -> str:
+    """Return a name as it is compared: one width, one case, one script, single spaces."""
+    return fold_words(name)
+
+
+def load_places(path: Path) -> PlacesRecord:
+    """Load places.yaml and check that no two places answer to one name.
+
+    Raises:
+        SiteError: ``place_duplicate_id``, ``place_alias_clash``, ``home_unknown`` and the codes of
+            :mod:`planner.site.yaml_records`.
+    """
+    record = parse_yaml(read_bytes(path), PlacesRecord, path)
+    _check_names(record, path)
+    ids = sorted(place.id for place in record.places)
+    if record.home not in ids:
+        text = f"{path}: home {record.home!r} is no place; known places: {', '.join(ids)}"
+        raise SiteError("home_unknown", text)
+    return record
+
+
+def _check_names(record: PlacesRecord, path: Path) -> None:
+    ids: set[str] = set()
+    owner: dict[str, str] = {}
+    for place in record.places:
+        if place.id in ids:
+            raise SiteError("place_duplicate_id", f"{path}: the id {place.id!r} is given twice")
+        ids.add(place.id)
+        for name in place.spoken:
+            first = owner.setdefault(normalised(name), place.id)
+            if first != place.id:
+                text = f"{path}: {name!r} names both {first!r} and {place.id!r}"
+                raise SiteError("place_alias_clash", text)

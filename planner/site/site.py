@@ -1,0 +1,78 @@
+"""Load a whole site and check that its files agree. Knows files and geometry, no motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from planner.site.errors import SiteError
+from planner.site.fence import Fence, load_fence
+from planner.site.grid import FREE, GridMap
+from planner.site.map_file import load_map
+from planner.site.places import Place, load_places, normalised
+from planner.site.polygon import area_m2
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """Hold one place on earth: its map, its rooms and places, its fence."""
+
+    folder: Path
+    grid: GridMap
+    map_id: str
+    fence: Fence
+    places: tuple[Place, ...]
+    home: Place
+
+    @classmethod
+    def load(cls, folder: Path) -> Site:
+        """Load map.yaml with its image, places.yaml and fence.json from one folder.
+
+        Raises:
+            SiteError: a file is missing or malformed, or two files contradict each other.
+        """
+        loaded = load_map(folder / "map.yaml")
+        fence = load_fence(folder / "fence.json")
+        if fence.record.map_id != loaded.map_id:
+            text = f"{folder}: fence.json is for map {fence.record.map_id}, not {loaded.map_id}"
+            raise SiteError("fence_map_mismatch", text)
+        record = load_places(folder / "places.yaml")
+        for place in record.places:
+            _check_standing(place, loaded.grid, fence)
+        home = next(place for place in record.places if place.id == record.home)
+        return cls(folder, loaded.grid, loaded.map_id, fence, record.places, home)
+
+    @property
+    def rooms(self) -> tuple[Place, ...]:
+        """Return the rooms, in the order of the file."""
+        return tuple(place for place in self.places if place.kind == "room")
+
+    def place(self, place_id: str) -> Place | None:
+        """Return the place of an id, or None."""
+        return next((place for place in self.places if place.id == place_id), None)
+
+    def named(self, name: str) -> Place | None:
+        """Return the place that answers to a name in either language, or None. No guessing."""
+        wanted = normalised(name)
+        return next(
+            (place for place in self.places if wanted in map(normalised, place.spoken)), None
+        )
+
+    def room_at(self, x_m: float, y_m: float) -> Place | None:
+        """Return the room around a point of ``map``; the smallest where outlines overlap."""
+        around = [room for room in self.rooms if room.contains(x_m, y_m)]
+        return min(around, key=lambda room: area_m2(room.polygon or ()), default=None)
+
+
+def _check_standing(place: Place, grid: GridMap, fence: Fence) -> None:
+    x_m, y_m = place.pose.x_m, place.pose.y_m
+    at = f"the place {place.id!r} at ({x_m}, {y_m})"
+    if not grid.inside(x_m, y_m):
+        right_m = grid.origin_x_m + grid.width * grid.resolution_m
+        top_m = grid.origin_y_m + grid.height * grid.resolution_m
+        span = f"x {grid.origin_x_m} to {right_m}, y {grid.origin_y_m} to {top_m}"
+        raise SiteError("place_outside_map", f"{at} is off the map, which spans {span}")
+    if grid.at(x_m, y_m) != FREE:
+        raise SiteError("place_in_obstacle", f"{at} is not on free floor of the map")
+    if not fence.allows(x_m, y_m):
+        raise SiteError("place_outside_fence", f"{at} is outside the fence")

@@ -1,0 +1,74 @@
+"""Judge a name and a spot before a place is taught there. Knows the site; not who asks, no disk."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterator
+from math import ceil, hypot
+
+from planner.language.folding import fold_width
+from planner.site.grid import FREE
+from planner.site.site import Site
+from planner.site.taught_place_errors import PlaceRefused
+from wire.geometry import Pose2
+
+MAX_CHARACTERS = 40
+_MARKS = frozenset(" -'’·")
+_CLASSES = ("L", "N", "Mn", "Mc")
+_BESIDE_ANY = frozenset(
+    {"cjk", "hiragana", "katakana", "katakana-hiragana", "hangul", "bopomofo", "modifier"}
+)
+"""None of their letters is drawn as a Latin one, and names have both: A区."""
+
+
+def plain_name(name: str) -> str:
+    """Return a name as it is kept: one width, single spaces.
+
+    Raises:
+        PlaceRefused: ``place_name_malformed``: empty, too long, or with what is no part of a name;
+            ``place_name_mixed``: with letters of two alphabets, one of which is drawn as the other.
+    """
+    kept = " ".join(fold_width(name[: 4 * MAX_CHARACTERS]).split())
+    short = 1 <= len(kept) <= MAX_CHARACTERS and len(name) <= 4 * MAX_CHARACTERS
+    if not (short and any(map(str.isalpha, kept)) and all(map(_in_a_name, kept))):
+        raise PlaceRefused("place_name_malformed", f"got {name[:MAX_CHARACTERS]!r}")
+    alphabets = {_alphabet(char) for char in kept if char.isalpha()} - _BESIDE_ANY
+    if len(alphabets) > 1:
+        found = ", ".join(sorted(alphabets))
+        raise PlaceRefused("place_name_mixed", f"got {name[:MAX_CHARACTERS]!r}: {found}")
+    return kept
+
+
+def _alphabet(char: str) -> str:
+    """Return the alphabet of a letter, by the first word of its name in Unicode."""
+    return unicodedata.name(char, "unknown").partition(" ")[0].lower()
+
+
+def _in_a_name(char: str) -> bool:
+    return char in _MARKS or unicodedata.category(char).startswith(_CLASSES)
+
+
+def check_spot(site: Site, pose: Pose2, clearance_m: float) -> None:
+    """Check that a robot may stand somewhere, with so much free floor around its centre [m].
+
+    Raises:
+        PlaceRefused: ``place_outside_map``, ``place_in_obstacle`` or ``place_outside_fence``.
+    """
+    at = f"({pose.x_m:.2f}, {pose.y_m:.2f})"
+    if not site.grid.inside(pose.x_m, pose.y_m):
+        raise PlaceRefused("place_outside_map", at)
+    if not all(site.grid.at(x_m, y_m) == FREE for x_m, y_m in _disc(site, pose, clearance_m)):
+        raise PlaceRefused("place_in_obstacle", at)
+    if not site.fence.allows(pose.x_m, pose.y_m):
+        raise PlaceRefused("place_outside_fence", at)
+
+
+def _disc(site: Site, pose: Pose2, radius_m: float) -> Iterator[tuple[float, float]]:
+    """Yield the centres of the cells around a point, and the point itself."""
+    yield pose.x_m, pose.y_m
+    size_m = site.grid.resolution_m
+    reach = ceil(radius_m / size_m)
+    for row in range(-reach, reach + 1):
+        for column in range(-reach, reach + 1):
+            if hypot(row, column) * size_m <= radius_m:
+                yield pose.x_m + column * size_m, pose.y_m + row * size_m

@@ -1,0 +1,158 @@
+"""Run the recogniser in another process and keep one at hand. Knows pipes; not what is said.
+
+Started ahead of the first recording and again after a death, by whoever asks next. Whatever becomes
+of it, a caller gets an answer or a typed failure in bounded time.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+from asyncio.subprocess import Process
+from collections.abc import Sequence
+from typing import Any
+
+from planner.kept import STREAM_ERRORS, command_of, exchange, pack, reap, spawn
+from planner.voice.recogniser import Heard, VoiceFailure
+from planner.voice.wav import Sound
+
+log = logging.getLogger(__name__)
+
+HEAR_S = 15.0
+"""For 15 s of speech on a board ten times slower than a desktop."""
+READY_S = 30.0
+MAX_WAITING = 3
+"""Recordings at a time; what a fourth says is old when its turn comes."""
+
+
+class VoiceWorker:
+    """Hear recordings in another process, in the names of one site."""
+
+    def __init__(self, names: Sequence[str], command: Sequence[str] | None = None) -> None:
+        self._names = tuple(names)
+        self._told: tuple[str, ...] = ()
+        """The names that the process of now was started with."""
+        self._command = command or command_of("planner.voice.process_main")
+        self._process: Process | None = None
+        self._turn = asyncio.Lock()
+        self._waiting = 0
+        self._number = 0
+        self._warming: asyncio.Task[None] | None = None
+        self.left_out: tuple[str, ...] = ()
+
+    @property
+    def pid(self) -> int | None:
+        """Return the process's id while one runs."""
+        return None if self._process is None else self._process.pid
+
+    def warm(self) -> None:
+        """Start the process beside everything else, so that the first order need not wait."""
+        self._warming = asyncio.create_task(self._warm(), name="voice worker")
+
+    def know(self, names: Sequence[str]) -> None:
+        """Hear other names from now on: a process that knows them is started beside all else."""
+        if tuple(names) == self._names:
+            return
+        self._names = tuple(names)
+        work = self._warm_after(self._warming)
+        self._warming = asyncio.create_task(work, name="voice worker")
+
+    async def _warm_after(self, before: asyncio.Task[None] | None) -> None:
+        if before is not None:
+            await asyncio.gather(before, return_exceptions=True)
+        await self._warm()
+
+    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Heard:
+        """Return what was heard; ``awaits_answer`` says that a question waits for a yes or no.
+
+        Raises:
+            VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.
+        """
+        if self._waiting >= MAX_WAITING:
+            text = f"{self._waiting} recordings are being heard; try again in a moment"
+            raise VoiceFailure("voice_busy", text)
+        self._waiting += 1
+        try:
+            async with self._turn:
+                return await self._hear(sound, awaits_answer=awaits_answer)
+        finally:
+            self._waiting -= 1
+
+    async def close(self) -> None:
+        """End the process and wait until it is gone. Safe to call twice."""
+        if self._warming is not None:
+            self._warming.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._warming
+        await self._bury()
+
+    async def _warm(self) -> None:
+        try:
+            async with self._turn:
+                await self._ready()
+        except VoiceFailure as failure:
+            log.warning("no spoken orders: %s", failure)
+
+    async def _hear(self, sound: Sound, *, awaits_answer: bool) -> Heard:
+        process = await self._ready()
+        self._number += 1
+        head = {
+            "number": self._number,
+            "rate_hz": sound.rate_hz,
+            "channels": sound.channels,
+            "awaits_answer": awaits_answer,
+        }
+        try:
+            async with asyncio.timeout(HEAR_S):
+                answer, _ = await exchange(process, pack(head, sound.pcm))
+            if answer.get("number") != self._number or "failed" in answer:
+                raise ValueError(str(answer.get("failed", "an answer out of turn")))
+            return _heard(answer)
+        except TimeoutError:
+            await self._bury()
+            raise VoiceFailure("voice_timed_out", f"after {HEAR_S:g} s") from None
+        except STREAM_ERRORS as error:
+            await self._bury()
+            raise VoiceFailure("recogniser_unavailable", f"it failed: {error}") from None
+        except BaseException:  # cancelled half-way: the next answer would be this one's
+            await self._bury()
+            raise
+
+    async def _ready(self) -> Process:
+        """Return a process that has said ready.
+
+        Raises:
+            VoiceFailure: there is none, and it says why.
+        """
+        alive = self._process is not None and self._process.returncode is None
+        if self._process is not None and alive and self._told == self._names:
+            return self._process
+        await self._bury()
+        try:
+            self._process = process = await spawn(self._command)
+            self._told = self._names
+            async with asyncio.timeout(READY_S):
+                greeting, _ = await exchange(process, pack({"names": self._told}))
+        except STREAM_ERRORS as error:
+            await self._bury()
+            text = f"it did not start: {str(error) or type(error).__name__}"
+            raise VoiceFailure("recogniser_unavailable", text) from None
+        except BaseException:
+            await self._bury()
+            raise
+        if "ready" not in greeting:
+            await self._bury()
+            raise VoiceFailure("recogniser_unavailable", str(greeting.get("detail")))
+        self.left_out = tuple(str(name) for name in greeting["ready"])
+        return process
+
+    async def _bury(self) -> None:
+        process, self._process = self._process, None
+        if process is not None:
+            await asyncio.shield(reap(process))
+
+
+def _heard(answer: dict[str, Any]) -> Heard:
+    sure = answer["understood"] is True
+    return Heard(str(answer["transcript"]), float(answer["confidence"]), sure)

@@ -1,0 +1,205 @@
+"""Run simulator, localization and a bridge in a home of their own, or join those that run.
+
+Owns processes and the two sessions: the judge's, which watches, and the planner's, which speaks.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import sys
+import time
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Self
+
+from localization.site_map import read_map_id
+from pons.conformance.adapter import CannotTest
+from pons.conformance.bounds import Bounds
+from pons.conformance.raw_publisher import Mouth
+from pons.conformance.record import Record
+from pons.conformance.watch import Watch
+from pons.supervisor import Child
+from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, signed_request
+from wire.doors import BRIDGE_DOOR
+from wire.keys import Party
+from wire.session import open_session
+from wire.sockets import Endpoints
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from pons.conformance.track import Track
+    from pons.settings import Settings
+    from wire import OpKind, Status
+
+START_S = 40.0
+HEARD_S = 3.0
+PATIENCE_S = 4.0
+PUT_S = 1.0
+OURS = "bridge"
+
+
+class Rig:
+    """Be an Adapter for every bridge that speaks this wire."""
+
+    def __init__(
+        self, settings: Settings, track: Track, *, module: str = OURS, join: bool = False
+    ) -> None:
+        """Describe it; entering the context starts or joins it.
+
+        Args:
+            settings: robot and site; home too where an existing one is joined.
+            track: where the robot is put.
+            module: run as the bridge: ``python -m MODULE --home … --robot … --site …``.
+            join: start nothing; test the bridge that runs in the settings' home.
+        """
+        self.name = f"joined in {settings.home}" if join else module
+        self._settings, self._track, self._module, self._join = settings, track, module, join
+        self._robot = load_robot(settings.robot)
+        self.bounds = Bounds.of(self._robot)
+        self.record = Record()
+        self._home = settings.home
+        self._stack = ExitStack()
+        self._children: list[Child] = []
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            if not self._join:
+                self._start(stack)
+            try:
+                self._watch = stack.enter_context(Watch(self._home, self._robot.id))
+                party = open_session(Party.PLANNER, self._robot.id, self._home)
+                self._mouth = Mouth(stack.enter_context(party))
+            except Misconfigured as wrong:
+                raise CannotTest(str(wrong)) from None
+            self.record = self._watch.record
+            self._await(HEARD_S if self._join else START_S)
+            if self._join:
+                self._put_on_the_track()
+            self._stack = stack.pop_all()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._stack.close()
+
+    # The adapter --------------------------------------------------------------------------------
+
+    def status(self) -> Status | None:
+        """Return the bridge's newest word."""
+        return self._watch.status
+
+    def say(self, key: str, payload: bytes) -> None:
+        """Send bytes as they are."""
+        self._mouth.say(key, payload)
+
+    def operate(self, kind: OpKind) -> bytes:
+        """Make an operator's request, signed with the simulator's published key."""
+        status, request_id = self.status(), f"kit-{secrets.token_hex(6)}"
+        request = OpRequest(id=request_id, source="kit")
+        if status is not None:
+            request = signed_request(VIRTUAL_KEY, kind, status, "kit", request_id)
+        payload = encode(request)
+        self.say(f"op/{kind}", payload)
+        return payload
+
+    def helper(self) -> list[str]:
+        """Return the command of a helper, which dies with this process."""
+        words = ["pons.conformance.worker_process", str(self._home), self._robot.id]
+        return [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+
+    def door(self) -> str:
+        """Return the bridge's socket."""
+        return str(Endpoints(self._home).socket(BRIDGE_DOOR))
+
+    # Starting -----------------------------------------------------------------------------------
+
+    def _start(self, stack: ExitStack) -> None:
+        folder = TemporaryDirectory(prefix="pc-", ignore_cleanup_errors=True)
+        self._home = Path(stack.enter_context(folder))
+        logs = self._home / "logs"
+        logs.mkdir()
+        common = ["--home", str(self._home), "--robot", str(self._settings.robot)]
+        common += ["--site", str(self._settings.site)]
+        pose = self._track.middle
+        start = ["--start", f"{pose.x_m:.3f}", f"{pose.y_m:.3f}", f"{pose.yaw_rad:.4f}"]
+        for name, words in (
+            ("sim", ["sim", *common, *start]),
+            ("localization", ["localization", *common]),
+            ("bridge", [self._module, *common]),
+        ):
+            child = Child(name, words, logs / f"{name}.log")
+            child.start(time.monotonic())
+            stack.callback(child.stop, PATIENCE_S)
+            self._children.append(child)
+
+    def _await(self, limit_s: float) -> None:
+        """Wait until bridge and robot speak and nothing is awaited any more."""
+        end_s = time.monotonic() + limit_s
+        while not self._speaks():
+            if time.monotonic() > end_s:
+                raise CannotTest(f"no_bridge: {self._lacks()}; not within {limit_s:.0f} s")
+            for child in self._children:
+                if child.process is not None and child.process.poll() is not None:
+                    raise CannotTest(f"{child.name} ended:\n{child.last_words()}")
+            time.sleep(0.05)
+        status = self.status()
+        known = (self._robot.hash, read_map_id(self._settings.site))
+        why = unfit(status, *known) if status is not None else None
+        if why is not None:
+            raise CannotTest(why)
+
+    def _speaks(self) -> bool:
+        status = self.status()
+        ready = status is not None and status.mode not in (Mode.BOOT, Mode.SELFTEST)
+        metal = status is not None and not status.drive.virtual
+        return metal or (ready and bool(self.record.truths) and bool(self.record.commands))
+
+    def _lacks(self) -> str:
+        status = self.status()
+        if status is None:
+            return f"no status was heard in {self._home}"
+        if not self.record.truths:
+            return "no simulator tells the truth"
+        waits = ", ".join(status.waiting_for)
+        return f"mode {status.mode}, waits for {waits or 'nothing'}"
+
+    def _put_on_the_track(self) -> None:
+        self._watch.place(self._track.middle, f"kit-{secrets.token_hex(6)}")
+        time.sleep(PUT_S)
+
+
+def unfit(status: Status, robot_hash: str, map_id: str) -> str | None:
+    """Say why a running bridge must not be tested; None where it may.
+
+    Args:
+        status: its word.
+        robot_hash: of the robot whose limits it will be held to.
+        map_id: of the site on which the robot will be driven.
+    """
+    if not status.drive.virtual:
+        return (
+            f"metal: the bridge drives {status.drive.kind}, and this kit plays brains that are "
+            "broken on purpose; it tests simulated robots only"
+        )
+    for what, came, expected in (
+        ("robot", status.robot_hash, robot_hash),
+        ("site", status.map_id, map_id),
+    ):
+        if came != expected:
+            return (
+                f"other_{what}: the bridge serves {came}, given was {expected}; name its own with "
+                + ("PONS_ROBOT" if what == "robot" else "--site")
+            )
+    if status.owner is not None:
+        return (
+            f"owned: {status.owner.kind} {status.owner.planner_id} owns the robot; end it first "
+            "(`pons up --no-planner` starts a robot without one)"
+        )
+    return None

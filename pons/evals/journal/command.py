@@ -1,0 +1,97 @@
+"""Be ``pons replay FILE --with-model``: read, say the price, think again, drive, show."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from planner.brain.endpoint import Address
+from planner.site import Site
+from planner.site.errors import SiteError
+from pons.cost_prompt import agreed
+from pons.evals.journal.drive import drive
+from pons.evals.journal.recorded import NoJournal, Recorded, read
+from pons.evals.journal.show import content, table
+from pons.evals.journal.think import Again, most_calls, think_again
+from pons.model_selection import chosen
+from tools.lockstep import TooLong
+from wire import Misconfigured
+
+if TYPE_CHECKING:
+    from planner.settings import ModelSettings
+    from pons.settings import Settings
+
+EXIT_SAME, EXIT_DIFFERS, EXIT_BAD = 0, 1, 2
+MOST = 50
+DRIVES = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Say how much to do."""
+
+    most: int = MOST
+    """Sentences, the newest."""
+    drives: int = DRIVES
+    """Differing plans that are driven in lockstep."""
+    as_json: bool = False
+    yes: bool = False
+
+
+def run(where: Settings, files: list[str], word: str, options: Options) -> int:
+    """Think again; 0 when no decision differs, 1 when one does, 2 when it could not be done."""
+    try:
+        if len(files) != 1:
+            raise NoJournal(f"one_journal: give one journal or home folder; got {len(files)}")
+        recorded = read(Path(files[0]))
+        settings, model = chosen(word, where.home, os.environ)
+        address = Address.parse(model.url)
+        recorded = replace(recorded, decisions=recorded.decisions[: options.most])
+        bill = _bill(recorded, model, address.host)
+        if not address.local and not agreed(bill, yes=options.yes):
+            return EXIT_BAD
+        site = Site.load(where.site)
+        found, cost = asyncio.run(
+            think_again(recorded.decisions, site, settings, model, where.home)
+        )
+        found = _driven(found, where, options.drives)
+    except (NoJournal, Misconfigured, SiteError) as wrong:
+        code = f"{wrong.code}: " if isinstance(wrong, Misconfigured) else ""
+        print(f"pons replay --with-model: {code}{wrong}", file=sys.stderr)
+        return EXIT_BAD
+    show = content if options.as_json else table
+    print(show(recorded, found, cost, model.name))
+    return EXIT_DIFFERS if any(a.relation in ("differs", "none") for a in found) else EXIT_SAME
+
+
+def _driven(found: list[Again], where: Settings, most: int) -> list[Again]:
+    """Drive the first plans that differ and move."""
+    left = most
+    again = []
+    for one in found:
+        if one.plan is not None and left > 0:
+            left -= 1
+            print(f"driving in lockstep: {one.decision.text}", file=sys.stderr)
+            try:
+                went = drive(one.plan, where.site, where.robot, one.decision.start)
+            except TooLong as late:
+                print(f"not driven: {late}", file=sys.stderr)
+            else:
+                one = replace(one, driven=went)  # noqa: PLW2901  # the same sentence, driven
+        again.append(one)
+    return again
+
+
+def _bill(recorded: Recorded, model: ModelSettings, host: str) -> str:
+    count = len(recorded.decisions)
+    calls = most_calls(count)
+    return (
+        f"{count} recorded sentences of people will be sent to {model.name} at {host}, which is "
+        f"not this machine: at most {calls} calls.\n"
+        f"将把 {count} 条录下的指令发送给 {host} 上的 {model.name}，"
+        f"最多 {calls} 次调用。"
+    )

@@ -1,0 +1,135 @@
+"""Show which decisions would differ, what would have stopped them, and what was not looked at."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from pons.evals.journal.compare import told
+from pons.evals.journal.recorded import Recorded
+from pons.evals.journal.think import Again, Spending
+
+LIMITS = (
+    "Sentences were thought about with the site's own places as they are now. A drive is one in "
+    "lockstep: the real bridge core and the simulated robot in the site's own map, from where the "
+    "robot stood; the people and things of that day are not in it."
+)
+
+LIMITS_ZH = (
+    "重新思考时使用场地现有的地点。“仿真行驶”使用真实的安全桥核心与仿真机器人，"
+    "地图为场地自身地图，从机器人当时的位置出发，不含当天的人和物品。"
+)
+
+
+def verdict(again: Again) -> str:
+    """Say what would have become of the model's decision."""
+    if again.relation == "none":
+        return "the offline brain would have answered"
+    if again.refused:
+        return f"refused by validation ({again.refused}): nothing would have moved"
+    if again.relation != "differs":
+        return ""
+    if again.plan is None:
+        return "valid, and moves nothing"
+    if again.driven is None:
+        return "valid, and moves; not driven here"
+    drive = again.driven
+    bound = f"the bridge bound by {', '.join(drive.held)}" if drive.held else "no row bound it"
+    broken = f"; BROKEN: {', '.join(drive.broken)}" if drive.broken else "; no law was broken"
+    return (
+        f"driven: {drive.state} {drive.code} after {drive.seconds:g} s, {drive.metres:g} m; "
+        f"{bound}{broken}"
+    )
+
+
+def table(recorded: Recorded, found: Sequence[Again], cost: Spending, model: str) -> str:
+    """Return the comparison for a terminal."""
+    lines = []
+    for again in found:
+        if again.relation == "same":
+            continue
+        lines.append(f"{again.relation:<8} {again.decision.text}")
+        lines.append(f"  {again.decision.brain}: {told(again.decision.plan)}")
+        lines.append(f"  {model}: {again.made}")
+        if said := verdict(again):
+            lines.append(f"  -> {said}")
+    lines.append(_summary(recorded, found, cost))
+    lines += [_summary_zh(found, cost), LIMITS, LIMITS_ZH]
+    return "\n".join(lines)
+
+
+def content(recorded: Recorded, found: Sequence[Again], cost: Spending, model: str) -> str:
+    """Return the comparison as JSON."""
+    record: dict[str, Any] = {
+        "model": model,
+        "counts": _counts(found),
+        "without_plan": recorded.without,
+        "unreadable": recorded.unreadable,
+        "cost": asdict(cost),
+        "limits": LIMITS,
+        "decisions": [
+            {
+                "goal": again.decision.goal,
+                "text": again.decision.text,
+                "relation": again.relation,
+                "recorded": {"brain": again.decision.brain, "plan": told(again.decision.plan)},
+                "made": again.made,
+                "refused": again.refused,
+                "driven": None if again.driven is None else asdict(again.driven),
+                "verdict": verdict(again),
+            }
+            for again in found
+        ],
+    }
+    return json.dumps(record, ensure_ascii=False, indent=1)
+
+
+def _counts(found: Sequence[Again]) -> dict[str, int]:
+    counts = Counter(again.relation for again in found)
+    return {
+        "same": counts["same"],
+        "words": counts["words"],
+        "differs": counts["differs"],
+        "none": counts["none"],
+        "refused_by_validation": sum(bool(again.refused) for again in found),
+        "driven": sum(again.driven is not None for again in found),
+        "bound_by_the_bridge": sum(bool(a.driven and a.driven.held) for a in found),
+        "laws_broken": sum(bool(a.driven and a.driven.broken) for a in found),
+    }
+
+
+def _summary(recorded: Recorded, found: Sequence[Again], cost: Spending) -> str:
+    n = _counts(found)
+    thought = (
+        f"{len(found)} sentences: {n['same']} the same, {n['words']} in words alone, "
+        f"{n['differs']} differ, {n['none']} without a plan"
+    )
+    stopped = (
+        f"{n['refused_by_validation']} refused by validation, {n['driven']} driven in lockstep, "
+        f"of these {n['bound_by_the_bridge']} bound by the bridge and {n['laws_broken']} with a "
+        "law of motion broken"
+    )
+    spent = f"{cost.calls} calls, {cost.prompt_tokens} tokens sent, {cost.reply_tokens} written"
+    parts = [thought, stopped, spent]
+    if cost.left:
+        parts.append(f"{cost.left} not thought about: the budget is up")
+    if recorded.without or recorded.unreadable:
+        parts.append(
+            f"{recorded.without} goals had no plan of a brain, {recorded.unreadable} records can't "
+            "be read"
+        )
+    return "\n".join(parts)
+
+
+def _summary_zh(found: Sequence[Again], cost: Spending) -> str:
+    n = _counts(found)
+    return (
+        f"{len(found)} 条指令：{n['same']} 条相同，{n['words']} 条仅措辞不同，"
+        f"{n['differs']} 条不同，{n['none']} 条没有计划；"
+        f"{n['refused_by_validation']} 条会被校验拒绝，"
+        f"{n['driven']} 条做了仿真行驶，其中安全桥干预 {n['bound_by_the_bridge']} 条，"
+        f"违反运动规则 {n['laws_broken']} 条；共 {cost.calls} 次调用"
+    )

@@ -1,0 +1,209 @@
+"""Put the questions to a model, one at a time, within hard caps of calls and seconds.
+
+The exam is one goal of the home's budget, so that a day's limits hold for it as well.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.brain.endpoint import Address, EndpointBrain
+from planner.brain.prompt import Prompt, tokens
+from planner.budget import Ledger, Purse
+from planner.mission.site_view import vocabulary_of
+from planner.plan import EVERY_KIND, Language
+from planner.settings import BudgetSettings, GoalLimits, Mode, ModelSettings, Settings
+from planner.site import Site
+from pons.evals.cases import Case
+from pons.evals.matchers import wanted
+from pons.evals.quick.eyes import examine_eyes
+from pons.evals.quick.questions import QUESTIONS, WORLD, Question
+from pons.evals.quick.record import Cost, Exam, Eyes, Marked, Result, Rung
+from pons.evals.score import judge
+from pons.evals.world import World
+
+MOST_CALLS = 40
+MOST_S = 60.0
+PROMPT_TOKENS = 3000
+"""What a call may send, taken over all calls: some 1 700, and in a repair the reply once more."""
+GOAL = "exam"
+
+
+@dataclass(frozen=True, slots=True)
+class Caps:
+    """Bound an exam."""
+
+    calls: int = MOST_CALLS
+    seconds: float = MOST_S
+
+
+@dataclass
+class _Room:
+    """Hold what an exam under way needs."""
+
+    purse: Purse
+    model: ModelSettings
+    home: Path
+    goal: str
+    end_s: float
+    clock: Callable[[], float]
+
+    @property
+    def left_s(self) -> float:
+        return self.end_s - self.clock()
+
+    def brain(self, mode: Mode | None) -> EndpointBrain:
+        """Return a brain that asks in one way, patient to the end of the exam at most."""
+        timeout_s = max(0.5, min(self.model.timeout_s, self.left_s))
+        changes = {"mode": mode, "timeout_s": timeout_s, "allow_offhost": True}
+        changes["allow_pictures_offhost"] = True  # the exam's own
+        return EndpointBrain(self.model.model_copy(update=changes), self.home, meter=self.purse)
+
+
+async def examine(
+    settings: Settings,
+    model: ModelSettings,
+    home: Path,
+    site: Path | None,
+    caps: Caps,
+    clock: Callable[[], float] = time.monotonic,
+) -> Exam:
+    """Return what the exam found.
+
+    Args:
+        settings: the owner's, for limits and prices.
+        model: whom to ask. That its address may be asked was agreed on before.
+        home: whose budget pays.
+        site: whose places tell what a prompt costs here; None where none can be read.
+        caps: where the exam ends, finished or not.
+        clock: seconds that only rise.
+
+    Raises:
+        Misconfigured: the address may not be asked at all, or the budget can't be read.
+    """
+    budget = BudgetSettings(
+        goal=GoalLimits(
+            calls=caps.calls,
+            prompt_tokens=caps.calls * PROMPT_TOKENS,
+            reply_tokens=caps.calls * model.max_tokens,
+            seconds=caps.seconds,
+        ),
+        day=settings.budget.day,
+        price=settings.budget.price,
+    )
+    began_s, goal = clock(), f"{GOAL}-{time.time_ns()}"
+    purse = Purse(budget, Ledger(home), model=model.name, most_reply=model.max_tokens)
+    try:
+        with TemporaryDirectory(prefix="pons-exam-") as folder:
+            room = _Room(purse, model, Path(folder), goal, began_s + caps.seconds, clock)
+            rungs = [await _rung(room, mode) for mode in Mode]
+            marked = await _answers(room, _best(rungs))
+            eyes = await _eyes(room, _best(rungs))
+        spent = purse.usage(goal).goal
+    finally:
+        purse.close()
+    cost = Cost(seconds=round(clock() - began_s, 2))
+    if spent is not None:
+        cost = replace(
+            cost,
+            calls=spent.calls,
+            prompt_tokens=spent.prompt_tokens,
+            reply_tokens=spent.reply_tokens,
+            money=spent.money,
+        )
+    host = Address.parse(model.url).host
+    return Exam(model.name, host, tuple(rungs), marked, eyes, cost, prompt_tokens(site))
+
+
+def _best(rungs: list[Rung]) -> Mode | None:
+    """Return the strictest way that gave a right plan, else one that was taken at all."""
+    good = [rung for rung in rungs if rung.right] or [rung for rung in rungs if rung.taken]
+    return Mode(good[0].mode) if good else None
+
+
+async def _rung(room: _Room, mode: Mode) -> Rung:
+    if room.left_s <= 0.0:
+        return Rung(mode.value, taken=False, right=False, why="not_asked")
+    brain = room.brain(mode)
+    try:
+        marked = await _ask(room, brain, QUESTIONS[0])
+    finally:
+        await brain.close()
+    right, taken = marked.result == "right", marked.result not in ("no_answer", "not_asked")
+    return Rung(mode.value, taken, right, "" if right else marked.made)
+
+
+async def _answers(room: _Room, mode: Mode | None) -> tuple[Marked, ...]:
+    if mode is None:
+        return tuple(Marked(question, "no_answer") for question in QUESTIONS)
+    marked = []
+    brain = room.brain(mode)
+    try:
+        for question in QUESTIONS:
+            if room.left_s <= 0.0:
+                marked.append(Marked(question, "not_asked"))
+                continue
+            marked.append(await _ask(room, brain, question))
+    finally:
+        await brain.close()
+    return tuple(marked)
+
+
+async def _eyes(room: _Room, mode: Mode | None) -> Eyes:
+    if mode is None or room.left_s <= 0.0:
+        return Eyes()
+    brain = room.brain(mode)
+    try:
+        async with asyncio.timeout(room.left_s):
+            return await examine_eyes(brain.looker(), room.goal)
+    except TimeoutError:
+        return Eyes("not_asked", "the time was up")
+    finally:
+        await brain.close()
+
+
+async def _ask(room: _Room, brain: Brain, question: Question) -> Marked:
+    request = ThinkRequest(
+        text=question.text,
+        vocabulary=WORLD,
+        room="living_room",
+        language=question.language,
+        runnable=EVERY_KIND,
+        observed=question.observed,
+        goal=room.goal,
+    )
+    before = room.purse.usage(room.goal).today.calls
+    began_s = room.clock()
+    try:
+        async with asyncio.timeout(max(0.0, room.left_s)):
+            thought = await brain.think(request)
+    except TimeoutError:
+        return Marked(question, "not_asked", "the time was up")
+    except OutOfBudget as spent:
+        return Marked(question, "not_asked", spent.said.en)
+    except BrainDown as down:
+        return Marked(question, "no_answer", f"{down.why}: {down}"[:200])
+    except PlanRejected as rejected:
+        return Marked(question, "no_plan", str(rejected)[:200])
+    seconds = room.clock() - began_s
+    case = Case(question.text, question.part.value, wanted=wanted(question.right))
+    verdict = judge(case, thought.plan, World(WORLD, "living_room"), seconds)
+    result: Result = "right" if verdict.right else "unsafe" if verdict.wrong else "wrong"
+    calls = room.purse.usage(room.goal).today.calls - before
+    return Marked(question, result, thought.plan.model_dump_json()[:300], seconds, calls)
+
+
+def prompt_tokens(site: Path | None) -> int:
+    """Estimate the tokens of one call with the owner's places; 0 where there is no site."""
+    if site is None:
+        return 0
+    request = ThinkRequest(
+        text=QUESTIONS[4].text, vocabulary=vocabulary_of(Site.load(site)), language=Language.EN
+    )
+    return tokens(Prompt.load().messages(request))

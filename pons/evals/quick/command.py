@@ -1,0 +1,64 @@
+"""Be ``pons doctor --model``: say what it will spend, ask, examine, grade, show."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from planner.brain.endpoint import Address
+from planner.budget.totals import cost
+from pons.cost_prompt import agreed
+from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
+from pons.evals.quick.grade import grade
+from pons.evals.quick.show import content, table
+from pons.model_selection import chosen
+from wire import Misconfigured
+
+if TYPE_CHECKING:
+    from planner.settings import ModelSettings, Settings
+    from pons import settings as places
+
+EXIT = {"A": 0, "B": 0, "C": 1, "D": 2, "F": 2}
+"""As for the rest of the doctor: 0 well, 1 less well, 2 not fit to plan."""
+REFUSED = 2
+
+
+def run(
+    where: places.Settings, word: str, *, as_json: bool, yes: bool, caps: Caps | None = None
+) -> int:
+    """Examine the model of a word; 2 where it can't be or may not be asked."""
+    caps = caps or Caps()
+    try:
+        settings, model = chosen(word, where.home, os.environ)
+        address = Address.parse(model.url)
+        if not address.local and not agreed(_bill(settings, model, address.host, caps), yes=yes):
+            return REFUSED
+        site = where.site if where.site.is_dir() else None
+        exam = asyncio.run(examine(settings, model, where.home, site, caps))
+    except Misconfigured as wrong:
+        print(f"pons doctor --model: {wrong}", file=sys.stderr)
+        return REFUSED
+    found = grade(exam)
+    currency = settings.budget.price.currency if settings.budget.price is not None else None
+    print(content(exam, found, currency) if as_json else table(exam, found, currency))
+    return EXIT[found.letter]
+
+
+def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> str:
+    """Say what an exam may cost at most, before it costs anything."""
+    sent, written = caps.calls * PROMPT_TOKENS, caps.calls * model.max_tokens
+    price = settings.budget.price
+    money = (
+        "no price is set in [budget.price]"
+        if price is None
+        else f"at most {cost(price, sent, written):.2f} {price.currency}"
+    )
+    return (
+        f"The exam asks {model.name} at {host}, which is not this machine: at most {caps.calls} "
+        f"calls in {caps.seconds:.0f} s, at most {sent} tokens sent and {written} written "
+        f"({money}). Only the exam's own sentences and a drawn picture are sent.\n"
+        f"考试将调用 {host} 上的 {model.name}：最多 {caps.calls} 次、{caps.seconds:.0f} 秒，"
+        f"最多发送 {sent}、生成 {written} 个 token。只发送考题本身和一张绘制的图。"
+    )

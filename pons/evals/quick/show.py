@@ -1,0 +1,116 @@
+"""Show an exam: a table for people, in both languages where it judges, or JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+from pons.evals.quick.grade import Grade, percentile
+from pons.evals.quick.questions import Part
+from pons.evals.quick.record import Exam
+
+
+def table(exam: Exam, found: Grade, currency: str | None) -> str:
+    """Return the exam for a terminal."""
+    rows = [("model", f"{exam.model} at {exam.host}"), ("modes", _modes(exam))]
+    for part in Part:
+        asked = exam.of(part)
+        right = sum(m.result == "right" for m in asked)
+        rows.append((part.value, f"{right} of {len(asked)} right" if asked else "not asked"))
+    rows += [
+        ("pictures", _eyes(exam)),
+        ("latency", _latency(exam)),
+        ("tokens", _tokens(exam)),
+        ("cost", _cost(exam, currency)),
+    ]
+    lines = [f"{name:<10} {text}" for name, text in rows]
+    lines += [
+        f"  {m.result:<9} {m.question.text} -> {m.made or '-'}"
+        for m in exam.marked
+        if m.result not in ("right", "not_asked")
+    ]
+    lines.append(f"{'grade':<10} {found.letter}")
+    for reason in found.reasons:
+        lines += [f"  {reason.words.en}", f"  {reason.words.zh}"]
+    return "\n".join(lines)
+
+
+def content(exam: Exam, found: Grade, currency: str | None) -> str:
+    """Return the exam as JSON."""
+    latencies = exam.latencies_s
+    record: dict[str, Any] = {
+        "model": exam.model,
+        "host": exam.host,
+        "grade": found.letter,
+        "reasons": [asdict(reason) for reason in found.reasons],
+        "modes": [asdict(rung) for rung in exam.rungs],
+        "parts": {
+            part.value: {
+                "right": sum(m.result == "right" for m in exam.of(part)),
+                "asked": len(exam.of(part)),
+            }
+            for part in Part
+        },
+        "pictures": asdict(exam.eyes),
+        "latency_s": {
+            "n": len(latencies),
+            "p50": percentile(latencies, 0.50) if latencies else None,
+            "p95": percentile(latencies, 0.95) if latencies else None,
+        },
+        "cost": asdict(exam.cost) | {"currency": currency},
+        "prompt_tokens_here": exam.prompt_tokens_here,
+        "answers": [
+            {
+                "part": m.question.part.value,
+                "text": m.question.text,
+                "right_would_be": m.question.right,
+                "result": m.result,
+                "made": m.made,
+                "seconds": m.seconds,
+                "calls": m.calls,
+            }
+            for m in exam.marked
+        ],
+    }
+    return json.dumps(record, ensure_ascii=False, indent=1)
+
+
+def _modes(exam: Exam) -> str:
+    def word(right: bool, taken: bool, why: str) -> str:
+        return "yes" if right else f"taken, but {why}" if taken else f"no ({why})"
+
+    return " · ".join(f"{r.mode} {word(r.right, r.taken, r.why[:60])}" for r in exam.rungs)
+
+
+def _eyes(exam: Exam) -> str:
+    word = {
+        "right": "seen: a drawn disc was named and pointed at",
+        "wrong": "taken, but not seen",
+        "none": "not taken",
+        "no_answer": "no answer",
+        "not_asked": "not asked",
+    }[exam.eyes.result]
+    return f"{word} ({exam.eyes.why})" if exam.eyes.why else word
+
+
+def _latency(exam: Exam) -> str:
+    found = exam.latencies_s
+    if not found:
+        return "none: nothing was answered"
+    p50, p95 = percentile(found, 0.50), percentile(found, 0.95)
+    return f"p50 {p50:.2f} s, p95 {p95:.2f} s, longest {found[-1]:.2f} s (n {len(found)})"
+
+
+def _tokens(exam: Exam) -> str:
+    calls = max(1, exam.cost.calls)
+    sent, written = exam.cost.prompt_tokens / calls, exam.cost.reply_tokens / calls
+    here = f"; about {exam.prompt_tokens_here} sent with this robot's places"
+    return f"{sent:.0f} sent and {written:.0f} written a call" + (
+        here if exam.prompt_tokens_here else ""
+    )
+
+
+def _cost(exam: Exam, currency: str | None) -> str:
+    money = f", {exam.cost.money:.4f} {currency}" if currency else ""
+    return f"{exam.cost.calls} calls, {exam.cost.seconds:.1f} s{money}"

@@ -1,5 +1,0 @@
-"""Think recorded goals again with another model: ``pons replay FILE --with-model NAME@URL``."""
-
-from pons.rethink.command import run
-
-__all__ = ["run"]

@@ -1,0 +1,160 @@
+"""Keep one child process running: start, notice its death, wait longer each time, start again.
+
+Told the time; knows nothing of what the child does.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+from collections import deque
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO
+
+FIRST_PAUSE_S = 0.5
+LONGEST_PAUSE_S = 10.0
+MAX_LOG_BYTES = 10_000_000
+KEPT_LOGS = 2
+"""Older files beside each log: NAME.log.1 is the newer."""
+TOKENS = ("PONS_OPERATOR_TOKEN", "PONS_VIEWER_TOKEN")
+"""The planner's alone among the children."""
+STEADY_S = 30.0
+"""A child that lived so long starts with the shortest pause again."""
+REFUSED_TO_START = 2
+"""Every process of ours says so for a wrong setting: a restart would meet the same one."""
+
+
+@dataclass(slots=True)
+class Backoff:
+    """Double the pause after each early death."""
+
+    pause_s: float = FIRST_PAUSE_S
+
+    def after(self, lived_s: float) -> float:
+        """Return how long to wait, given how long the child lived."""
+        if lived_s >= STEADY_S:
+            self.pause_s = FIRST_PAUSE_S
+        now, self.pause_s = self.pause_s, min(2.0 * self.pause_s, LONGEST_PAUSE_S)
+        return now
+
+
+@dataclass(slots=True)
+class Child:
+    """Supervise one process."""
+
+    name: str
+    arguments: list[str]
+    log: Path
+    environment: dict[str, str] = field(default_factory=dict)
+    knows_tokens: bool = False
+    """It inherits what opens the planner's door."""
+    waits_for_ready: bool = False
+    """Nothing needs it to be ready, and its start would make the others' slower."""
+    process: subprocess.Popen[bytes] | None = None
+    starts: int = 0
+    started_s: float = 0.0
+    next_start_s: float = 0.0
+    backoff: Backoff = field(default_factory=Backoff)
+    log_began: int = 0
+
+    def start(self, now_s: float) -> None:
+        """Start it in a process group of its own, bound to this process, logging to its file."""
+        inherited = {
+            name: value
+            for name, value in os.environ.items()
+            if self.knows_tokens or name not in TOKENS
+        }
+        command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *self.arguments]
+        with self._opened_log() as log:
+            self.log_began = log.tell()
+            self.process = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
+                start_new_session=True,
+                env={**inherited, **self.environment},
+            )
+        self.starts += 1
+        self.started_s = now_s
+
+    def bound_log(self, most_bytes: int = MAX_LOG_BYTES) -> None:
+        """Keep the log's end in older files once it is too long, and cut it.
+
+        The file is copied and cut, not renamed or read from a pipe: whoever writes holds it open,
+        and a bridge must neither wait for its log's reader nor die of its end. It writes at the
+        file's end, wherever that is. A line written between copy and cut is lost.
+        """
+        try:
+            size = self.log.stat().st_size
+            if size <= most_bytes:
+                return
+            for number in range(KEPT_LOGS, 1, -1):
+                older = self._older(number - 1)
+                if older.exists():
+                    older.replace(self._older(number))
+            with self.log.open("rb") as log, self._older(1).open("wb") as kept:
+                log.seek(size - most_bytes)
+                kept.write(log.read(most_bytes))
+        except OSError:
+            pass  # a full disk: then all the more
+        with contextlib.suppress(OSError):
+            os.truncate(self.log, 0)
+            self.log_began = 0
+
+    def _older(self, number: int) -> Path:
+        return self.log.with_name(f"{self.log.name}.{number}")
+
+    def _opened_log(self) -> IO[bytes]:
+        """Open its log; where the disk refuses, its words are lost and it runs all the same."""
+        try:
+            return self.log.open("ab")
+        except OSError:
+            return Path(os.devnull).open("ab")
+
+    def died(self, now_s: float) -> int | None:
+        """Return the exit status of a death not yet noticed and plan the next start."""
+        status = self.process.poll() if self.process else None
+        if status is None:
+            return None
+        self.process = None
+        self.next_start_s = now_s + self.backoff.after(now_s - self.started_s)
+        return status
+
+    def due(self, now_s: float) -> bool:
+        """Say whether it should be started now."""
+        return self.process is None and now_s >= self.next_start_s
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal to the whole group; a group that is gone already is no error."""
+        if self.process is not None:
+            try:
+                os.killpg(self.process.pid, number)
+            except ProcessLookupError:
+                return
+
+    def stop(self, patience_s: float) -> None:
+        """End it: SIGTERM, then SIGKILL for what is left of its group."""
+        if self.process is None:
+            return
+        self.signal(signal.SIGTERM)
+        try:
+            self.process.wait(timeout=patience_s)
+        except subprocess.TimeoutExpired:
+            self.signal(signal.SIGKILL)
+            self.process.wait()
+        self.signal(signal.SIGKILL)
+        self.process = None
+
+    def last_words(self, lines: int = 8) -> str:
+        """Return the end of what it has logged since its start; earlier runs said other things."""
+        try:
+            with self.log.open(encoding="utf-8", errors="replace") as text:
+                text.seek(self.log_began)
+                return "".join(deque(text, maxlen=lines)).rstrip()
+        except OSError:
+            return ""

@@ -1,0 +1,96 @@
+"""Run the simulated robot as a process: read, tick, write, at the pace of the monotonic clock.
+
+Knows the wire's session and the clock; decides nothing about driving. What arrived while this
+process was frozen is thrown away: it would look fresh at receipt, and nobody can say how old it is.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from typing import TYPE_CHECKING
+
+from sim.hardware import PERIODS
+from sim.rate import Pacer, RealTimeFactor
+from wire import Misconfigured, keys
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from sim.messages import Report
+    from sim.robot import SimRobot
+    from wire import SimControl
+    from wire.session import Session
+
+log = logging.getLogger("sim")
+
+STALE_TICKS = 10
+"""Ticks after a freeze in which arrivals are dropped: what lay in the socket takes a moment to come
+through on a busy machine. The dead-man has fired by then, so nothing is lost but 0.1 s."""
+
+
+class Shell:
+    """Connect one SimRobot to the wire."""
+
+    def __init__(self, robot: SimRobot, session: Session) -> None:
+        self._robot = robot
+        self._commands = session.subscriber(keys.DRIVE_COMMAND)
+        self._controls = session.subscriber(keys.SIM_CONTROL)
+        self._drive = session.publisher(keys.DRIVE_STATE)
+        self._imu = session.publisher(keys.IMU)
+        self._scan = session.publisher(keys.SCAN)
+        self._truth = session.publisher(keys.SIM_TRUTH)
+        draws = robot.robot.camera.kind == "sim"
+        self._scene = session.publisher(keys.SIM_SCENE) if draws else None
+        self._ticks = 0
+        self._distrust = 0
+
+    def run(self, stopped: Callable[[], bool]) -> None:
+        """Tick until told to stop."""
+        pacer = Pacer(PERIODS.tick_s, time.monotonic())
+        factor = RealTimeFactor(PERIODS.tick_s)
+        frozen = round(self._robot.robot.drive.timeout_s / PERIODS.tick_s)
+        while not stopped():
+            time.sleep(max(0.0, pacer.next_s - time.monotonic()))
+            now_s = time.monotonic()
+            missed = pacer.woke(now_s)
+            if missed >= frozen:
+                log.warning("frozen for %.2f s; skipped, not caught up", missed * PERIODS.tick_s)
+                self._distrust = STALE_TICKS
+            self._receive(now_s)
+            self._say(self._robot.tick(now_s, real_time_factor=factor.ticked(now_s)))
+            self._show(now_s)
+
+    def _receive(self, now_s: float) -> None:
+        command = self._commands.newest()
+        if self._distrust > 0:
+            self._distrust -= 1
+        elif command is not None:
+            self._robot.command(command, now_s)
+        for control in self._controls.drain().items:
+            if isinstance(control, keys.SIM_CONTROL.message):
+                self._obey(control)
+            else:
+                log.warning("sim/control refused: %s", control)
+
+    def _obey(self, control: SimControl) -> None:
+        try:
+            self._robot.control(control)
+        except Misconfigured as refusal:  # a test's mistake must not end the robot
+            log.warning("sim/control refused: %s", refusal)
+
+    def _say(self, report: Report) -> None:
+        if report.drive is not None:
+            self._drive.put(report.drive)
+        if report.imu is not None:
+            self._imu.put(report.imu)
+        if report.scan is not None:
+            self._scan.put(report.scan)
+        if report.truth is not None:
+            self._truth.put(report.truth)
+
+    def _show(self, now_s: float) -> None:
+        """Tell the simulated camera what there is to draw."""
+        self._ticks += 1
+        if self._scene is not None and self._ticks % PERIODS.scene_ticks == 0:
+            self._scene.put(self._robot.scene(now_s))

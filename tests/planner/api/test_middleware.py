@@ -1,0 +1,154 @@
+"""The guard: headers on every answer, what nothing takes, and wrong tokens that wait."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+
+import pytest
+from starlette.testclient import TestClient
+
+from planner.api import Access
+from planner.api.token_guesses import FREE, LONGEST_S, MOST_ADDRESSES, Guesses
+from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
+from tests.planner.api.serving import Served, request, served
+
+TOKEN = "a token of many characters"
+OPEN = Access("127.0.0.1", operator_token=TOKEN)
+
+
+class Clock:
+    """Tell the time that a test sets."""
+
+    now_s = 0.0
+
+    def __call__(self) -> float:
+        return self.now_s
+
+
+def test_each_wrong_token_of_an_address_waits_longer_and_none_for_ever() -> None:
+    guesses = Guesses(Clock())
+    waits = [guesses.note("192.0.2.1") for _ in range(2_000)]
+    assert waits[:FREE] == [0.0] * FREE
+    assert waits == sorted(waits)
+    assert 0.0 < waits[FREE] < waits[FREE + 1]
+    assert waits[-1] == LONGEST_S
+    assert guesses.note("192.0.2.2") == 0.0, "another address has made no mistake"
+
+
+def test_mistakes_are_forgiven_with_time() -> None:
+    clock = Clock()
+    guesses = Guesses(clock)
+    for _ in range(8):
+        guesses.note("192.0.2.1")
+    clock.now_s = 1_000.0
+    assert guesses.note("192.0.2.1") == 0.0
+
+
+def test_guesses_from_everywhere_take_bounded_memory() -> None:
+    guesses = Guesses(Clock())
+    for number in range(3 * MOST_ADDRESSES):
+        guesses.note(f"10.{number >> 8}.{number & 255}.1")
+    assert len(guesses) == MOST_ADDRESSES
+
+
+def test_the_addresses_of_one_network_are_one() -> None:
+    guesses = Guesses(Clock())
+    for number in range(1, 100):
+        guesses.note(f"2001:db8::{number:x}")
+    assert len(guesses) == 1
+
+
+def test_a_thousand_guesses_are_a_few_lines(caplog: pytest.LogCaptureFixture) -> None:
+    clock = Clock()
+    guesses = Guesses(clock)
+    with caplog.at_level(logging.WARNING):
+        for number in range(1_000):
+            clock.now_s = number * 0.02
+            guesses.note("192.0.2.1")
+    said = [record.getMessage() for record in caplog.records]
+    assert len(said) == 2
+    assert said[0] == "wrong_token: 1 refused, the last from '192.0.2.1'"
+    assert "wrong_token: 500 refused" in said[1]
+
+
+def ask(server: Served, token: str) -> tuple[int, float]:
+    began_s = time.monotonic()
+    line = f"Authorization: Bearer {token}"
+    status, _ = server.ask(request("GET", "/v1/robot", b"", line))
+    return status, time.monotonic() - began_s
+
+
+def test_a_right_token_is_served_while_its_address_guesses() -> None:
+    with served(access=OPEN) as server:
+        guessing = [
+            threading.Thread(target=ask, args=(server, f"wrong {number}")) for number in range(40)
+        ]
+        for guess in guessing:
+            guess.start()
+        assert [ask(server, TOKEN)[0] for _ in range(5)] == [200] * 5
+        status, waited_s = ask(server, "wrong again")
+        for guess in guessing:
+            guess.join()
+    assert status == 401
+    assert waited_s >= LONGEST_S / 2
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("Origin: http://[", "foreign_origin"),
+        ("Via: 1.1 proxy", "proxy_without_token"),
+    ],
+)
+def test_what_is_refused_is_told_in_both_languages(line: str, code: str) -> None:
+    with served() as server:
+        status, said = server.ask(request("GET", "/v1/robot", b"", line))
+    assert (status, said["code"]) == (403, code)
+    assert said["message"]["en"]
+    assert said["message"]["zh"]
+
+
+def test_a_malformed_host_leaves_no_traceback(caplog: pytest.LogCaptureFixture) -> None:
+    with served() as server:
+        for method, path in (("GET", "/"), ("POST", "/v1/stop"), ("GET", "/v1/events")):
+            raw = request(method, path).replace(b"Host: 127.0.0.1", b"Host: [")
+            assert server.ask(raw)[1]["code"] == "foreign_host"
+        key = "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA=="
+        lines = ("Upgrade: websocket", "Sec-WebSocket-Version: 13", key)
+        upgrade = request("GET", "/v1/events", b"", *lines)
+        upgrade = upgrade.replace(b"Host: 127.0.0.1", b"Host: [")
+        with server.connect() as asking:
+            asking.sendall(upgrade.replace(b"Connection: close", b"Connection: Upgrade"))
+            assert asking.recv(65_536).startswith(b"HTTP/1.1 403")
+    assert "Traceback" not in caplog.text
+
+
+@pytest.fixture
+def client() -> TestClient:
+    return client_of(FakeServices())
+
+
+@pytest.mark.parametrize("asked", [("GET", "/v1/robot"), ("GET", "/none"), ("POST", "/v1/goals"),
+                                   ("GET", "/v1/camera.jpg"), ("TRACE", "/v1/robot")])  # fmt: skip
+@pytest.mark.parametrize("host", ["127.0.0.1:8420", "evil.example"])
+def test_every_answer_carries_the_security_headers_and_is_not_stored(
+    client: TestClient, asked: tuple[str, str], host: str
+) -> None:
+    answer = client.request(*asked, headers={"host": host})
+    for name in ("content-security-policy", "x-content-type-options", "referrer-policy",
+                 "x-frame-options", "cross-origin-resource-policy"):  # fmt: skip
+        assert name in answer.headers, (name, answer.status_code)
+    assert answer.headers["cache-control"] == "no-store"
+    policy = answer.headers["permissions-policy"]
+    assert "microphone=(self)" in policy
+    assert "camera=()" in policy
+
+
+def test_methods_that_nothing_takes_are_told_what_is_taken(client: TestClient) -> None:
+    for method in ("TRACE", "FROB"):
+        answer = client.request(method, "/v1/goals")
+        assert (answer.status_code, answer.json()["code"]) == (405, "method_not_allowed")
+        assert answer.headers["allow"] == "GET, POST"

@@ -1,0 +1,236 @@
+"""What is said to the planner itself is heard in whole sentences, and nothing else is."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planner.language.commands import (
+    Cancel,
+    Doing,
+    Forget,
+    Intent,
+    Pause,
+    Remember,
+    Replace,
+    Resume,
+    Where,
+    intent_of,
+)
+
+ENGLISH: tuple[tuple[str, Intent], ...] = (
+    ("remember this as charging dock", Remember("charging dock")),
+    ("Remember this spot as “Grandma's Chair”, please.", Remember("Grandma's Chair")),
+    ("call this place grandma's chair", Remember("grandma's chair")),
+    ("ok robot, save this location as the printer", Remember("printer")),
+    ("this place is called the quiet corner", Remember("quiet corner")),
+    ("remember this as 奶奶的椅子", Remember("奶奶的椅子")),
+    ("remember this as dangerous goods store", Remember("dangerous goods store")),
+    ("forget the place charging dock", Forget("charging dock")),
+    ("delete the place called printer", Forget("printer")),
+    ("forget where the printer is", Forget("printer")),
+    ("continue", Resume()),
+    ("Ok, please continue!", Resume()),
+    ("can you continue?", Resume()),
+    ("go on with the current job", Resume()),
+    ("keep going", Resume()),
+    ("you can go on now", Resume()),
+    ("hold on a second", Pause()),
+    ("just a moment, please", Pause()),
+    ("pause for a moment", Pause()),
+    ("pause for now", Pause()),
+    ("one moment", Pause()),
+    ("pause the current trip", Pause()),
+    ("cancel this order", Cancel()),
+    ("never mind", Cancel()),
+    ("NEVERMIND.", Cancel()),
+    ("forget about it", Cancel()),
+    ("don't go there any more", Cancel()),
+    ("don't go to the kitchen any more", Cancel()),
+    ("no need to look for the cup any more", Cancel()),
+    ("there is no need to search", Cancel()),
+    ("You don't need to follow me.", Cancel()),
+    ("drop the search", Cancel()),
+    ("resume the search", Resume()),
+    ("no need to look for it, go to the kitchen", Replace("go to the kitchen", now=True)),
+    ("forget that, come here", Replace("come here", now=True)),
+    ("never mind, go to the Kitchen", Replace("go to the Kitchen", now=True)),
+    ("forget that go to the kitchen", Replace("go to the kitchen", now=True)),
+    ("scratch that and come back", Replace("come back", now=True)),
+    ("cancel it and come back", Replace("come back", now=True)),
+    ("don't go. come back", Replace("come back", now=True)),
+    ("drop it, come back", Replace("come back", now=True)),
+    ("forget that, stop", Replace("stop", now=True)),
+    ("go to the kitchen instead", Replace("go to the kitchen", now=False)),
+    ("where are you?", Where()),
+    ("What is your location", Where()),
+    ("what are you doing right now?", Doing()),
+    ("where are you going?", Doing()),
+    ("status", Doing()),
+)
+CHINESE: tuple[tuple[str, Intent], ...] = (
+    ("记住这里是充电桩", Remember("充电桩")),
+    ("请记住，这里是充电桩。", Remember("充电桩")),
+    ("记住这里是危险品仓库", Remember("危险品仓库")),
+    ("請記住這裡是充電樁", Remember("充電樁")),
+    ("这里叫奶奶的椅子", Remember("奶奶的椅子")),
+    ("把这个地方命名为“阅读角”吧", Remember("阅读角")),
+    ("给这里起个名字叫打印机", Remember("打印机")),
+    ("忘记奶奶的椅子这个地方", Forget("奶奶的椅子")),
+    ("把充电位这个地方忘了吧", Forget("充电位")),
+    ("删除地点：打印机", Forget("打印机")),
+    ("继续", Resume()),
+    ("好的，继续吧", Resume()),
+    ("可以继续吗？", Resume()),
+    ("继续执行刚才的任务", Resume()),
+    ("恢复任务", Resume()),
+    ("等一下", Pause()),
+    ("稍等片刻", Pause()),
+    ("暂停一下", Pause()),
+    ("算了", Cancel()),
+    ("算了吧", Cancel()),
+    ("不用去了，谢谢", Cancel()),
+    ("别去厨房了", Cancel()),
+    ("不用找了", Cancel()),
+    ("不用再找杯子了", Cancel()),
+    ("不用看了", Cancel()),
+    ("不需要跟着我", Cancel()),
+    ("不找了", Cancel()),
+    ("不用找了，去厨房", Replace("去厨房", now=True)),
+    ("不要去厨房了，去卧室", Replace("去卧室", now=True)),
+    ("继续搜索", Resume()),
+    ("撤销刚才的指令", Cancel()),
+    ("别去了，去厨房", Replace("去厨房", now=True)),
+    ("算了去厨房", Replace("去厨房", now=True)),
+    ("算了，还是回来吧", Replace("还是回来", now=True)),
+    ("改去卧室", Replace("去卧室", now=False)),
+    ("你在哪里？", Where()),
+    ("现在在哪个房间呢", Where()),
+    ("你在干什么呢？", Doing()),
+    ("你要去哪儿", Doing()),
+)
+NONE = (
+    # English: goes on, is denied, asks, or speaks of something else.
+    "don't continue",
+    "do not continue to the kitchen",
+    "don't continue to the kitchen",
+    "continue to the kitchen",
+    "continue?",
+    "continue when I say so",
+    "go on the carpet",
+    "keep going left",
+    "carry on the bag",
+    "resume speed",
+    "pause for 5 seconds",
+    "pause for one minute",
+    "hold on to the box",
+    "a bit",
+    "moment",
+    "wait",
+    "cancel my subscription",
+    "never mind the gap between the rooms",
+    "never mind, continue",
+    "never mind, remember this as home",
+    "forget the keys",
+    "don't forget the place charging dock",
+    "forget",
+    "remember this",
+    "remember this as",
+    "remember this as you drive",
+    "remember this as soon as possible",
+    "remember this as a warning",
+    "mark this place as off limits",
+    "mark this spot as dangerous",
+    "remember this as no-go",
+    "save this location as a no go zone",
+    "remember this as dock and go to the kitchen",
+    "remember this for later",
+    "remember to charge",
+    "don't remember this as dock",
+    "can I call this place home?",
+    "call this place what?",
+    "call this number",
+    "this place is nice",
+    "this place is called what",
+    "where are you from",
+    "where are your keys",
+    "tell me where you are happy",
+    "what are you doing tomorrow",
+    "don't go to the kitchen instead",
+    "don't go and turn left",
+    "do not go and turn around",
+    "please don’t go there then drive to the kitchen",
+    "don't go, and turn left",
+    "do not go or turn left",
+    "don't bother and go to the kitchen",
+    "drop it and come back",
+    "no need to look for the cup, continue",
+    "do you need to look for it",
+    "go to the kitchen",
+    "stop",
+    "",
+    "  ",
+    "?!",
+    "contin\u200bue",
+    "continue\u202e",
+    "continue " * 60,
+    # Chinese.
+    "记住带钥匙",
+    "把这里设为禁区",
+    "把这里标记为危险区域",
+    "把这里标为禁止进入",
+    "记住这里是什么",
+    "这里叫什么",
+    "这里叫什么名字？",
+    "这里叫奶奶的椅子吗",
+    "这里是厨房",
+    "这里叫人很难受",
+    "记住这里是我放的",
+    "记住这里不是充电桩",
+    "别忘记奶奶的椅子这个地方",
+    "忘记带钥匙",
+    "继续去厨房",
+    "不要继续",
+    "先别继续",
+    "继续吗？",
+    "继续什么",
+    "等一下再去厨房",
+    "算了一下账",
+    "别去厨房",
+    "不用找去厨房",
+    "不找了吗",
+    "不看到人就不算了",
+    "别去了厨房再回来",
+    "你在哪买的",
+    "你在干什么活",
+    "去厨房",
+    "停",
+)
+
+
+@pytest.mark.parametrize(("text", "intent"), [*ENGLISH, *CHINESE])
+def test_whole_sentences_are_heard(text: str, intent: Intent) -> None:
+    assert intent_of(text) == intent
+
+
+@pytest.mark.parametrize("text", NONE)
+def test_other_sentences_are_left_to_the_brain(text: str) -> None:
+    assert intent_of(text) is None
+
+
+@settings(max_examples=50)
+@given(st.sampled_from([*ENGLISH, *CHINESE]), st.sampled_from(["not", "kitchen", "别", "厨房去"]))
+def test_a_word_more_before_a_sentence_makes_it_another(
+    said: tuple[str, Intent], more: str
+) -> None:
+    heard = intent_of(f"{more} {said[0]}")
+    assert heard is None or isinstance(heard, Replace | Remember)
+    if isinstance(heard, Remember):  # a name may grow at its front, no other sentence may
+        assert more not in ("not", "别")
+
+
+@settings(max_examples=50)
+@given(st.text("conti uremb,.?!'…İßﬁ继续忘了去这里叫，。？「\u200b\u202e\ue000\n", max_size=60))
+def test_any_text_is_read_the_same_twice(text: str) -> None:
+    assert intent_of(text) == intent_of(text)

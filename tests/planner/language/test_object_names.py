@@ -1,0 +1,97 @@
+"""People's words become a class and a colour, or nothing; a detector's names become classes."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language import color_names
+from planner.language.object_classes import KINDS
+from planner.language.object_names import canonical, listed, named, resolve, singles_out
+from planner.plan import Language
+from tests.conftest import ROOT
+
+MEANT = {
+    "red cup": ("cup", "red"), "mug": ("cup", None), "couch": ("sofa", None),
+    "two red cups": ("cup", "red"), "the big grey sofa": ("sofa", "gray"),
+    "light blue books": ("book", "blue"), "dark-red chair": ("chair", "red"),
+    "cup that is red": ("cup", "red"), "the bottle on the table": ("bottle", None),
+    "people": ("person", None), "a man": ("person", None), "knives": ("knife", None),
+    "boxes": ("box", None), "television": ("tv", None), "potted plant": ("plant", None),
+    "orange": ("orange", None), "orange ball": ("ball", "orange"), "sports_ball": ("ball", None),
+    "Dining Table": ("table", None), "anyone": ("person", None),
+    "红色的杯子": ("cup", "red"), "一个红色的杯子": ("cup", "red"), "红杯子": ("cup", "red"),
+    "紅色的杯子": ("cup", "red"), "那把椅子": ("chair", None), "红色的那个杯子": ("cup", "red"),
+    "深蓝色的书": ("book", "blue"), "桌子上的杯子": ("cup", None), "有人": ("person", None),
+    "几个人": ("person", None), "水瓶": ("bottle", None), "瓶子": ("bottle", None),
+    "杯子是白色的": ("cup", "white"), "三把椅子": ("chair", None), "粉红色的球": ("ball", "pink"),
+    "电视机": ("tv", None), "门": ("door", None), "盆栽": ("plant", None),
+}  # fmt: skip
+NOTHING = ("", "red", "红色", "John", "my sister's bottle", "person in a red shirt", "something",
+           "the cup of coffee", "cupboard", "水", "我姐姐的瓶子", "穿红衣服的人", "东西", "？",
+           "a" * 80)  # fmt: skip
+
+
+@pytest.mark.parametrize("language", [None, Language.EN, Language.ZH])
+def test_words_mean_a_class_and_a_colour(language: Language | None) -> None:
+    assert {words: resolve(words, language) for words in MEANT} == MEANT
+    assert [words for words in NOTHING if resolve(words, language) is not None] == []
+
+
+def test_what_says_which_one_by_more_than_kind_and_colour_is_known() -> None:
+    which = (
+        "the small cup", "chair beside the window", "the other person", "bottle on the table",
+        "another red cup", "big grey sofa", "the man near the door", "小杯子", "另一个人",
+        "桌子上的杯子", "窗户旁边的椅子", "桌子旁边的红色的椅子",
+    )  # fmt: skip
+    any_one = (
+        "red cup", "the nearest chair", "my cup", "that chair", "two red cups", "light blue book",
+        "cup that is red", "a man", "红色的杯子", "最近的椅子", "家里的杯子", "那把椅子",
+        "我的杯子", "dining table", "forklift", "",
+    )  # fmt: skip
+    assert [words for words in which if not singles_out(words)] == []
+    assert [words for words in any_one if singles_out(words)] == []
+
+
+def test_only_what_the_detector_knows_is_meant() -> None:
+    assert resolve("red couch", classes=("cup", "chair")) is None
+    assert resolve("红色的杯子", Language.ZH, ("cup",)) == ("cup", "red")
+    assert resolve("two blue forklifts", classes=("forklift",)) is None  # no plural is guessed
+    assert resolve("the blue fork_lift", classes=("fork_lift",)) == ("fork_lift", "blue")
+
+
+def test_a_detectors_names_become_ids() -> None:
+    names = {"Dining Table": "table", "tvmonitor": "tv", "couch": "sofa", "sports ball": "ball",
+             "aeroplane": "airplane", "杯子": "cup", "my thing!": "my_thing",
+             "": "thing"}  # fmt: skip
+    assert {name: canonical(name) for name in names} == names
+    coco = ROOT.parent / "shared" / "data" / "models" / "coco_classes.txt"
+    if not coco.is_file():
+        pytest.skip("shared/data is not here: the list of COCO's names can't be compared")
+    ids = {canonical(name) for name in coco.read_text("utf-8").splitlines()}
+    assert len(ids) == 80
+    assert ids <= set(KINDS)
+
+
+def test_a_thing_is_named_in_both_languages() -> None:
+    assert (named("cup", "red").en, named("cup", "red").zh) == ("red cup", "红色的杯子")
+    assert named("fork_lift").en == "fork lift"
+    assert listed(["cup", "tv"]).zh == "杯子、电视"
+    assert listed(list(KINDS), 2).en.endswith(f"and {len(KINDS) - 2} more")
+    for kind in KINDS.values():  # no two classes share a word
+        assert canonical(kind.en) == kind.id, kind.id
+        assert resolve(kind.zh) == (kind.id, None), kind.id
+
+
+def test_colours_are_told_by_their_plain_words() -> None:
+    told = "".join(color_names.names_of(color)[1] for color in color_names.COLORS)
+    assert told == "红色橙色黄色绿色蓝色紫色粉色棕色黑色灰色白色"
+
+
+@pytest.mark.parametrize("color", color_names.COLORS)
+def test_every_colour_has_its_words(color: str) -> None:
+    en, zh = color_names.names_of(color)
+    assert color_names.color_of(en) == color_names.color_of(zh) == color
+    assert resolve(f"{en} cup") == resolve(f"{zh}的杯子") == ("cup", color)
+    assert color_names.may_be(color, color)
+    assert color_names.may_be(color, None)
+    assert not color_names.may_be("red", "blue")

@@ -1,0 +1,314 @@
+"""Hold whole routes to their laws on the real sites and on small floors drawn for one question."""
+
+from __future__ import annotations
+
+from itertools import pairwise, permutations
+from math import hypot, inf, nan, pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.navigation import RouteFailure, RouteLimits, RouteRequest, RouteResult
+from planner.navigation.costmap import Costmap, static_costmap
+from planner.navigation.router import Router
+from planner.site import OCCUPIED, Site
+from tests.planner.navigation.floors import Outline, drawn
+from wire import Pose2
+
+LIMITS = RouteLimits()
+IMPOSSIBLE = {"no_route", "start_blocked", "goal_blocked"}
+TOUCHING_M = LIMITS.radius_m  # the disc's edge is at the wall
+
+
+def at(x_m: float, y_m: float) -> Pose2:
+    return Pose2(x_m, y_m, 0.0)
+
+
+def ask(site: Site, request: RouteRequest) -> RouteResult:
+    return Router(site, LIMITS).route(request)
+
+
+def failure(site: Site, request: RouteRequest) -> RouteFailure:
+    with pytest.raises(RouteFailure) as caught:
+        ask(site, request)
+    return caught.value
+
+
+def samples(result: RouteResult) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    """Return points every centimetre along a route."""
+    line = np.asarray([(p.x_m, p.y_m) for p in result.points])
+    pieces = [
+        a + np.linspace(0, 1, max(2, int(hypot(*(b - a)) / 0.01) + 1))[:, None] * (b - a)
+        for a, b in pairwise(line)
+    ]
+    return np.concatenate([line[:1], *pieces])
+
+
+def check_laws(site: Site, costmap: Costmap, result: RouteResult) -> None:
+    """Check what every route that began on free floor promises."""
+    gaps = [hypot(b.x_m - a.x_m, b.y_m - a.y_m) for a, b in pairwise(result.points)]
+    assert all(0.05 <= gap <= 0.25 for gap in gaps[1:-1])
+    assert all(0.01 <= gap <= 0.25 for gap in gaps)
+    assert result.length_m == pytest.approx(sum(gaps))
+    assert all(0.05 <= p.speed_mps <= LIMITS.max_speed_mps for p in result.points)
+    for p in result.points:
+        assert p.speed_mps <= max(0.05, site.fence.max_speed_mps(p.x_m, p.y_m))
+    line = samples(result)
+    assert float(costmap.clearance_at(line).min()) >= TOUCHING_M
+    for x_m, y_m in line[:: max(1, len(line) // 200)].tolist():
+        assert site.fence.allows(x_m, y_m)
+
+
+def test_every_place_of_the_home_is_reached_from_every_other(
+    home: Site, home_router: Router, home_costmap: Costmap
+) -> None:
+    for a, b in list(permutations(home.places, 2))[::13]:
+        result = home_router.route(RouteRequest(a.pose, b.pose))
+        check_laws(home, home_costmap, result)
+        assert (result.points[0].x_m, result.points[0].y_m) == (a.pose.x_m, a.pose.y_m)
+        assert (result.points[-1].x_m, result.points[-1].y_m) == (b.pose.x_m, b.pose.y_m)
+        assert result.moved_goal_m == 0.0
+        assert not result.start_escaped
+
+
+def test_every_place_of_the_two_rooms_is_reached(
+    two_room: Site, two_room_router: Router, two_room_costmap: Costmap
+) -> None:
+    for a, b in permutations(two_room.places, 2):
+        result = two_room_router.route(RouteRequest(a.pose, b.pose))
+        check_laws(two_room, two_room_costmap, result)
+
+
+@given(st.floats(0, 12), st.floats(0, 10), st.floats(0, 12), st.floats(0, 10))
+def test_any_two_points_of_the_home_give_a_lawful_route_or_a_typed_failure(
+    home: Site, home_router: Router, home_costmap: Costmap,
+    ax_m: float, ay_m: float, bx_m: float, by_m: float,
+) -> None:  # fmt: skip
+    try:
+        result = home_router.route(RouteRequest(at(ax_m, ay_m), at(bx_m, by_m)))
+    except RouteFailure as failed:
+        if failed.code not in IMPOSSIBLE:
+            raise
+        return
+    if not result.start_escaped:
+        check_laws(home, home_costmap, result)
+    assert result.moved_goal_m <= 0.5
+    end = result.points[-1]
+    assert hypot(end.x_m - bx_m, end.y_m - by_m) == pytest.approx(result.moved_goal_m)
+
+
+points = st.tuples(st.floats(0.0, 3.0), st.floats(0.0, 6.0))
+
+
+@given(st.lists(points, max_size=40))
+def test_what_the_lidar_adds_is_kept_clear_of(
+    two_room: Site, two_room_router: Router, two_room_costmap: Costmap,
+    obstacles: list[tuple[float, float]],
+) -> None:  # fmt: skip
+    start, goal = two_room.places[0].pose, two_room.places[1].pose
+    request = RouteRequest(start, goal, tuple(obstacles))
+    seen = two_room_costmap.with_obstacles(obstacles, (start.x_m, start.y_m))
+    try:
+        result = two_room_router.route(request)
+    except RouteFailure as failed:
+        if failed.code not in IMPOSSIBLE:
+            raise
+        return
+    if not result.start_escaped:
+        check_laws(two_room, seen, result)
+
+
+def test_routes_with_costs_worked_out_beforehand_are_as_long(two_room: Site) -> None:
+    cold, warm = Router(two_room, LIMITS), Router(two_room, LIMITS)
+    for _ in warm.warm():
+        pass
+    assert (cold.goals_known, warm.goals_known) == (0, len(two_room.places))
+    for a, b in permutations(two_room.places, 2):
+        one, two = (router.route(RouteRequest(a.pose, b.pose)) for router in (cold, warm))
+        assert two.length_m == pytest.approx(one.length_m, rel=0.03)
+
+
+def test_open_floor_is_crossed_straight() -> None:
+    site = drawn(*["." * 24] * 24)
+    result = ask(site, RouteRequest(at(1.0, 1.0), at(5.0, 3.0)))
+    assert result.length_m == pytest.approx(hypot(4.0, 2.0), rel=0.002)
+    assert max(p.speed_mps for p in result.points) == LIMITS.max_speed_mps
+
+
+def test_a_door_is_passed_in_its_middle_and_slowly() -> None:
+    # A wall at y = 2.0 to 2.5 m with a door 0.9 m wide, x from 2.0 to 2.9 m, drawn at 0.1 m.
+    rows = ["." * 50] * 20 + ["#" * 20 + "." * 9 + "#" * 21] * 5 + ["." * 50] * 20
+    site = drawn(*rows, square_m=0.1)
+    result = ask(site, RouteRequest(at(0.6, 0.6), at(4.3, 3.9)))
+    inside = [p for p in result.points if 2.0 <= p.y_m <= 2.5]
+    assert len(inside) >= 4
+    assert all(abs(p.x_m - 2.45) <= 0.06 for p in inside)
+    assert all(p.speed_mps <= 0.35 for p in inside)
+    assert max(p.speed_mps for p in result.points) > 0.45
+
+
+def test_a_door_that_a_disc_cannot_pass_is_no_door() -> None:
+    rows = ["." * 50] * 20 + ["#" * 20 + "." * 5 + "#" * 25] * 5 + ["." * 50] * 20
+    error = failure(drawn(*rows, square_m=0.1), RouteRequest(at(0.6, 0.6), at(4.3, 3.9)))
+    assert error.code == "no_route"
+
+
+def test_an_obstacle_in_one_door_sends_the_route_through_the_other(
+    home: Site, home_router: Router
+) -> None:
+    start, goal = home.place("living_room"), home.place("study")
+    assert start is not None
+    assert goal is not None
+    direct = home_router.route(RouteRequest(start.pose, goal.pose))
+    middle = min(direct.points, key=lambda p: abs(p.x_m - 5.0))  # the wall between the two rooms
+    person = tuple((middle.x_m + 0.1 * np.cos(a), middle.y_m + 0.1 * np.sin(a)) for a in range(6))
+    around = home_router.route(RouteRequest(start.pose, goal.pose, person))
+    assert around.length_m > direct.length_m + 1.0
+    for p in around.points:
+        assert hypot(p.x_m - middle.x_m, p.y_m - middle.y_m) > 0.4
+
+
+def test_a_goal_in_furniture_moves_to_the_nearest_free_floor_and_says_so() -> None:
+    rows = ["." * 24] * 10 + ["." * 10 + "####" + "." * 10] * 2 + ["." * 24] * 12
+    site = drawn(*rows)  # a box, x 2.5 to 3.5 m, y 3.0 to 3.5 m
+    result = ask(site, RouteRequest(at(1.0, 1.0), at(3.0, 3.1)))
+    end = result.points[-1]
+    assert 0.35 <= result.moved_goal_m <= 0.5
+    assert hypot(end.x_m - 3.0, end.y_m - 3.1) == pytest.approx(result.moved_goal_m)
+    assert end.y_m < 3.0
+
+
+def test_a_goal_too_near_to_a_wall_to_be_stood_at_moves_a_little_away() -> None:
+    site = drawn(*["#" * 24], *["." * 24] * 23)  # all above y 5.75 m
+    tight = ask(site, RouteRequest(at(1.0, 1.0), at(3.0, 5.42)))
+    end = tight.points[-1]
+    assert 5.75 - end.y_m >= LIMITS.radius_m + 0.10 - 1e-6
+    assert 0.0 < tight.moved_goal_m <= 0.15
+    assert abs(end.x_m - 3.0) <= 0.05
+    roomy = ask(site, RouteRequest(at(1.0, 1.0), at(3.0, 5.32)))
+    assert roomy.moved_goal_m == 0.0
+
+
+def test_a_goal_in_a_niche_without_more_room_stays_where_it_is() -> None:
+    rows = ["#" * 20 + "." * 7 + "#" * 20] * 10 + ["." * 47] * 20
+    result = ask(drawn(*rows, square_m=0.1), RouteRequest(at(1.0, 1.0), at(2.33, 2.5)))
+    assert result.moved_goal_m == 0.0
+
+
+def test_a_goal_in_furniture_moves_to_where_there_is_room_to_stand() -> None:
+    rows = ["." * 24] * 10 + ["." * 10 + "####" + "." * 10] * 2 + ["." * 24] * 12
+    result = ask(drawn(*rows), RouteRequest(at(1.0, 1.0), at(3.0, 3.02)))
+    assert 3.0 - result.points[-1].y_m >= LIMITS.radius_m + 0.10 - 1e-6
+
+
+def test_a_goal_deep_in_furniture_is_blocked() -> None:
+    rows = ["." * 24] * 8 + ["." * 8 + "########" + "." * 8] * 8 + ["." * 24] * 8
+    error = failure(drawn(*rows), RouteRequest(at(1.0, 1.0), at(3.0, 3.0)))
+    assert error.code == "goal_blocked"
+    assert "3.00" in error.message["en"]
+    assert "3.00" in error.message["zh"]
+
+
+def test_a_goal_never_moves_through_a_wall_into_the_next_room() -> None:
+    # The wall is thin; below it lies furniture, so the nearest free floor is in the room above.
+    rows = ["." * 40] * 18 + ["#" * 40] + ["." * 30 + "#" * 10] * 3 + ["." * 40] * 18
+    rooms: dict[str, Outline] = {
+        "above": ((0.0, 2.1), (4.0, 2.1), (4.0, 4.0), (0.0, 4.0)),
+        "below": ((0.0, 0.0), (4.0, 0.0), (4.0, 2.1), (0.0, 2.1)),
+    }
+    goal = at(3.5, 2.05)
+    closed = drawn(*rows, square_m=0.1, rooms=rooms)
+    assert failure(closed, RouteRequest(at(1.0, 3.0), goal)).code == "goal_blocked"
+    without = ask(drawn(*rows, square_m=0.1), RouteRequest(at(1.0, 3.0), goal))
+    assert without.points[-1].y_m > 2.0
+
+
+def test_a_tight_start_is_left_by_the_shortest_way_out() -> None:
+    site = drawn(*["." * 24] * 24)
+    result = ask(site, RouteRequest(at(0.15, 3.0), at(4.0, 3.0)))
+    assert result.start_escaped
+    out = [p for p in result.points if p.x_m < 0.32]
+    assert all(abs(p.y_m - 3.0) < 0.06 for p in out)
+    assert all(p.speed_mps <= 0.25 for p in out)
+
+
+def test_a_start_in_a_wall_is_refused() -> None:
+    rows = ["." * 24] * 8 + ["." * 8 + "########" + "." * 8] * 8 + ["." * 24] * 8
+    error = failure(drawn(*rows), RouteRequest(at(3.0, 3.0), at(1.0, 1.0)))
+    assert error.code == "start_blocked"
+
+
+def test_a_tight_start_is_not_left_through_a_wall() -> None:
+    # Between two walls 0.5 m apart; outside them there is room.
+    rows = ["." * 60] * 25 + ["#" * 60, *["." * 60] * 5, "#" * 60] + ["." * 60] * 25
+    error = failure(drawn(*rows, square_m=0.1), RouteRequest(at(3.0, 2.85), at(3.0, 5.0)))
+    assert error.code == "start_blocked"
+
+
+FENCE = ((1.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 5.0))
+
+
+def test_a_start_just_outside_the_fence_comes_back_in_without_a_point_outside() -> None:
+    site = drawn(*["." * 24] * 24, allowed=(FENCE,))
+    result = ask(site, RouteRequest(at(0.9, 3.0), at(4.0, 3.0)))
+    assert result.start_escaped
+    assert all(site.fence.allows(p.x_m, p.y_m) for p in result.points)
+    assert hypot(result.points[0].x_m - 0.9, result.points[0].y_m - 3.0) <= 0.3
+
+
+def test_a_start_far_outside_the_fence_is_refused() -> None:
+    site = drawn(*["." * 24] * 24, allowed=(FENCE,))
+    assert failure(site, RouteRequest(at(0.6, 3.0), at(4.0, 3.0))).code == "start_blocked"
+
+
+def test_zones_slow_the_route_and_keep_outs_turn_it() -> None:
+    zone = ((2.0, 0.0), (3.0, 0.0), (3.0, 6.0), (2.0, 6.0))
+    hole = ((3.5, 2.0), (4.0, 2.0), (4.0, 4.0), (3.5, 4.0))
+    site = drawn(*["." * 24] * 24, zones=((zone, 0.15),), keep_outs=(hole,))
+    result = ask(site, RouteRequest(at(1.0, 3.0), at(5.0, 3.0)))
+    check_laws(site, static_costmap(site, LIMITS.radius_m), result)
+    assert result.length_m > 4.2
+    assert all(p.speed_mps <= 0.15 for p in result.points if 2.0 < p.x_m < 3.0)
+
+
+def test_a_route_to_where_one_stands_is_one_point() -> None:
+    site = drawn(*["." * 24] * 24)
+    result = ask(site, RouteRequest(at(2.0, 2.0), at(2.0, 2.004)))
+    assert [(p.x_m, p.y_m) for p in result.points] == [(2.0, 2.004)]
+    short = ask(site, RouteRequest(at(2.0, 2.0), at(2.0, 2.03)))
+    assert len(short.points) == 2
+
+
+@pytest.mark.parametrize(
+    ("start", "goal", "code"),
+    [
+        (at(-1.0, 2.0), at(2.0, 2.0), "start_outside_map"),
+        (at(2.0, 2.0), at(2.0, 99.0), "goal_outside_map"),
+        (at(nan, 2.0), at(2.0, 2.0), "route_request_malformed"),
+        (at(2.0, 2.0), at(2.0, inf), "route_request_malformed"),
+    ],
+)
+def test_ends_that_are_nowhere_are_refused(start: Pose2, goal: Pose2, code: str) -> None:
+    error = failure(drawn(*["." * 24] * 24), RouteRequest(start, goal))
+    assert error.code == code
+    assert error.message["en"] != error.message["zh"]
+
+
+def test_bends_are_slower_than_straights() -> None:
+    # A corridor 0.9 m wide with one right-angled bend.
+    rows = ["#" * 24] * 3 + ["#" * 3 + "." * 18 + "###"] * 4 + ["#" * 17 + "." * 4 + "###"] * 17
+    site = drawn(*rows)
+    result = ask(site, RouteRequest(at(1.5, 4.75), at(4.75, 0.75)))
+    headings = [np.arctan2(b.y_m - a.y_m, b.x_m - a.x_m) for a, b in pairwise(result.points)]
+    turns = [abs((q - p + pi) % (2 * pi) - pi) for p, q in pairwise(headings)]
+    sharpest = int(np.argmax(turns)) + 1
+    straight = max(p.speed_mps for p in result.points[2:-2])
+    assert result.points[sharpest].speed_mps <= straight
+    for p, turn in zip(result.points[1:-1], turns, strict=True):
+        assert p.speed_mps * turn / 0.1 <= LIMITS.max_turn_radps * 1.2 or p.speed_mps <= 0.05
+
+
+def test_the_home_map_is_not_all_obstacle(home: Site) -> None:
+    assert 0 < home.grid.cells.count(OCCUPIED) < len(home.grid.cells) / 2

@@ -1,0 +1,82 @@
+"""Check what the planner sees with: who opens the detector, and who is asked about pictures."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
+
+import pytest
+
+from planner.app import _brain, _model
+from planner.budget import purse_of
+from planner.perception import Detection, VisionFailure, VisionWorker
+from planner.perception_factory import REFUSED_WITHIN_S, Opening, _by_detector, looker_of
+from planner.settings import VisionSettings, load_settings
+from wire import RobotDescription
+
+ROBOT = RobotDescription()
+BLIND = ROBOT.model_copy(update={"camera": ROBOT.camera.model_copy(update={"kind": "none"})})
+
+
+def test_without_a_camera_no_process_is_started() -> None:
+    async def story() -> None:
+        opening = Opening(VisionSettings(), BLIND)
+        await opening.open()
+        assert opening.worker.pid is None
+        assert opening.refused is None
+
+    asyncio.run(story())
+
+
+@pytest.mark.parametrize(
+    ("model", "code", "after_s", "ends"),
+    [
+        (Path("own.onnx"), "model_broken", 1.0, True),
+        (Path("own.onnx"), "model_broken", REFUSED_WITHIN_S + 1.0, False),  # the robot may drive
+        (Path("own.onnx"), "detector_down", 1.0, False),  # nobody's word about the model
+        (None, "model_broken", 1.0, False),  # nobody set it: nobody can set it right
+    ],
+)
+def test_only_a_word_about_the_owners_model_at_the_start_ends_the_planner(
+    model: Path | None, code: str, after_s: float, ends: bool
+) -> None:
+    async def story() -> None:
+        now_s = [5.0]
+
+        async def start() -> None:
+            now_s[0] += after_s
+            raise VisionFailure(code)
+
+        opening = Opening(VisionSettings(model=model), ROBOT, clock=lambda: now_s[0])
+        opening.worker = cast("VisionWorker", SimpleNamespace(start=start))
+        await opening.open()
+        assert (opening.refused is not None) == ends
+
+    asyncio.run(story())
+
+
+def test_the_owners_model_is_asked_about_pictures_and_none_without_one(tmp_path: Path) -> None:
+    text = '[model]\nurl = "http://127.0.0.1:1/v1"\nname = "m"\n'
+    (tmp_path / "settings.toml").write_text(text, "utf-8")
+    settings = load_settings(tmp_path, {})
+    purse = purse_of(settings, tmp_path)
+    model, worker = _model(settings, tmp_path, purse), VisionWorker(settings.vision)
+    assert model is not None
+    brain = _brain(model, settings)
+    looker = looker_of(model, brain, worker)
+    assert looker is not None
+    assert looker.tag.name == "m"
+    assert looker_of(None, _brain(None, settings), worker) is None
+    asyncio.run(model.close())
+    purse.close()
+
+
+def test_the_detector_tells_what_it_saw() -> None:
+    seen = [Detection("cup", 0.9, (0.0, 0.0, 1.0, 1.0), "red"),
+            Detection("chair", 0.9, (0.0, 0.0, 1.0, 1.0))]  # fmt: skip
+    text, answer = _by_detector("what is there?", seen)
+    assert (text.en, text.zh) == ("I see: red cup, chair.", "我看到：红色的杯子、椅子。")
+    assert answer is None
+    assert _by_detector("", ())[0].en == "I see: nothing that I know."

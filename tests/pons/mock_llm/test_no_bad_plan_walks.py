@@ -1,0 +1,26 @@
+"""Check that no plan which a faulty model writes is walked; the long bench does it 50 times."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+from pons.mock_llm import FAULTS, READABLE
+from tests.pons.mock_llm.mocks import running_mock
+from tools.bench.measure.mock_faults import try_fault
+
+WRITTEN = (
+    *("garbage", "hallucinate", "hostile", "wrong_types", "two_plans", "refuse_and_plan"),
+    *("truncated", "length", "thoughts_only", "unknown_tool", "reasoning", "declined"),
+)
+"""What a model itself does wrong; a server's faults are tried one by one beside."""
+
+
+def test_no_bad_plan_is_walked(tmp_path: Path) -> None:
+    assert set(WRITTEN) <= set(FAULTS) - READABLE
+    with running_mock() as mock:
+        for fault in (*WRITTEN, "odd_repeat"):
+            mock.set(fault=fault)
+            counts = asyncio.run(try_fault(mock.url, tmp_path / fault, fault, 2))
+            assert (counts["crashed"], counts["invalid"], counts["goals"]) == (0, 0, 4), fault
+            assert bool(counts["model"]) == (fault in READABLE), fault

@@ -1,0 +1,111 @@
+"""What the API answers becomes lines that a person can read."""
+
+from __future__ import annotations
+
+import pytest
+
+from pons.goals import language_of
+from pons.terminal_text import figures, goal_line, message, robot_lines, step_line
+from tests.wire.examples import STATUS
+
+OUTCOME = {
+    "code": "arrived",
+    "message": {"en": "Arrived: kitchen.", "zh": "已到达：厨房。"},
+    "asked": {"place": "kitchen", "room": "kitchen", "x_m": 1.5, "y_m": 1.9, "yaw_rad": 0.1},
+    "reached": {"place": "kitchen", "room": "kitchen", "x_m": 1.508, "y_m": 1.911, "yaw_rad": 0.2},
+    "metres": 2.42,
+    "seconds": 10.477,
+    "limited_by": ["robot", "obstacle"],
+}
+
+
+def test_figures_are_for_people() -> None:
+    assert figures(OUTCOME) == (
+        "asked kitchen (1.50, 1.90); reached kitchen (1.51, 1.91); metres 2.42 m; "
+        "seconds 10.48 s; limited by robot, obstacle"
+    )
+
+
+def test_what_is_not_known_is_left_out() -> None:
+    bare: dict[str, object] = {
+        "code": "stopped",
+        "asked": None,
+        "reached": None,
+        "metres": None,
+        "limited_by": [],
+    }
+    assert figures(bare) == ""
+    assert figures(None) == ""
+    assert figures({"reached": {"place": None, "room": "kitchen"}}) == "reached kitchen"
+
+
+def test_a_whole_number_of_metres_is_a_figure_too() -> None:
+    assert figures({"metres": 0, "seconds": 3}) == "metres 0.00 m; seconds 3.00 s"
+
+
+def test_messages_speak_the_persons_language() -> None:
+    assert message(OUTCOME, "zh") == "已到达：厨房。"
+    assert message(OUTCOME, "fr") == "Arrived: kitchen."
+    assert message(None, "en") == ""
+
+
+def test_the_language_is_that_of_the_words() -> None:
+    assert language_of("go to the kitchen") == "en"
+    assert language_of("去 kitchen") == "zh"
+
+
+def test_steps_and_goals_say_why() -> None:
+    step = {"kind": "go_to", "place": "kitchen", "state": "failed", "reason": "no_route"}
+    assert step_line(2, step) == "  2. go_to kitchen: failed (no_route)"
+    goal = {"id": "g1", "state": "paused", "reason": "stop", "text": "去厨房"}
+    assert goal_line(goal) == "g1  paused (stop)  '去厨房'"
+
+
+def test_a_silent_bridge_is_said() -> None:
+    assert robot_lines({"status": None}) == ["bridge: no status heard"]
+
+
+def shown(**change: object) -> str:
+    said = STATUS.model_dump(mode="json") | change
+    return "\n".join(robot_lines({"status": said, "room": None}))
+
+
+def test_what_is_waited_for_is_named_in_both_languages() -> None:
+    said = shown(mode="SELFTEST", waiting_for=["drive_echo", "enc_stale", "brand_new"])
+    assert "waiting for: drive_echo, enc_stale, brand_new" in said
+    assert "the drive's answer / 驱动应答" in said
+    assert "The drive reports nothing; the robot stops. / 驱动没有反馈，机器人停车。" in said
+
+
+def test_a_fault_is_told_in_both_languages_with_what_to_do() -> None:
+    held = {"reason": "fault", "id": "drive_no_timeout"}
+    said = shown(mode="FAULT", held=held, waiting_for=["drive_no_timeout"])
+    assert "fault: drive_no_timeout" in said
+    assert "waiting for" not in said
+    assert said.count("did not time out") == 1
+    assert "驱动没有超时停止" in said
+
+
+def test_what_holds_a_robot_is_told_where_no_row_says_it() -> None:
+    held = {"reason": "fault", "id": "fence"}
+    said = shown(mode="HOLD", held=held, waiting_for=[])
+    assert "held (fault: fence)" in said
+    assert "too near the fence" in said
+    assert "离围栏太近" in said
+    stopped = shown(mode="HOLD", held={"reason": "stop", "id": "s1"}, waiting_for=[])
+    assert "held (stop)" in stopped
+
+
+@pytest.mark.parametrize("code", ["robot_mismatch", "fence_mismatch", "map_mismatch"])
+def test_a_refused_planner_is_told_in_both_languages_with_what_to_do(code: str) -> None:
+    answer = {"id": "p2", "kind": "hello", "accepted": False, "code": code, "detail": "came a"}
+    said = shown(owner=None, waiting_for=[], answers=[answer])
+    assert f"refused hello of p2: {code}: came a" in said
+    assert "`pons up`" in said
+    assert "重新启动" in said
+    assert "重新启动" not in shown(answers=[answer | {"accepted": True}])
+
+
+def test_a_turn_asks_for_no_place() -> None:
+    turned = {"asked": {"place": None, "room": None, "x_m": None, "y_m": None}, "seconds": 2.0}
+    assert figures(turned) == "seconds 2.00 s"

@@ -1,0 +1,43 @@
+"""The table of who may do what, written twice, and the routes that it is tried on."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.api.access import Access, NotAllowed
+from tools.attack.roles import ASKERS, METHODS, asked, expected, fits
+
+TOKENS = {"operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": ""}
+ACCESS = Access("127.0.0.1", operator_token=TOKENS["operator"], viewer_token=TOKENS["viewer"])
+
+
+@pytest.mark.parametrize("asker", ASKERS)
+def test_the_planners_own_rules_say_the_same(asker: str) -> None:
+    for method, path in asked():
+        kind = "audio/wav" if path == "/v1/voice" else "application/json"
+        headers = {"host": "127.0.0.1", "content-type": kind}
+        if TOKENS[asker]:
+            headers["authorization"] = f"Bearer {TOKENS[asker]}"
+        try:
+            ACCESS.judge(method, path, headers)
+            refused = None
+        except NotAllowed as refusal:
+            refused = refusal.status
+        assert expected(asker, method, path) == refused
+
+
+def test_every_route_of_the_contract_is_asked_with_every_method() -> None:
+    found = list(asked())
+    assert ("POST", "/v1/goals/x/confirm") in found
+    assert len(found) == len(METHODS) * len({path for _, path in found})
+
+
+def test_only_the_one_refusal_fits_and_no_crash_does() -> None:
+    assert fits(401, 401)
+    assert not fits(401, 200)
+    assert not fits(401, 0)
+    assert fits(None, 404)
+    assert fits(None, 503)
+    assert not fits(None, 403)
+    assert not fits(None, 500)
+    assert not fits(None, 0)

@@ -1,0 +1,27 @@
+"""Share what every drive begins with: worlds that are armed, owned and standing, made once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from tools.lockstep import Together
+from tools.lockstep.world_fork import forked
+
+Ready = Callable[..., Together]
+
+
+@pytest.fixture(scope="session")
+def ready() -> Ready:
+    """Return a maker of worlds: each a copy of one that was made ready with these parts."""
+    made: dict[str, Together] = {}
+
+    def copy(**parts: Any) -> Together:
+        name = repr(sorted(parts.items()))
+        if name not in made:
+            made[name] = Together(**parts)
+        return forked(made[name])
+
+    return copy

@@ -1,0 +1,214 @@
+"""Sentences drive the robot in lockstep; faults stop it; the same seed does the same."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from math import hypot
+
+import pytest
+
+from planner.plan import GoalState
+from tools.lockstep import TICK_S, Disturbance, Said, Together
+from tools.lockstep.world_fork import forked
+from wire import Mode, Pose2
+from wire.keys import Party
+
+LIMIT_S = 90.0
+IN_KITCHEN, BY_THE_DOOR = Pose2(1.5, 1.5, 1.5), Pose2(1.5, 2.0, 1.5)
+"""In the kitchen of two_room, so that a drive to the living room takes seconds."""
+BAD_WIRE = Disturbance(
+    sender=Party.PLANNER, drop=0.1, duplicate=0.1, delay_ticks=(0, 4), reorder=True
+)
+HOLD2_TICKS = 31
+"""BRAIN_LOST acts over 300 ms after the newest echoed status was sent: at the 31st tick at last."""
+
+
+def inside(world: Together, room_id: str) -> bool:
+    room = world.scene.site.place(room_id)
+    assert room is not None
+    return room.contains(world.truth.x_m, world.truth.y_m)
+
+
+def stands(goal: Said, state: GoalState) -> bool:
+    return goal.state is state
+
+
+def assert_within_limits(world: Together) -> None:
+    limits, base = world.scene.robot.limits, world.scene.robot.base
+    sent = [command for command in world.commands if command is not None]
+    fastest = max(max(abs(c.left_radps), abs(c.right_radps)) for c in sent)
+    assert fastest <= limits.max_wheel_radps
+    forward = max(abs(c.left_radps + c.right_radps) / 2 * base.wheel_radius_m for c in sent)
+    # What the motors swallow is added behind the limits, and what wheel control finds missing.
+    drive = world.scene.robot.drive
+    swallowed_mps = drive.dead_zone_radps * base.wheel_radius_m
+    correction_mps = swallowed_mps + drive.max_correction * limits.max_speed_mps
+    assert forward <= limits.max_speed_mps + swallowed_mps + correction_mps + 1e-9
+    assert all(a.seq < b.seq for a, b in pairwise(sent))
+
+
+def driving(world: Together) -> bool:
+    return world.status.mode is Mode.ACTIVE and abs(world.twist.v_mps) > 0.2
+
+
+Driving = Callable[[], tuple[Together, Said]]
+
+
+@pytest.fixture(scope="module")
+def off(ready: Callable[..., Together]) -> Driving:
+    """Return a maker of worlds on their way to the living room, each with its goal."""
+    first = ready(seed=4, start=IN_KITCHEN)
+    goal_id = first.say("go to the living room").id
+    first.run_until(driving, LIMIT_S)
+
+    def copy() -> tuple[Together, Said]:
+        world = forked(first)
+        return world, world.goal(goal_id)
+
+    return copy
+
+
+@pytest.mark.parametrize(
+    ("text", "wire"),
+    [("去客厅", None), ("go to the living room", BAD_WIRE)],
+    ids=["good wire", "bad wire"],
+)
+def test_a_goal_in_either_language_ends_standing_in_the_room_and_a_bad_wire_costs_time_only(
+    ready: Callable[..., Together], text: str, wire: Disturbance | None
+) -> None:
+    world = ready(seed=2, start=BY_THE_DOOR)
+    if wire is not None:
+        world.disturb(wire)
+    goal = world.say(text)
+    world.run_until(lambda _: goal.ended, LIMIT_S)
+    assert stands(goal, GoalState.SUCCEEDED)
+    assert inside(world, "living_room")
+    assert world.standing
+    outcome = goal.record.outcome
+    assert outcome is not None
+    assert outcome.reached is not None
+    assert outcome.reached.room == "living_room"
+    assert outcome.metres is not None
+    assert outcome.metres > 1.0
+    assert world.contacts == 0
+
+
+def test_several_steps_and_back_visit_each_place_and_end_where_it_began(
+    ready: Callable[..., Together],
+) -> None:
+    world = ready(seed=2, start=BY_THE_DOOR)
+    began = world.truth
+    visited: list[str] = []
+    goal = world.say("go to the living room, then the kitchen, then come back")
+
+    def done(w: Together) -> bool:
+        room = w.room
+        if room is not None and (not visited or visited[-1] != room):
+            visited.append(room)
+        return goal.ended
+
+    world.run_until(done, 2 * LIMIT_S)
+    assert stands(goal, GoalState.SUCCEEDED)
+    assert visited == ["kitchen", "living_room", "kitchen"]
+    assert_within_limits(world)
+    assert hypot(world.truth.x_m - began.x_m, world.truth.y_m - began.y_m) < 0.25
+    assert world.contacts == 0
+
+
+def test_a_stop_holds_until_a_person_acts(off: Driving) -> None:
+    world, goal = off()
+    request = world.stop()
+    world.run_until(lambda w: w.standing and request.answer is not None, 3.0)
+    assert stands(goal, GoalState.PAUSED)
+    stood = world.truth
+    world.run(2.0)
+    assert hypot(world.truth.x_m - stood.x_m, world.truth.y_m - stood.y_m) < 0.01
+    assert world.status.held is not None
+    world.resume(goal)
+    world.run_until(driving, LIMIT_S)
+
+
+def test_a_sentence_that_says_stop_stops(off: Driving) -> None:
+    world, _ = off()
+    world.say("停！")
+    world.run_until(lambda w: w.standing, 3.0)
+    assert world.status.held is not None
+
+
+@pytest.mark.parametrize("phase", [0, 3])
+@pytest.mark.parametrize("way", ["kill", "freeze"])
+def test_a_silent_brain_is_held_within_31_ticks_of_its_last_echo(
+    off: Driving, way: str, phase: int
+) -> None:
+    world, _ = off()
+    world.run(phase * TICK_S)
+    world.kill_planner() if way == "kill" else world.freeze_planner()
+    world.run_until(lambda w: w.bridge.state.mode is Mode.STOPPING, 1.0)
+    echoed_s = world.bridge.state.ownership.echo_s
+    assert echoed_s is not None
+    assert round((world.now_s - echoed_s) / TICK_S) <= HOLD2_TICKS
+    world.run_until(lambda w: w.standing, 3.0)
+    assert world.contacts == 0
+
+
+def test_after_a_kill_nothing_moves_until_a_person_resumes(off: Driving) -> None:
+    world, goal = off()
+    world.kill_planner()
+    world.run_until(lambda w: w.standing, 3.0)
+    world.start_planner()
+    stood = world.truth
+    world.run(2.0)
+    assert stands(goal, GoalState.PAUSED)
+    assert goal.record.reason == "planner_restarted"
+    assert hypot(world.truth.x_m - stood.x_m, world.truth.y_m - stood.y_m) < 0.01
+    world.resume(goal)
+    world.run_until(driving, LIMIT_S)
+
+
+def test_a_short_freeze_goes_on_by_itself_and_obeys_nothing_from_before(off: Driving) -> None:
+    world, goal = off()
+    before = world.status.epoch
+    tick = world.tick_count
+    world.at(tick + 1, lambda w: w.freeze_planner())
+    world.at(tick + 101, lambda w: w.thaw_planner())
+    world.run(0.5)
+    assert world.status.epoch != before
+    world.run_until(lambda _: goal.ended, LIMIT_S)
+    assert stands(goal, GoalState.SUCCEEDED)
+
+
+def test_what_is_put_in_the_way_is_not_touched(off: Driving) -> None:
+    world, goal = off()
+    # Right in the doorway, the only way there is.
+    world.place_obstacle(1.5, 3.0)
+    world.run_until(lambda w: w.standing and w.status.blocked, 15.0)
+    world.run(2.0)
+    assert world.contacts == 0
+    world.remove_obstacle()
+    world.run_until(lambda _: goal.ended, LIMIT_S)
+    assert stands(goal, GoalState.SUCCEEDED)
+    assert world.contacts == 0
+
+
+def test_carrying_the_robot_away_stops_it_first(off: Driving) -> None:
+    world, goal = off()
+    world.teleport(Pose2(1.5, 1.9, 0.0))
+    world.run_until(lambda w: any(row.row == "POSE_JUMP" for row in w.status.rows), 1.0)
+    world.run_until(lambda _: goal.ended, LIMIT_S)
+    assert stands(goal, GoalState.SUCCEEDED)
+    assert inside(world, "living_room")
+    assert world.contacts == 0
+
+
+def drive(seed: int) -> list[tuple[float, float] | None]:
+    world = Together(seed=seed)
+    world.say("go to the living room")
+    world.run(3.0)
+    return [(c.left_radps, c.right_radps) if c is not None else None for c in world.commands]
+
+
+def test_the_same_seed_gives_the_same_commands_and_another_does_not() -> None:
+    first, again, other = drive(11), drive(11), drive(12)
+    assert first == again
+    assert first != other

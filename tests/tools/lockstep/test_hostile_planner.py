@@ -1,0 +1,52 @@
+"""Six hostile planners on five homes break nothing, though they do drive; nor do external brains.
+
+The brains push at a fence with no wall behind it, in a bare hall, where no lidar helps.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tools.bench.measure.hostile_planner import attack
+from tools.lockstep import Together
+from tools.lockstep.homes import hall
+from tools.lockstep.hostile import HostilePlanner, Person
+from tools.lockstep.judge import Judge
+
+PENS = (
+    ((1.2, 6.2), (2.8, 6.2), (2.8, 7.8), (1.2, 7.8)),
+    ((6.0, 6.0), (8.0, 6.0), (8.0, 8.0), (6.0, 8.0)),
+)
+"""Where the robot begins, and where the hall's one place is."""
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_hostile_planner_breaks_no_law(seed: int) -> None:
+    told = attack(seed, 8.0)
+    assert told["broken"] == {}
+    assert told["metres"] > 0.02, "or nothing was tried"
+
+
+@pytest.mark.parametrize("seed", [0, 3, 4])
+def test_a_hostile_external_brain_breaks_no_law_where_localization_falls_silent(
+    seed: int, tmp_path: Path
+) -> None:
+    site = hall(tmp_path)
+    fence = json.loads((site / "fence.json").read_text("utf-8"))
+    (site / "fence.json").write_text(json.dumps({**fence, "allowed": PENS}), "utf-8")
+    world = Together(site=site, seed=seed + 1)
+    hostile, person, judge = HostilePlanner(world, seed, "external"), Person(world), Judge(world)
+    hostile.metres = 60.0
+    lost = 0
+    for _ in range(2000):
+        world.tick()
+        hostile.turn()
+        person.turn()
+        judge.look()
+        lost += "POSE_LOST.0" in world.bridge.state.rows
+    assert dict(judge.broken) == {}
+    assert judge.metres > 0.3, "or nothing was tried"
+    assert lost > 200

@@ -1,0 +1,284 @@
+"""Find, go to, count, look and follow in lockstep, by the truth with a detector's faults."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import atan2, hypot, pi
+from pathlib import Path
+
+import pytest
+
+from planner.brain import ScriptedBrain
+from planner.plan import (
+    Code,
+    Count,
+    Find,
+    Follow,
+    GoalState,
+    GoToObject,
+    GoToPoint,
+    Look,
+    Step,
+    StepPlan,
+    StepRecord,
+)
+from tools.lockstep import Said, Together
+from tools.lockstep.homes import stocked
+from wire import Pose2, wrap
+
+RED, BLUE, ON_SOFA = (2.6, 0.6), (2.6, 1.0), (1.2, 5.5)
+OBJECTS: dict[str, object] = {
+    "red_cup": {"class": "cup", "color": "red", "at": [*RED], "on": "counter"},
+    "blue_cup": {"class": "cup", "color": "blue", "at": [*BLUE], "on": "counter"},
+    "other_blue_cup": {"class": "cup", "color": "blue", "at": [*ON_SOFA], "on": "sofa"},
+}
+PEOPLE: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
+TO_THE_DOOR, BY_THE_COUNTER = Pose2(1.5, 4.0, -pi / 2), Pose2(1.5, 1.9, -0.9)
+World = Callable[..., Together]
+
+pytestmark = pytest.mark.timeout(180)
+"""A search is a minute of simulated time: 6 s of a free core, ten times that on a busy one."""
+
+
+@pytest.fixture(scope="session")
+def home(tmp_path_factory: pytest.TempPathFactory, repository: Path) -> Path:
+    """Return the two rooms with three cups and a person in them."""
+    return stocked(
+        tmp_path_factory.mktemp("sites"), repository / "sites" / "two_room", OBJECTS, PEOPLE
+    )
+
+
+@pytest.fixture
+def world_with(ready: Callable[..., Together], home: Path) -> World:
+    """Return a maker of worlds that see, and whose brain says this plan."""
+
+    def made(*steps: Step, start: Pose2 = BY_THE_COUNTER, seed: int = 3) -> Together:
+        world = ready(site=home, seed=seed, start=start)
+        world.open_eyes()
+        world.think_with(ScriptedBrain([StepPlan(steps=steps)] * 4))
+        return world
+
+    return made
+
+
+def done(world: Together, goal: Said, limit_s: float = 90.0) -> StepRecord:
+    world.run_until(lambda _: goal.ended, limit_s)
+    plan = goal.record.plan
+    assert plan is not None
+    assert world.contacts == 0
+    assert world.standing or goal.state is GoalState.SUCCEEDED
+    return plan.steps[0]
+
+
+def told(goal: Said) -> tuple[Code, str, str]:
+    outcome = goal.record.outcome
+    assert outcome is not None
+    return outcome.code, outcome.message.en, outcome.message.zh
+
+
+def moved_m(world: Together, since: Pose2) -> float:
+    return hypot(world.truth.x_m - since.x_m, world.truth.y_m - since.y_m)
+
+
+def test_what_is_in_another_room_is_found_and_not_what_stands_beside_it(world_with: World) -> None:
+    world = world_with(Find(object="红色的杯子"), start=TO_THE_DOOR)
+    goal = world.say("找红色的杯子")
+    step = done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED
+    found = step.found
+    assert found is not None
+    assert (found.label, found.color, found.room) == ("cup", "red", "kitchen")
+    assert hypot(found.x_m - RED[0], found.y_m - RED[1]) < 0.15
+    away_m = hypot(world.truth.x_m - RED[0], world.truth.y_m - RED[1])
+    assert found.distance_m == pytest.approx(away_m, abs=0.2)
+    code, en, zh = told(goal)
+    assert code is Code.FOUND
+    assert en == f"I found a red cup in the kitchen, {found.distance_m:.1f} m from me."
+    assert zh == f"在厨房看到红色的杯子，离我 {found.distance_m:.1f} 米。"
+
+
+def test_what_was_just_seen_is_told_without_a_search_and_gone_things_are_not(
+    world_with: World,
+) -> None:
+    world = world_with(Find(object="the red cup", place="kitchen"))
+    world.run(2.0)
+    began, at_s = world.truth, world.now_s
+    goal = world.say("find the red cup")
+    done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED
+    assert world.now_s - at_s < 6.0
+    assert moved_m(world, began) < 0.1
+    world.put("red_cup", None)
+    world.teleport(Pose2(began.x_m, began.y_m, pi / 2))  # it does not see that it is gone
+    world.run(3.0)
+    again = world.say("find the red cup", None)
+    step = done(world, again)
+    assert (again.state, step.reason) == (GoalState.FAILED, "not_found")
+    assert step.rooms == ("kitchen",)
+
+
+def test_what_is_not_there_is_told_with_where_was_looked(world_with: World) -> None:
+    world = world_with(Find(object="green cup", place="kitchen"))
+    goal = world.say("find the green cup in the kitchen")
+    step = done(world, goal)
+    assert (goal.state, step.reason, step.rooms) == (GoalState.FAILED, "not_found", ("kitchen",))
+    assert told(goal)[1:] == (
+        "I saw no green cup. I looked in the kitchen. I saw 1 blue cup; light may change a colour.",
+        "没有看到绿色的杯子。看过的地方：厨房。看到 1 个蓝色的杯子；光线可能改变颜色。",
+    )
+    assert world.room == "kitchen", "the order named one room"
+
+
+@pytest.mark.parametrize(
+    ("step", "blind", "code", "says"),
+    [
+        (Find(object="unicorn"), None, Code.OBJECT_UNKNOWN, "cup"),
+        (GoToObject(object="独角兽"), None, Code.OBJECT_UNKNOWN, "cup"),
+        (Count(object="cups"), "no_camera", Code.NO_CAMERA, "camera"),
+        (Follow(object="me"), "no_detector", Code.NO_DETECTOR, "recognises"),
+    ],
+)
+def test_what_these_eyes_can_not_do_is_refused_before_anything_moves(
+    world_with: World, step: Step, blind: str | None, code: Code, says: str
+) -> None:
+    world = world_with(step)
+    world.open_eyes().blind = blind
+    world.run(1.0)
+    began, goal = world.truth, world.say("do it")
+    world.run(1.0)
+    assert goal.state is GoalState.REFUSED
+    assert told(goal)[0] is code
+    assert says in told(goal)[1]
+    assert moved_m(world, began) < 0.01
+
+
+def test_it_drives_up_to_a_thing_and_faces_it(world_with: World) -> None:
+    world = world_with(GoToObject(object="blue cup", place="kitchen"))
+    goal = world.say("go to the blue cup in the kitchen")
+    step = done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED, told(goal)
+    here = world.truth
+    away_m = hypot(BLUE[0] - here.x_m, BLUE[1] - here.y_m)
+    assert 0.75 <= away_m <= 1.15, "half a metre before the robot's edge, off the counter"
+    ahead = atan2(BLUE[1] - here.y_m, BLUE[0] - here.x_m)
+    assert abs(wrap(here.yaw_rad - ahead)) < 0.25
+    assert step.found is not None
+    assert told(goal)[0] is Code.ARRIVED
+
+
+def test_a_thing_that_is_taken_away_on_the_way_is_looked_for_once_and_then_told(
+    world_with: World,
+) -> None:
+    world = world_with(GoToObject(object="red cup", place="kitchen"), start=Pose2(0.7, 1.9, -0.5))
+    goal = world.say("go to the red cup")
+    world.run_until(lambda w: w.twist.v_mps > 0.2, 30.0)
+    world.put("red_cup", None)
+    step = done(world, goal)
+    assert (goal.state, step.reason) == (GoalState.FAILED, "moved")
+    assert "no more where I had seen it" in told(goal)[1]
+
+
+def test_things_are_counted_and_questions_answered_in_one_place_or_here(world_with: World) -> None:
+    world = world_with(Count(object="cups", place="kitchen"))
+    goal = world.say("how many cups are in the kitchen")
+    assert done(world, goal).count == 2
+    assert told(goal)[1:] == ("I saw 2 cups in the kitchen.", "在厨房看到 2 个杯子。")
+    for question, answer in (
+        ("is there a red cup?", "Yes, I see 1 red cup."),
+        ("有没有人？", "没有，没有看到人。"),
+        ("what do you see?", "I see 1 blue cup and 1 red cup."),
+    ):
+        world.teleport(BY_THE_COUNTER)
+        world.run(3.0)
+        world.think_with(ScriptedBrain([StepPlan(steps=(Look(question=question),))]))
+        goal, began = world.say(question), world.truth
+        done(world, goal)
+        assert told(goal)[0] is Code.SEEN
+        assert answer in told(goal)[1:]
+        assert moved_m(world, began) < 0.01
+
+
+def test_eyes_that_fail_midway_end_the_step_standing(world_with: World) -> None:
+    world = world_with(Find(object="green cup"))
+    goal = world.say("find the green cup")
+    world.run(6.0)
+    world.open_eyes().blind = "camera_frozen"
+    step = done(world, goal, 30.0)
+    assert (goal.state, step.reason) == (GoalState.FAILED, "camera_frozen")
+    assert told(goal)[0] is Code.BLIND
+    world.run_until(lambda w: w.standing, 2.0)
+
+
+@pytest.mark.parametrize("way", ["pause", "stop", "crash"])
+def test_an_interrupted_search_goes_on_where_it_was_and_never_by_itself(
+    world_with: World, way: str
+) -> None:
+    world = world_with(Find(object="green cup", place="kitchen"))
+    goal = world.say("find the green cup in the kitchen")
+
+    def looked() -> tuple[int, ...]:
+        return world.planner.engine.book.missions[goal.id].notes.views
+
+    world.run_until(lambda _: len(looked()) == 3, 30.0)
+    world.run(0.3)
+    if way == "crash":
+        world.kill_planner()
+        world.run(1.0)
+        world.start_planner()
+    elif way == "stop":
+        world.stop()
+    else:
+        world.pause(goal)
+    world.run(2.0)
+    still = world.truth
+    world.run(3.0)
+    assert goal.state is GoalState.PAUSED
+    assert abs(wrap(world.truth.yaw_rad - still.yaw_rad)) < 0.01
+    assert len(looked()) == 3, "what was looked at stays looked at"
+    world.resume(goal)
+    took_s = world.run_until(lambda w: w.planner.engine.book.missions[goal.id].notes.spots, 30.0)
+    assert took_s < 14.0, "three directions were left, not six"
+    step = done(world, goal)
+    assert (goal.state, step.reason) == (GoalState.FAILED, "not_found")
+
+
+def test_a_person_is_followed_at_a_distance_and_lost_cleanly(world_with: World) -> None:
+    world = world_with(Follow(object="person"), start=Pose2(1.5, 1.2, pi / 2))
+    here = [1.5, 2.6]
+    world.put("anna", Pose2(here[0], here[1], 0.0))
+    world.run(1.5)
+    goal, nearest_m, legs = world.say("follow me"), 9.0, set[int]()
+    for tick in range(1_500):
+        world.tick()
+        if here[1] < 4.7:
+            here[1] += 0.004
+            world.put("anna", Pose2(here[0], here[1], 0.0))
+        nearest_m = min(nearest_m, hypot(world.truth.x_m - here[0], world.truth.y_m - here[1]))
+        legs |= {world.status.leg.leg} if world.status.leg is not None else set()
+        if tick == 700:
+            assert world.truth.y_m > 1.5, "it goes after her"
+    assert 1.0 < hypot(world.truth.x_m - here[0], world.truth.y_m - here[1]) < 1.7
+    assert nearest_m > 0.9
+    assert 3 <= len(legs) <= 24, "laid anew as she walks, twice a second at most"
+    world.put("anna", None)
+    step = done(world, goal, 60.0)
+    assert (goal.state, step.reason) == (GoalState.FAILED, "lost_person")
+    assert told(goal)[0] is Code.LOST_PERSON
+
+
+def test_a_point_of_the_picture_is_driven_to_on_floor_and_refused_on_a_wall(
+    world_with: World,
+) -> None:
+    world = world_with(GoToPoint(x=500, y=820), start=Pose2(0.8, 1.9, 0.3))
+    world.run(1.0)
+    began, goal = world.truth, world.say("go there")
+    done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED
+    assert 0.8 < moved_m(world, began) < 2.2
+    world.think_with(ScriptedBrain([StepPlan(steps=(GoToPoint(x=500, y=430),))]))
+    world.run(1.0)
+    still, refused = world.truth, world.say("and there")
+    step = done(world, refused)
+    assert told(refused)[0] is Code.POINT_REFUSED
+    assert step.reason in ("point_on_wall", "point_no_depth", "point_off_map")
+    assert moved_m(world, still) < 0.01

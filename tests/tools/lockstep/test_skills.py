@@ -1,0 +1,196 @@
+"""Skills drive the simulated robot: turns, moves, patrols, questions, second thoughts, crashes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import atan2, cos, degrees, hypot, pi, radians, sin
+
+import pytest
+
+from planner.brain import ScriptedBrain
+from planner.plan import (
+    Ask,
+    Code,
+    Decide,
+    GoalState,
+    GoTo,
+    Move,
+    Patrol,
+    Say,
+    Step,
+    StepPlan,
+    StepRecord,
+    Turn,
+)
+from tools.lockstep import Said, Together
+from wire import Pose2
+
+IN_KITCHEN = Pose2(1.5, 2.0, 1.5)
+IN_DOORWAY_M = (1.5, 3.5)
+BY_THE_DOOR = Pose2(1.5, 2.4, 1.5)
+BY_THE_DOCK = Pose2(1.4, 1.0, -2.6)
+
+
+World = Callable[..., Together]
+
+
+@pytest.fixture
+def world_with(ready: Callable[..., Together]) -> World:
+    """Return a maker of worlds whose brain says these plans, one after the other."""
+
+    def made(*plans: tuple[Step, ...], start: Pose2 = IN_KITCHEN) -> Together:
+        world = ready(seed=2, start=start)
+        world.think_with(ScriptedBrain([StepPlan(steps=steps) for steps in plans]))
+        return world
+
+    return made
+
+
+def done(world: Together, goal: Said, limit_s: float = 60.0) -> tuple[StepRecord, ...]:
+    world.run_until(lambda _: goal.ended, limit_s)
+    plan = goal.record.plan
+    assert plan is not None
+    assert world.contacts == 0
+    return plan.steps
+
+
+def turned_deg(before: Pose2, after: Pose2) -> float:
+    return degrees(atan2(sin(after.yaw_rad - before.yaw_rad), cos(after.yaw_rad - before.yaw_rad)))
+
+
+def ahead_m(before: Pose2, after: Pose2) -> float:
+    dx, dy = after.x_m - before.x_m, after.y_m - before.y_m
+    return dx * cos(before.yaw_rad) + dy * sin(before.yaw_rad)
+
+
+@pytest.mark.parametrize(("asked_deg", "ends_deg"), [(90, 90), (-200, 160)])
+def test_it_turns_by_the_angle_that_was_asked_and_drives_nowhere(
+    world_with: World, asked_deg: float, ends_deg: float
+) -> None:
+    world = world_with((Turn(angle_rad=radians(asked_deg)),))
+    before, goal, way_rad = world.truth, world.say("turn"), 0.0
+    newest = before
+
+    def watch(w: Together) -> bool:
+        nonlocal newest, way_rad
+        way_rad += radians(turned_deg(newest, w.truth))
+        newest = w.truth
+        return goal.ended
+
+    world.run_until(watch, 30.0)
+    (step,) = done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED
+    assert turned_deg(before, world.truth) == pytest.approx(ends_deg, abs=4.0)
+    assert degrees(way_rad) == pytest.approx(asked_deg, abs=4.0), "and by the way that was asked"
+    assert hypot(world.truth.x_m - before.x_m, world.truth.y_m - before.y_m) < 0.03
+    assert step.turned_rad == pytest.approx(radians(asked_deg), abs=0.1)
+    assert step.residual_rad is not None
+    assert abs(step.residual_rad) < 0.1
+
+
+@pytest.mark.parametrize("distance_m", [0.5, -0.3])
+def test_it_moves_straight_by_the_distance_that_was_asked(
+    world_with: World, distance_m: float
+) -> None:
+    world = world_with((Move(distance_m=distance_m),))
+    before, goal = world.truth, world.say("move")
+    (step,) = done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED
+    assert ahead_m(before, world.truth) == pytest.approx(distance_m, abs=0.06)
+    assert turned_deg(before, world.truth) == pytest.approx(0.0, abs=4.0)
+    assert step.moved_m == pytest.approx(distance_m, abs=0.06)
+    outcome = goal.record.outcome
+    assert outcome is not None
+    assert f"{abs(distance_m):.2f} m" in outcome.message.en
+
+
+def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: World) -> None:
+    world = world_with((Move(distance_m=5.0),))
+    before, goal = world.truth, world.say("move")
+    (step,) = done(world, goal)
+    assert (goal.state, goal.record.reason, step.reason) == (
+        GoalState.FAILED, "no_room", "no_room")  # fmt: skip
+    world.run(1.0)
+    assert world.truth.x_m == pytest.approx(before.x_m, abs=1e-3)
+    outcome = goal.record.outcome
+    assert outcome is not None
+    assert outcome.code is Code.NO_ROOM
+    assert "m in a straight line, not for 5.0 m" in outcome.message.en
+
+
+def test_a_patrol_visits_its_places_in_their_order(world_with: World) -> None:
+    world = world_with((Patrol(places=("charging_dock", "kitchen")),), start=BY_THE_DOCK)
+    goal = world.say("patrol")
+    dock = world.scene.site.place("charging_dock")
+    assert dock is not None
+    world.run_until(lambda w: hypot(w.truth.x_m - dock.pose.x_m, w.truth.y_m - dock.pose.y_m) < 0.1)
+    assert not goal.ended
+    (step,) = done(world, goal)
+    assert (goal.state, step.visited, world.room) == (GoalState.SUCCEEDED, 2, "kitchen")
+
+
+def test_the_answer_to_a_question_decides_what_is_done(world_with: World) -> None:
+    world = world_with(
+        (Ask(question="Left or right?"), Decide(question="which way?")),
+        (Turn(angle_rad=-pi / 4), Say(text="there")),
+    )
+    before, goal = world.truth, world.say("turn where I tell you")
+    world.run_until(lambda _: goal.state is GoalState.NEEDS_CLARIFICATION, 5.0)
+    world.run(5.0)
+    assert turned_deg(before, world.truth) == pytest.approx(0.0, abs=0.1)
+    world.answer(goal, "right")
+    done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED
+    assert turned_deg(before, world.truth) == pytest.approx(-45, abs=4.0)
+    assert world.planner.said == ["Left or right?", "there"]
+
+
+@pytest.mark.parametrize("answer", ["no, not yet", "先不要", "maybe", "yes"])
+def test_what_turns_upon_an_answer_turns_upon_a_yes_alone(world_with: World, answer: str) -> None:
+    world = world_with((Ask(question="Shall I turn?"), Turn(angle_rad=pi / 4)))
+    before, goal = world.truth, world.say("wait here until I say go, then turn")
+    world.run_until(lambda _: goal.state is GoalState.NEEDS_CLARIFICATION, 5.0)
+    world.answer(goal, answer)
+    world.run(4.0)
+    turns = answer == "yes"
+    assert turned_deg(before, world.truth) == pytest.approx(45 if turns else 0.0, abs=4.0)
+    asks = answer == "maybe"
+    assert goal.state is (GoalState.NEEDS_CLARIFICATION if asks else
+                          GoalState.SUCCEEDED if turns else GoalState.CANCELLED)  # fmt: skip
+
+
+@pytest.mark.slow
+def test_behind_a_blocked_door_it_thinks_again_and_does_something_else(world_with: World) -> None:
+    world = world_with((GoTo(place="living_room"),), (Turn(angle_rad=pi / 6),), start=BY_THE_DOOR)
+    world.place_obstacle(*IN_DOORWAY_M)
+    goal = world.say("go to the living room")
+    shut, instead = done(world, goal, 120.0)
+    assert (shut.state.value, shut.reason) == ("failed", "blocked")
+    assert instead.state.value == "succeeded"
+    assert world.room == "kitchen"
+
+
+@pytest.mark.parametrize("crash", [False, True])
+def test_a_turn_that_was_interrupted_ends_where_it_would_have(
+    world_with: World, crash: bool
+) -> None:
+    world = world_with((Turn(angle_rad=1.5 * pi),))
+    before, goal = world.truth, world.say("turn")
+    world.run_until(lambda w: 150 < abs(turned_deg(before, w.truth)) < 175, 20.0)
+    if crash:
+        world.kill_planner()
+        world.run(1.0)
+        world.start_planner()
+        world.run(1.0)
+    else:
+        world.pause(goal)
+        world.run(2.0)
+    still = world.truth
+    world.run(2.0)
+    assert turned_deg(still, world.truth) == pytest.approx(0.0, abs=0.1)
+    assert goal.record.reason == ("planner_restarted" if crash else "operator")
+    world.resume(goal)
+    (step,) = done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED
+    assert turned_deg(before, world.truth) == pytest.approx(-90, abs=4.0)
+    assert step.turned_rad == pytest.approx(1.5 * pi, abs=0.1)

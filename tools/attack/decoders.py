@@ -1,0 +1,284 @@
+"""List the decoders that are fuzzed: good inputs, the reader itself, and how it may refuse.
+
+A reader takes bytes and returns; any exception but its own refusals is a crash.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tools.attack import seeds
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """Hold a reader and the exceptions by which it may refuse."""
+
+    read: Callable[[bytes], object]
+    refusals: tuple[type[Exception], ...] = ()
+
+    def takes(self, data: bytes) -> bool:
+        """Return whether these bytes were taken; whatever else is raised is a crash."""
+        try:
+            self.read(data)
+        except self.refusals as refusal:
+            if not stable(refusal):
+                raise Unsound(f"{type(refusal).__name__} without a code") from refusal
+            return False
+        return True
+
+
+@dataclass(frozen=True, slots=True)
+class Decoder:
+    """Describe one decoder."""
+
+    name: str
+    seeds: Callable[[], Sequence[bytes]]
+    prepare: Callable[[Path], Reader]
+    """Loads it; the folder is empty and its own, for a reader that wants a file."""
+    most_bytes: int = 4_096
+    """Of an input here: small ones are many. Files of every size: ``tools.attack.files``."""
+
+
+def stable(refusal: Exception) -> bool:
+    """Return whether a refusal carries what a program may rely on: a code, or a model's why."""
+    code = getattr(refusal, "code", None) or getattr(refusal, "why", None)
+    return isinstance(code, str) and bool(code)
+
+
+class Unsound(Exception):
+    """A decoder took what it should not, or does not say again what it took."""
+
+
+def _codec(_folder: Path) -> Reader:
+    """Read a message of any key; what is taken must be in its size and say the same again."""
+    from wire import Rejected, decode, encode
+    from wire.codec import image
+    from wire.keys import CAMERA_COLOR, KEYS
+
+    def read(data: bytes) -> object:
+        key = KEYS[data[0] % len(KEYS)] if data else KEYS[0]
+        payload = data[1:]
+        image(CAMERA_COLOR, payload, payload[:100])
+        message = decode(key, payload)
+        if isinstance(message, Rejected):
+            return None
+        again = encode(message)
+        if type(message) is not key.message or decode(key, again) != message:
+            raise Unsound(f"{key.path}: {again[:200]!r}")
+        return message
+
+    return Reader(read)
+
+
+def _wav(_folder: Path) -> Reader:
+    from planner.voice.wav import MAX_SECONDS, BadRecording, read_wav
+
+    def read(data: bytes) -> object:
+        sound = read_wav(data)
+        if not 0.0 < sound.seconds <= MAX_SECONDS:
+            raise Unsound(f"{sound.seconds} s")
+        return sound
+
+    return Reader(read, (BadRecording,))
+
+
+def _mcap(folder: Path) -> Reader:
+    from bridge.recording.mcap_reader import BadRecording
+    from bridge.recording.recording_reader import read_recording
+
+    path = folder / "input"
+
+    def read(data: bytes) -> object:
+        path.write_bytes(data)
+        return sum(1 for _ in read_recording(path))
+
+    return Reader(read, (BadRecording,))
+
+
+def _model(_folder: Path) -> Reader:
+    """Read a body, a plan, a look and a point, or a stream, by the first byte."""
+    from planner.brain.endpoint.completion_parser import read_json, read_reply
+    from planner.brain.endpoint.image_reply import judge_look, judge_point
+    from planner.brain.endpoint.partial_plan import Drafting
+    from planner.brain.endpoint.reply_validation import judge
+    from planner.brain.endpoint.sse import Events
+    from planner.brain.endpoint.stream_assembler import Assembly, Broken
+    from planner.brain.errors import BrainDown
+    from planner.plan import RUNNABLE
+
+    vocabulary = _vocabulary()
+    drafting = Drafting(vocabulary, RUNNABLE, lambda _: None)
+
+    def body(data: bytes) -> object:
+        return judge(read_reply(read_json(data)).text, vocabulary)
+
+    def plan(data: bytes) -> object:
+        text = data.decode("utf-8", "replace")
+        drafting.draft_of(text)
+        return judge(text, vocabulary)
+
+    def look(data: bytes) -> object:
+        text = data.decode("utf-8", "replace")
+        return judge_look(text), judge_point(text)
+
+    def stream(data: bytes) -> object:
+        events, assembly = Events(), Assembly()
+        half = len(data) // 2
+        try:
+            for event in (*events.feed(data[:half]), *events.feed(data[half:]), *events.end()):
+                assembly.add(event)
+        except Broken:
+            return None
+        drafting.draft_of(assembly.text)
+        return judge(read_reply(assembly.completion()).text, vocabulary)
+
+    ways = (body, plan, look, stream)
+
+    def read(data: bytes) -> object:
+        return ways[data[0] % len(ways)](data[1:]) if data else None
+
+    return Reader(read, (BrainDown,))
+
+
+def _image(folder: Path) -> Reader:
+    import cv2  # beforehand, so that it does not count as memory that an input took
+
+    from planner.site import SiteError
+    from planner.site.image import read_image
+
+    cv2.setNumThreads(1)
+    path = folder / "input"
+
+    def read(data: bytes) -> object:
+        path.write_bytes(data)
+        return read_image(path)
+
+    return Reader(read, (SiteError,))
+
+
+def _fence(folder: Path) -> Reader:
+    from bridge.fence_file import parse_fence
+    from planner.site import SiteError
+    from planner.site.fence import load_fence
+    from wire import Misconfigured
+
+    path = folder / "input"
+
+    def read(data: bytes) -> object:
+        path.write_bytes(data)
+        ours = theirs = None
+        try:
+            ours = parse_fence(data)
+        except Misconfigured as refusal:
+            theirs = refusal
+        load_fence(path)
+        return ours or theirs
+
+    return Reader(read, (SiteError,))
+
+
+def _toml(folder: Path) -> Reader:
+    """Read bytes as robot.toml and as settings.toml; both refuse by the same class."""
+    from planner.settings import FILE, load_settings
+    from wire import Misconfigured, load_robot
+
+    path = folder / FILE
+
+    def read(data: bytes) -> object:
+        path.write_bytes(data)
+        robot = None
+        try:
+            robot = load_robot(path)
+        except Misconfigured as refusal:
+            if not refusal.code:
+                raise Unsound("a refusal without a code") from None
+        load_settings(folder, {})
+        return robot
+
+    return Reader(read, (Misconfigured,))
+
+
+def _yaml(folder: Path) -> Reader:
+    """Read bytes as places.yaml and as map.yaml."""
+    from planner.site import SiteError
+    from planner.site.map_file import MapRecord
+    from planner.site.places import load_places
+    from planner.site.yaml_records import parse_yaml
+
+    path = folder / "input"
+
+    def read(data: bytes) -> object:
+        path.write_bytes(data)
+        try:
+            return load_places(path)
+        except SiteError:
+            return parse_yaml(data, MapRecord, path)
+
+    return Reader(read, (SiteError,))
+
+
+def _language(_folder: Path) -> Reader:
+    from planner.language import folding
+    from planner.language.identification import language_of
+    from planner.language.stop import is_stop, read_stop
+
+    def read(data: bytes) -> object:
+        text = data.decode("utf-8", "surrogateescape")
+        folding.fold_words(text)
+        folding.count_chinese(text)
+        language_of(text)
+        if is_stop(text) and read_stop(text).value != "order":
+            raise Unsound("the two readings of a stop differ")
+        return read_stop(text)
+
+    return Reader(read)
+
+
+def _offline(_folder: Path) -> Reader:
+    """Plan a sentence; what comes out must be a plan of the closed world."""
+    from datetime import UTC, datetime
+
+    from planner.language.grammar import Context, plan
+    from planner.plan import PLAN, Rejection, validate_plan
+
+    vocabulary = _vocabulary()
+    context = Context(room="kitchen", now=datetime(2026, 1, 1, 12, tzinfo=UTC))
+
+    def read(data: bytes) -> object:
+        made = plan(data.decode("utf-8", "replace"), vocabulary, context)
+        judged = validate_plan(PLAN.validate_python(made), vocabulary)
+        if isinstance(judged, Rejection) and judged.repairable:
+            raise Unsound(f"a plan that does not hold: {judged}")
+        return made
+
+    return Reader(read)
+
+
+@cache
+def _vocabulary() -> Any:
+    from planner.mission.site_view import vocabulary_of
+    from planner.site import Site
+
+    return vocabulary_of(Site.load(seeds.SITES / "home"))
+
+
+DECODERS = (
+    Decoder("codec", seeds.messages, _codec),
+    Decoder("wav", seeds.recordings_of_speech, _wav),
+    Decoder("mcap", seeds.small_recordings, _mcap, 8_192),
+    Decoder("model", seeds.replies, _model),
+    Decoder("image", seeds.pictures, _image),
+    Decoder("fence", seeds.fences, _fence),
+    Decoder("toml", lambda: [*seeds.robots(), *seeds.SETTINGS], _toml),
+    Decoder("yaml", lambda: [*seeds.places(), *seeds.maps()], _yaml),
+    Decoder("language", seeds.texts, _language, 600),
+    Decoder("offline", seeds.texts, _offline, 300),
+)
+BY_NAME = {decoder.name: decoder for decoder in DECODERS}

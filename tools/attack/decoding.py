@@ -1,0 +1,90 @@
+"""Fuzz every decoder, blindly and, where atheris is installed, guided by its branches."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from typing import TYPE_CHECKING
+
+from tools.attack.decoders import DECODERS
+from tools.attack.lab import side_by_side
+from tools.attack.outcome import Outcome
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from tools.attack.lab import Ended, Lab
+
+NAME = "decoding"
+TITLE = "decoders fed with mutants"
+QUICK_S, QUICK_GUIDED_S = 14.0, 8.0
+LONG_S = 3 * 3600.0
+LONG_COUNT = 1_000_000
+GRACE_S = 60.0
+"""For a child's start, the longest hang and its end."""
+GOAL = "0 crashes, 0 hangs, memory +10 MB at most"
+_RUNS = re.compile(r"stat::number_of_executed_units:\s*(\d+)")
+
+
+def attack(lab: Lab) -> list[Outcome]:
+    """Fuzz each decoder in a process of its own, one a processor."""
+    with lab.folder() as folder:
+        found = [*_blind(lab, folder), *_guided(lab, folder)]
+        lab.keep(folder)
+    return found
+
+
+def _blind(lab: Lab, folder: Path) -> list[Outcome]:
+    seconds = LONG_S if lab.long else QUICK_S
+    commands = []
+    for decoder in DECODERS:
+        own = folder / decoder.name
+        own.mkdir()
+        commands.append(lab.child("tools.attack.fuzz", decoder.name, own, seconds, LONG_COUNT))
+    found: dict[int, Outcome] = {}
+    for at, ended in side_by_side(commands, seconds + GRACE_S):
+        found[at] = told(DECODERS[at].name, ended)
+        lab.say(f"{found[at].attack}: {found[at].n} inputs, {found[at].wrong} wrong")
+    return [found[at] for at in sorted(found)]
+
+
+def told(name: str, ended: Ended) -> Outcome:
+    """Return what a blind fuzzer told; one that told nothing crashed or hung as a whole."""
+    record = ended.told
+    if record is None:
+        how = "hung" if ended.status is None else f"ended with {ended.status}"
+        note = f"the process {how}: {' '.join(ended.complained.split())[-200:]}"
+        return Outcome(name, 1, 1, GOAL, note=note)
+    wrong = int(record["crashes"]) + int(record["hangs"])
+    kinds = "; ".join(f"{kind} x{count}" for kind, count in record["kinds"].items())
+    taken = f"{record['taken']} taken, slowest {record['slowest_ms']:.0f} ms"
+    return Outcome(name, int(record["n"]), wrong, GOAL, record["before_mb"], record["after_mb"],
+                   note=f"{taken}; {kinds}" if kinds else taken)  # fmt: skip
+
+
+def _guided(lab: Lab, folder: Path) -> list[Outcome]:
+    if importlib.util.find_spec("atheris") is None:
+        note = "atheris is not installed: make attack installs it where it has a wheel"
+        return [Outcome("guided", 0, 0, "0 crashes", note=note, skipped=True)]
+    seconds = LONG_S if lab.long else QUICK_GUIDED_S
+    commands = []
+    for decoder in DECODERS:
+        own = folder / f"{decoder.name}-guided"
+        own.mkdir()
+        commands.append(lab.child("tools.attack.guided", decoder.name, own, seconds, LONG_COUNT))
+    found: dict[int, Outcome] = {}
+    for at, ended in side_by_side(commands, seconds + GRACE_S):
+        found[at] = guided(DECODERS[at].name, ended)
+        lab.say(f"{found[at].attack}: {found[at].n} inputs, {found[at].wrong} wrong")
+    return [found[at] for at in sorted(found)]
+
+
+def guided(name: str, ended: Ended) -> Outcome:
+    """Return what libFuzzer told at its end; it ends at the first crash."""
+    runs = _RUNS.search(ended.complained)
+    wrong = int(ended.status != 0)
+    words = [line for line in ended.complained.splitlines() if "Error" in line or "Unsound" in line]
+    note = " | ".join(words[-2:])[:200] if wrong else "coverage-guided, memory up to 1 GB"
+    return Outcome(
+        f"{name}, guided", int(runs[1]) if runs else wrong, wrong, "0 crashes", note=note
+    )

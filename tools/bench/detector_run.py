@@ -1,0 +1,70 @@
+"""See in lockstep with drawn pictures and a real detector, or count what any finder sees."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from planner.language.object_names import canonical
+from planner.perception.detect import Detector, Wanted
+from planner.perception.process_client import DEFAULT_MODEL
+from sim.camera import SimCamera
+from wire import SimScene
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from planner.perception.snapshot import Detection
+    from sim import SimRobot
+    from tools.lockstep.truth_detector import Finder
+    from wire import CameraConfig, ImageHeader
+
+
+class DrawnFinder:
+    """Draw each picture, pack it as the camera does, and have a model look at it."""
+
+    def __init__(self, sim: SimRobot, camera: CameraConfig, model: Path = DEFAULT_MODEL) -> None:
+        """Build the camera of one home.
+
+        Raises:
+            VisionFailure: the model is refused.
+        """
+        self._camera = SimCamera(sim.home, camera, seed=1)
+        self._detector = Detector(Wanted(model))
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """Return what the model knows, as the planner calls it."""
+        return tuple(canonical(name) for name in self._detector.about.classes if name)
+
+    def find(self, sim: SimRobot, header: ImageHeader) -> tuple[Detection, ...]:
+        """Return what is found in a picture taken now."""
+        scene = SimScene(
+            boot_id=header.boot_id,
+            seq=header.seq,
+            stamp_s=header.stamp_s,
+            base_in_map=sim.base_in_map,
+            things=sim.things.elsewhere,
+        )
+        shot = self._camera.take(scene, header.stamp_s)
+        if shot is None:
+            return ()
+        size = (header.width, header.height)
+        return self._detector.look(shot.color, shot.depth, size, header.focal_px).detections
+
+
+class Counting:
+    """Pass on what a finder finds, and count how often one kind of thing was among it."""
+
+    def __init__(self, finder: Finder, label: str, color: str | None) -> None:
+        self._finder, self._label, self._color = finder, label, color
+        self.seen = self.other_color = self.looks = 0
+
+    def find(self, sim: SimRobot, header: ImageHeader) -> tuple[Detection, ...]:
+        """Return what is found in a picture taken now."""
+        found = self._finder.find(sim, header)
+        kind = [one for one in found if canonical(one.label) == self._label]
+        right = [one for one in kind if self._color in (None, one.color)]
+        self.looks += 1
+        self.seen += bool(right)
+        self.other_color += bool(kind) and not right
+        return found

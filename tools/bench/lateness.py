@@ -1,0 +1,153 @@
+"""Run the sleepers whose lateness is compared: the bridge, its pacer, cyclictest, a C++ loop.
+
+Each returns how late every wake-up was [us]. All ask for the same rank and the same CPU; what the
+machine lacks returns nothing.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tools.bench.context import until
+from tools.bench.robot import Robot
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from tools.bench.context import Lab
+
+PRIORITY = 60
+SETTLE_S = 0.5
+_BUCKETS_US = 300_000
+"""Longer stalls than this have not been seen on a machine that lives."""
+_BUCKET = re.compile(r"^(\d+)\s+(\d+)\s*$")
+_SOURCE = Path(__file__).resolve().parent / "native" / "sleep_until.cpp"
+
+
+def rt_cpu() -> int:
+    """Return the CPU that the bridge pins itself to."""
+    return max(os.sched_getaffinity(0))
+
+
+@contextmanager
+def stressed(on: bool) -> Iterator[None]:
+    """Load every core and the memory with stress-ng, if asked; it ends with the context."""
+    if not on:
+        yield
+        return
+    cores = str(len(os.sched_getaffinity(0)))
+    words = ["stress-ng", "--cpu", cores, "--vm", "1", "--vm-bytes", "256M", "--switch", "1"]
+    load = subprocess.Popen(
+        [*words, "--timeout", "120s"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    try:
+        time.sleep(SETTLE_S)
+        yield
+    finally:
+        load.terminate()
+        load.wait()
+
+
+def bridge_late_us(lab: Lab, seconds: float, *, stress: bool) -> list[float]:
+    """Run the bridge alone: no robot, no planner, its loop turning in SELFTEST."""
+    with lab.folder() as home, Robot(home, "two_room", tapped=True, only=("bridge",)) as robot:
+        until(lambda: robot.status is not None, 20.0, "the bridge's first status")
+        with stressed(stress):
+            time.sleep(seconds)
+            late_us: list[float] = robot.end_bridge()["late_us"]
+        return late_us[-round(seconds * 100) :]
+
+
+def cyclictest_late_us(seconds: float, period_us: int, *, awake: bool = True) -> list[float]:
+    """Run one thread at a rate; return every lateness, from its histogram."""
+    with cyclictest(seconds, period_us, awake=awake) as ended:
+        return ended()
+
+
+@contextmanager
+def cyclictest(
+    seconds: float, period_us: int, *, awake: bool = True
+) -> Iterator[Callable[[], list[float]]]:
+    """Run it beside; what is yielded waits for its end. It ends with the context at the latest.
+
+    By itself it holds /dev/cpu_dma_latency, so that no core may sleep while it runs: an idle
+    machine then wakes at once, and takes the power for it. Not ``awake``, it leaves that as it
+    is, as the bridge and any other program do.
+    """
+    if shutil.which("cyclictest") is None:
+        yield list
+        return
+    loops = max(1, round(seconds * 1e6 / period_us))
+    words = ["cyclictest", "-q", "-t1", f"-a{rt_cpu()}", f"-i{period_us}", f"-l{loops}"]
+    words += [f"-h{_BUCKETS_US}"] + ([] if awake else ["--laptop"])
+    if may_take(PRIORITY):  # without a right to that rank the bridge has none either
+        words += [f"-p{PRIORITY}", "-m"]
+    quiet = subprocess.DEVNULL
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=quiet, text=True) as running:
+        try:
+            yield lambda: _counted(running.communicate()[0])
+        finally:
+            running.kill()
+
+
+def may_take(priority: int) -> bool:
+    """Tell whether a process of ours may have a real-time rank."""
+    words = ["chrt", "-f", str(priority), "true"]
+    return (
+        shutil.which("chrt") is not None
+        and subprocess.run(words, capture_output=True, check=False).returncode == 0
+    )
+
+
+def _counted(histogram: str) -> list[float]:
+    samples: list[float] = []
+    for line in histogram.splitlines():
+        found = _BUCKET.match(line.strip())
+        if found:
+            samples += [float(found[1])] * int(found[2])
+    return samples
+
+
+def compiled_loop(folder: Path) -> Path | None:
+    """Compile the C++ loop into a folder; None where there is no compiler."""
+    compiler = shutil.which("c++") or shutil.which("g++")
+    if compiler is None:
+        return None
+    made = folder / "sleep_until"
+    words = [compiler, "-O2", "-std=c++17", "-o", str(made), str(_SOURCE)]
+    done = subprocess.run(words, capture_output=True, check=False)
+    return made if done.returncode == 0 else None
+
+
+def cpp_late_us(loop: Path | None, seconds: float, period_us: int) -> list[float]:
+    """Run the C++ loop."""
+    if loop is None:
+        return []
+    count = max(1, round(seconds * 1e6 / period_us))
+    return _printed([str(loop), str(period_us), str(count), str(PRIORITY), str(rt_cpu())])
+
+
+def pacer_late_us(seconds: float, period_us: int) -> list[float]:
+    """Run the bridge's pacer with nothing to do."""
+    count = max(1, round(seconds * 1e6 / period_us))
+    return _printed(
+        [sys.executable, "-m", "tools.bench.pacer", str(period_us), str(count), str(PRIORITY)]
+    )
+
+
+def _printed(words: list[str]) -> list[float]:
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    return [float(line) for line in done.stdout.split()]
+
+
+def missed(late_us: list[float], period_us: int) -> int:
+    """Count the whole periods that wake-ups came too late."""
+    return sum(int(late // period_us) for late in late_us)

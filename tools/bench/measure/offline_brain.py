@@ -1,0 +1,55 @@
+"""Measure the offline brain: time a sentence, allowed outcomes and wrong motions, on every suite.
+
+The orders that others wrote are measured where their data lies beside the checkout, and said to be
+missing where it does not. Plans only, in this process; the first sentence warms up and counts not.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from planner.brain import OfflineBrain
+from pons.evals.cases import MissingSuite
+from pons.evals.score import score
+from pons.evals.suites import load
+from tools.bench.report import Row, row_of
+
+if TYPE_CHECKING:
+    from pons.evals.score import Verdict
+    from tools.bench.context import Lab
+
+NAME = "offline_brain"
+TITLE = "offline brain: ms a sentence, outcomes allowed, wrong motions"
+LONG_ONLY = False
+GOAL_MS = "p99 <= 10"
+GOAL_RIGHT = ">= 95 %"
+GOAL_WRONG = "0"
+SUITES = ("home_en", "home_zh", "gpsr", "zh")
+
+
+def measure(lab: Lab) -> list[Row]:
+    """Score every suite a few times over; outcomes are the same each time, times are not."""
+    rows: list[Row] = []
+    for name in SUITES:
+        try:
+            (suite,) = load(name)
+        except MissingSuite as missing:
+            rows.append(Row(f"{name}", "", GOAL_RIGHT, value="not measured", note=str(missing)))
+            continue
+        asyncio.run(score(suite, OfflineBrain()))
+        runs = [asyncio.run(score(suite, OfflineBrain())) for _ in range(lab.count(3, 10))]
+        rows += _rows(name, runs)
+    return rows
+
+
+def _rows(name: str, runs: list[tuple[Verdict, ...]]) -> list[Row]:
+    times_ms = [verdict.seconds * 1e3 for run in runs for verdict in run]
+    last = runs[-1]
+    right, wrong = sum(v.right for v in last), sum(bool(v.wrong) for v in last)
+    share = f"{100.0 * right / len(last):.1f}"
+    return [
+        row_of(f"{name}: a sentence", "ms", GOAL_MS, times_ms, f"{len(last)} sentences"),
+        Row(f"{name}: allowed", "%", GOAL_RIGHT, value=share, note=f"{right} of {len(last)}"),
+        Row(f"{name}: wrong motions", "", GOAL_WRONG, value=str(wrong)),
+    ]

@@ -1,0 +1,210 @@
+"""Measure spoken orders: how long a recording takes to become a goal, and what is heard right.
+
+A wrong motion is one that nobody was asked about: what is heard, but not quite surely, waits for a
+yes. Real processes for the time: from before the request is sent until the goal is answered. The
+orders are spoken by espeak-ng, so they say how the chain works, not how well it hears people.
+"""
+
+from __future__ import annotations
+
+import io
+import itertools
+import shutil
+import subprocess
+import time
+import wave
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from planner.language.grammar import plan
+from planner.language.stop import is_stop
+from planner.mission.site_view import vocabulary_of
+from planner.plan import Step, StepPlan, Vocabulary
+from planner.site import Site
+from planner.voice import Heard, read_wav
+from pons.http import Refused, call
+from pons.settings import CHECKOUT
+from tools.bench.context import until
+from tools.bench.report import Row, row_of
+from tools.bench.robot import Robot
+from wire import Mode
+
+if TYPE_CHECKING:
+    from planner.voice.sphinx import Sphinx
+    from tools.bench.context import Lab
+
+NAME = "voice"
+TITLE = "WAV -> goal, spoken orders heard right, wrong motions"
+LONG_ONLY = False
+GOAL_TIME = "p50 <= 200"
+GOAL_RIGHT = ">= 90 %"
+GOAL_WRONG = "0"
+SPEECH_S = 3.0
+GOALS = 20
+ORDERS = (
+    "go to the {a}",
+    "drive to the {a}",
+    "please go to the {a}",
+    "can you go to the {a}",
+    "go to the {a} then the {b}",
+    "go to the {a} and then come back",
+    "move to the {a} please",
+    "return home",
+    "return home please",
+    "stop",
+)
+STOPPED = "stopped"
+VOICES = ("en-us", "en-us+f3", "en-gb", "en-gb+f2", "en-gb-x-rp")
+SPEEDS_WPM = (140, 165)
+CHATTER = (
+    "what a nice day it is",
+    "do not go to the {a}",
+    "don't drive to the {a}",
+    "I like the {a} very much",
+    "open the {a}",
+    "bring me a cup of tea",
+    "go to the basement",
+    "did you see the game last night",
+    "the {a} shows that people like coffee",
+    "call my mother please",
+)
+
+
+def measure(lab: Lab) -> list[Row]:
+    """Speak to the default home: 100 orders and as much that is none."""
+    if shutil.which("espeak-ng") is None:
+        return [
+            Row("spoken orders", "", GOAL_RIGHT, value="none", note="no espeak-ng", valid=False)
+        ]
+    times_ms = [ms for data in lab.slices("time", 1, lambda _: _time(lab)) for ms in data["ms"]]
+    rows = [row_of(f"WAV of {SPEECH_S:g} s -> goal", "ms", GOAL_TIME, times_ms, "HTTP, home")]
+    for heard in lab.slices("heard", 1, lambda _: _listen(lab)):
+        rows += _heard_rows(heard)
+    return rows
+
+
+def _heard_rows(heard: dict[str, Any]) -> list[Row]:
+    right = f"{100.0 * heard['right'] / heard['orders']:.0f}"
+    told = (
+        f"{heard['orders']} orders, {len(VOICES)} espeak-ng voices; {heard['asked']} ask for a yes"
+    )
+    tried = heard["orders"] + heard["chatter"]
+    bound = f"; 3/n {100.0 * 3 / tried:.1f} %" if not heard["wrong"] else ""
+    none = f"of {heard['orders']} orders and {heard['chatter']} other sentences{bound}"
+    return [
+        Row("orders heard right", "%", GOAL_RIGHT, value=right, note=told),
+        Row("wrong motions", "", GOAL_WRONG, value=str(heard["wrong"]), note=none),
+    ]
+
+
+def _listen(lab: Lab) -> dict[str, Any]:
+    from planner.voice.sphinx import Sphinx
+
+    site = Site.load(CHECKOUT / "sites" / "home")
+    vocabulary = vocabulary_of(site)
+    ears = Sphinx([name for place in site.places for name in place.said_in_english])
+    names = itertools.cycle(name for place in site.places for name in place.said_in_english)
+    right = wrong = asked = 0
+    speakers = list(itertools.product(VOICES, SPEEDS_WPM))
+    for number, (form, (voice, wpm)) in enumerate(itertools.product(ORDERS, speakers)):
+        lab.say(f"order {number + 1}/{len(ORDERS) * len(speakers)}")
+        text = form.format(a=next(names), b=next(names))
+        heard = _hear(ears, text, voice, wpm)
+        meant, done = _steps(text, vocabulary), _steps(_text(heard), vocabulary)
+        right += done == meant
+        moves = bool(done) and done != STOPPED
+        wrong += moves and done != meant and heard.sure
+        asked += moves and not heard.sure
+    for number, (form, (voice, wpm)) in enumerate(itertools.product(CHATTER, speakers)):
+        lab.say(f"other sentence {number + 1}/{len(CHATTER) * len(speakers)}")
+        heard = _hear(ears, form.format(a=next(names)), voice, wpm)
+        done = _steps(_text(heard), vocabulary)
+        wrong += bool(done) and done != STOPPED and heard.sure
+    count = len(speakers)
+    return {
+        "right": right,
+        "wrong": wrong,
+        "asked": asked,
+        "orders": count * len(ORDERS),
+        "chatter": count * len(CHATTER),
+    }
+
+
+def _steps(text: str, vocabulary: Vocabulary) -> tuple[Step, ...] | str:
+    """Return the steps that a text drives; none for what moves nothing."""
+    if is_stop(text):
+        return STOPPED
+    made = plan(text, vocabulary)
+    return made.steps if isinstance(made, StepPlan) else ()
+
+
+def _hear(ears: Sphinx, text: str, voice: str, wpm: int) -> Heard:
+    sound = read_wav(speak(text, voice, wpm))
+    return ears.hear(sound.pcm, sound.rate_hz, sound.channels)
+
+
+def _text(heard: Heard) -> str:
+    return heard.transcript if heard.understood else ""
+
+
+def _time(lab: Lab) -> dict[str, Any]:
+    recordings = [
+        _stretched(speak(f"go to the {place} then the {then}", "en-us+f3", 150))
+        for place, then in (("kitchen", "bedroom"), ("bedroom", "kitchen"))
+    ]
+    times_ms: list[float] = []
+    with lab.folder() as home, Robot(home, "home") as robot:
+        robot.make_ready()
+        for number in range(GOALS + 1):
+            lab.say(f"recording {number + 1}/{GOALS + 1}")
+            began_s = time.monotonic()
+            try:
+                spoken = _send(robot, recordings[number % 2])
+            except Refused as refused:
+                lab.say(str(refused))
+                continue
+            took_ms = (time.monotonic() - began_s) * 1e3
+            if spoken["goal"] is None:
+                continue
+            if number:  # the first may have waited for the model to load
+                times_ms.append(took_ms)
+            robot.cancel(spoken["goal"]["id"])
+            until(partial(_rests, robot), 10.0, "standing after cancel")
+    return {"ms": times_ms}
+
+
+def _send(robot: Robot, recording: bytes) -> dict[str, Any]:
+    headers = {"Content-Type": "audio/wav"}
+    spoken: dict[str, Any] = call(
+        robot.settings, "POST", "/v1/voice", None, 30.0, headers, recording
+    )
+    return spoken
+
+
+def _rests(robot: Robot) -> bool:
+    status = robot.status
+    return status is not None and status.mode is Mode.HOLD and abs(status.measured.v_mps) < 0.02
+
+
+def speak(text: str, voice: str, wpm: int) -> bytes:
+    """Return a WAV of a sentence by a synthetic voice."""
+    command = ["espeak-ng", "-v", voice, "-s", str(wpm), "--stdout", "--", text]
+    data = subprocess.run(command, check=True, capture_output=True).stdout
+    return _wav(data[44 : len(data) // 2 * 2], int.from_bytes(data[24:28], "little"))
+
+
+def _stretched(recording: bytes) -> bytes:
+    """Return the recording with silence up to SPEECH_S."""
+    sound = read_wav(recording)
+    missing = int(SPEECH_S * sound.rate_hz) * 2 - len(sound.pcm)
+    return _wav(sound.pcm + bytes(max(0, missing)), sound.rate_hz)
+
+
+def _wav(pcm: bytes, rate_hz: int) -> bytes:
+    out = io.BytesIO()
+    with wave.open(out, "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(rate_hz)
+        file.writeframes(pcm)
+    return out.getvalue()

@@ -1,0 +1,124 @@
+"""Compare wheel control with feed-forward alone on motors unlike their description.
+
+Lockstep drives of one goal with the same seed, one after the other with and without the PI law:
+interleaved pairs. What is meant (the limiter's memory) is compared with what the physics does; the
+core, the link code and the physics are the shipped ones, and nothing of this machine is in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from math import hypot, sqrt
+from typing import TYPE_CHECKING
+
+from bridge.core.geometry.kinematics import rim_speeds
+from bridge.core.geometry.odometry import rolled
+from sim import Hardware
+from tools.bench.report import Row, row_of
+from tools.lockstep import TICK_S, Together
+from wire import IDENTITY, Mode, Pose2, RobotDescription, compose, inverse
+
+if TYPE_CHECKING:
+    from tools.bench.context import Lab
+
+NAME = "wheel_tracking"
+TITLE = "wheel control: PI with feed-forward against the dead zone's feed-forward alone"
+LONG_ONLY = True
+PAIRS = 10
+START = Pose2(1.2, 0.8, 0.0)
+LIMIT_S = 60.0
+GOAL = "go to the living room"
+
+METALS = {
+    "as described": Hardware(),
+    "motors +15 %": Hardware(left_gain=1.15, right_gain=1.15),
+    "motors -15 %": Hardware(left_gain=0.85, right_gain=0.85),
+    "dead zone twice what is believed": Hardware(dead_zone_radps=0.1),
+    "dead zone half of what is believed": Hardware(dead_zone_radps=0.025),
+    "right wheel -10 %": Hardware(right_gain=0.9),
+    "lag twice what is believed": Hardware(motor_lag_s=0.12),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """Tell how one drive went."""
+
+    rim_mmps: float
+    """Root mean square of what the wheels' rims lack, over both and all ticks under way [mm/s]."""
+    strayed_mm: float
+    """Between the truth and where what was meant would have led, per metre driven [mm]."""
+    odometry_mm: float
+    """Between the truth and odometry, per metre driven [mm]."""
+    reached: bool
+    seconds: float
+
+
+def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START) -> Drive:
+    """Drive to the living room once."""
+    world = Together(seed=seed, start=start, robot=described(control=control), hardware=hardware)
+    base = world.scene.robot.base
+    goal = world.say(GOAL)
+    world.run_until(lambda w: w.status.mode is Mode.ACTIVE, LIMIT_S)
+    began_s, began = world.now_s, world.truth
+    odom_began = world.bridge.state.odometry.base_in_odom
+    meant_to = IDENTITY
+    squares, count, metres = 0.0, 0, 0.0
+    while not goal.ended and world.now_s - began_s < LIMIT_S:
+        world.tick()
+        sent = world.bridge.state.motion.limiter.sent
+        left, right = rim_speeds(sent, base.wheel_separation_m)
+        meant_to = rolled(meant_to, left * TICK_S, right * TICK_S, base.wheel_separation_m)
+        metres += abs(world.twist.v_mps) * TICK_S
+        real = rim_speeds(world.twist, base.wheel_separation_m)
+        if world.bridge.state.mode is Mode.ACTIVE:
+            squares += (real[0] - left) ** 2 + (real[1] - right) ** 2
+            count += 2
+    truly = compose(inverse(began), world.truth)
+    odom = compose(inverse(odom_began), world.bridge.state.odometry.base_in_odom)
+    return Drive(
+        rim_mmps=1e3 * sqrt(squares / max(1, count)),
+        strayed_mm=1e3 * hypot(truly.x_m - meant_to.x_m, truly.y_m - meant_to.y_m) / metres,
+        odometry_mm=1e3 * hypot(truly.x_m - odom.x_m, truly.y_m - odom.y_m) / metres,
+        reached=goal.record.state.value == "succeeded",
+        seconds=world.now_s - began_s,
+    )
+
+
+def described(*, control: bool) -> RobotDescription:
+    """Return the default robot, with wheel control or with the dead zone's feed-forward alone."""
+    robot = RobotDescription()
+    if control:
+        return robot
+    plain = {"kp": 0.0, "ki_per_s": 0.0, "response_s": 0.0, "max_correction": 0.0}
+    return robot.model_copy(update={"drive": robot.drive.model_copy(update=plain)})
+
+
+def measure(lab: Lab) -> list[Row]:
+    """Drive each motor with and without control, pair by pair."""
+    rows: list[Row] = []
+    for name, hardware in METALS.items():
+        pairs = list(
+            lab.slices(name, lab.count(2, PAIRS), lambda i, h=hardware: _pair(h, i + 1))  # type: ignore[misc]  # the default binds the loop's hardware
+        )
+        for what, unit in (("rim_mmps", "mm/s"), ("strayed_mm", "mm/m"), ("odometry_mm", "mm/m")):
+            for law in ("plain", "control"):
+                drives = [pair[law] for pair in pairs]
+                reached = sum(one["reached"] for one in drives)
+                note = f"{name}; reached {reached} of {len(drives)}"
+                title = f"{WORDS[what]}, {LAWS[law]}"
+                rows.append(row_of(title, unit, "", [one[what] for one in drives], note))
+    return rows
+
+
+WORDS = {
+    "rim_mmps": "wheel speed lacks (rms)",
+    "strayed_mm": "truth from the path meant",
+    "odometry_mm": "truth from odometry",
+}
+LAWS = {"plain": "dead zone fed forward alone", "control": "PI with feed-forward"}
+
+
+def _pair(hardware: Hardware, seed: int) -> dict[str, dict[str, float]]:
+    plain, control = (drive(hardware, seed, control=law) for law in (False, True))
+    return {"plain": asdict(plain), "control": asdict(control)}

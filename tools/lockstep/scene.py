@@ -1,0 +1,52 @@
+"""Load a site for a world once, however many worlds drive in it. Nothing here moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from bridge.core.sensing.fence import Fence
+from bridge.fence_file import load_fence
+from planner.mission.site_view import vocabulary_of
+from planner.navigation import RouteLimits
+from planner.navigation.router import Router
+from planner.plan import Vocabulary
+from planner.site import Site
+from wire import RobotDescription
+
+SITES = Path(__file__).resolve().parents[2] / "sites"
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Hold one site as each part reads it from the same files."""
+
+    folder: Path
+    robot: RobotDescription
+    site: Site
+    vocabulary: Vocabulary
+    fence: Fence
+    fence_hash: str
+    router: Router
+
+
+@lru_cache(maxsize=16)
+def scene(folder: Path, robot: RobotDescription) -> Scene:
+    """Return the scene of a site's folder; routes depend on nothing else, so it may be shared."""
+    site = Site.load(folder)
+    fence, fence_hash = load_fence(folder / "fence.json")
+    return Scene(
+        folder=folder,
+        robot=robot,
+        site=site,
+        vocabulary=vocabulary_of(site),
+        fence=fence,
+        fence_hash=fence_hash,
+        router=Router(site, RouteLimits.of(robot)),
+    )
+
+
+def folder_of(site: Path | str) -> Path:
+    """Return a site's folder; a bare name is one of the checkout's own sites."""
+    return SITES / site if isinstance(site, str) else site

@@ -1,0 +1,167 @@
+"""Give goals to a world and make things go wrong in it. The class that tests and benches use."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from planner.mission.events import Cancel, Pause, Reply, Resume
+from tools.lockstep.eyes import EyesSide
+from tools.lockstep.goal_handle import Said
+from tools.lockstep.truth_detector import TruthFinder
+from tools.lockstep.world import TooLong, World
+from wire import Mode
+
+if TYPE_CHECKING:
+    from planner.brain import Brain
+    from planner.plan import Language
+    from tools.lockstep.disturbance import Disturbance
+    from tools.lockstep.request_retry import Request
+    from tools.lockstep.truth_detector import Finder
+    from wire import OpKind, Pose2
+
+READY_S = 20.0
+
+
+class Together(World):
+    """Be one world. ``world.say(…)`` gives a goal; ``world.run_until(…)`` lets time pass."""
+
+    def __init__(self, *, ready: bool = True, **parts: Any) -> None:
+        """Put the parts together; :class:`World` lists them.
+
+        Args:
+            ready: run on until the robot is armed and owned, as ``pons up`` leaves it.
+            parts: site, seed, brain, robot, hardware, start, pace, step.
+
+        Raises:
+            TooLong: it did not become ready.
+        """
+        super().__init__(**parts)
+        self._goals = 0
+        if ready:
+            self.make_ready()
+
+    # What a person does -------------------------------------------------------------------------
+
+    def say(self, text: str, language: Language | None = None) -> Said:
+        """Give a goal in words."""
+        self._goals += 1
+        goal = self.goal(f"goal-{self._goals}")
+        self.planner.say(goal.id, text, language, self.now_s)
+        return goal
+
+    def goal(self, goal_id: str) -> Said:
+        """Follow a goal that was given before: in a copy of a world, its own."""
+        return Said(goal_id, lambda: self.planner.engine.book)
+
+    def think_with(self, brain: Brain) -> None:
+        """Let another brain turn sentences into plans from now on."""
+        self._brain = brain
+        self.planner.think_with(brain)
+
+    def stop(self, source: str = "cli") -> Request:
+        """Order a stop through the API."""
+        return self.planner.order_stop(source, self.now_s)
+
+    def cancel(self, goal: Said) -> None:
+        """End a goal."""
+        self.planner.event(Cancel(goal.id), self.now_s)
+
+    def pause(self, goal: Said) -> None:
+        """Keep a goal's place, standing."""
+        self.planner.event(Pause(goal.id), self.now_s)
+
+    def resume(self, goal: Said) -> None:
+        """Go on with a goal; clears the bridge's hold as the API's handler does."""
+        if self.status.held is not None:
+            self.planner.operate("resume")
+        self.planner.event(Resume(goal.id), self.now_s)
+
+    def answer(self, goal: Said, text: str) -> None:
+        """Answer a goal's question."""
+        self.planner.event(Reply(goal.id, text), self.now_s)
+
+    def operate(self, kind: OpKind, limit_s: float = 5.0) -> Request:
+        """Make an operator's request and run until the bridge answered.
+
+        Raises:
+            TooLong: it did not.
+        """
+        self.run_until(lambda _: self.planner.status is not None, limit_s)
+        request = self.planner.operate(kind)
+        if request is None:
+            raise TooLong("no status to sign for")
+        self.run_until(lambda _: request.answer is not None, limit_s)
+        return request
+
+    def make_ready(self, limit_s: float = READY_S) -> None:
+        """Arm once the self test has passed and the planner owns the robot, as ``pons up`` does."""
+        self.run_until(
+            lambda w: (
+                w.bridge.statuses
+                and w.status.mode is Mode.DISARMED
+                and w.status.owner is not None
+                and w.status.base_in_map is not None
+            ),
+            limit_s,
+        )
+        end_s = self.now_s + limit_s
+        while self.status.mode is Mode.DISARMED:
+            self.operate("arm")
+            self.run(0.1)
+            if self.now_s > end_s:
+                raise TooLong(f"not armed; {self.describe()}")
+        self.run_until(lambda w: w.status.mode is Mode.HOLD, limit_s)
+
+    def open_eyes(self, finder: Finder | None = None) -> EyesSide:
+        """Let the planner see from now on, by the simulator's truth or by another finder."""
+        if self.eyes is None:
+            camera, seed = self.scene.robot.camera, self.seed
+            self.eyes = EyesSide(self.scene, finder or TruthFinder(camera, seed))
+            self.planner.see_with(self.eyes)
+        elif finder is not None:
+            self.eyes.look_with(finder)
+        return self.eyes
+
+    # What goes wrong ----------------------------------------------------------------------------
+
+    def kill_planner(self) -> None:
+        """End the planner at once; what it had said is still on its way."""
+        if self._planner is not None:
+            self._planner.leave()
+        self._planner = None
+
+    def freeze_planner(self) -> None:
+        """Hold the planner as SIGSTOP does."""
+        self._frozen = True
+
+    def thaw_planner(self) -> None:
+        """Let the planner go on as SIGCONT does."""
+        self._frozen = False
+
+    def silence_localization(self, *, silent: bool = True) -> None:
+        """Take the localization's word away, or give it back."""
+        self._localizing = not silent
+
+    def disturb(self, disturbance: Disturbance) -> None:
+        """Spoil messages from now on."""
+        self.bus.disturb(disturbance)
+
+    def calm(self) -> None:
+        """Spoil messages no more."""
+        self.bus.calm()
+
+    def place_obstacle(self, x_m: float, y_m: float, yaw_rad: float = 0.0) -> None:
+        """Stand a person or a crate in the home, in ``map``."""
+        self.sim.place_obstacle(x_m, y_m, yaw_rad)
+
+    def remove_obstacle(self) -> None:
+        """Take it away again."""
+        self.sim.remove_obstacle()
+
+    def put(self, name: str, pose: Pose2 | None) -> None:
+        """Put a person or an object of the home somewhere, or take it away."""
+        self.sim.place_thing(name, pose)
+
+    def teleport(self, base_in_map: Pose2) -> None:
+        """Carry the robot somewhere; its wheels notice nothing."""
+        self.sim.place_robot(base_in_map)

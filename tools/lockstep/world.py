@@ -1,0 +1,251 @@
+"""Put a whole robot into one process on a simulated clock, let time pass, look at it.
+
+Every tick of 10 ms each part takes its turn in a fixed order: robot, localization, bridge, planner.
+Deterministic: same site, seed, calls give the same commands. Nothing here sleeps or reads a clock.
+"""
+
+from __future__ import annotations
+
+from heapq import heappop, heappush
+from typing import TYPE_CHECKING, Any, Self
+
+from bridge.core import CoreConfig, step
+from localization.standin import StandIn
+from planner.brain import OfflineBrain
+from sim import Hardware, SimRobot
+from tools.lockstep.bridge_process import BridgeSide, Step
+from tools.lockstep.bus import Bus
+from tools.lockstep.latencies import TICK_S, Pace, ticks
+from tools.lockstep.planner_process import Notebook, PlannerSide
+from tools.lockstep.robot_process import LocalizationSide, RobotSide
+from tools.lockstep.scene import folder_of, scene
+from wire import RobotDescription
+from wire.keys import Party
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from planner.brain import Brain
+    from tools.lockstep.eyes import EyesSide
+    from wire import DriveCommand, Pose2, Status, Twist2
+
+START_S = 1_000.0
+"""Where every part's monotonic clock begins: not at zero, which would hide a missing time."""
+
+
+class TooLong(Exception):
+    """What was waited for did not come within its simulated time."""
+
+
+class World:
+    """Hold the parts of one world and turn them."""
+
+    def __init__(
+        self,
+        *,
+        site: Path | str = "two_room",
+        seed: int = 1,
+        brain: Brain | None = None,
+        robot: RobotDescription | None = None,
+        hardware: Hardware | None = None,
+        start: Pose2 | None = None,
+        pace: Pace | None = None,
+        step: Step = step,
+    ) -> None:
+        """Put the parts together.
+
+        Args:
+            site: a site's folder, or the name of one of the checkout's own.
+            seed: of all noise and of what varies on the wire.
+            brain: what turns sentences into plans; the offline brain if None. It answers at once.
+            robot: its description; the default robot if None.
+            hardware: what the simulated robot is really like.
+            start: where the robot stands at first; the site's dock if None.
+            pace: how long messages, routes, plans and the disk take.
+            step: the bridge's core, or a wrapper that measures it.
+        """
+        self.pace, self.seed = pace or Pace(), seed
+        self.scene = scene(folder_of(site), robot or RobotDescription())
+        latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
+        self.bus = Bus(seed, latency)
+        self.sim = SimRobot(
+            self.scene.folder, self.scene.robot, seed=seed, start=start, hardware=hardware
+        )
+        self._robot = RobotSide(self.sim, self.bus.port(Party.ROBOT))
+        stand_in = StandIn(self.scene.site.map_id, seed=seed)
+        self._localization = LocalizationSide(stand_in, self.bus.port(Party.LOCALIZATION))
+        self.bridge = BridgeSide(self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s)
+        self.notebook = Notebook()
+        self._brain: Brain = brain or OfflineBrain()
+        self._planner: PlannerSide | None = None
+        self._planners = 0
+        self._frozen = False
+        self._localizing = True
+        self.eyes: EyesSide | None = None
+        self._hooked = 0
+        self._hooks: list[tuple[int, int, Callable[[Any], None]]] = []
+        self.start_planner()
+
+    def start_planner(self) -> None:
+        """Start a planner with a new id on the journal of those before."""
+        self._planners += 1
+        self._frozen = False
+        self._planner = PlannerSide(
+            self.scene,
+            self.bus.port(Party.PLANNER),
+            self._brain,
+            self.pace,
+            self.notebook,
+            f"planner-{self._planners}",
+            self.now_s,
+        )
+        if self.eyes is not None:
+            self._planner.see_with(self.eyes)
+
+    @property
+    def planner(self) -> PlannerSide:
+        """Return the planner that lives now.
+
+        Raises:
+            TooLong: there is none; it was killed.
+        """
+        if self._planner is None:
+            raise TooLong("the planner was killed; start_planner() starts another")
+        return self._planner
+
+    @property
+    def waits(self) -> bool:
+        """Tell whether a living planner waits for what it was promised."""
+        return self._planner is not None and self._planner.waits
+
+    # Time ---------------------------------------------------------------------------------------
+
+    @property
+    def tick_count(self) -> int:
+        """Return how many ticks have passed."""
+        return self.bus.tick
+
+    @property
+    def now_s(self) -> float:
+        """Return the time on every part's monotonic clock [s]."""
+        return START_S + self.bus.tick * TICK_S
+
+    def tick(self) -> None:
+        """Let one tick pass."""
+        self.bus.tick += 1
+        now_s = self.now_s
+        while self._hooks and self._hooks[0][0] <= self.bus.tick:
+            heappop(self._hooks)[2](self)
+        self._robot.turn(now_s)
+        if self._localizing and self.bus.tick % self.pace.localization_period == 0:
+            self._localization.turn(now_s)
+        self.bridge.turn(now_s)
+        if self._planner is not None and not self._frozen:
+            self._planner.turn(now_s)
+            self._look(self._planner, now_s)
+
+    def _look(self, planner: PlannerSide, now_s: float) -> None:
+        """Let the eyes take their turn, where there are some."""
+        sight = self.eyes.turn(self.sim, self.bus.tick, now_s) if self.eyes is not None else None
+        if sight is not None:
+            planner.sighted(sight, now_s)
+
+    def run(self, seconds: float) -> None:
+        """Let simulated time pass [s]."""
+        for _ in range(ticks(seconds)):
+            self.tick()
+
+    def run_until(self, done: Callable[[Self], object], limit_s: float = 60.0) -> float:
+        """Let time pass until something holds; return how long that took [s].
+
+        Raises:
+            TooLong: it did not hold within the limit; the message says where everything stands.
+        """
+        for count in range(ticks(limit_s) + 1):
+            if done(self):
+                return count * TICK_S
+            self.tick()
+        raise TooLong(f"not within {limit_s} simulated seconds; {self.describe()}")
+
+    def at(self, tick: int, act: Callable[[Self], None]) -> None:
+        """Do something at the beginning of a tick: a kill, a freeze, an obstacle."""
+        self._hooked += 1
+        heappush(self._hooks, (tick, self._hooked, act))
+
+    # What can be seen ---------------------------------------------------------------------------
+
+    @property
+    def truth(self) -> Pose2:
+        """Return where the robot truly is, in ``map``."""
+        return self.sim.base_in_map
+
+    @property
+    def twist(self) -> Twist2:
+        """Return how it truly moves."""
+        return self.sim.twist
+
+    @property
+    def contacts(self) -> int:
+        """Return how often the robot touched something since start."""
+        return self.sim.contacts_total
+
+    @property
+    def status(self) -> Status:
+        """Return what the bridge said last.
+
+        Raises:
+            TooLong: it has not spoken yet.
+        """
+        if not self.bridge.statuses:
+            raise TooLong("the bridge has not spoken yet; let a tick pass")
+        return self.bridge.statuses[-1]
+
+    @property
+    def statuses(self) -> Sequence[Status]:
+        """Return the newest statuses, oldest first."""
+        return self.bridge.statuses
+
+    @property
+    def commands(self) -> Sequence[DriveCommand | None]:
+        """Return the command of each tick, oldest first; None where none was sent."""
+        return self.bridge.commands
+
+    @property
+    def room(self) -> str | None:
+        """Return the room that the robot truly is in."""
+        room = self.scene.site.room_at(self.truth.x_m, self.truth.y_m)
+        return room.id if room is not None else None
+
+    @property
+    def standing(self) -> bool:
+        """Tell whether the robot truly stands."""
+        return abs(self.twist.v_mps) < 0.02 and abs(self.twist.w_radps) < 0.05
+
+    def describe(self) -> str:
+        """Say in one line where everything stands."""
+        status = self.bridge.statuses[-1] if self.bridge.statuses else None
+        if status is None:
+            return f"tick {self.tick_count}, the bridge has not spoken"
+        rows = [f"{row.row}:{row.action.value} ({row.evidence})" for row in status.rows]
+        goals = [
+            f"{goal.id} {goal.state.value} {goal.reason or ''}".strip()
+            for goal in (self.planner.engine.book.missions.values() if self._planner else ())
+        ]
+        pose = f"({self.truth.x_m:.2f}, {self.truth.y_m:.2f}, {self.truth.yaw_rad:.2f})"
+        return (
+            f"tick {self.tick_count}, {status.mode.value}, at {pose}, held {status.held}, "
+            f"owner {status.owner}, rows {rows}, waits for {status.waiting_for}, goals {goals}, "
+            f"leg {status.leg}, reasons {self.bridge.reasons}"
+        )
+
+    def _config(self, seed: int) -> CoreConfig:
+        return CoreConfig(
+            robot=self.scene.robot,
+            robot_hash=self.scene.robot.hash,
+            fence=self.scene.fence,
+            fence_hash=self.scene.fence_hash,
+            map_id=self.scene.site.map_id,
+            boot=f"lockstep{seed}",
+            period_s=TICK_S,
+        )
