@@ -55,7 +55,7 @@ class Adapter(Protocol):
         """Make an operator's request, with a proof; return its bytes."""
         ...
 
-    def helper(self) -> list[str]:
+    def helper(self) -> tuple[str, ...]:
         """Return the command of a worker process with a link of its own to this bridge."""
         ...
 

@@ -5,9 +5,7 @@ Owns processes and the two sessions: the judge's, which watches, and the planner
 
 from __future__ import annotations
 
-import os
 import secrets
-import sys
 import time
 from contextlib import ExitStack
 from pathlib import Path
@@ -21,6 +19,7 @@ from pons.conformance.raw_publisher import Mouth
 from pons.conformance.record import Record
 from pons.conformance.watch import Watch
 from pons.supervisor import Child
+from processes.parent_death import child_command
 from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, signed_request
 from wire.doors import BRIDGE_DOOR
 from wire.keys import Party
@@ -109,10 +108,9 @@ class Rig:
         self.say(f"op/{kind}", payload)
         return payload
 
-    def helper(self) -> list[str]:
+    def helper(self) -> tuple[str, ...]:
         """Return the command of a helper, which dies with this process."""
-        words = ["pons.conformance.worker_process", str(self._home), self._robot.id]
-        return [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        return child_command("pons.conformance.worker_process", str(self._home), self._robot.id)
 
     def door(self) -> str:
         """Return the bridge's socket."""

@@ -7,6 +7,8 @@ import subprocess
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from pons.conformance.adapter import Adapter
 
 PUPPET, FLOODER = "puppet", "flooder"
@@ -21,7 +23,7 @@ class HelperLost(Exception):
 class Helper:
     """Hold one helper process."""
 
-    def __init__(self, command: list[str]) -> None:
+    def __init__(self, command: Sequence[str]) -> None:
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def ready(self) -> None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import os
 import resource
 import subprocess
 import sys
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from websockets.asyncio.client import connect
 from websockets.exceptions import WebSocketException
 
+from processes.parent_death import child_command
 from tools.bench.context import Missed
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Crowd:
     def __init__(self, port: int, kind: str) -> None:
         """Describe it; entering the context starts it."""
         words = ["tools.bench.crowd", str(port), kind]
-        self._command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        self._command = child_command(*words)
 
     def __enter__(self) -> Self:
         self._process = subprocess.Popen(

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
-import sys
 from math import inf
 from typing import TYPE_CHECKING
 
 from planner.navigation import RouteLimits, RouteRequest
 from planner.navigation.router import Router
 from planner.site import Site
+from processes.parent_death import child_command
 from tools.bench.context import Missed
 from wire import load_robot
 
@@ -31,7 +30,7 @@ class Stub:
         """Start it; it warms up and waits for ``go``."""
         settings = robot.settings
         words = ["tools.bench.planner_stub", str(settings.home), str(settings.site), planner_id]
-        command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        command = child_command(*words)
         with (settings.home / "logs" / "stub.log").open("ab") as log:
             self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=log, stdout=log)
 

@@ -1,7 +1,7 @@
 """Run the real processes in a home folder of their own, watch them as a judge, end them all.
 
-Every child dies with this process: ``pons.pdeathsig_exec`` binds it to its parent, and leaving the
-ends whole process groups.
+Every child dies with this process: ``processes.parent_death`` binds it to its parent, and leaving
+the context ends whole process groups.
 """
 
 from __future__ import annotations

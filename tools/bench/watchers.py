@@ -7,13 +7,13 @@ Run as ``python -m tools.bench.watchers URL COUNT``: opens the sockets, reads al
 from __future__ import annotations
 
 import asyncio
-import os
 import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 from websockets.asyncio.client import ClientConnection, connect
 
+from processes.parent_death import child_command
 from tools.bench.context import Missed
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ class Watchers:
     def __init__(self, url: str, count: int) -> None:
         """Describe it; entering the context starts it."""
         words = ["tools.bench.watchers", url, str(count)]
-        self._command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        self._command = child_command(*words)
 
     def __enter__(self) -> Self:
         self._process = subprocess.Popen(

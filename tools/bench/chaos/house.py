@@ -21,6 +21,7 @@ import psutil
 
 from pons.http import PlannerDown, Refused, call
 from pons.settings import CHECKOUT, Settings
+from processes.parent_death import child_command, module_in
 from tools.bench.chaos.draw import PROCESSES
 from tools.bench.context import Missed, line, until
 from tools.bench.robot import free_port
@@ -104,7 +105,7 @@ class House:
     def _launch(self) -> None:
         with self._log.open("ab") as log:
             self.up = subprocess.Popen(
-                [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), "pons", "up"],
+                child_command("pons", "up"),
                 cwd=CHECKOUT,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
@@ -222,16 +223,24 @@ class House:
         return told
 
 
+WORKERS = {
+    "planner.navigation.process_main": "route",
+    "planner.perception.process_main": "vision",
+    "planner.voice.process_main": "voice",
+    "sim.camera": "camera",
+}
+"""What the draw calls the processes whose module has another name."""
+
+
 def role(words: list[str]) -> str:
     """Return what a process of ``pons up`` is, by its command line; empty where it is none."""
     text = " ".join(words)
     if "bridge.recording" in text:
         return "recorder"
-    if "planner.kept.begin" in words:
-        return words[words.index("planner.kept.begin") + 2].split(".")[1]
-    if "pons.pdeathsig_exec" in words:
-        return words[words.index("pons.pdeathsig_exec") + 2].rsplit(".", 1)[-1]
-    return ""
+    module = module_in(words)
+    if module is None:
+        return ""
+    return WORKERS.get(module, module.rsplit(".", 1)[-1])
 
 
 def silence() -> bytes:

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import time
 from contextlib import contextmanager
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from pons.conformance.worker_processes import FLOODER, Helper
+from processes.parent_death import child_command
 from tools.bench.context import until
 from tools.bench.figures import poisson_upper_95
 from tools.bench.lateness import cyclictest_late_us
@@ -111,7 +111,7 @@ def _flooded(robot: Robot) -> Iterator[list[float]]:
     words = ["pons.conformance.worker_process", str(robot.settings.home), status.robot]
     try:
         for task in tasks:
-            helper = Helper([sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words])
+            helper = Helper(child_command(*words))
             helpers.append(helper)
             helper.ready()
             helper.go({"be": FLOODER, **task})

@@ -1,4 +1,4 @@
-"""Be a small kept process that answers, or does as badly as it is told. Sees and knows nothing."""
+"""Be a small worker that answers, or does as badly as it is told. Sees and knows nothing."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
-from planner.kept import Codes, Failure, Frame, Parent, pack, run
+from processes.worker_main import ParentPipes, run_worker
+from processes.worker_protocol import FailureCodes, Frame, WorkerFailure, pack
 
 IMPORTED_AT_NICE = os.nice(0)
-MODULE = "tests.planner.kept.tiny"
+MODULE = "tests.processes.small_worker_main"
 SPOILS = {
     "dies": b"",
     "babbles": b"Traceback (most recent call last):\n",
@@ -22,7 +23,7 @@ SPOILS = {
 """What it writes instead of an answer, or before its first word."""
 
 
-class Trouble(Failure):
+class Trouble(WorkerFailure):
     """Say what went wrong."""
 
     reasons = MappingProxyType(
@@ -35,10 +36,10 @@ class Trouble(Failure):
     )
 
 
-CODES = Codes(Trouble, down="down", died="died", timed_out="late")
+CODES = FailureCodes(Trouble, down="down", died="died", timed_out="late")
 
 
-def main(parent: Parent, told: str) -> int:
+def main(parent: ParentPipes, told: str) -> int:
     """Say ready, or spoil the first starts in every way there is."""
     wanted = json.loads(told)
     if "refuses" in wanted:
@@ -55,14 +56,14 @@ def _earlier_starts(log: Path) -> int:
         return file.tell() - 1
 
 
-def _spoil(parent: Parent, how: str) -> None:
+def _spoil(parent: ParentPipes, how: str) -> None:
     os.write(parent._answers, SPOILS[how])
     if how == "dies":
         os._exit(3)
     time.sleep(60)
 
 
-def _answer(parent: Parent, asked: Frame) -> Frame:
+def _answer(parent: ParentPipes, asked: Frame) -> Frame:
     head, body = asked
     time.sleep(head.get("thinks_s", 0.0))
     if head.get("spoils") in SPOILS:
@@ -79,4 +80,4 @@ def _answer(parent: Parent, asked: Frame) -> Frame:
 
 
 if __name__ == "__main__":
-    run(main)
+    run_worker(main)

@@ -11,14 +11,15 @@ from typing import ParamSpec
 
 import pytest
 
-from planner.kept import Failure, Frame, KeptProcess
-from tests.planner.kept.tiny import CODES, MODULE, Trouble
+from processes.worker import SupervisedWorker
+from processes.worker_protocol import Frame, WorkerFailure
+from tests.processes.small_worker_main import CODES, MODULE, Trouble
 
 P = ParamSpec("P")
 LIMIT_S = 30.0
 
 
-class Tiny(KeptProcess):
+class Tiny(SupervisedWorker):
     """Keep a small process that behaves as it is told."""
 
     def __init__(self, *, one_at_a_time: bool = False, **told: str) -> None:
@@ -29,7 +30,7 @@ class Tiny(KeptProcess):
             longest_pause_s=0.1,
         )
 
-    def _greet(self, said: object) -> None:
+    def _check_greeting(self, said: object) -> None:
         if said is not None:
             raise Trouble("unwilling", f"it said {said}")
 
@@ -56,14 +57,14 @@ async def running(*, one_at_a_time: bool = False) -> AsyncIterator[Tiny]:
         await tiny.close()
 
 
-def pid_of(kept: KeptProcess) -> int:
+def pid_of(kept: SupervisedWorker) -> int:
     assert kept.pid is not None
     return kept.pid
 
 
 async def code_of(answer: Awaitable[object]) -> str:
     """Return the code of the failure that is the answer."""
-    with pytest.raises(Failure) as caught:
+    with pytest.raises(WorkerFailure) as caught:
         await answer
     return caught.value.code
 

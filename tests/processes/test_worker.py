@@ -1,4 +1,4 @@
-"""Kill, freeze and mislead a kept process; who asks gets an answer or a typed failure."""
+"""Kill, freeze and mislead a worker; who asks gets an answer or a typed failure."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from planner.kept.begin import NICE
-from tests.planner.kept.keeping import LIMIT_S, Tiny, code_of, pid_of, running, story
-from tests.planner.kept.tiny import MODULE, SPOILS, Trouble
-from tests.rank.standing import leads_its_session, stand_of
+from processes.parent_death import WORKER_NICE
+from tests.processes.nice_values import leads_its_session, stand_of
+from tests.processes.small_worker import LIMIT_S, Tiny, code_of, pid_of, running, story
+from tests.processes.small_worker_main import SPOILS, Trouble
 
 
 @story
@@ -28,10 +28,12 @@ async def test_many_at_once_are_each_answered_with_their_own() -> None:
         child = psutil.Process(pid_of(kept))
         assert child.ppid() == os.getpid()
         at_nice = await kept.ask({}, (), LIMIT_S, lambda frame: frame[0]["imported_at_nice"])
-        assert at_nice == child.nice() == min(os.nice(0) + NICE, 19), "before it loads anything"
+        assert at_nice == child.nice() == min(os.nice(0) + WORKER_NICE, 19), (
+            "before it loads anything"
+        )
         if sys.platform == "linux":
             assert leads_its_session(child.pid)
-            assert stand_of(child.pid) == stand_of(os.getpid()).behind(NICE)
+            assert stand_of(child.pid) == stand_of(os.getpid()).behind(WORKER_NICE)
         assert child.environ()["OMP_NUM_THREADS"] == "1"
 
 
@@ -107,7 +109,7 @@ async def test_what_goes_wrong_before_the_first_word_is_no_refusal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     """Out of memory says nothing of what it was given."""
-    monkeypatch.setattr("planner.kept.process.FIRST_PAUSE_S", 0.001)
+    monkeypatch.setattr("processes.worker.FIRST_PAUSE_S", 0.001)
     kept = Tiny(log=str(tmp_path / "starts"))
     try:
         with pytest.raises(Trouble, match=r"not ready after 0\.001 s") as caught:
@@ -184,7 +186,7 @@ async def test_who_gives_up_starting_leaves_nothing() -> None:
 
 PARENT = """
 import asyncio
-from tests.planner.kept.keeping import running
+from tests.processes.small_worker import running
 
 async def main():
     async with running() as kept:
@@ -208,9 +210,3 @@ def test_it_dies_with_a_parent_that_is_killed_while_it_thinks() -> None:
     while psutil.pid_exists(child) and time.monotonic() < until_s:
         time.sleep(0.01)
     assert not psutil.pid_exists(child)
-
-
-def test_it_does_not_begin_for_a_parent_that_is_gone() -> None:
-    command = [sys.executable, "-m", MODULE, str(os.getpid() + 1)]
-    done = subprocess.run(command, capture_output=True, check=False, timeout=LIMIT_S)
-    assert (done.returncode, done.stdout) == (1, b"")

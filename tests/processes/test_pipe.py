@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from bridge.recording.pipe import Pipe
+from processes.pipe import Pipe
 
 LINE = b"x" * 6_000 + b"\n"
 

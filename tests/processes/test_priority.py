@@ -1,4 +1,4 @@
-"""A rank counts among processes and among sessions, or the log says that it does not."""
+"""Priorities count among processes and among sessions, or the log says that they do not."""
 
 from __future__ import annotations
 
@@ -11,9 +11,18 @@ from pathlib import Path
 
 import pytest
 
-import rank
-from rank import LEAST, MOST, PAUSE_S, TRIES, fifo, nice, nice_among_sessions, session_nice
-from tests.rank.standing import leads_its_session, stand_of
+from processes import priority
+from processes.priority import (
+    MAX_NICE,
+    MIN_NICE,
+    PAUSE_S,
+    TRIES,
+    add_nice,
+    add_session_nice,
+    session_nice,
+    set_fifo,
+)
+from tests.processes.nice_values import leads_its_session, stand_of
 
 ME = 4711
 
@@ -68,8 +77,8 @@ def kernel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> K
     for name in ("getpid", "getsid", "setsid", "getpriority", "nice"):
         monkeypatch.setattr(os, name, getattr(made, name))
     monkeypatch.setattr(time, "sleep", made.sleep)
-    monkeypatch.setattr(rank, "_put", made.put)
-    monkeypatch.setattr(rank, "session_nice", lambda: made.session)
+    monkeypatch.setattr(priority, "_write_autogroup", made.put)
+    monkeypatch.setattr(priority, "session_nice", lambda: made.session)
     return made
 
 
@@ -77,7 +86,7 @@ def kernel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> K
 def test_who_leads_a_session_or_leaves_one_weighs_his_own(
     kernel: Kernel, caplog: pytest.LogCaptureFixture
 ) -> None:
-    nice(5, apart=kernel.leader != ME)
+    add_nice(5, own_session=kernel.leader != ME)
     assert kernel.asked == ["nice +5", "session 5"]
     assert caplog.text == ""
 
@@ -85,16 +94,16 @@ def test_who_leads_a_session_or_leaves_one_weighs_his_own(
 @pytest.mark.parametrize("kernel", [{"leader": 1}], indirect=True)
 def test_who_leaves_stands_behind_the_session_that_started_it(kernel: Kernel) -> None:
     kernel.session = -10
-    nice(10, apart=True)
+    add_nice(10, own_session=True)
     assert kernel.asked == ["nice +10"], "a new session has that weight already"
     kernel.leader, kernel.session = 1, -7
-    nice(10, apart=True)
+    add_nice(10, own_session=True)
     assert kernel.asked[2:] == ["session 3"]
 
 
-@pytest.mark.parametrize(("steps", "held"), [(30, MOST), (-30, LEAST)])
+@pytest.mark.parametrize(("steps", "held"), [(30, MAX_NICE), (-30, MIN_NICE)])
 def test_no_session_is_weighed_beyond_what_there_is(kernel: Kernel, steps: int, held: int) -> None:
-    nice(steps)
+    add_nice(steps)
     assert kernel.session == held
 
 
@@ -103,7 +112,7 @@ def test_no_session_is_weighed_beyond_what_there_is(kernel: Kernel, steps: int, 
 def test_the_session_of_another_keeps_its_weight(
     kernel: Kernel, apart: bool, caplog: pytest.LogCaptureFixture
 ) -> None:
-    nice(5, apart=apart)
+    add_nice(5, own_session=apart)
     assert kernel.asked == ["nice +5"]
     assert "nice +5 does not count in full: another process leads this session" in caplog.text
 
@@ -111,10 +120,10 @@ def test_the_session_of_another_keeps_its_weight(
 def test_who_chose_his_nice_moves_his_session_alone(
     kernel: Kernel, caplog: pytest.LogCaptureFixture
 ) -> None:
-    nice_among_sessions(5)
+    add_session_nice(5)
     assert kernel.asked == ["session 5"]
     kernel.leader = 1
-    nice_among_sessions(5)
+    add_session_nice(5)
     assert kernel.session == 5
     assert "nice +5 does not count among sessions: another process leads" in caplog.text
 
@@ -123,8 +132,8 @@ def test_a_kernel_that_weighs_no_sessions_is_asked_for_none(
     kernel: Kernel, caplog: pytest.LogCaptureFixture
 ) -> None:
     kernel.session, kernel.begins_at, kernel.leader = None, None, 1
-    nice(5)
-    nice(5, apart=True)
+    add_nice(5)
+    add_nice(5, own_session=True)
     assert kernel.asked == ["nice +5"] * 2
     assert caplog.text == ""
 
@@ -132,7 +141,7 @@ def test_a_kernel_that_weighs_no_sessions_is_asked_for_none(
 def test_what_was_given_no_session_yet_stands_behind_its_own_nice(kernel: Kernel) -> None:
     """As what a container's first process starts: its session is the kernel's, and says nothing."""
     kernel.session, kernel.leader, kernel.alone = None, 1, -3
-    nice(5, apart=True)
+    add_nice(5, own_session=True)
     assert kernel.asked == ["nice +5", "session 2"]
 
 
@@ -140,7 +149,7 @@ def test_what_was_given_no_session_yet_stands_behind_its_own_nice(kernel: Kernel
 def test_the_weight_of_a_session_is_read(
     text: str, expected: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(rank, "AUTOGROUP", tmp_path / "autogroup")
+    monkeypatch.setattr(priority, "AUTOGROUP", tmp_path / "autogroup")
     assert session_nice() is None
     (tmp_path / "autogroup").write_text(text)
     assert session_nice() == expected
@@ -150,11 +159,11 @@ def test_a_session_weighed_a_moment_ago_is_weighed_again_soon(
     kernel: Kernel, caplog: pytest.LogCaptureFixture
 ) -> None:
     kernel.again = TRIES - 1
-    nice(5)
+    add_nice(5)
     assert kernel.asked.count("sleep") == TRIES - 1
     assert (kernel.session, caplog.text) == (5, "")
     kernel.again = TRIES
-    nice(5)
+    add_nice(5)
     assert kernel.session == 5
     assert "Resource temporarily unavailable" in caplog.text
 
@@ -166,11 +175,11 @@ def test_what_is_refused_is_said_and_no_more(
         raise PermissionError(errno.EPERM, "Operation not permitted")
 
     monkeypatch.setattr(os, "nice", refuse)
-    nice(-10)
+    add_nice(-10)
     monkeypatch.setattr(os, "sched_setscheduler", refuse)
-    fifo(30)
+    set_fifo(30)
     monkeypatch.setattr(sys, "platform", "plan9")
-    fifo(30)
+    set_fifo(30)
     assert [record.getMessage() for record in caplog.records] == [
         "nice -10 does not count in full: Operation not permitted",
         "SCHED_FIFO 30 refused: Operation not permitted",
@@ -181,8 +190,8 @@ def test_what_is_refused_is_said_and_no_more(
 
 TAKE = """
 import sys
-from rank import nice
-nice(int(sys.argv[1]), apart=len(sys.argv) > 2)
+from processes.priority import add_nice
+add_nice(int(sys.argv[1]), own_session=len(sys.argv) > 2)
 print("taken", flush=True)
 sys.stdin.read()
 """

@@ -1,4 +1,4 @@
-"""Read from /proc where processes stand among those who wait for a processor."""
+"""Read the nice of processes and their sessions from /proc."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-from rank import MOST
+from processes.priority import MAX_NICE
 
 
 class Stand(NamedTuple):
@@ -23,9 +23,9 @@ class Stand(NamedTuple):
     def behind(self, steps: int) -> Stand:
         """Return who stands so far behind this one, in a session that left this one's."""
         if not weighs_sessions():
-            return Stand(min(self.nice + steps, MOST), None)
+            return Stand(min(self.nice + steps, MAX_NICE), None)
         among = self.nice if self.session is None else self.session
-        return Stand(min(self.nice + steps, MOST), min(among + steps, MOST))
+        return Stand(min(self.nice + steps, MAX_NICE), min(among + steps, MAX_NICE))
 
 
 def stand_of(pid: int) -> Stand:
