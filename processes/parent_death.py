@@ -1,7 +1,7 @@
 """Start a module as a process that cannot outlive its parent.
 
-Run as ``python -m processes.parent_death PARENT_PID [OPTION …] MODULE [ARGUMENT …]``; whoever starts
-one takes the words from :func:`child_command` or :func:`worker_command`.
+Run as ``python -m processes.parent_death PARENT_PID [OPTION …] MODULE [ARGUMENT …]``; the words
+come from :func:`child_command` or :func:`worker_command`.
 
 The process asks the kernel for a signal on its parent's death (prctl(2) PR_SET_PDEATHSIG) and then
 checks that its parent still is the process that started it, which closes the gap before the
@@ -41,7 +41,7 @@ def child_command(module: str, *arguments: str, session_nice: int = 0) -> tuple[
     Args:
         module: run as ``__main__``.
         arguments: of that module.
-        session_nice: how far its session stands behind others; it must be started in one of its own.
+        session_nice: how far its session, which it must lead, stands behind others.
     """
     options = [f"{SESSION_NICE}{session_nice}"] if session_nice else []
     return (sys.executable, "-m", MODULE, str(os.getpid()), *options, module, *arguments)
@@ -79,7 +79,7 @@ def main(arguments: list[str]) -> int:
     options = list(takewhile(lambda word: word.startswith("--"), arguments[1:]))
     rest = arguments[1 + len(options) :]
     if not rest or not arguments[0].isdecimal():
-        print(USAGE, file=sys.stderr)
+        sys.stderr.write(f"{USAGE}\n")
         return 2
     if not bind_to_parent(int(arguments[0]), signal.SIGKILL if KILL in options else signal.SIGTERM):
         return PARENT_GONE

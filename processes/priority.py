@@ -22,8 +22,8 @@ log = logging.getLogger(__name__)
 AUTOGROUP = Path("/proc/self/autogroup")
 MIN_NICE, MAX_NICE = -20, 19
 TRIES, PAUSE_S = 5, 0.12
-"""Autogroup writes without CAP_SYS_ADMIN are limited to one per 0.1 s on the whole machine (EAGAIN),
-and our processes start together."""
+"""Without CAP_SYS_ADMIN the machine allows one autogroup write per 0.1 s (EAGAIN else), and our
+processes start together."""
 
 
 def set_fifo(priority: int) -> None:
@@ -37,7 +37,7 @@ def set_fifo(priority: int) -> None:
 def add_nice(steps: int, *, own_session: bool = False) -> None:
     """Add to the nice of this process, and of its session; threads started later inherit it.
 
-    Only a session's leader sets the session's nice: another process's session may be a person's shell.
+    Only a session's leader sets the session's nice: another's session may be a person's shell.
 
     Args:
         steps: how far behind the parent process; before it, if negative. Ten are a tenth of the
