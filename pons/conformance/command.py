@@ -22,8 +22,8 @@ from pons.conformance.fault import W, X
 from pons.conformance.runner import NAMES, play_all
 from pons.conformance.site_track import find_track
 from pons.conformance.system_under_test import OURS, Rig
+from pons.machine import commit, machine, today
 from pons.settings import CHECKOUT
-from tools.bench.machine import commit, machine, today
 from wire import Misconfigured, load_robot
 
 if TYPE_CHECKING:

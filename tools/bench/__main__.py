@@ -15,8 +15,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pons.machine import pace
 from tools.bench.context import TROUBLE, Lab, Measure, line
-from tools.bench.machine import pace
 from tools.bench.measure import ALL
 from tools.bench.report import Row, table
 from tools.bench.store import Store

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tools.bench.machine import commit, machine, today
+from pons.machine import commit, machine, today
 
 
 @dataclass

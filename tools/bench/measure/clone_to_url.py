@@ -9,8 +9,8 @@ import subprocess
 import time
 from typing import TYPE_CHECKING, Any
 
+from pons.machine import ROOT
 from tools.bench.context import Missed
-from tools.bench.machine import ROOT
 from tools.bench.report import Row, row_of
 from tools.bench.robot import free_port
 

@@ -7,7 +7,7 @@ import subprocess
 import time
 from typing import TYPE_CHECKING, Any
 
-from tools.bench.machine import ROOT
+from pons.machine import ROOT
 from tools.bench.report import Row, row_of
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ import pytest
 from _pytest.outcomes import Skipped
 from _pytest.tmpdir import tmppath_result_key
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 CORE = ROOT / "bridge" / "core"
 KEPT = ROOT / ".mutants"
 MEASURED = KEPT / "lines.pickle"
@@ -33,7 +33,23 @@ CHEAP = 0.1
 SLOWER, GRACE_S = 10.0, 0.4
 """A test that takes so many times its own processor time, and this more, hangs."""
 Lines = dict[str, dict[int, list[str]]]
-"""Module, line, keys of the tests that walk it."""
+"""Module below ``bridge.core``, line, keys of the tests that walk it."""
+
+
+def modules() -> list[str]:
+    """Return every module of the core as its dotted name below ``bridge.core``."""
+    files = sorted(CORE.rglob("*.py"))
+    return [name_of(file) for file in files if file.stem != "__init__"]
+
+
+def file_of(name: str) -> Path:
+    """Return the file of a module of the core, as ``motion.limiter``."""
+    return CORE.joinpath(*name.split(".")).with_suffix(".py")
+
+
+def name_of(file: Path) -> str:
+    """Return the dotted name below ``bridge.core`` of a file."""
+    return ".".join(file.relative_to(CORE).with_suffix("").parts)
 
 
 def plain(items: list[pytest.Item]) -> list[pytest.Item]:
@@ -64,13 +80,13 @@ class Walked:
         by_line = self.lines.get(name, {})
         keys = {key for line in lines for key in by_line.get(line, ()) if key in self.items}
         before = self.noticed[function]
-        own = {key for key in keys if f"_{name}" in self.items[key].path.stem}
+        own = {key for key in keys if f"_{name.rpartition('.')[2]}" in self.items[key].path.stem}
         return sorted(keys, key=lambda key: (-before[key], key not in own, self.order[key]))
 
     def _measured(self) -> tuple[dict[str, float], Lines]:
         took: dict[str, float] = {}
         lines: Lines = {}
-        sources = {path.stem: path.read_text("utf-8") for path in CORE.glob("*.py")}
+        sources = {name: file_of(name).read_text("utf-8") for name in modules()}
         if MEASURED.exists():
             before, took, lines = pickle.loads(MEASURED.read_bytes())  # written below
             lines = {
@@ -96,7 +112,7 @@ class Walked:
 
     def _measure(self, keys: list[str], part: Path) -> int:
         took: dict[str, float] = {}
-        watch = coverage.Coverage(data_file=None, include=[f"{CORE}/*"], config_file=False)
+        watch = coverage.Coverage(data_file=None, include=[f"{CORE}/**"], config_file=False)
         watch.start()
         for index, key in enumerate(keys):
             watch.switch_context(key)
@@ -108,7 +124,7 @@ class Walked:
         watch.stop()
         data = watch.get_data()
         lines = {
-            Path(file).stem: {
+            name_of(Path(file)): {
                 line: [key for key in keys if key]
                 for line, keys in data.contexts_by_lineno(file).items()
             }

@@ -6,8 +6,8 @@ import ast
 
 import pytest
 
-from scripts.mutant_tests import diverse, moved
-from scripts.mutation import mutants_of
+from tools.mutants.line_tests import diverse, moved
+from tools.mutants.mutations import mutants_of
 
 SOURCE = '''\
 """A module."""

@@ -16,10 +16,11 @@ from types import CodeType, FunctionType, ModuleType
 
 import pytest
 
-from scripts.mutant_tests import CORE, Walked, fails, plain
+from tools.mutants.line_tests import Walked, fails, file_of, plain
 
 PYTEST = ["-q", "-x", "-s", "--assert=plain", "-p", "no:randomly", "-p", "no:cacheprovider"]
-OURS = ("bridge.", "tests", "lockstep")
+OURS = ("bridge.", "tests", "tools.lockstep")
+PACKAGE = "bridge.core."
 
 
 def function_at(module: ModuleType, qualname: str) -> tuple[FunctionType, str] | None:
@@ -65,8 +66,8 @@ def put_constants(module: ModuleType, code: CodeType) -> dict[str, set[int]] | N
         for other in [m for key, m in sys.modules.items() if key.startswith(OURS)]:
             if vars(other).get(name) is live:
                 setattr(other, name, value)
-                if other.__name__.startswith("bridge.core."):
-                    lines.setdefault(other.__name__.rpartition(".")[2], set()).update(
+                if other.__name__.startswith(PACKAGE):
+                    lines.setdefault(other.__name__.removeprefix(PACKAGE), set()).update(
                         _naming(other, name)
                     )
     return lines or None
@@ -83,7 +84,7 @@ def _plain(value: object, module: str) -> bool:
 
 
 def _naming(module: ModuleType, name: str) -> set[int]:
-    source = (CORE / f"{module.__name__.rpartition('.')[2]}.py").read_text("utf-8")
+    source = file_of(module.__name__.removeprefix(PACKAGE)).read_text("utf-8")
     word = re.compile(rf"\b{name}\b")
     held: set[int] = set()
     for node in ast.walk(ast.parse(source)):
@@ -120,7 +121,7 @@ def import_anew(module: str, code: CodeType, stages: list[list[str]], chosen: st
             return None
 
         def exec_module(self, made: ModuleType) -> None:
-            made.__file__ = str(CORE / f"{module.rpartition('.')[2]}.py")
+            made.__file__ = str(file_of(module.removeprefix(PACKAGE)))
             exec(code, made.__dict__)  # the mutant, compiled here
 
     sys.meta_path.insert(0, Changed())  # type: ignore[arg-type]  # a finder by its method
@@ -136,12 +137,13 @@ def files_first(walked: Walked, name: str) -> list[list[str]]:
     """Return the files of tests in two stages: the quickest that walk the module, then the rest."""
     whole: dict[str, float] = {}
     near: set[str] = set()
+    own = name.rpartition(".")[2]
     walks = {key for keys in walked.lines.get(name, {}).values() for key in keys}
     for key, item in walked.items.items():
         file = str(item.path)
         whole[file] = whole.get(file, 0.0) + walked.took[key]
-        if key in walks or name in item.path.stem:
+        if key in walks or own in item.path.stem:
             near.add(file)
-    order = sorted(whole, key=lambda file: (name not in file, whole[file]))
+    order = sorted(whole, key=lambda file: (own not in file, whole[file]))
     first = [file for file in order if file in near or not near][:6]
     return [first, [file for file in order if file not in first]]

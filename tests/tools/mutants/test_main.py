@@ -10,9 +10,19 @@ from pathlib import Path
 
 import pytest
 
-from scripts import mutants
-from scripts.mutants import BROKEN, in_child, in_no_function, parts, report
-from scripts.mutation import mutants_of
+from tools.mutants import __main__ as mutants
+from tools.mutants import line_tests
+from tools.mutants.__main__ import (
+    BROKEN,
+    FIRST,
+    UNTESTED,
+    in_child,
+    in_no_function,
+    names_of,
+    parts,
+    report,
+)
+from tools.mutants.mutations import mutants_of
 
 SOURCE = """\
 LIMIT = 2.0
@@ -43,7 +53,7 @@ def test_a_report_of_the_outside_counts_nothing_else(
     made = [one for one, _ in mutants_of(SOURCE)[1]]
     rows = [{"key": f"small:{one.key}", "result": "survived"} for one in made if one.line in {1, 8}]
     (tmp_path / "results.jsonl").write_text("\n".join(map(json.dumps, rows)), encoding="utf-8")
-    monkeypatch.setattr(mutants, "CORE", tmp_path)
+    monkeypatch.setattr(line_tests, "CORE", tmp_path)
     monkeypatch.setattr(mutants, "RESULTS", tmp_path / "results.jsonl")
     report(argparse.Namespace(names=["small"], outside=True))
     said = capsys.readouterr().out
@@ -65,3 +75,14 @@ def test_a_child_ends_with_its_number_as_broken_or_by_its_limit() -> None:
     assert os.WEXITSTATUS(in_child(lambda: 7, 60)) == 7
     assert os.WEXITSTATUS(in_child(_broken, 60)) == BROKEN
     assert os.WTERMSIG(in_child(_for_ever, 0)) == signal.SIGXCPU
+
+
+def test_a_module_is_named_by_the_last_part_of_its_name_or_the_whole() -> None:
+    assert names_of(["limiter", "motion.limiter", "step"]) == ["motion.limiter"] * 2 + ["step"]
+    with pytest.raises(SystemExit, match="'unheard_of' names no module"):
+        names_of(["unheard_of"])
+    every = names_of([])
+    assert len(every) == len(set(every))
+    assert {line_tests.file_of(name).is_file() for name in every} == {True}
+    assert every[0].rpartition(".")[2] == FIRST[0]
+    assert not UNTESTED & {name.rpartition(".")[2] for name in every}

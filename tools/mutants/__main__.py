@@ -22,14 +22,12 @@ import sys
 from collections import Counter
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 from types import CodeType
 from typing import NoReturn
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from scripts.mutant_child import (
+from tools.mutants.child import (
     PYTEST,
     files_first,
     function_at,
@@ -37,24 +35,24 @@ from scripts.mutant_child import (
     put_constants,
     put_function,
 )
-from scripts.mutant_tests import CORE, KEPT, ROOT, Walked, first_that_fails, plain
-from scripts.mutation import Mutant, mutants_of
+from tools.mutants.line_tests import KEPT, ROOT, Walked, file_of, first_that_fails, modules, plain
+from tools.mutants.mutations import Mutant, mutants_of
 
 RESULTS = KEPT / "results.jsonl"
 TESTS = ROOT / "tests" / "bridge" / "core"
 FIRST = tuple(
     """
-    decide step latch transition gate stops limiter grants ownership legs horizon path pursuit
-    operator contactgate fencegate obstaclegate modes stopcurve drive_out stick external
+    mode_logic step fault_latch transition motion_gates stop_monitor limiter grants ownership
+    leg_tracking horizon_checks path_profile pursuit operator contact_gate fence_gate obstacle_gate
+    mode_table stop_profile wheel_command teleop external_velocity
     """.split()  # noqa: SIM905  # one name a word reads better
 )
-"""What decides motion."""
+"""Modules that decide motion, by the last part of their names."""
 UNTESTED = {
     "docs",
-    "fault_words",
+    "code_messages",
     "hazards",
-    "row_words",
-    "__init__",
+    "fault_messages",
     "codec",
     "config",
     "decision",
@@ -84,7 +82,7 @@ class Loop:
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Measure the tests once, then try the mutants."""
-        sources = {name: (CORE / f"{name}.py").read_text("utf-8") for name in self.wanted.names}
+        sources = {name: file_of(name).read_text("utf-8") for name in self.wanted.names}
         reached = importlib.import_module("tests.bridge.core.reached")
         for start in reached.STARTS:
             reached.reached(start)  # once, unchanged, for all children
@@ -121,7 +119,7 @@ class Loop:
 
         A test that fails of the import alone would notice every mutant, and tell nothing.
         """
-        code = compile(source, str(CORE / f"{name}.py"), "exec")
+        code = compile(source, str(file_of(name)), "exec")
         again = (f"bridge.core.{name}", code, files_first(walked, name), chosen(self.wanted))
         status = in_child(lambda: OTHER if import_anew(*again) else NOTHING, resource.RLIM_INFINITY)
         if not os.WIFEXITED(status) or os.WEXITSTATUS(status) != NOTHING:
@@ -213,7 +211,7 @@ def tried(
 ) -> int:
     """Make a mutant's change and return the number of the test that noticed."""
     change()
-    made = compile(ast.fix_missing_locations(tree), str(CORE / f"{name}.py"), "exec")
+    made = compile(ast.fix_missing_locations(tree), str(file_of(name)), "exec")
     return number_of_noticing(name, mutant, made, walked, wanted)
 
 
@@ -242,6 +240,29 @@ def number_of_noticing(
     return NOTHING if noticed < 0 else min(noticed, OTHER)
 
 
+def names_of(words: list[str]) -> list[str]:
+    """Return the modules that words name, or all: those first that decide motion.
+
+    Raises:
+        SystemExit: a word names none, or several.
+    """
+    every = modules()
+    by_leaf: dict[str, list[str]] = {}
+    for name in every:
+        by_leaf.setdefault(name.rpartition(".")[2], []).append(name)
+    if not words:
+        first = [name for leaf in FIRST for name in by_leaf.get(leaf, ())]
+        rest = [one for one in every if one.rpartition(".")[2] not in UNTESTED | set(FIRST)]
+        return first + rest
+    found = []
+    for word in words:
+        named = [word] if word in every else by_leaf.get(word, [])
+        if len(named) != 1:
+            raise SystemExit(f"{word!r} names {named or 'no module'}; modules: {', '.join(every)}")
+        found += named
+    return found
+
+
 def chosen(wanted: argparse.Namespace) -> str:
     """Return pytest's choice of tests."""
     return "core_quick" if wanted.quick else "not slow"
@@ -254,7 +275,7 @@ def report(wanted: argparse.Namespace) -> None:
     cells = ("mutants", "tried", "noticed", "undecided", "alive")
     whole: Counter[str] = Counter()
     for name in wanted.names:
-        _, made = mutants_of((CORE / f"{name}.py").read_text("utf-8"))
+        _, made = mutants_of(file_of(name).read_text("utf-8"))
         mutants = [one for one, _ in made if in_no_function(one) in parts(wanted)]
         found = Counter(done.get(f"{name}:{one.key}", "untried") for one in mutants)
         row = Counter(
@@ -278,7 +299,9 @@ def report(wanted: argparse.Namespace) -> None:
 def main() -> int:
     """Try the mutants of the files that are named."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("names", nargs="*", help="modules of bridge/core; none: all")
+    parser.add_argument(
+        "names", nargs="*", help="as limiter or motion.limiter; none: all of bridge/core"
+    )
     parser.add_argument("--sample", type=int, default=0, help="at most so many mutants a file")
     parser.add_argument("--again", action="store_true", help="try what lived once more")
     parser.add_argument("--quick", action="store_true", help="the quick suite only")
@@ -286,8 +309,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=int, default=LIMIT_S, help="of processor time a mutant")
     parser.add_argument("--report", action="store_true", help="count what is known, try nothing")
     wanted = parser.parse_args()
-    rest = sorted(p.stem for p in CORE.glob("*.py") if p.stem not in UNTESTED | set(FIRST))
-    wanted.names = wanted.names or [*FIRST, *rest]
+    wanted.names = names_of(wanted.names)
     os.chdir(ROOT)
     if wanted.report:
         report(wanted)
