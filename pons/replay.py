@@ -1,6 +1,6 @@
 """Run recordings again and say whether every command came out the same: ``pons replay FILE...``.
 
-With a model, run recorded sentences again and say which decisions differ (``pons.evals.journal``).
+With a model it is another name of ``pons eval --journal``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Be ``pons eval``: read the words, choose the brain, score, show. Nothing moves."""
+"""The command ``pons eval``: a suite, an exam of a minute, or a journal thought again."""
 
 from __future__ import annotations
 
@@ -37,7 +37,14 @@ class Scored:
 
 def main(settings: Settings, words: list[str]) -> int:
     """Score a brain on a suite: 0 the goal is reached, 1 it is not, 2 nothing could be asked."""
-    said = _parser().parse_args(words)
+    parser = _parser()
+    said = parser.parse_args(words)
+    if said.quick or said.journal is not None:
+        if said.suite is not None or (said.quick and said.journal is not None):
+            parser.error("give one of SUITE, --quick and --journal")
+        return _quick(settings, said) if said.quick else _journal(settings, said)
+    if said.suite is None:
+        parser.error("give a SUITE, --quick or --journal")
     try:
         suites = load(said.suite, said.data, said.site)
         brain, scored = asyncio.run(_all(settings, suites, said.model, yes=said.yes))
@@ -61,7 +68,13 @@ def _parser() -> argparse.ArgumentParser:
         prog="pons eval",
         description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
     )
-    parser.add_argument("suite", help=f"{', '.join(known())}, or a .tsv file")
+    parser.add_argument("suite", nargs="?", help=f"{', '.join(known())}, or a .tsv file")
+    parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
+    parser.add_argument(
+        "--journal",
+        metavar="FILE",
+        help="think the sentences of a journal (missions.db) or a home folder again",
+    )
     parser.add_argument(
         "--model",
         nargs="?",
@@ -70,10 +83,27 @@ def _parser() -> argparse.ArgumentParser:
         help="ask a model: the owner's, or NAME, URL or NAME@URL; else the offline brain",
     )
     parser.add_argument("--yes", action="store_true", help="a model elsewhere may be asked")
+    parser.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
+    parser.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--data", type=Path, default=DATA, help="folder of the orders of others")
     parser.add_argument("--site", type=Path, default=HOME_SITE, help="whose names ours use")
     return parser
+
+
+def _quick(settings: Settings, said: argparse.Namespace) -> int:
+    from pons.evals import quick
+
+    word = said.model or ""
+    return quick.run(settings, word, as_json=said.json, yes=said.yes, called="pons eval --quick")
+
+
+def _journal(settings: Settings, said: argparse.Namespace) -> int:
+    from pons.evals.journal import command
+
+    options = command.Options(max(0, said.most), max(0, said.drives), said.json, said.yes)
+    word = said.model or ""
+    return command.run(settings, [said.journal], word, options, "pons eval --journal")
 
 
 async def _all(
@@ -83,9 +113,9 @@ async def _all(
         return await _scored(suites, OfflineBrain())
     from planner.brain.endpoint import Address, EndpointBrain
     from planner.budget import Ledger, Purse
-    from pons.model_selection import chosen
+    from pons.evals.model_access import choose_model
 
-    owner, whom = chosen(model, settings.home, os.environ)
+    owner, whom = choose_model(model, settings.home, os.environ)
     address = Address.parse(whom.url)
     count = sum(len(suite.cases) for suite in suites)
     if not address.local and not yes:

@@ -7,33 +7,18 @@ on that day is not recorded with the sentence and not simulated.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
 
 from planner.brain import ScriptedBrain
 from planner.plan import ENDED, GoalState, StepPlan
+from pons.evals.journal.think import Driven
 from tools.lockstep import Together, TooLong
 from tools.lockstep.judge import Judge
 from wire import Pose2, load_robot
 
 LIMIT_S = 180.0
 """Simulated."""
-MOTION = frozenset({"go_to", "patrol", "turn", "move", "come_back", "return_home"})
 _WAITS = ENDED | {GoalState.PAUSED, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
-
-
-@dataclass(frozen=True, slots=True)
-class Driven:
-    """Say how a drive went."""
-
-    state: str
-    code: str
-    seconds: float
-    metres: float
-    held: tuple[str, ...]
-    """Rows and gates of the bridge that bound while the robot was to move, with their counts."""
-    broken: tuple[str, ...]
-    """Laws of motion that the drive broke: none, whatever the plan says."""
 
 
 def drive(

@@ -10,7 +10,8 @@ from typing import Any
 
 from pons.evals.journal.compare import told
 from pons.evals.journal.recorded import Recorded
-from pons.evals.journal.think import Again, Spending
+from pons.evals.journal.think import Again
+from pons.evals.model_access import Spending
 
 LIMITS = (
     "Sentences were thought about with the site's own places as they are now. A drive is one in "
@@ -68,7 +69,7 @@ def content(recorded: Recorded, found: Sequence[Again], cost: Spending, model: s
         "counts": _counts(found),
         "without_plan": recorded.without,
         "unreadable": recorded.unreadable,
-        "cost": asdict(cost),
+        "cost": {**asdict(cost), "left": _left(recorded, found)},
         "limits": LIMITS,
         "decisions": [
             {
@@ -85,6 +86,11 @@ def content(recorded: Recorded, found: Sequence[Again], cost: Spending, model: s
         ],
     }
     return json.dumps(record, ensure_ascii=False, indent=1)
+
+
+def _left(recorded: Recorded, found: Sequence[Again]) -> int:
+    """Return how many sentences were not thought about: the budget was up."""
+    return len(recorded.decisions) - len(found)
 
 
 def _counts(found: Sequence[Again]) -> dict[str, int]:
@@ -114,8 +120,8 @@ def _summary(recorded: Recorded, found: Sequence[Again], cost: Spending) -> str:
     )
     spent = f"{cost.calls} calls, {cost.prompt_tokens} tokens sent, {cost.reply_tokens} written"
     parts = [thought, stopped, spent]
-    if cost.left:
-        parts.append(f"{cost.left} not thought about: the budget is up")
+    if left := _left(recorded, found):
+        parts.append(f"{left} not thought about: the budget is up")
     if recorded.without or recorded.unreadable:
         parts.append(
             f"{recorded.without} goals had no plan of a brain, {recorded.unreadable} records can't "

@@ -8,23 +8,23 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
 from planner.brain.endpoint import Address, EndpointBrain
 from planner.brain.prompt import Prompt, tokens
-from planner.budget import Ledger, Purse
+from planner.budget import Purse
 from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, Language
-from planner.settings import BudgetSettings, GoalLimits, Mode, ModelSettings, Settings
+from planner.settings import GoalLimits, Mode, ModelSettings, Settings
 from planner.site import Site
 from pons.evals.cases import Case
 from pons.evals.matchers import wanted
+from pons.evals.model_access import metered, spending_of
+from pons.evals.quick.exam import Exam, Eyes, Marked, Result, Rung
 from pons.evals.quick.eyes import examine_eyes
 from pons.evals.quick.questions import QUESTIONS, WORLD, Question
-from pons.evals.quick.record import Cost, Exam, Eyes, Marked, Result, Rung
 from pons.evals.score import judge
 from pons.evals.world import World
 
@@ -87,38 +87,22 @@ async def examine(
     Raises:
         Misconfigured: the address may not be asked at all, or the budget can't be read.
     """
-    budget = BudgetSettings(
-        goal=GoalLimits(
-            calls=caps.calls,
-            prompt_tokens=caps.calls * PROMPT_TOKENS,
-            reply_tokens=caps.calls * model.max_tokens,
-            seconds=caps.seconds,
-        ),
-        day=settings.budget.day,
-        price=settings.budget.price,
+    limits = GoalLimits(
+        calls=caps.calls,
+        prompt_tokens=caps.calls * PROMPT_TOKENS,
+        reply_tokens=caps.calls * model.max_tokens,
+        seconds=caps.seconds,
     )
     began_s, goal = clock(), f"{GOAL}-{time.time_ns()}"
-    purse = Purse(budget, Ledger(home), model=model.name, most_reply=model.max_tokens)
-    try:
-        with TemporaryDirectory(prefix="pons-exam-") as folder:
-            room = _Room(purse, model, Path(folder), goal, began_s + caps.seconds, clock)
-            rungs = [await _rung(room, mode) for mode in Mode]
-            marked = await _answers(room, _best(rungs))
-            eyes = await _eyes(room, _best(rungs))
-        spent = purse.usage(goal).goal
-    finally:
-        purse.close()
-    cost = Cost(seconds=round(clock() - began_s, 2))
-    if spent is not None:
-        cost = replace(
-            cost,
-            calls=spent.calls,
-            prompt_tokens=spent.prompt_tokens,
-            reply_tokens=spent.reply_tokens,
-            money=spent.money,
-        )
+    with metered(settings, model, home, limits) as (purse, folder):
+        room = _Room(purse, model, folder, goal, began_s + caps.seconds, clock)
+        rungs = [await _rung(room, mode) for mode in Mode]
+        marked = await _answers(room, _best(rungs))
+        eyes = await _eyes(room, _best(rungs))
+        cost = spending_of(purse, goal)
+    took_s = round(clock() - began_s, 2)
     host = Address.parse(model.url).host
-    return Exam(model.name, host, tuple(rungs), marked, eyes, cost, prompt_tokens(site))
+    return Exam(model.name, host, tuple(rungs), marked, eyes, cost, took_s, prompt_tokens(site))
 
 
 def _best(rungs: list[Rung]) -> Mode | None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain import BrainDown, PlanRejected
 from planner.brain.image_questions import Asked, NotSent, Picture, Pointed
-from pons.evals.quick.record import Eyes
+from pons.evals.quick.exam import Eyes
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker

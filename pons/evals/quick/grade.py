@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from math import ceil
 
 from pons.doctor.finding import Words
+from pons.evals.quick.exam import Exam
 from pons.evals.quick.questions import Part
-from pons.evals.quick.record import Exam
 
 GRADES = "ABCDF"
 _NAMES = {

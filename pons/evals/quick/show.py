@@ -6,9 +6,9 @@ import json
 from dataclasses import asdict
 from typing import Any
 
+from pons.evals.quick.exam import Exam
 from pons.evals.quick.grade import Grade, percentile
 from pons.evals.quick.questions import Part
-from pons.evals.quick.record import Exam
 
 
 def table(exam: Exam, found: Grade, currency: str | None) -> str:
@@ -58,7 +58,7 @@ def content(exam: Exam, found: Grade, currency: str | None) -> str:
             "p50": percentile(latencies, 0.50) if latencies else None,
             "p95": percentile(latencies, 0.95) if latencies else None,
         },
-        "cost": asdict(exam.cost) | {"currency": currency},
+        "cost": asdict(exam.cost) | {"seconds": exam.took_s, "currency": currency},
         "prompt_tokens_here": exam.prompt_tokens_here,
         "answers": [
             {
@@ -113,4 +113,4 @@ def _tokens(exam: Exam) -> str:
 
 def _cost(exam: Exam, currency: str | None) -> str:
     money = f", {exam.cost.money:.4f} {currency}" if currency else ""
-    return f"{exam.cost.calls} calls, {exam.cost.seconds:.1f} s{money}"
+    return f"{exam.cost.calls} calls, {exam.took_s:.1f} s{money}"

@@ -120,3 +120,36 @@ def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
     assert [verdict.right for verdict in verdicts] == [False, False, False]
     assert [bool(verdict.wrong) for verdict in verdicts] == [True, False, False]
     assert not passed(verdicts)
+
+
+@pytest.mark.parametrize(
+    "words", [[], ["home", "--quick"], ["home", "--journal", "x"], ["--quick", "--journal", "x"]]
+)
+def test_one_kind_of_examination_is_asked_for(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["eval", *words])
+    assert "--quick" in capsys.readouterr().err
+
+
+def test_the_quick_exam_and_the_journal_are_two_more_kinds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    monkeypatch.delenv("PONS_MODEL", raising=False)
+    assert main(["eval", "--quick"]) == 2
+    assert "pons eval --quick: model_not_set: " in capsys.readouterr().err
+    assert main(["eval", "--journal", str(tmp_path)]) == 2
+    assert "pons eval --journal: journal_missing: " in capsys.readouterr().err
+
+
+def test_without_the_tools_of_a_checkout_no_plan_is_driven(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    monkeypatch.setattr("pons.evals.journal.command.find_spec", lambda _: None)
+    assert main(["eval", "--journal", str(tmp_path)]) == 2
+    assert "pons eval --journal: tools_missing: " in capsys.readouterr().err
+    assert main(["eval", "--journal", str(tmp_path), "--drives", "0"]) == 2
+    assert "journal_missing: " in capsys.readouterr().err

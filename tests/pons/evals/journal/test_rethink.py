@@ -29,10 +29,10 @@ from planner.plan import (
 from planner.settings import BudgetSettings
 from pons.__main__ import main
 from pons.evals.journal.compare import Difference, difference, told
-from pons.evals.journal.drive import Driven, drive
+from pons.evals.journal.drive import drive
 from pons.evals.journal.recorded import NoJournal, read
 from pons.evals.journal.show import verdict
-from pons.evals.journal.think import Again
+from pons.evals.journal.think import Again, Driven
 from pons.settings import CHECKOUT
 from tests.pons.mock_llm.mocks import running_mock
 from wire import Misconfigured
@@ -196,7 +196,7 @@ def test_as_many_calls_are_allowed_as_were_agreed_to(
 
     home = journal(tmp_path / "h", *(mission(g, "go to the kitchen", KITCHEN) for g in "abc"))
     monkeypatch.setenv("PONS_HOME", str(tmp_path / "mine"))
-    monkeypatch.setattr("pons.evals.journal.think.Purse", refused)
+    monkeypatch.setattr("pons.evals.model_access.Purse", refused)
     words = ["replay", str(home), "--with-model", "m@https://model.example/v1", "--yes"]
     assert main(words) == 2
     said = capsys.readouterr().err

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from pons.evals.model_access import Spending
 from pons.evals.quick.questions import Part, Question
 
 Result = Literal["right", "wrong", "unsafe", "no_plan", "no_answer", "not_asked"]
@@ -43,18 +44,6 @@ class Eyes:
 
 
 @dataclass(frozen=True, slots=True)
-class Cost:
-    """Hold what the exam cost."""
-
-    calls: int = 0
-    prompt_tokens: int = 0
-    reply_tokens: int = 0
-    money: float = 0.0
-    seconds: float = 0.0
-    """By the clock on the wall."""
-
-
-@dataclass(frozen=True, slots=True)
 class Exam:
     """Hold a whole exam."""
 
@@ -63,7 +52,9 @@ class Exam:
     rungs: tuple[Rung, ...] = ()
     marked: tuple[Marked, ...] = ()
     eyes: Eyes = Eyes()
-    cost: Cost = field(default_factory=Cost)
+    cost: Spending = field(default_factory=Spending)
+    took_s: float = 0.0
+    """By the clock on the wall."""
     prompt_tokens_here: int = 0
     """Of one call with this robot's own places."""
 

@@ -29,13 +29,13 @@ from planner.settings import (
 )
 from pons.__main__ import main
 from pons.evals.matchers import wanted
+from pons.evals.model_access import choose_model
 from pons.evals.quick import command, show
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
+from pons.evals.quick.exam import Exam, Marked, Result, Rung
 from pons.evals.quick.eyes import DISC, PICTURE, examine_eyes
 from pons.evals.quick.grade import grade
 from pons.evals.quick.questions import QUESTIONS, WORLD, Part
-from pons.evals.quick.record import Exam, Marked, Result, Rung
-from pons.model_selection import chosen
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 from wire import Misconfigured
 
@@ -182,7 +182,7 @@ def test_no_call_of_an_exam_passes_what_was_said_to_be_the_most(
             sent.append(prompt_tokens)
             return super().open(prompt_tokens)
 
-    monkeypatch.setattr("pons.evals.quick.ask.Purse", Noted)
+    monkeypatch.setattr("pons.evals.model_access.Purse", Noted)
     for fault in (None, "garbage"):  # with garbage, each second call is a repair
         mock.set(fault=fault)
         taken(mock, tmp_path)
@@ -286,7 +286,7 @@ def test_a_model_is_chosen_by_name_and_url(word: str, name: str, url: str, tmp_p
         '[model]\nurl = "http://127.0.0.1:1/v1"\nname = "own"\nkey = "sk-owners-own"\n'
         "[budget.price]\nreply_per_million = 1.0\n"
     )
-    settings, model = chosen(word, tmp_path, {})
+    settings, model = choose_model(word, tmp_path, {})
     assert (model.name, model.url) == (name, url)
     elsewhere = ":2/" in url
     assert (model.key is None, settings.budget.price is None) == (elsewhere, elsewhere)
@@ -296,5 +296,5 @@ def test_without_any_model_the_choice_says_what_to_give(tmp_path: Path) -> None:
     assert load_settings(tmp_path, {}).model is None
     for word in ("", "m", "http://127.0.0.1:1/v1"):
         with pytest.raises(Misconfigured, match=r"NAME@URL") as wrong:
-            chosen(word, tmp_path, {})
+            choose_model(word, tmp_path, {})
         assert wrong.value.code == "model_not_set"

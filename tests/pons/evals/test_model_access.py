@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from planner.settings import FILE
-from pons.model_selection import chosen
+from pons.evals.model_access import choose_model
 
 KEY = "sk-secret-0123456789"
 ELSEWHERE = "http://192.168.1.9:11434/v1"
@@ -50,7 +50,7 @@ def test_a_key_of_the_environment_stays_with_its_host(
 ) -> None:
     caplog.set_level(logging.WARNING)
     (tmp_path / FILE).write_text(text, "utf-8")
-    settings, model = chosen(word, tmp_path, {**environment, "PONS_MODEL_KEY": KEY})
+    settings, model = choose_model(word, tmp_path, {**environment, "PONS_MODEL_KEY": KEY})
     assert settings.model == model
     assert (model.key is not None, model.allow_offhost) == (kept, kept)
     once = environment in ({"PONS_MODEL_URL": ELSEWHERE}, {"PONS_MODEL_ALLOW_OFFHOST": "1"})
