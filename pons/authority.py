@@ -105,7 +105,7 @@ def issue(
     if not authority.not_valid_before_utc <= now:
         detail = f"it is {now:%Y-%m-%d} here, and {authority_file} begins later; set the clock"
         raise Misconfigured("clock_before_authority", detail)
-    names = _permitted(authority, must, {_name(host) for host in found})
+    names = _permitted_names(authority, must, {_name(host) for host in found})
     planner_file = folder / "planner.pem"
     certificate = _read_certificate(planner_file)
     if certificate is None or not _serves(certificate, authority, names, now):
@@ -258,7 +258,7 @@ def _is_permitted(name: Name, permitted: Iterable[x509.GeneralName]) -> bool:
     return False
 
 
-def _permitted(authority: x509.Certificate, must: set[Name], may: set[Name]) -> list[Name]:
+def _permitted_names(authority: x509.Certificate, must: set[Name], may: set[Name]) -> list[Name]:
     constraints = authority.extensions.get_extension_for_class(x509.NameConstraints).value
     subtrees = constraints.permitted_subtrees or []
     for name in sorted(must, key=_text):

@@ -98,7 +98,7 @@ def act(settings: Settings, verb: str, goal_id: str | None) -> int:
     Without a planner there is no goal, but another brain, which a person may let go on.
     """
     try:
-        chosen = goal_id or _meant(settings, verb)
+        chosen = goal_id or _meant_goal(settings, verb)
         if chosen is None:
             print(f"no_goal: there is nothing to {verb}", file=sys.stderr)
             return 1
@@ -127,7 +127,7 @@ _MEANT = {
 }
 
 
-def _meant(settings: Settings, verb: str) -> str | None:
+def _meant_goal(settings: Settings, verb: str) -> str | None:
     goals = _goals(settings)
     for state in _MEANT[verb]:
         for goal in sorted(goals, key=lambda goal: str(goal["created"]), reverse=True):

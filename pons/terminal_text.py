@@ -104,7 +104,7 @@ def robot_lines(robot: Json) -> list[str]:
     pose = status.get("base_in_map")
     where = f"x {pose['x_m']:.2f} y {pose['y_m']:.2f} yaw {pose['yaw_rad']:.2f}" if pose else "?"
     owner = (status.get("owner") or {}).get("planner_id", "nobody")
-    held = f", held ({_held(status['held'])})" if status.get("held") else ""
+    held = f", held ({_holder_line(status['held'])})" if status.get("held") else ""
     limits = status["limits"]
     lines = [
         f"bridge: {status['mode']}{held}, epoch {status['epoch']}, owner {owner}",
@@ -123,7 +123,7 @@ def robot_lines(robot: Json) -> list[str]:
     return lines
 
 
-def _held(held: Json) -> str:
+def _holder_line(held: Json) -> str:
     """Name who holds the robot; a fault by its cause."""
     reason = str(held["reason"])
     return f"fault: {held['id']}" if reason == "fault" else reason

@@ -143,14 +143,14 @@ def python_packages(lock: str, before: dict[str, str]) -> list[Package]:
     """Return what requirements.lock pins; ``before`` has licences of what is not installed here."""
     found = []
     for name, version in PIN.findall(lock):
-        licence = _stated(name) or before.get(f"pkg:pypi/{name}@{version}")
+        licence = _stated_licence(name) or before.get(f"pkg:pypi/{name}@{version}")
         if licence is None:
             raise Unlicensed(f"{name}: not installed here, so its licence can't be read")
         found.append(Package("pypi", name, version, judge(name, licence)))
     return found
 
 
-def _stated(name: str) -> str | None:
+def _stated_licence(name: str) -> str | None:
     if name in STATED:
         return STATED[name]
     try:

@@ -97,7 +97,7 @@ def _write(settings: Settings, before: str, found: list[Finding], stamp: str, *,
         print(f"{one.name:<24} {one.was:g} -> {one.value:g}   ({one.evidence})")
     after = edited(before, found)
     print(difference(settings.robot, before, after), flush=True)
-    if not yes and not _agreed(settings):
+    if not yes and not _ask_to_write(settings):
         raise CalibrationRefused("not_confirmed", "" if sys.stdin.isatty() else "--yes writes it")
     kept = replace(settings.robot, before, after, stamp)
     _say(f"wrote {settings.robot}; the old one is {kept.name}")
@@ -105,7 +105,7 @@ def _write(settings: Settings, before: str, found: list[Finding], stamp: str, *,
     return EXIT_DONE
 
 
-def _agreed(settings: Settings) -> bool:
+def _ask_to_write(settings: Settings) -> bool:
     if not sys.stdin.isatty():
         return False
     return input(f"write {settings.robot}? [y/N] ").strip().lower() in {"y", "yes", "是"}

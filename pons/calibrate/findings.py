@@ -127,7 +127,7 @@ def findings(
     dead_zone = _near("dead_zone_radps", dead, DEAD_ZONE_SPREAD_RADPS)
     response = [run.response_s for run in straights]
     _near("response_s", response, LAG_SPREAD_S)
-    response_s = _down(min(response), 3)
+    response_s = _round_down(min(response), 3)
     lags = [run.lag_s for run in straights]
     _near("lag_s", lags, LAG_SPREAD_S)
     braking = [run.braking_radps2 * radius_m for run in straights]
@@ -145,9 +145,9 @@ def findings(
         Finding("base", "wheel_separation_m", base.wheel_separation_m, round(apart_m, 4),
                 seen.of(separations_m, 4, outside)),
         Finding("limits", "max_decel_mps2", limits.max_decel_mps2,
-                min(limits.max_decel_mps2, _down(min(braking), 2)),
+                min(limits.max_decel_mps2, _round_down(min(braking), 2)),
                 seen.of(braking, 3, "never more than the weakest stop, never raised")),
-        Finding("drive", "lag_s", drive.lag_s, _up(max(lags), 3),
+        Finding("drive", "lag_s", drive.lag_s, _round_up(max(lags), 3),
                 seen.of(lags, 3, "the longest counts: way to the drive, delay and motor")),
         Finding("drive", "dead_zone_radps", drive.dead_zone_radps, round(dead_zone, 3),
                 seen.of(dead, 3, inside)),
@@ -157,7 +157,7 @@ def findings(
         Finding("drive", "ki_per_s", drive.ki_per_s, ki_per_s, seen.by_rule(response_s)),
     ]  # fmt: skip
     _plausible("base.wheel_separation_m", apart_m, base.wheel_separation_m)
-    _allowed(robot, found)
+    _check_limits(robot, found)
     return found
 
 
@@ -207,7 +207,7 @@ class _Evidence:
 def _close(name: str, values: Sequence[float], share: float) -> float:
     """Return the median of values that lie together, by share of it."""
     middle = median(values)
-    if not (all(isfinite(one) for one in values) and _apart(values) <= share * middle):
+    if not (all(isfinite(one) for one in values) and _spread(values) <= share * middle):
         text = f"{name}: {min(values):.4f} to {max(values):.4f}, allowed {100 * share:.1f} % apart"
         raise CalibrationRefused("spread_too_wide", text)
     return middle
@@ -215,21 +215,21 @@ def _close(name: str, values: Sequence[float], share: float) -> float:
 
 def _near(name: str, values: Sequence[float], apart: float) -> float:
     """Return the median of values that lie together, by distance."""
-    if not (all(isfinite(one) for one in values) and _apart(values) <= apart):
+    if not (all(isfinite(one) for one in values) and _spread(values) <= apart):
         text = f"{name}: {min(values):.3f} to {max(values):.3f}, allowed {apart:.3f} apart"
         raise CalibrationRefused("spread_too_wide", text)
     return median(values)
 
 
-def _apart(values: Sequence[float]) -> float:
+def _spread(values: Sequence[float]) -> float:
     return max(values) - min(values)
 
 
-def _up(value: float, digits: int) -> float:
+def _round_up(value: float, digits: int) -> float:
     return float(ceil(value * 10**digits - 1e-9)) / float(10**digits)
 
 
-def _down(value: float, digits: int) -> float:
+def _round_down(value: float, digits: int) -> float:
     return float(floor(value * 10**digits + 1e-9)) / float(10**digits)
 
 
@@ -240,7 +240,7 @@ def _plausible(name: str, value: float, was: float) -> None:
         raise CalibrationRefused("out_of_bounds", text)
 
 
-def _allowed(robot: RobotDescription, found: Sequence[Finding]) -> None:
+def _check_limits(robot: RobotDescription, found: Sequence[Finding]) -> None:
     """See that robot.toml may hold all of it."""
     told = robot.model_dump()
     for one in found:

@@ -68,7 +68,7 @@ def statics(slow: tuple[float, float], fast: tuple[float, float]) -> tuple[float
 
 def fitted(ticks: Sequence[Tick], wheel: int, dead_zone_radps: float, gain: float) -> Motor:
     """Return the lag and delay with which the model comes nearest to what the wheel did."""
-    told = [_past(tick.told[wheel], dead_zone_radps, gain) for tick in ticks]
+    told = [_beyond_dead_zone(tick.told[wheel], dead_zone_radps, gain) for tick in ticks]
     did = [None if tick.did is None else tick.did[wheel] for tick in ticks]
     best = (float("inf"), SHORTEST_LAG_S, 0)
     for delay in DELAYS:
@@ -78,7 +78,7 @@ def fitted(ticks: Sequence[Tick], wheel: int, dead_zone_radps: float, gain: floa
     return Motor(dead_zone_radps, gain, lag_s, delay * TICK_S)
 
 
-def _past(told: float, dead_zone: float, gain: float) -> float:
+def _beyond_dead_zone(told: float, dead_zone: float, gain: float) -> float:
     return copysign(gain * max(0.0, abs(told) - dead_zone), told)
 
 

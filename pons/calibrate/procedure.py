@@ -84,15 +84,15 @@ def calibrate(
     for count in range(2 * plan.shuttles):
         metres = run_m if count % 2 == 0 else -run_m
         straights.append(
-            _again(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
+            _retry_lost(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
         )
-        say(f"run {count + 1}/{2 * plan.shuttles}: {_told(straights[-1])}")
+        say(f"run {count + 1}/{2 * plan.shuttles}: {_run_line(straights[-1])}")
     radius_m = radius_of(straights, robot)  # before the turns, which a wrong one would spoil
     separations: list[float] = []
     for count in range(plan.turns):
         angle = ROUND_RAD if count % 2 == 0 else -ROUND_RAD
         separations.append(
-            _again(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
+            _retry_lost(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
         )
         say(f"turn {count + 1}/{plan.turns}: separation {separations[-1]:.4f} m")
     by = SPOKEN[reference]
@@ -125,7 +125,7 @@ def _face_the_way(
     A turn by a robot.toml that is wrong ends some degrees off: each look chooses anew.
     """
     for _ in range(TURNS):
-        way = _again(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
+        way = _retry_lost(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
         if not way.turns_rad:
             return way.run_m
     return best_way(_points(rig, robot), robot.base.radius_m, (0.0,)).run_m
@@ -179,7 +179,7 @@ def _turn(
     return separation_m(run, turned, radius_m)
 
 
-def _again(rig: Rig, plan: Plan, say: Callable[[str], None], take: Callable[[], R]) -> R:
+def _retry_lost(rig: Rig, plan: Plan, say: Callable[[str], None], take: Callable[[], R]) -> R:
     """Take a run; one that was lost is taken again, a few times.
 
     Raises:
@@ -201,7 +201,7 @@ def _again(rig: Rig, plan: Plan, say: Callable[[str], None], take: Callable[[], 
     raise CalibrationRefused(before.code, before.detail)
 
 
-def _told(run: Straight) -> str:
+def _run_line(run: Straight) -> str:
     left, right = run.gains
     return (
         f"radius {run.radius_m:.4f} m, dead zone {run.dead_zone_radps:.3f} rad/s, "

@@ -99,7 +99,7 @@ def matched_rad(before: Sequence[Scan], after: Sequence[Scan], near_rad: float) 
     Raises:
         RunLost: no shift fits.
     """
-    old, new = _averaged(before), _averaged(after)
+    old, new = _median_scan(before), _median_scan(after)
     step = before[0].angle_increment_rad
 
     def worst(more_rad: float) -> float:
@@ -116,7 +116,7 @@ def _steps(low: float, high: float, by: float) -> list[float]:
     return [low + n * by for n in range(round((high - low) / by) + 1)]
 
 
-def _averaged(scans: Sequence[Scan]) -> list[float | None]:
+def _median_scan(scans: Sequence[Scan]) -> list[float | None]:
     """Return the median of each beam; None where it mostly did not come back."""
     beams: list[float | None] = []
     for ranges in zip(*(scan.ranges_m for scan in scans), strict=True):

@@ -41,7 +41,7 @@ def edited(text: str, found: Sequence[Finding]) -> str:
     for one in found:
         lines = _with(lines, one)
     after = "\n".join(lines) + "\n"
-    wanted = _expected(text, found)
+    wanted = _expected_content(text, found)
     with contextlib.suppress(tomllib.TOMLDecodeError):
         if tomllib.loads(after) == wanted:
             return after
@@ -49,7 +49,7 @@ def edited(text: str, found: Sequence[Finding]) -> str:
     raise CalibrationRefused("robot_toml_shape", values)
 
 
-def _expected(text: str, found: Sequence[Finding]) -> dict[str, Any]:
+def _expected_content(text: str, found: Sequence[Finding]) -> dict[str, Any]:
     told = deepcopy(tomllib.loads(text))
     for one in found:
         told.setdefault(one.table, {})[one.key] = one.value

@@ -51,7 +51,7 @@ def straight(rig: Rig, robot: RobotDescription, metres: float) -> Run:
         track.mark("slow")
         rig.steer(sign * SLOW_MPS, 0.0, lambda: rig.now_s - began_s >= SLOW_S, 2 * SLOW_S)
         track.mark("fast")
-        rolled = _Rolled(track, robot)
+        rolled = _WheelRun(track, robot)
         target_m = abs(metres) - stop_m
         limit_s = 4.0 + 2.0 * abs(metres) / fast_mps
         rig.steer(sign * fast_mps, 0.0, lambda: rolled.metres() >= target_m, limit_s)
@@ -72,7 +72,7 @@ def turn(rig: Rig, robot: RobotDescription, angle_rad: float) -> Run:
     track = rig.track = Track()
     try:
         rig.take()
-        rolled = _Rolled(track, robot)
+        rolled = _WheelRun(track, robot)
         target_rad = abs(angle_rad) - stop_rad
         limit_s = 5.0 + 2.0 * abs(angle_rad) / radps
         rig.steer(0.0, sign * radps, lambda: rolled.radians() >= target_rad, limit_s)
@@ -87,7 +87,7 @@ ROUND_RAD = 2 * pi
 
 
 @dataclass(frozen=True, slots=True)
-class _Rolled:
+class _WheelRun:
     """Tell how far the wheels say the robot came in a run, by robot.toml's geometry."""
 
     track: Track

@@ -139,7 +139,7 @@ class Rig:
             raise CalibrationRefused("no_drive")
         if not self.scans:
             raise CalibrationRefused("no_lidar", "no scan arrived")
-        self._until(lambda: not self._in({Mode.TELEOP, Mode.STOPPING}), PASSES_S)
+        self._until(lambda: not self._is_mode({Mode.TELEOP, Mode.STOPPING}), PASSES_S)
         return self.status
 
     def take(self) -> None:
@@ -158,7 +158,7 @@ class Rig:
 
     def held(self) -> bool:
         """Tell whether this hand moves the robot."""
-        return self._in({Mode.TELEOP})
+        return self._is_mode({Mode.TELEOP})
 
     def steer(
         self, v_mps: float, w_radps: float, until: Callable[[], bool], limit_s: float
@@ -179,13 +179,13 @@ class Rig:
                 raise RunLost("run_lost", f"not done within {limit_s:.0f} s")
             if self.now_s >= next_s:
                 seen = self._angles()
-                if self._stopped():
+                if self._is_stopped():
                     self._raise_why()
                 elif not max(abs(seen[0] - angles[0]), abs(seen[1] - angles[1])) >= TURNS_RAD:
                     raise RunLost("encoder_fault", f"the wheels' angles stay at {seen}")
                 next_s, angles = self.now_s + TURNS_S, seen
 
-    def _stopped(self) -> bool:
+    def _is_stopped(self) -> bool:
         """Tell whether the bridge lets the robot stand: a gate, a row."""
         sent = self.status.sent if self.status is not None else None
         return sent is None or (
@@ -209,10 +209,10 @@ class Rig:
         A stop that was pressed is the end of it.
         """
         self._until(self._quiet, QUIET_S)
-        self._until(lambda: self._in({Mode.HOLD, Mode.ESTOPPED}), patience_s)
-        return self._in({Mode.HOLD})
+        self._until(lambda: self._is_mode({Mode.HOLD, Mode.ESTOPPED}), patience_s)
+        return self._is_mode({Mode.HOLD})
 
-    def _in(self, modes: set[Mode]) -> bool:
+    def _is_mode(self, modes: set[Mode]) -> bool:
         return self.status is not None and self.status.mode in modes
 
     def _quiet(self) -> bool:
@@ -263,7 +263,7 @@ class Rig:
             raise CalibrationRefused("fault", ", ".join(rows))
         if status.mode is Mode.DISARMED:
             raise CalibrationRefused("not_armed", "disarmed during a run")
-        if status.blocked or (status.limits.by in WAY_GATES and self._stopped()):
+        if status.blocked or (status.limits.by in WAY_GATES and self._is_stopped()):
             raise RunLost("blocked", f"by {status.limits.by}")
         if not self.held():
             why = ", ".join(f"{name}: {seen}" for name, seen in rows.items()) or status.mode.value

@@ -81,13 +81,15 @@ class Track:
         ticks: list[Tick] = []
         before: DriveState | None = None
         for state in self.states:
-            ticks += self._missed(before, state, known)
+            ticks += self._fill_gap(before, state, known)
             did = (state.left_radps, state.right_radps)
             ticks.append(Tick(state.seq, self._told_at(state.echo_seq, known), did))
             before = state
         return ticks
 
-    def _missed(self, before: DriveState | None, state: DriveState, known: list[int]) -> list[Tick]:
+    def _fill_gap(
+        self, before: DriveState | None, state: DriveState, known: list[int]
+    ) -> list[Tick]:
         """Fill ticks whose states were not heard; commands in between are known all the same."""
         if before is None:
             return []

@@ -168,9 +168,9 @@ class Stage:
         stop_id = f"kit-{self.chance.getrandbits(48):x}"
         self.adapter.say("cmd/stop", json.dumps({"id": stop_id, "source": "kit"}).encode())
         self.until(lambda: self.told_to_stand(0.1), "standing after a stop")
-        self.until(self._resumed, "resume")
+        self.until(self._has_resumed, "resume")
 
-    def _resumed(self) -> bool:
+    def _has_resumed(self) -> bool:
         status = self.status
         if status.held is not None:
             self.adapter.operate("resume")

@@ -38,7 +38,7 @@ AGAIN = 4
 HOUR_S = 3600.0
 
 
-def _replayed(stage: Stage) -> Breaker:
+def _replay(stage: Stage) -> Breaker:
     """Say what was said in the last seconds once more, byte for byte."""
     recorded, turn = list(stage.driver.sent), count()
 
@@ -48,7 +48,7 @@ def _replayed(stage: Stage) -> Breaker:
     return breaker
 
 
-def _renumbered(stage: Stage) -> Breaker:
+def _renumber(stage: Stage) -> Breaker:
     """Say the newest commands once more with fresh numbers, the owner silent otherwise."""
     recorded = [item for item in stage.driver.sent if item[0] in COMMANDS][-4:]
     turn = count()
@@ -61,7 +61,7 @@ def _renumbered(stage: Stage) -> Breaker:
     return breaker
 
 
-def _seen(change: int) -> Breaker:
+def _shift_seen(change: int) -> Breaker:
     def shift(message: Message, status: Status) -> object:
         fields = {name for name in ("seen", "used") if name in message}
         return message | dict.fromkeys(fields, max(0, status.seq + change))
@@ -92,7 +92,7 @@ def _no_heartbeat(_stage: Stage) -> Breaker:
     return breaker
 
 
-def _reordered(stage: Stage) -> Breaker:
+def _reorder(stage: Stage) -> Breaker:
     """Keep three commands back and send them in the wrong order."""
     kept: list[Sent] = []
 
@@ -109,14 +109,14 @@ def _reordered(stage: Stage) -> Breaker:
     return breaker
 
 
-def _duplicated(_stage: Stage) -> Breaker:
+def _duplicate(_stage: Stage) -> Breaker:
     def breaker(said: list[tuple[str, Message]], _status: Status) -> list[Sent]:
         return [(key, pack(message)) for key, message in said for _ in range(3)]
 
     return breaker
 
 
-def _skewed(offset_s: float, rate: float) -> Callable[[Stage], None]:
+def _skew_clock(offset_s: float, rate: float) -> Callable[[Stage], None]:
     """Return the play of a brain whose clock is wrong and runs wrong."""
 
     def play(stage: Stage) -> None:
@@ -139,16 +139,16 @@ def _skewed(offset_s: float, rate: float) -> Callable[[Stage], None]:
 
 
 FAULTS = (
-    Fault("replayed", "all of the last 2 s again, byte for byte", broken(_replayed), SILENT),
-    Fault("renumbered", "old commands with fresh numbers", broken(_renumbered), SILENT, quick=(X,)),
-    Fault("clock_ahead", "the sender's clock an hour ahead and 25 % fast", _skewed(HOUR_S, 1.25),
+    Fault("replayed", "all of the last 2 s again, byte for byte", broken(_replay), SILENT),
+    Fault("renumbered", "old commands with fresh numbers", broken(_renumber), SILENT, quick=(X,)),
+    Fault("clock_ahead", "the sender's clock an hour ahead and 25 % fast", _skew_clock(HOUR_S, 1.25),
           DRIVES_ON),
     Fault("clock_behind", "the sender's clock an hour behind and 25 % slow",
-          _skewed(-HOUR_S, 0.75), DRIVES_ON),
+          _skew_clock(-HOUR_S, 0.75), DRIVES_ON),
     Fault("seen_ahead", f"claims a status {AHEAD} ahead of the newest",
-          broken(lambda _stage: _seen(AHEAD)), SILENT),
+          broken(lambda _stage: _shift_seen(AHEAD)), SILENT),
     Fault("seen_behind", f"answers what was said {BEHIND} statuses ago",
-          broken(lambda _stage: _seen(-BEHIND)), SILENT),
+          broken(lambda _stage: _shift_seen(-BEHIND)), SILENT),
     Fault("stale_seen", "one status named for ever", broken(_stale_seen), SILENT),
     Fault("stale_used", "lives, but thinks on one status for ever", broken(_stale_used),
           {W: USED_S}, kinds=(W,)),
@@ -156,7 +156,7 @@ FAULTS = (
           broken(_no_heartbeat, stand=False), DRIVES_ON, kinds=(X,)),
     Fault("no_heartbeat", "commands, but no heartbeats", broken(_no_heartbeat), {W: USED_S},
           kinds=(W,)),
-    Fault("reordered", "three commands at a time, shuffled", broken(_reordered, stand=False),
+    Fault("reordered", "three commands at a time, shuffled", broken(_reorder, stand=False),
           DRIVES_ON),
-    Fault("duplicated", "each message three times", broken(_duplicated, stand=False), DRIVES_ON),
+    Fault("duplicated", "each message three times", broken(_duplicate, stand=False), DRIVES_ON),
 )  # fmt: skip

@@ -29,7 +29,7 @@ KEPT_S = 1.0
 AFTER_S = 0.6
 
 
-def _killed(stage: Stage) -> None:
+def _kill(stage: Stage) -> None:
     puppet = stage.hand_over()
     stage.begin()
     puppet.process.send_signal(signal.SIGKILL)
@@ -56,7 +56,7 @@ def _half_open(stage: Stage) -> None:
     stage.until_standing()
 
 
-def _buffered(stage: Stage) -> None:
+def _buffer(stage: Stage) -> None:
     """Keep a second of commands back, and deliver them when who sent them is gone."""
     proxy = Proxy(stage.adapter.door())
     stage.stack.callback(proxy.close)
@@ -72,7 +72,7 @@ def _buffered(stage: Stage) -> None:
     stage.wait(AFTER_S)
 
 
-def _flooded(task: Callable[[Stage], dict[str, Any]]) -> Callable[[Stage], None]:
+def _flood(task: Callable[[Stage], dict[str, Any]]) -> Callable[[Stage], None]:
     def play(stage: Stage) -> None:
         flooder = stage.borrow()
         stage.until(stage.drives_fast, "driving before the flood")
@@ -112,7 +112,7 @@ def _heartbeats(stage: Stage) -> dict[str, Any]:
     return {"key": key, "template": message, "hertz": FLOOD_HZ, "numbered": "used"}
 
 
-def _malformed(stage: Stage) -> dict[str, Any]:
+def _malformed_task(stage: Stage) -> dict[str, Any]:
     return {"key": stage.command_key, "text": '{"v_mps": NaN, "points": 7}', "hertz": JUNK_HZ}
 
 
@@ -125,15 +125,15 @@ _FLOOD = {X: VELOCITY_S + FLOODED_S, W: PATH_S + FLOODED_S}
 
 FAULTS = (
     Fault("silent", "the brain says no more", _silent, SILENT, quick=(W,)),
-    Fault("killed", "SIGKILL of the brain's process", _killed, SILENT, quick=(X,)),
+    Fault("killed", "SIGKILL of the brain's process", _kill, SILENT, quick=(X,)),
     Fault("frozen", "SIGSTOP of the brain's process", _frozen, SILENT),
     Fault("half_open", "the link accepts and is never read", _half_open, SILENT, quick=(W,)),
-    Fault("buffered", "1 s of commands kept back, then delivered at once", _buffered, SILENT),
-    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD,
+    Fault("buffered", "1 s of commands kept back, then delivered at once", _buffer, SILENT),
+    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flood(_valid), _FLOOD,
           quick=(X,)),
     Fault("heartbeat_flood", f"{FLOOD_HZ} heartbeats a second in the owner's name",
-          _flooded(_heartbeats), {X: WINDOWS_S + FLOODED_S, W: WINDOWS_S + FLOODED_S}),
+          _flood(_heartbeats), {X: WINDOWS_S + FLOODED_S, W: WINDOWS_S + FLOODED_S}),
     Fault("stop_in_flood", f"a stop among {FLOOD_HZ} pieces of junk a second on its own key",
           _stop_in_flood, {X: STOP_AGAIN_S, W: STOP_AGAIN_S}),
-    Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flooded(_malformed), _FLOOD),
+    Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flood(_malformed_task), _FLOOD),
 )  # fmt: skip

@@ -120,7 +120,7 @@ def _two_brains(stage: Stage) -> None:
     stage.wait(REST_S)
 
 
-def _spent(stage: Stage) -> None:
+def _spend(stage: Stage) -> None:
     """Ask for little, and again and again for the same mission."""
     stage.rest()
     stage.brain.metres = SMALL_M
@@ -151,7 +151,7 @@ def _after_stop(stage: Stage) -> None:
     stage.wait(0.4)
 
 
-def _forged(stage: Stage) -> None:
+def _forge_proof(stage: Stage) -> None:
     """Clear a stop with no proof, a wrong one, and one that was used."""
     stage.rest()
     used = json.loads(stage.adapter.operate("resume"))
@@ -267,11 +267,11 @@ FAULTS = (
           pushing(_budget((-5.0, 60.0), (5.0, -60.0), (0.0, 0.0))), {}, kinds=(X,), rest=True),
     Fault("grant_nan", "a grant of NaN", pushing(_budget((nan, 60.0), (5.0, nan))), {},
           kinds=(X,), rest=True),
-    Fault("grant_spent", f"drives on when {SMALL_M} m are driven, and asks again", _spent,
+    Fault("grant_spent", f"drives on when {SMALL_M} m are driven, and asks again", _spend,
           {X: SPENT_S, W: SPENT_S}),
     Fault("after_stop", "goes on as if nobody had said stop", _after_stop,
           {X: AT_ONCE_S, W: AT_ONCE_S}, quick=(W,)),
-    Fault("forged_resume", "clears a stop with no proof, a wrong one, a used one", _forged, {},
+    Fault("forged_resume", "clears a stop with no proof, a wrong one, a used one", _forge_proof, {},
           kinds=(X,), rest=True),
     Fault("no_dead_man", "teleop without its dead-man", _no_dead_man, {}, kinds=(X,), rest=True,
           quick=(X,)),

@@ -83,7 +83,7 @@ def _junk(stage: Stage) -> Breaker:
     return commands(lambda _message, _status: stage.chance.choice(JUNK))
 
 
-def _truncated(stage: Stage) -> Breaker:
+def _truncate(stage: Stage) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         whole = pack(message)
         return whole[: stage.chance.randrange(1, len(whole))]
@@ -91,7 +91,7 @@ def _truncated(stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _flipped(stage: Stage) -> Breaker:
+def _flip_bits(stage: Stage) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         whole = bytearray(pack(message))
         for _ in range(stage.chance.choice((1, 1, 2, 8))):
@@ -153,9 +153,9 @@ FAULTS = (
           {X: WALL_S}, kinds=(X,)),
     Fault("wrong_types", "strings, lists, truth values for numbers", broken(_wrong_types), STALE),
     Fault("junk", "empty, not JSON, nested 3000 deep, not text", broken(_junk), STALE),
-    Fault("truncated", "each message cut at a random byte", broken(_truncated), STALE),
+    Fault("truncated", "each message cut at a random byte", broken(_truncate), STALE),
     Fault("bit_flipped", "one to eight random bits of each message flipped",
-          broken(_flipped, stand=False), DRIVES_ON, quick=(W,)),
+          broken(_flip_bits, stand=False), DRIVES_ON, quick=(W,)),
     Fault("unknown_field", "a field that the schema has not", broken(_unknown_field), STALE),
     Fault("field_twice", "one field twice, the second out of bounds", broken(_twice_the_field),
           STALE),

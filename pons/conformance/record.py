@@ -63,12 +63,12 @@ class Truth:
     """Episodes since start."""
 
 
-class _Timed(Protocol):
+class _HasStamp(Protocol):
     @property
     def at_s(self) -> float: ...
 
 
-T = TypeVar("T", bound=_Timed)
+T = TypeVar("T", bound=_HasStamp)
 
 
 @dataclass
@@ -101,5 +101,5 @@ def between(items: list[T], from_s: float, to_s: float = float("inf")) -> list[T
     return items[first:last]
 
 
-def _at(item: _Timed) -> float:
+def _at(item: _HasStamp) -> float:
     return item.at_s

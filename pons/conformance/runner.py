@@ -192,7 +192,7 @@ class Runner:
             if now_s - began_s > AGAIN_S:
                 self.driver.breaker = mute
                 return Cell(False, f"not within {AGAIN_S:.0f} s: {stage.describe()}")
-            act = self._needed()
+            act = self._needed_request()
             if act is not None and now_s >= next_s:
                 self._adapter.operate(act)
                 acts[act] = None
@@ -208,7 +208,7 @@ class Runner:
         owner = status.owner if status is not None else None
         return owner is not None and owner.planner_id == self.driver.brain.brain_id
 
-    def _needed(self) -> OpKind | None:
+    def _needed_request(self) -> OpKind | None:
         """Return what a person would do now."""
         status = self._adapter.status()
         if status is None:

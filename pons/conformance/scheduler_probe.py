@@ -66,14 +66,14 @@ class Naps:
 
 def kept(processors: Sequence[Naps], from_s: float, to_s: float) -> Kept:
     """Judge a span by the processor that kept time worst."""
-    each = [_kept(naps.between(from_s, to_s)) for naps in processors]
+    each = [_timing_of(naps.between(from_s, to_s)) for naps in processors]
     worst = max(
         each, key=lambda one: (not one.time, one.late, one.worst_s), default=Kept(0, 0, 0.0)
     )
     return replace(worst, lost_s=max((one.lost_s for one in each), default=0.0))
 
 
-def _kept(late_s: list[float]) -> Kept:
+def _timing_of(late_s: list[float]) -> Kept:
     late = [one for one in late_s if one > LATE_S]
     return Kept(len(late_s), len(late), max(late_s, default=0.0), sum(late))
 

@@ -156,7 +156,9 @@ def stands(
         return Cell(False, "no command was seen", measured=False)
     before = between(record.commands, from_s - 0.5, from_s)
     start = before[-1] if before else commands[0]
-    rims = [bounds.rim_mps(speed) for one in (*before[-1:], *commands) for speed in _both(one)]
+    rims = [
+        bounds.rim_mps(speed) for one in (*before[-1:], *commands) for speed in _both_wheels(one)
+    ]
     fastest = min(max(map(abs, rims)), _fastest(bounds))
     most = 0 if noticed_s is None else bounds.stand_ticks(noticed_s, fastest)
     turning = [one for one in commands if _turns(one)]
@@ -175,12 +177,12 @@ def _fastest(bounds: Bounds) -> float:
     return bounds.speed_mps + bounds.turn_radps * bounds.wheel_separation_m / 2
 
 
-def _both(command: Command) -> tuple[float, float]:
+def _both_wheels(command: Command) -> tuple[float, float]:
     return command.left_radps, command.right_radps
 
 
 def _turns(command: Command) -> bool:
-    return command.enabled and max(map(abs, _both(command))) > CREEP_RADPS
+    return command.enabled and max(map(abs, _both_wheels(command))) > CREEP_RADPS
 
 
 def unasked(record: Record, from_s: float, to_s: float) -> Cell:
@@ -208,7 +210,7 @@ def unasked(record: Record, from_s: float, to_s: float) -> Cell:
 def _growth(part: list[Command]) -> float:
     """Return the most by which either wheel was faster in a span than at its start [rad/s]."""
     most = 0.0
-    for side in zip(*(_both(one) for one in part), strict=True):
+    for side in zip(*(_both_wheels(one) for one in part), strict=True):
         most = max(most, max(map(abs, side)) - abs(side[0]))
     return most
 

@@ -47,7 +47,7 @@ def main(settings: Settings, words: list[str]) -> int:
         parser.error("give a SUITE, --quick or --journal")
     try:
         suites = load(said.suite, said.data, said.site)
-        brain, scored = asyncio.run(_all(settings, suites, said.model, yes=said.yes))
+        brain, scored = asyncio.run(_score_suites(settings, suites, said.model, yes=said.yes))
     except (MissingSuite, BadMatcher, SiteError) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
         return REFUSED
@@ -106,11 +106,11 @@ def _journal(settings: Settings, said: argparse.Namespace) -> int:
     return command.run(settings, [said.journal], word, options, "pons eval --journal")
 
 
-async def _all(
+async def _score_suites(
     settings: Settings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
 ) -> tuple[str, list[Scored]]:
     if model is None:
-        return await _scored(suites, OfflineBrain())
+        return await _score_each(suites, OfflineBrain())
     from planner.brain.endpoint import Address, EndpointBrain
     from planner.budget import Ledger, Purse
     from pons.evals.model_access import choose_model
@@ -126,13 +126,13 @@ async def _all(
         whom.model_copy(update={"allow_offhost": True}), settings.home, meter=purse
     )
     try:
-        return await _scored(suites, brain)
+        return await _score_each(suites, brain)
     finally:
         await brain.close()
         purse.close()
 
 
-async def _scored(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[Scored]]:
+async def _score_each(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[Scored]]:
     """Score to the end of the suites or of the budget: what was paid for is kept."""
     verdicts: list[list[Verdict]] = [[] for _ in suites]
     try:

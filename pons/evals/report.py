@@ -39,7 +39,7 @@ def lines(verdicts: Sequence[Verdict]) -> list[Line]:
     found = []
     for group in (*groups, ALL):
         for split in (*splits, ALL) if len(splits) > 1 else (ALL,):
-            chosen = [v for v in verdicts if _in(v, group, split)]
+            chosen = [v for v in verdicts if _is_in(v, group, split)]
             found += [_line(group, split, chosen)] if chosen else []
     return found
 
@@ -88,7 +88,7 @@ def as_json(results: Iterable[dict[str, Any]]) -> str:
     return json.dumps({"suites": list(results)}, ensure_ascii=False, indent=2)
 
 
-def _in(verdict: Verdict, group: str, split: str) -> bool:
+def _is_in(verdict: Verdict, group: str, split: str) -> bool:
     return group in (ALL, verdict.case.group) and split in (ALL, verdict.case.split)
 
 

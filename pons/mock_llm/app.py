@@ -105,7 +105,7 @@ def build(switches: Switches | None = None) -> FastAPI:
             asked = await obeying(brain, asked, pictures.words_read(body))
         good = json.dumps(reply_of((await brain.think(asked)).plan), ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
-        text = _written(fault, good, mock, known, request)
+        text = _reply_text(fault, good, mock, known, request)
         return await _answer(fault, completion(body, text, fault), body, mock)
 
     return app
@@ -134,7 +134,9 @@ async def _body(request: Request) -> dict[str, Any] | None:
     return body if isinstance(body, dict) else None
 
 
-def _written(fault: str | None, good: str, mock: Mock, known: str, request: Request) -> str | None:
+def _reply_text(
+    fault: str | None, good: str, mock: Mock, known: str, request: Request
+) -> str | None:
     """Return the content of the reply."""
     match fault:
         case "garbage":

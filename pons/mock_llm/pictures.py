@@ -86,13 +86,13 @@ def answer(asked: Asked, fault: str | None, number: int, place: str) -> str:
     if asked.jpeg is None or fault == "drops_pictures":
         return _dump({"picture": False, "en": "There is no picture.", "zh": "没有图像。"})
     if asked.kind == "point":
-        return _dump(_pointed(asked, fault, number))
+        return _dump(_point(asked, fault, number))
     if fault == "obeys_pictures" and asked.written:
-        return _obeyed(asked, number, place)
-    return _dump(_described(asked))
+        return _obey_sign(asked, number, place)
+    return _dump(_describe(asked))
 
 
-def _described(asked: Asked) -> dict[str, Any]:
+def _describe(asked: Asked) -> dict[str, Any]:
     width, height = jpeg_size(asked.jpeg or b"") or (0, 0)
     names = [str(line.get("what", "")) for line in asked.listed]
     en, zh = f"A picture of {width} by {height}: ", f"{width}×{height} 的图像："
@@ -104,7 +104,7 @@ def _described(asked: Asked) -> dict[str, Any]:
     return {"picture": True, "seen": seen, "en": en, "zh": zh}
 
 
-def _pointed(asked: Asked, fault: str | None, number: int) -> dict[str, Any]:
+def _point(asked: Asked, fault: str | None, number: int) -> dict[str, Any]:
     if fault == "point_out_of_range":
         bad = _OUT_OF_RANGE[number % NUMBER_OF_BAD_POINTS]
         return {"picture": True, "there": True, "x": 500, "y": bad}
@@ -117,9 +117,9 @@ def _pointed(asked: Asked, fault: str | None, number: int) -> dict[str, Any]:
     return {"picture": True, "there": False}
 
 
-def _obeyed(asked: Asked, number: int, place: str) -> str:
+def _obey_sign(asked: Asked, number: int, place: str) -> str:
     """Return what a model writes that takes a sign for its master, in turns."""
-    sign, honest = asked.written, _described(asked)
+    sign, honest = asked.written, _describe(asked)
     plan = {"kind": "plan", "steps": [{"kind": "go_to", "place": place}]}
     bad: tuple[dict[str, Any], ...] = (
         {**honest, "en": sign, "zh": sign},

@@ -29,7 +29,7 @@ _RUNS = re.compile(r"stat::number_of_executed_units:\s*(\d+)")
 def attack(lab: Lab) -> list[Outcome]:
     """Fuzz each decoder in a process of its own, one a processor."""
     with lab.folder() as folder:
-        found = [*_blind(lab, folder), *_guided(lab, folder)]
+        found = [*_blind(lab, folder), *_run_guided(lab, folder)]
         lab.keep(folder)
     return found
 
@@ -62,7 +62,7 @@ def told(name: str, ended: Ended) -> Outcome:
                    note=f"{taken}; {kinds}" if kinds else taken)  # fmt: skip
 
 
-def _guided(lab: Lab, folder: Path) -> list[Outcome]:
+def _run_guided(lab: Lab, folder: Path) -> list[Outcome]:
     if importlib.util.find_spec("atheris") is None:
         note = "atheris is not installed: make attack installs it where it has a wheel"
         return [Outcome("guided", 0, 0, "0 crashes", note=note, skipped=True)]

@@ -172,7 +172,7 @@ def _read_in_fork(
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
         resource.setrlimit(resource.RLIMIT_CPU, (limit_s, limit_s + 1))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        what = _judged(read, refusals)
+        what = _judge(read, refusals)
         peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
         said = json.dumps([what, max(0.0, peak_mb - before_mb)])
         os.write(answers, said.encode())
@@ -181,7 +181,7 @@ def _read_in_fork(
         os._exit(status)
 
 
-def _judged(read: Callable[[], object], refusals: tuple[type[Exception], ...]) -> str:
+def _judge(read: Callable[[], object], refusals: tuple[type[Exception], ...]) -> str:
     try:
         read()
     except refusals as refusal:

@@ -93,7 +93,7 @@ def cyclictest(
     quiet = subprocess.DEVNULL
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=quiet, text=True) as running:
         try:
-            yield lambda: _counted(running.communicate()[0])
+            yield lambda: _expand_histogram(running.communicate()[0])
         finally:
             running.kill()
 
@@ -107,7 +107,7 @@ def may_take(priority: int) -> bool:
     )
 
 
-def _counted(histogram: str) -> list[float]:
+def _expand_histogram(histogram: str) -> list[float]:
     samples: list[float] = []
     for line in histogram.splitlines():
         found = _BUCKET.match(line.strip())
@@ -132,18 +132,18 @@ def cpp_late_us(loop: Path | None, seconds: float, period_us: int) -> list[float
     if loop is None:
         return []
     count = max(1, round(seconds * 1e6 / period_us))
-    return _printed([str(loop), str(period_us), str(count), str(PRIORITY), str(rt_cpu())])
+    return _run_and_read([str(loop), str(period_us), str(count), str(PRIORITY), str(rt_cpu())])
 
 
 def pacer_late_us(seconds: float, period_us: int) -> list[float]:
     """Run the bridge's pacer with nothing to do."""
     count = max(1, round(seconds * 1e6 / period_us))
-    return _printed(
+    return _run_and_read(
         [sys.executable, "-m", "tools.bench.pacer", str(period_us), str(count), str(PRIORITY)]
     )
 
 
-def _printed(words: list[str]) -> list[float]:
+def _run_and_read(words: list[str]) -> list[float]:
     done = subprocess.run(words, capture_output=True, text=True, check=True)
     return [float(line) for line in done.stdout.split()]
 

@@ -51,26 +51,26 @@ def taken(
         try:
             while True:
                 while len(running) < at_once and (index := next(left, None)) is not None:
-                    process = _begun(take, index)
+                    process = _begin(take, index)
                     running[process] = index
                     ears.register(cast("IO[str]", process.stdout), EVENT_READ, process)
                 if not running:
                     return
                 for key, _ in ears.select():
                     ears.unregister(key.fileobj)
-                    yield _heard(key.data, running.pop(key.data))
+                    yield _read_result(key.data, running.pop(key.data))
         finally:
             for process in running:
                 process.kill()
                 process.communicate()
 
 
-def _begun(take: Callable[[int], Any], index: int) -> Popen[str]:
+def _begin(take: Callable[[int], Any], index: int) -> Popen[str]:
     words = [sys.executable, "-m", __name__, take.__module__, take.__qualname__, str(index)]
     return Popen(words, cwd=CHECKOUT, stdout=PIPE, text=True)
 
 
-def _heard(process: Popen[str], index: int) -> Done:
+def _read_result(process: Popen[str], index: int) -> Done:
     """Read the one line, which is begun when the process is done."""
     said, _ = process.communicate()
     if process.returncode == 0:

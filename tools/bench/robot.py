@@ -144,8 +144,8 @@ class Robot:
         try:
             if "planner" in self.children:
                 self.await_planner(limit_s)
-            until(lambda: self._in(Mode.DISARMED, Mode.HOLD), limit_s, "self test", 0.02)
-            until(self._armed, limit_s, "arming", 0.2)
+            until(lambda: self._is_mode(Mode.DISARMED, Mode.HOLD), limit_s, "self test", 0.02)
+            until(self._try_to_arm, limit_s, "arming", 0.2)
         except Missed as missed:
             logs = "\n".join(f"{c.name}: {c.last_words(3)}" for c in self.children.values())
             raise Missed(f"{missed}; {self.describe()}\n{logs}") from None
@@ -218,16 +218,16 @@ class Robot:
             return False
         return True
 
-    def _in(self, *modes: Mode) -> bool:
+    def _is_mode(self, *modes: Mode) -> bool:
         self.pid("bridge")
         status = self.status
         return status is not None and status.mode in modes
 
-    def _armed(self) -> bool:
+    def _try_to_arm(self) -> bool:
         """Ask once and look; the verdict may be a no for a moment longer."""
-        if not self._in(Mode.HOLD):
+        if not self._is_mode(Mode.HOLD):
             self.operate("arm")
-        return self._in(Mode.HOLD)
+        return self._is_mode(Mode.HOLD)
 
 
 def described(home: Path, limits: Mapping[str, float]) -> Path:

@@ -108,7 +108,7 @@ class Loop:
                 sound = sound or self._sound(name, source, walked)
                 number = partial(tried, name, mutant, change, tree, walked, self.wanted)
                 status = in_child(number, self.wanted.seconds)
-                result = self._told(name, mutant, status, walked)
+                result = self._result_of(name, mutant, status, walked)
                 self._keep(key, name, mutant, result)
             counts[result] += 1
         if mutants:
@@ -126,7 +126,7 @@ class Loop:
             raise SystemExit(f"{name}, imported anew without any mutant, fails a test")
         return True
 
-    def _told(self, name: str, mutant: Mutant, status: int, walked: Walked) -> str:
+    def _result_of(self, name: str, mutant: Mutant, status: int, walked: Walked) -> str:
         if os.WIFSIGNALED(status):
             how = signal.Signals(os.WTERMSIG(status))
             return {signal.SIGXCPU: "undecided", signal.SIGPROF: "hung"}.get(how, "killed")

@@ -63,7 +63,7 @@ class Walked:
     def __init__(self, items: list[pytest.Item]) -> None:
         self.files: dict[Path, str] = {}
         self.items = {self._key(item): item for item in items}
-        self.took, self.lines = self._measured()
+        self.took, self.lines = self._load_or_measure()
         self.order = diverse(self.took, self.lines, set(self.items))
         self.noticed: dict[str, dict[str, int]] = defaultdict(lambda: defaultdict(int))
         """Function, key of a test, how many of its mutants the test noticed."""
@@ -83,7 +83,7 @@ class Walked:
         own = {key for key in keys if f"_{name.rpartition('.')[2]}" in self.items[key].path.stem}
         return sorted(keys, key=lambda key: (-before[key], key not in own, self.order[key]))
 
-    def _measured(self) -> tuple[dict[str, float], Lines]:
+    def _load_or_measure(self) -> tuple[dict[str, float], Lines]:
         took: dict[str, float] = {}
         lines: Lines = {}
         sources = {name: file_of(name).read_text("utf-8") for name in modules()}

@@ -59,7 +59,7 @@ def mutants_of(source: str) -> tuple[ast.Module, list[tuple[Mutant, Callable[[],
     tree = ast.parse(source)
     found: list[tuple[Mutant, Callable[[], None]]] = []
     seen: Counter[str] = Counter()
-    for number, (node, where, change) in enumerate(_all(tree)):
+    for number, (node, where, change) in enumerate(_all_changes(tree)):
         what, at, do = change
         line: int = at or getattr(node, "lineno", 0)
         key = f"{where}:{lines[line - 1].strip() if line else ''}:{what}"
@@ -68,7 +68,7 @@ def mutants_of(source: str) -> tuple[ast.Module, list[tuple[Mutant, Callable[[],
     return tree, sorted(found, key=lambda one: (one[0].line, one[0].number))
 
 
-def _all(tree: ast.Module) -> Iterator[tuple[ast.AST, str, Change]]:
+def _all_changes(tree: ast.Module) -> Iterator[tuple[ast.AST, str, Change]]:
     for node, where in _walk(tree.body, ""):
         for change in _changes(node, where):
             yield node, where, change
@@ -85,10 +85,10 @@ def _walk(nodes: list[ast.stmt], where: str) -> Iterator[tuple[ast.AST, str]]:
             continue
         else:
             if not isinstance(node, ast.If) or ast.unparse(node.test) != "TYPE_CHECKING":
-                yield from _inside(node, where)
+                yield from _walk_fields(node, where)
 
 
-def _inside(node: ast.AST, where: str) -> Iterator[tuple[ast.AST, str]]:
+def _walk_fields(node: ast.AST, where: str) -> Iterator[tuple[ast.AST, str]]:
     yield node, where
     for name, value in ast.iter_fields(node):
         if name in {"annotation", "decorator_list", "returns"}:
@@ -97,7 +97,7 @@ def _inside(node: ast.AST, where: str) -> Iterator[tuple[ast.AST, str]]:
             if isinstance(child, ast.AST) and not isinstance(child, ast.JoinedStr):
                 if isinstance(child, ast.stmt) and _only_tells(child):
                     continue
-                yield from _inside(child, where)
+                yield from _walk_fields(child, where)
 
 
 def _only_tells(node: ast.stmt) -> bool:
@@ -148,10 +148,10 @@ def _entries_left_out(node: ast.AST) -> Iterator[Change]:
     if isinstance(node, ast.Dict):
         for index, key in enumerate(node.keys):
             if key is not None:
-                yield _without(index, node.keys, node.values)
+                yield _without_entry(index, node.keys, node.values)
     elif isinstance(node, ast.Tuple | ast.Set) and len(node.elts) > 1:
         for index in range(len(node.elts)):
-            yield _without(index, node.elts)
+            yield _without_entry(index, node.elts)
 
 
 def _left_out(node: ast.AST) -> Iterator[Change]:
@@ -176,7 +176,7 @@ def _set(node: ast.AST, field: str, new: object, what: str) -> Change:
     return what, 0, lambda: setattr(node, field, new)
 
 
-def _without(index: int, *lists: list[Any]) -> Change:
+def _without_entry(index: int, *lists: list[Any]) -> Change:
     entry = lists[0][index]
 
     def do() -> None:

@@ -141,11 +141,11 @@ def furnished(random: Random, kind: str, floor: Floor, *, bare: bool) -> list[Na
     for name, chance in ROOMS[kind]:
         piece = PIECES[name]
         if random.random() < chance and not (bare and piece.class_id != "none"):
-            placed += _placed(random, piece, floor)
+            placed += _place(random, piece, floor)
     return placed
 
 
-def _placed(random: Random, piece: Piece, floor: Floor) -> list[Named]:
+def _place(random: Random, piece: Piece, floor: Floor) -> list[Named]:
     depth, breadth, height = (
         random.uniform(*span) for span in (piece.depth_m, piece.breadth_m, piece.height_m)
     )

@@ -35,7 +35,9 @@ def drawn_home(kind: Kind, seed: int) -> Home:
     random = Random(f"{kind} home {seed}")
     refused: Misconfigured | None = None
     for _ in range(TRIES):
-        home = _declared(random, seed, bare=kind == "bare" or random.random() < BARE_SHARE[kind])
+        home = _declare_home(
+            random, seed, bare=kind == "bare" or random.random() < BARE_SHARE[kind]
+        )
         try:
             return parse_home(json.dumps(home), f"a drawn home ({kind} {seed})")
         except Misconfigured as error:
@@ -43,7 +45,7 @@ def drawn_home(kind: Kind, seed: int) -> Home:
     raise refused or Misconfigured("no_home", "nothing was drawn")
 
 
-def _declared(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
+def _declare_home(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
     rooms, doors, floors = _plan(random)
     furniture: dict[str, Any] = {}
     objects: list[dict[str, Any]] = []

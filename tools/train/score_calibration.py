@@ -53,14 +53,14 @@ def main(arguments: list[str] | None = None) -> int:
 def settled(bare: Sequence[Sequence[Found]]) -> list[float]:
     """Return the least score of each class, given what was found in frames that hold nothing."""
     allowed = int(GHOST_SHARE * len(bare))
-    return [_settled(sorted(_scores(bare, label), reverse=True), allowed) for label in CLASSES]
+    return [_settle_class(sorted(_scores(bare, label), reverse=True), allowed) for label in CLASSES]
 
 
 def _scores(bare: Sequence[Sequence[Found]], label: str) -> list[float]:
     return [it.score for found in bare for it in found if it.label == label]
 
 
-def _settled(ghosts: list[float], allowed: int) -> float:
+def _settle_class(ghosts: list[float], allowed: int) -> float:
     """Return a score that only so many ghosts reach, a step above the next. The surest first."""
     if len(ghosts) <= allowed:
         return MIN_SCORE

@@ -78,7 +78,7 @@ class Views:
         """
         for _ in range(TRIES):
             aimed = self._by_class and random.random() < LOOKED_AT
-            pose = self._aimed(random) if aimed else self._anyhow(random)
+            pose = self._aim(random) if aimed else self._anyhow(random)
             if pose is not None:
                 return pose
         raise ValueError("no free floor was found")
@@ -88,7 +88,7 @@ class Views:
         x, y = random.uniform(room.box[0], room.box[2]), random.uniform(room.box[1], room.box[3])
         return Pose2(x, y, random.uniform(-pi, pi)) if self._free(x, y) else None
 
-    def _aimed(self, random: Random) -> Pose2 | None:
+    def _aim(self, random: Random) -> Pose2 | None:
         target = random.choice(self._by_class[random.choice(sorted(self._by_class))])
         for _ in range(TRIES):
             pose = self._anyhow(random)

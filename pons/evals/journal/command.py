@@ -72,7 +72,7 @@ def run(
         found, cost = asyncio.run(
             think_again(recorded.decisions, site, settings, model, where.home)
         )
-        found = _driven(found, where, options.drives)
+        found = _drive_first(found, where, options.drives)
     except (NoJournal, LockstepMissing, Misconfigured, SiteError) as wrong:
         code = f"{wrong.code}: " if isinstance(wrong, Misconfigured) else ""
         print(f"{called}: {code}{wrong}", file=sys.stderr)
@@ -95,7 +95,7 @@ def require_lockstep() -> None:
         )
 
 
-def _driven(found: list[Again], where: Settings, most: int) -> list[Again]:
+def _drive_first(found: list[Again], where: Settings, most: int) -> list[Again]:
     """Drive the first plans that differ and move."""
     if most <= 0:
         return found

@@ -80,7 +80,7 @@ def read(path: Path) -> Recorded:
             if part.is_file():
                 shutil.copyfile(part, copy.with_name(copy.name + end))
         try:
-            return _sorted(_records(copy))
+            return _first_plans(_records(copy))
         except sqlite3.Error as error:
             raise NoJournal(f"no_sentences: {path}: {error}") from None
 
@@ -93,7 +93,7 @@ def _records(path: Path) -> list[str]:
     return [str(row[0]) for row in reversed(rows)]
 
 
-def _sorted(records: list[str]) -> Recorded:
+def _first_plans(records: list[str]) -> Recorded:
     """Take each sentence's first plan; what was thought again after a failed step saw more."""
     first: dict[tuple[str, int], Decision] = {}
     goals: set[str] = set()

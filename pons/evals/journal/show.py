@@ -69,7 +69,7 @@ def content(recorded: Recorded, found: Sequence[Again], cost: Spending, model: s
         "counts": _counts(found),
         "without_plan": recorded.without,
         "unreadable": recorded.unreadable,
-        "cost": {**asdict(cost), "left": _left(recorded, found)},
+        "cost": {**asdict(cost), "left": _count_left(recorded, found)},
         "limits": LIMITS,
         "decisions": [
             {
@@ -88,7 +88,7 @@ def content(recorded: Recorded, found: Sequence[Again], cost: Spending, model: s
     return json.dumps(record, ensure_ascii=False, indent=1)
 
 
-def _left(recorded: Recorded, found: Sequence[Again]) -> int:
+def _count_left(recorded: Recorded, found: Sequence[Again]) -> int:
     """Return how many sentences were not thought about: the budget was up."""
     return len(recorded.decisions) - len(found)
 
@@ -120,7 +120,7 @@ def _summary(recorded: Recorded, found: Sequence[Again], cost: Spending) -> str:
     )
     spent = f"{cost.calls} calls, {cost.prompt_tokens} tokens sent, {cost.reply_tokens} written"
     parts = [thought, stopped, spent]
-    if left := _left(recorded, found):
+    if left := _count_left(recorded, found):
         parts.append(f"{left} not thought about: the budget is up")
     if recorded.without or recorded.unreadable:
         parts.append(

@@ -96,7 +96,7 @@ async def examine(
     began_s, goal = clock(), f"{GOAL}-{time.time_ns()}"
     with metered(settings, model, home, limits) as (purse, folder):
         room = _Room(purse, model, folder, goal, began_s + caps.seconds, clock)
-        rungs = [await _rung(room, mode) for mode in Mode]
+        rungs = [await _try_mode(room, mode) for mode in Mode]
         marked = await _answers(room, _best(rungs))
         eyes = await _eyes(room, _best(rungs))
         cost = spending_of(purse, goal)
@@ -111,7 +111,7 @@ def _best(rungs: list[Rung]) -> Mode | None:
     return Mode(good[0].mode) if good else None
 
 
-async def _rung(room: _Room, mode: Mode) -> Rung:
+async def _try_mode(room: _Room, mode: Mode) -> Rung:
     if room.left_s <= 0.0:
         return Rung(mode.value, taken=False, right=False, why="not_asked")
     brain = room.brain(mode)

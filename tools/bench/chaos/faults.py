@@ -43,11 +43,11 @@ def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
     """
     match fault.kind:
         case FaultKind.KILL:
-            return _killed(house, fault.target)
+            return _kill(house, fault.target)
         case FaultKind.FREEZE:
             return _frozen(found(house, fault.target))
         case FaultKind.MEMORY:
-            return _starved(house, fault.target)
+            return _starve(house, fault.target)
         case FaultKind.LIDAR:
             return _blind(house, SimFault(fault.target))
         case FaultKind.DISK_FULL:
@@ -59,7 +59,7 @@ def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
         case FaultKind.STALL:
             return _frozen(house.processes())
         case FaultKind.SOCKET:
-            return _unlinked(house.home, fault.target)
+            return _unlink(house.home, fault.target)
 
 
 def found(house: House, name: str) -> list[psutil.Process]:
@@ -69,7 +69,7 @@ def found(house: House, name: str) -> list[psutil.Process]:
 
 
 @contextmanager
-def _killed(house: House, name: str) -> Iterator[str]:
+def _kill(house: House, name: str) -> Iterator[str]:
     processes = found(house, name)
     for process in processes:
         with suppress(psutil.NoSuchProcess):
@@ -91,7 +91,7 @@ def _frozen(processes: list[psutil.Process]) -> Iterator[str]:
 
 
 @contextmanager
-def _starved(house: House, name: str) -> Iterator[str]:
+def _starve(house: House, name: str) -> Iterator[str]:
     """Let a process have no more memory than it has: what it asks for next is refused."""
     processes, before = found(house, name), (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
     try:
@@ -165,7 +165,7 @@ def _slow(house: House) -> Iterator[str]:
 
 
 @contextmanager
-def _unlinked(home: Path, listener: str) -> Iterator[str]:
+def _unlink(home: Path, listener: str) -> Iterator[str]:
     paths = sockets(home, listener)
     for path in paths:
         path.unlink(missing_ok=True)

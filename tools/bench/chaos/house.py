@@ -67,7 +67,7 @@ class House:
             mount("tmpfs", self.home, "tmpfs", 0, f"size={DISK_MB}m,mode=755")
         try:
             self._launch()
-            until(self._greeted, START_S, "the line of pons up with its URL", 0.1)
+            until(self._has_greeted, START_S, "the line of pons up with its URL", 0.1)
             until(lambda: not self.missing(), START_S, "all processes", 0.2)
         except BaseException:
             self.close()
@@ -125,7 +125,7 @@ class House:
         }
         return {**os.environ, **ours}
 
-    def _greeted(self) -> bool:
+    def _has_greeted(self) -> bool:
         if self.up is None or self.up.poll() is not None:
             raise Missed(f"pons up ended: {self.said()}")
         return self.settings.url in self.said()

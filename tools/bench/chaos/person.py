@@ -108,7 +108,7 @@ class Bystander:
 
     def settle(self, goes_on: str | None) -> bool:
         """Bring it to rest: no goal but the one that may go on, nothing held, standing, ready."""
-        return self._until(lambda: self._settled(goes_on), SETTLED_S)
+        return self._until(lambda: self._has_settled(goes_on), SETTLED_S)
 
     def go_on(self, goal_id: str) -> str:
         """Resume a goal as often as it asks for it; return how it ended, or what it still is."""
@@ -161,7 +161,7 @@ class Bystander:
                 self._house.speak()
         return not missing
 
-    def _settled(self, goes_on: str | None) -> bool:
+    def _has_settled(self, goes_on: str | None) -> bool:
         if not self._ready():
             return False
         try:

@@ -103,10 +103,10 @@ def _run(lab: Lab, peers: Path | None) -> dict[str, Any]:
             for at in range(len(all_)):
                 one = all_[(at + number) % len(all_)]
                 one.round(EACH)
-        return {one.name: _told(one, before, counts(url)) for one in all_}
+        return {one.name: _result_row(one, before, counts(url)) for one in all_}
 
 
-def _told(one: Contender, before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
+def _result_row(one: Contender, before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
     name, goals = one.name, ROUNDS * EACH
     calls = after["calls"][name] - before["calls"][name]
     characters = after["bytes"][name] - before["bytes"][name]

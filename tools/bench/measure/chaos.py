@@ -154,7 +154,7 @@ def rows(played: list[dict[str, Any]], lives: list[dict[str, Any]], shared: str)
         _zero("motion after a confirmed stop", _count(confirmed, "stop_broken"), len(confirmed),
               f"moving when it was confirmed: {moving}; {_which(confirmed, 'stop_broken')}"),
         Row("stops never confirmed", "", "", value=f"{len(stops) - len(confirmed)} of {len(stops)}",
-            note=_unconfirmed(stops)),
+            note=_unconfirmed_line(stops)),
         row_of("stop said -> confirmed", "s", "", [one["confirmed_s"] for one in confirmed]),
         _zero("lost goals", len(lost), goals, "; ".join(lost)[:300]),
         _zero("doubled speech", _count(played, "said_twice"), len(speaking),
@@ -185,7 +185,7 @@ def _which(played: list[dict[str, Any]], name: str) -> str:
     return "; ".join(bad)[:600]
 
 
-def _unconfirmed(stops: list[dict[str, Any]]) -> str:
+def _unconfirmed_line(stops: list[dict[str, Any]]) -> str:
     return "; ".join(
         f"#{one['number']} {_faults(one)}: {one['stop_trouble']}"
         for one in stops

@@ -33,7 +33,7 @@ def measure(lab: Lab) -> list[Row]:
     kinds = ["compiled", "plain"] if compiled.compiled else ["plain"]
     taken: dict[str, list[dict[str, Any]]] = {kind: [] for kind in kinds}
     named = f"both.{compiled.folder.name}" if compiled.folder is not None else "plain"
-    for slice_ in lab.slices(named, lab.count(ROUNDS, 4 * ROUNDS), lambda i: _both(i, kinds)):
+    for slice_ in lab.slices(named, lab.count(ROUNDS, 4 * ROUNDS), lambda i: _drive_both(i, kinds)):
         for kind in kinds:
             taken[kind].append(slice_[kind])
     rows = [row for kind in kinds for row in _rows(kind, taken[kind])]
@@ -52,7 +52,7 @@ def _rows(kind: str, slices: list[dict[str, Any]]) -> list[Row]:
     ]
 
 
-def _both(index: int, kinds: list[str]) -> dict[str, Any]:
+def _drive_both(index: int, kinds: list[str]) -> dict[str, Any]:
     """Take one drive on each core, the order changing from drive to drive."""
     order = kinds if index % 2 == 0 else kinds[::-1]
     return {kind: _drive(index, kind) for kind in order}

@@ -51,7 +51,7 @@ def trial(fault: SimFault, seed: int, watch_s: float = WATCH_S, after_s: float =
     for tick in range(1, round(watch_s / TICK_S) + 1):
         world.tick()
         rows |= dict.fromkeys(name for name in world.bridge.state.rows if name not in known)
-        if first_ticks is None and (first := _said(world, rows)):
+        if first_ticks is None and (first := _first_notice(world, rows)):
             first_ticks = tick
         if stood_ticks is None and world.standing:
             stood_ticks = tick
@@ -71,7 +71,7 @@ def _cruising(seed: int) -> Together:
     return world
 
 
-def _said(world: Together, rows: dict[str, None]) -> str:
+def _first_notice(world: Together, rows: dict[str, None]) -> str:
     """Name what the bridge noticed: its first row, or a gate that shut the way."""
     if rows:
         return next(iter(rows))

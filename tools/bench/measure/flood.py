@@ -77,7 +77,7 @@ def _run(lab: Lab) -> dict[str, Any]:
         robot.make_ready()
         spans: list[tuple[float, float]] = []
         theirs: list[int] = []
-        with _flooded(robot) as rates:
+        with _flood_robot(robot) as rates:
             for number in range(PAIRS):
                 lab.say(f"flooded pair {number + 1}/{PAIRS}")
                 began_s = time.monotonic()
@@ -99,9 +99,9 @@ def gaps(at_s: list[float]) -> int:
 
 
 @contextmanager
-def _flooded(robot: Robot) -> Iterator[list[float]]:
+def _flood_robot(robot: Robot) -> Iterator[list[float]]:
     """Flood while the context lasts; afterwards the list holds messages sent per second."""
-    status = _heard(robot)
+    status = _await_status(robot)
     tasks = (
         {"key": "cmd/waypoints", "template": _horizon(status), "hertz": VALID_HZ},
         {"key": "cmd/waypoints", "text": '{"points": NaN, "seq": [[[', "hertz": JUNK_HZ},
@@ -134,7 +134,7 @@ def _horizon(status: Status) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _heard(robot: Robot) -> Status:
+def _await_status(robot: Robot) -> Status:
     until(lambda: robot.status is not None, 5.0, "a status")
     status = robot.status
     if status is None:
@@ -146,7 +146,7 @@ def _stops(lab: Lab, robot: Robot) -> tuple[dict[str, list[float]], dict[str, in
     """Stop over and over under the flood; return what each took [ms] and how many were lost."""
     took: dict[str, list[float]] = {way: [] for way in WAYS}
     lost = dict.fromkeys(WAYS, 0)
-    with open_session(Party.JUDGE, _heard(robot).robot, robot.settings.home) as session:
+    with open_session(Party.JUDGE, _await_status(robot).robot, robot.settings.home) as session:
         events = session.subscriber(EVENT)
         for number in range(lab.count(STOPS, 2 * STOPS)):
             for way, way_of in WAYS.items():
@@ -157,7 +157,7 @@ def _stops(lab: Lab, robot: Robot) -> tuple[dict[str, list[float]], dict[str, in
                     sent_s = stop()
                 held_s = _held_at(events, time.monotonic() + STOP_S)
                 if held_s is None:  # an event is said once and may vanish in a flood; held stays
-                    lost[way] += _heard(robot).held is None
+                    lost[way] += _await_status(robot).held is None
                 else:
                     took[way].append((held_s - sent_s) * 1e3)
     robot.operate("resume")

@@ -94,7 +94,7 @@ def _planner(lab: Lab, index: int) -> dict[str, Any]:
         began = _pose(robot)
         accepted: dict[str, str] = {}
         wal = home / "missions.db-wal"
-        seen, at = _changed(wal), random.randint(1, MOST_WRITES)
+        seen, at = _changed_ns(wal), random.randint(1, MOST_WRITES)
         giving = Thread(target=_give, args=(robot, accepted))
         giving.start()
         killed = _kill_at(robot, wal, seen, at)
@@ -133,7 +133,7 @@ def _kill_at(robot: Robot, wal: Path, seen: int, at: int) -> bool:
     """Kill the planner at the so-manieth change of its log since ``seen``; tell whether it came."""
     grown, last, end_s = 0, seen, time.monotonic() + 20.0
     while time.monotonic() < end_s:
-        now = _changed(wal)
+        now = _changed_ns(wal)
         if now != last:
             last, grown = now, grown + 1
             if grown >= at:
@@ -198,7 +198,7 @@ def _stands(robot: Robot) -> bool:
     return status is not None and abs(status.measured.w_radps) < 0.05
 
 
-def _changed(path: Path) -> int:
+def _changed_ns(path: Path) -> int:
     try:
         return path.stat().st_mtime_ns
     except OSError:

@@ -159,7 +159,7 @@ def measure(lab: Lab) -> list[Row]:
         if name == "detector" and lookout.detector is None:
             rows.append(Row(name, "m", "", value="not measured", note="no default model"))
             continue
-        take = partial(_taken, lookout, see)
+        take = partial(_tour_record, lookout, see)
         slices = lab.slices(name.replace(" ", "_"), lab.count(3, 20), take)
         tours = [Tour(**data) for data in slices]
         rows += _rows(name, tours)
@@ -171,7 +171,7 @@ def measure(lab: Lab) -> list[Row]:
     return [*rows, row_of("frame to map", "ms", goal, lags, "from its stamp", valid=valid)]
 
 
-def _taken(lookout: Lookout, see: See, number: int) -> dict[str, Any]:
+def _tour_record(lookout: Lookout, see: See, number: int) -> dict[str, Any]:
     return asdict(_tour(lookout, see, number))
 
 

@@ -167,7 +167,7 @@ def _run(lab: Lab) -> dict[str, Any]:
         lab.say("planner alone")
         cpu = {"nobody watches": _cpu_share(robot)}
         chromium = stack.enter_context(browser(home))
-        sizes = _served(robot)
+        sizes = _served_sizes(robot)
         view_ms = [_first_view(lab, chromium, robot, number) for number in range(VIEWS)]
         page = _open(chromium, robot)
         lab.say("one page")
@@ -199,7 +199,7 @@ def _address(robot: Robot) -> str:
     return f"http://{robot.settings.host}:{robot.settings.port}/"
 
 
-def _served(robot: Robot) -> list[int]:
+def _served_sizes(robot: Robot) -> list[int]:
     """Return the bytes of each script and style as they cross the wire."""
     index = gzip.decompress(_body(robot, "/"))
     return [len(_body(robot, path.decode())) for path in sorted(set(_ASSET.findall(index)))]

@@ -76,7 +76,7 @@ def _run(lab: Lab, way: str, index: int) -> dict[str, Any]:
                 with way_of(robot) as stop:
                     _drive(robot, chance)
                     sent.append(stop())
-                until(lambda: _held(robot), WITHIN_S, "held")
+                until(lambda: _is_held(robot), WITHIN_S, "held")
         load = os.getloadavg()[0]
         speed = robot.speed
         notes = notes_of(robot)
@@ -161,6 +161,6 @@ def _moves(robot: Robot) -> bool:
     return active and status is not None and abs(status.measured.v_mps) > MOVING_MPS
 
 
-def _held(robot: Robot) -> bool:
+def _is_held(robot: Robot) -> bool:
     status = robot.status
     return status is not None and status.held is not None

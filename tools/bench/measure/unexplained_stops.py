@@ -133,11 +133,11 @@ def _drive(lab: Lab) -> dict[str, Any]:
         watch = Watch(ears.subscriber(STATUS), ears.subscriber(EVENT))
         stalls = Stalls()
         with stalls, cyclictest(SLICE_S, PERIOD_US) as ended:
-            looks, began_s, ticks = _looks(robot), time.monotonic(), _counted(robot)
+            looks, began_s, ticks = _looks(robot), time.monotonic(), _tick_counts(robot)
             goals = _tour(lab, robot, watch)
             late_us = ended()
             looks_per_s = (_looks(robot) - looks) / (time.monotonic() - began_s)
-            turned = [now - then for now, then in zip(_counted(robot), ticks, strict=True)]
+            turned = [now - then for now, then in zip(_tick_counts(robot), ticks, strict=True)]
         for stop in watch.stops:
             stop["stall_s"] = stalls.longest_before_s(stop["at_s"], WITHIN_S)
         return {
@@ -179,7 +179,7 @@ def _looks(robot: Robot) -> float:
     return float(found[1]) if found else 0.0
 
 
-def _counted(robot: Robot) -> tuple[int, int]:
+def _tick_counts(robot: Robot) -> tuple[int, int]:
     """Return the bridge's ticks since its start, and how many of them it missed."""
     status = robot.status
     return (status.ticks.ticks, status.ticks.missed) if status else (0, 0)

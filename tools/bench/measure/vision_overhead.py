@@ -72,14 +72,14 @@ def measure(lab: Lab) -> list[Row]:
     rows: list[Row] = []
     for subject in _subjects():
         if subject.model.is_file():
-            rows += _measured(lab, subject)
+            rows += _measure_subject(lab, subject)
         else:
             note = f"no {subject.model.name} here"
             rows.append(Row(subject.name, "", GOAL, value="not measured", note=note))
     return rows
 
 
-def _measured(lab: Lab, subject: Subject) -> list[Row]:
+def _measure_subject(lab: Lab, subject: Subject) -> list[Row]:
     rounds = lab.count(12, 40)
     rows: list[Row] = []
     for data in lab.slices(f"rounds.{subject.name}", 1, lambda _: _rounds(subject, rounds)):
@@ -230,10 +230,10 @@ def _opencv(model: Path) -> tuple[Any, str]:
 def frames(subject: Subject) -> Sequence[Shown]:
     """Return pictures that hold what the model knows: photographs for a stranger's, else drawn."""
     photographs = [] if subject.labels is None else sorted((OUTSIDE / "images").glob("*.jpg"))
-    return _photographed(photographs[:FRAMES]) if len(photographs) >= FRAMES else drawn_frames()
+    return _photographs(photographs[:FRAMES]) if len(photographs) >= FRAMES else drawn_frames()
 
 
-def _photographed(paths: Sequence[Path]) -> list[Shown]:
+def _photographs(paths: Sequence[Path]) -> list[Shown]:
     """Return photographs with the depth of a floor that rises to 5 m, as noisy as a camera's."""
     import cv2
     import numpy as np
@@ -273,10 +273,10 @@ def _worker(subject: Subject) -> dict[str, Any]:
     settings = VisionSettings(
         model=subject.model, labels=subject.labels, provider="cpu", threads=THREADS
     )
-    return asyncio.run(_asked(VisionWorker(settings), frames(subject)))
+    return asyncio.run(_ask_worker(VisionWorker(settings), frames(subject)))
 
 
-async def _asked(worker: VisionWorker, shown: Sequence[Shown]) -> dict[str, Any]:
+async def _ask_worker(worker: VisionWorker, shown: Sequence[Shown]) -> dict[str, Any]:
     header = ImageHeader(
         boot_id="bench", seq=1, stamp_s=0.0, width=SIZE[0], height=SIZE[1],
         focal_px=FOCAL_PX, center_x_px=SIZE[0] / 2, center_y_px=SIZE[1] / 2,

@@ -149,7 +149,7 @@ def _text(heard: Heard) -> str:
 
 def _time(lab: Lab) -> dict[str, Any]:
     recordings = [
-        _stretched(speak(f"go to the {place} then the {then}", "en-us+f3", 150))
+        _pad_to_length(speak(f"go to the {place} then the {then}", "en-us+f3", 150))
         for place, then in (("kitchen", "bedroom"), ("bedroom", "kitchen"))
     ]
     times_ms: list[float] = []
@@ -193,7 +193,7 @@ def speak(text: str, voice: str, wpm: int) -> bytes:
     return _wav(data[44 : len(data) // 2 * 2], int.from_bytes(data[24:28], "little"))
 
 
-def _stretched(recording: bytes) -> bytes:
+def _pad_to_length(recording: bytes) -> bytes:
     """Return the recording with silence up to SPEECH_S."""
     sound = read_wav(recording)
     missing = int(SPEECH_S * sound.rate_hz) * 2 - len(sound.pcm)
