@@ -140,16 +140,19 @@ def _trouble(status: Json) -> list[str]:
     by_fault = held.get("reason") == "fault"
     if not (codes or refused or by_fault):
         return []
-    from pons.code_messages import told, wanted  # late: what a healthy robot says needs no tables
+    from pons.code_messages import (
+        code_lines,
+        lack_lines,
+    )  # late: what a healthy robot says needs no tables
 
     faulty = status["mode"] == "FAULT"
     lines = [f"{'fault' if faulty else 'waiting for'}: {', '.join(codes)}"] if codes else []
     for code in codes:
-        lines += told(code) if faulty else wanted(code)
+        lines += code_lines(code) if faulty else lack_lines(code)
     if by_fault and held["id"] not in codes:
-        lines += told(held["id"])
+        lines += code_lines(held["id"])
     for answer in refused:
         who = f"refused {answer['kind']} of {answer['id']}"
         lines.append(f"{who}: {answer['code']}: {answer['detail']}")
-        lines += told(answer["code"])
+        lines += code_lines(answer["code"])
     return lines

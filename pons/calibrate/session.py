@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
-from pons.calibrate.errors import CalibrationRefused, RunLost
-from pons.calibrate.reference import SCANS, Look
-from pons.calibrate.track import Track
+from pons.calibrate.errors import CalibrationRefusal, RunLost
+from pons.calibrate.reference import SCANS, WallLook
+from pons.calibrate.track import DriveTrack
 from wire import DriveCommand, DriveState, Mode, RowReport, Scan, SimTruth, Status, Velocity
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, SCAN, SIM_TRUTH, STATUS, TELEOP
 
@@ -41,7 +41,7 @@ NO_GYRO = "no gyro"
 WAY_GATES = {"obstacle", "contact", "fence"}
 
 
-class Rig:
+class CalibrationRig:
     """Drive by teleop and listen."""
 
     def __init__(
@@ -62,7 +62,7 @@ class Rig:
         self.state: DriveState | None = None
         self.truth: SimTruth | None = None
         self.scans: deque[Scan] = deque(maxlen=SCANS)
-        self.track: Track | None = None
+        self.track: DriveTrack | None = None
         self._heard_s = clock()
         self._said_s = 0.0
         self._seq = 0
@@ -133,12 +133,12 @@ class Rig:
         """
         self._until(lambda: self.status is not None, FIRST_S)
         if self.status is None:
-            raise CalibrationRefused("no_bridge")
+            raise CalibrationRefusal("no_bridge")
         self._until(lambda: self.state is not None and len(self.scans) > 0, FIRST_S)
         if self.state is None:
-            raise CalibrationRefused("no_drive")
+            raise CalibrationRefusal("no_drive")
         if not self.scans:
-            raise CalibrationRefused("no_lidar", "no scan arrived")
+            raise CalibrationRefusal("no_lidar", "no scan arrived")
         self._until(lambda: not self._is_mode({Mode.TELEOP, Mode.STOPPING}), PASSES_S)
         return self.status
 
@@ -151,12 +151,12 @@ class Rig:
         self._wish = (0.0, 0.0, False)
         self._for(0.25)
         self._wish = (0.0, 0.0, True)
-        self._until(self.held, TAKE_OVER_S)
-        if not self.held():
+        self._until(self.is_driving, TAKE_OVER_S)
+        if not self.is_driving():
             self._raise_why()
             raise RunLost("run_lost", "the bridge did not give the stick over")
 
-    def held(self) -> bool:
+    def is_driving(self) -> bool:
         """Tell whether this hand moves the robot."""
         return self._is_mode({Mode.TELEOP})
 
@@ -199,7 +199,7 @@ class Rig:
     def let_go(self) -> None:
         """Release the dead-man and wait until the robot stands. Never raises for the robot."""
         self._wish = (0.0, 0.0, False)
-        self._until(lambda: not self.held() and self.stands(), STAND_S)
+        self._until(lambda: not self.is_driving() and self.stands(), STAND_S)
         self._for(STANDS_S)
         self._wish = None
 
@@ -228,13 +228,13 @@ class Rig:
             and abs(measured.w_radps) < STANDING_RADPS
         )
 
-    def look(self) -> Look:
+    def look(self) -> WallLook:
         """Stand and look: scans and truth that are new."""
         self.scans.clear()
         self._until(lambda: len(self.scans) == SCANS, FIRST_S)
         if len(self.scans) < SCANS:
-            raise CalibrationRefused("no_lidar", "no scans arrive")
-        return Look(self.truth, tuple(self.scans))
+            raise CalibrationRefusal("no_lidar", "no scans arrive")
+        return WallLook(self.truth, tuple(self.scans))
 
     # Trouble --------------------------------------------------------------------------------------
 
@@ -245,27 +245,27 @@ class Rig:
             CalibrationRefused, RunLost: it has not.
         """
         if self.now_s - self._heard_s > SILENT_S:
-            raise CalibrationRefused("no_bridge", "the bridge fell silent during a run")
-        if not self.held():
+            raise CalibrationRefusal("no_bridge", "the bridge fell silent during a run")
+        if not self.is_driving():
             self._raise_why()
 
     def _raise_why(self) -> None:
         status = self.status
         if status is None:
-            raise CalibrationRefused("no_bridge")
+            raise CalibrationRefusal("no_bridge")
         if status.mode is Mode.ESTOPPED:
-            raise CalibrationRefused("estopped")
+            raise CalibrationRefusal("estopped")
         rows = {row.row: row.evidence for row in status.rows}
         for row in status.rows:
             if _ails(row):
                 raise RunLost("encoder_fault", f"{row.row}: {row.evidence}")
         if status.mode is Mode.FAULT:
-            raise CalibrationRefused("fault", ", ".join(rows))
+            raise CalibrationRefusal("fault", ", ".join(rows))
         if status.mode is Mode.DISARMED:
-            raise CalibrationRefused("not_armed", "disarmed during a run")
+            raise CalibrationRefusal("not_armed", "disarmed during a run")
         if status.blocked or (status.limits.by in WAY_GATES and self._is_stopped()):
             raise RunLost("blocked", f"by {status.limits.by}")
-        if not self.held():
+        if not self.is_driving():
             why = ", ".join(f"{name}: {seen}" for name, seen in rows.items()) or status.mode.value
             raise RunLost("run_lost", why)
 

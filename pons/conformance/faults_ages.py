@@ -16,8 +16,8 @@ from pons.conformance.fault import (
     Fault,
     W,
     X,
-    broken,
     everything,
+    play_breaker,
 )
 from pons.conformance.reference_client import number
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.fault_context import Stage
+    from pons.conformance.fault_context import FaultStage
     from wire import Status
 
 AHEAD = 3
@@ -38,7 +38,7 @@ AGAIN = 4
 HOUR_S = 3600.0
 
 
-def _replay(stage: Stage) -> Breaker:
+def _replay(stage: FaultStage) -> Breaker:
     """Say what was said in the last seconds once more, byte for byte."""
     recorded, turn = list(stage.driver.sent), count()
 
@@ -48,7 +48,7 @@ def _replay(stage: Stage) -> Breaker:
     return breaker
 
 
-def _renumber(stage: Stage) -> Breaker:
+def _renumber(stage: FaultStage) -> Breaker:
     """Say the newest commands once more with fresh numbers, the owner silent otherwise."""
     recorded = [item for item in stage.driver.sent if item[0] in COMMANDS][-4:]
     turn = count()
@@ -69,13 +69,13 @@ def _shift_seen(change: int) -> Breaker:
     return everything(shift)
 
 
-def _stale_seen(stage: Stage) -> Breaker:
+def _stale_seen(stage: FaultStage) -> Breaker:
     """Go on talking about one status for ever."""
     seen = stage.status.seq
     return everything(lambda message, _status: message | {"seen": seen})
 
 
-def _stale_used(stage: Stage) -> Breaker:
+def _stale_used(stage: FaultStage) -> Breaker:
     """Live, but think on one status for ever."""
     used = stage.status.seq
 
@@ -85,14 +85,14 @@ def _stale_used(stage: Stage) -> Breaker:
     return everything(freeze)
 
 
-def _no_heartbeat(_stage: Stage) -> Breaker:
+def _no_heartbeat(_stage: FaultStage) -> Breaker:
     def breaker(said: list[tuple[str, Message]], _status: Status) -> list[Sent]:
         return [(key, pack(message)) for key, message in said if key != "cmd/heartbeat"]
 
     return breaker
 
 
-def _reorder(stage: Stage) -> Breaker:
+def _reorder(stage: FaultStage) -> Breaker:
     """Keep three commands back and send them in the wrong order."""
     kept: list[Sent] = []
 
@@ -109,17 +109,17 @@ def _reorder(stage: Stage) -> Breaker:
     return breaker
 
 
-def _duplicate(_stage: Stage) -> Breaker:
+def _duplicate(_stage: FaultStage) -> Breaker:
     def breaker(said: list[tuple[str, Message]], _status: Status) -> list[Sent]:
         return [(key, pack(message)) for key, message in said for _ in range(3)]
 
     return breaker
 
 
-def _skew_clock(offset_s: float, rate: float) -> Callable[[Stage], None]:
+def _skew_clock(offset_s: float, rate: float) -> Callable[[FaultStage], None]:
     """Return the play of a brain whose clock is wrong and runs wrong."""
 
-    def play(stage: Stage) -> None:
+    def play(stage: FaultStage) -> None:
         began_s = time.monotonic()
 
         def clock() -> float:
@@ -139,24 +139,63 @@ def _skew_clock(offset_s: float, rate: float) -> Callable[[Stage], None]:
 
 
 FAULTS = (
-    Fault("replayed", "all of the last 2 s again, byte for byte", broken(_replay), SILENT),
-    Fault("renumbered", "old commands with fresh numbers", broken(_renumber), SILENT, quick=(X,)),
-    Fault("clock_ahead", "the sender's clock an hour ahead and 25 % fast", _skew_clock(HOUR_S, 1.25),
-          DRIVES_ON),
-    Fault("clock_behind", "the sender's clock an hour behind and 25 % slow",
-          _skew_clock(-HOUR_S, 0.75), DRIVES_ON),
-    Fault("seen_ahead", f"claims a status {AHEAD} ahead of the newest",
-          broken(lambda _stage: _shift_seen(AHEAD)), SILENT),
-    Fault("seen_behind", f"answers what was said {BEHIND} statuses ago",
-          broken(lambda _stage: _shift_seen(-BEHIND)), SILENT),
-    Fault("stale_seen", "one status named for ever", broken(_stale_seen), SILENT),
-    Fault("stale_used", "lives, but thinks on one status for ever", broken(_stale_used),
-          {W: USED_S}, kinds=(W,)),
-    Fault("no_heartbeat", "commands, but no heartbeats: velocities are a lease by themselves",
-          broken(_no_heartbeat, stand=False), DRIVES_ON, kinds=(X,)),
-    Fault("no_heartbeat", "commands, but no heartbeats", broken(_no_heartbeat), {W: USED_S},
-          kinds=(W,)),
-    Fault("reordered", "three commands at a time, shuffled", broken(_reorder, stand=False),
-          DRIVES_ON),
-    Fault("duplicated", "each message three times", broken(_duplicate, stand=False), DRIVES_ON),
-)  # fmt: skip
+    Fault("replayed", "all of the last 2 s again, byte for byte", play_breaker(_replay), SILENT),
+    Fault(
+        "renumbered", "old commands with fresh numbers", play_breaker(_renumber), SILENT, quick=(X,)
+    ),
+    Fault(
+        "clock_ahead",
+        "the sender's clock an hour ahead and 25 % fast",
+        _skew_clock(HOUR_S, 1.25),
+        DRIVES_ON,
+    ),
+    Fault(
+        "clock_behind",
+        "the sender's clock an hour behind and 25 % slow",
+        _skew_clock(-HOUR_S, 0.75),
+        DRIVES_ON,
+    ),
+    Fault(
+        "seen_ahead",
+        f"claims a status {AHEAD} ahead of the newest",
+        play_breaker(lambda _stage: _shift_seen(AHEAD)),
+        SILENT,
+    ),
+    Fault(
+        "seen_behind",
+        f"answers what was said {BEHIND} statuses ago",
+        play_breaker(lambda _stage: _shift_seen(-BEHIND)),
+        SILENT,
+    ),
+    Fault("stale_seen", "one status named for ever", play_breaker(_stale_seen), SILENT),
+    Fault(
+        "stale_used",
+        "lives, but thinks on one status for ever",
+        play_breaker(_stale_used),
+        {W: USED_S},
+        kinds=(W,),
+    ),
+    Fault(
+        "no_heartbeat",
+        "commands, but no heartbeats: velocities are a lease by themselves",
+        play_breaker(_no_heartbeat, stand=False),
+        DRIVES_ON,
+        kinds=(X,),
+    ),
+    Fault(
+        "no_heartbeat",
+        "commands, but no heartbeats",
+        play_breaker(_no_heartbeat),
+        {W: USED_S},
+        kinds=(W,),
+    ),
+    Fault(
+        "reordered",
+        "three commands at a time, shuffled",
+        play_breaker(_reorder, stand=False),
+        DRIVES_ON,
+    ),
+    Fault(
+        "duplicated", "each message three times", play_breaker(_duplicate, stand=False), DRIVES_ON
+    ),
+)

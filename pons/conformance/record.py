@@ -39,7 +39,7 @@ class Word:
 
 
 @dataclass(frozen=True, slots=True)
-class Wheels:
+class WheelSample:
     """Hold how far the wheels have really turned."""
 
     at_s: float
@@ -72,12 +72,12 @@ T = TypeVar("T", bound=_HasStamp)
 
 
 @dataclass
-class Record:
+class DriveRecord:
     """Hold all of it, oldest first."""
 
     commands: list[Command] = field(default_factory=list)
     words: list[Word] = field(default_factory=list)
-    wheels: list[Wheels] = field(default_factory=list)
+    wheels: list[WheelSample] = field(default_factory=list)
     truths: list[Truth] = field(default_factory=list)
     unreadable: list[tuple[float, str]] = field(default_factory=list)
     """Commands that are none: out of schema, not finite."""

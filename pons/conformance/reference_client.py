@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from wire import PROTOCOL, Mode
 
 if TYPE_CHECKING:
-    from pons.conformance.track import Track
+    from pons.conformance.track import TestTrack
     from wire import OwnerKind, Pose2, Status
 
 Said = tuple[str, dict[str, Any]]
@@ -35,12 +35,12 @@ GRANTED_IN = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.STOPPING})
 
 
 @dataclass
-class Brain:
+class ReferenceBrain:
     """Hold what one brain remembers."""
 
     kind: OwnerKind
     brain_id: str
-    track: Track
+    track: TestTrack
     metres: float = METRES
     asks: bool = True
     """It wants to drive; without it only shows that it lives."""

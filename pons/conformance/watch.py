@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from dataclasses import replace
 from typing import TYPE_CHECKING, Self, TypeVar
 
-from pons.conformance.record import Command, Record, Truth, Wheels, Word
+from pons.conformance.record import Command, DriveRecord, Truth, WheelSample, Word
 from wire import (
     DriveCommand,
     DriveState,
@@ -42,11 +42,11 @@ def _parse_all(payloads: list[bytes], key: Key[M]) -> list[M | Rejected]:
     return [decode(key, payload) for payload in payloads]
 
 
-class Watch:
+class BridgeWatch:
     """Hear status, commands, wheels and truth until closed."""
 
     def __init__(self, home: Path, robot_id: str) -> None:
-        self.record = Record()
+        self.record = DriveRecord()
         self._home, self._robot_id = home, robot_id
         self._status: Status | None = None
         self._ending = threading.Event()
@@ -116,7 +116,7 @@ class Watch:
             if isinstance(state, DriveState):
                 turned = (state.left_rad, state.right_rad)
                 self.record.wheels.append(
-                    Wheels(now_s, state.stamp_s, state.seq, *turned, state.enabled)
+                    WheelSample(now_s, state.stamp_s, state.seq, *turned, state.enabled)
                 )
         for truth in _parse_all(self._truths.drain_bytes(), SIM_TRUTH):
             if isinstance(truth, SimTruth):

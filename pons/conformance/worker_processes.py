@@ -53,7 +53,7 @@ class Helper:
             raise HelperLost(f"a helper said {line!r} instead of {word}")
 
 
-class Helpers:
+class HelperPool:
     """Lend helpers; loading one takes longer than the fault that it is for."""
 
     def __init__(self, adapter: Adapter) -> None:

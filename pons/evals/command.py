@@ -14,9 +14,9 @@ from planner.brain import Brain, OfflineBrain, OutOfBudget
 from planner.site.errors import SiteError
 from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
-from pons.evals.report import as_json, content, passed, table
-from pons.evals.score import Verdict, score_each
-from pons.evals.suites import DATA, HOME_SITE, known, load
+from pons.evals.report import as_json, content, has_passed, table
+from pons.evals.score import SentenceVerdict, score_each
+from pons.evals.suites import DATA, HOME_SITE, load, suite_names
 from wire import Misconfigured
 
 if TYPE_CHECKING:
@@ -26,11 +26,11 @@ REACHED, MISSED, REFUSED = 0, 1, 2
 
 
 @dataclass(frozen=True, slots=True)
-class Scored:
+class SuiteScore:
     """Hold what came of one suite."""
 
     name: str
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[SentenceVerdict, ...]
     left: int
     """Sentences not asked: the budget was up."""
 
@@ -60,7 +60,7 @@ def main(settings: Settings, words: list[str]) -> int:
         print(as_json(content(one.name, brain, one.verdicts, one.left) for one in scored))
     else:
         print("\n\n".join(table(one.name, brain, one.verdicts, one.left) for one in scored))
-    return REACHED if all(passed(one.verdicts, one.left) for one in scored) else MISSED
+    return REACHED if all(has_passed(one.verdicts, one.left) for one in scored) else MISSED
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -68,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="pons eval",
         description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
     )
-    parser.add_argument("suite", nargs="?", help=f"{', '.join(known())}, or a .tsv file")
+    parser.add_argument("suite", nargs="?", help=f"{', '.join(suite_names())}, or a .tsv file")
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(
         "--journal",
@@ -101,14 +101,14 @@ def _quick(settings: Settings, said: argparse.Namespace) -> int:
 def _journal(settings: Settings, said: argparse.Namespace) -> int:
     from pons.evals.journal import command
 
-    options = command.Options(max(0, said.most), max(0, said.drives), said.json, said.yes)
+    options = command.JournalOptions(max(0, said.most), max(0, said.drives), said.json, said.yes)
     word = said.model or ""
     return command.run(settings, [said.journal], word, options, "pons eval --journal")
 
 
 async def _score_suites(
     settings: Settings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
-) -> tuple[str, list[Scored]]:
+) -> tuple[str, list[SuiteScore]]:
     if model is None:
         return await _score_each(suites, OfflineBrain())
     from planner.brain.endpoint import Address, EndpointBrain
@@ -132,9 +132,9 @@ async def _score_suites(
         purse.close()
 
 
-async def _score_each(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[Scored]]:
+async def _score_each(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[SuiteScore]]:
     """Score to the end of the suites or of the budget: what was paid for is kept."""
-    verdicts: list[list[Verdict]] = [[] for _ in suites]
+    verdicts: list[list[SentenceVerdict]] = [[] for _ in suites]
     try:
         for suite, mine in zip(suites, verdicts, strict=True):
             async for verdict in score_each(suite, brain):
@@ -142,7 +142,7 @@ async def _score_each(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, lis
     except OutOfBudget as spent:
         print(f"pons eval: {spent.said.en}", file=sys.stderr)
     scored = [
-        Scored(suite.name, tuple(mine), len(suite.cases) - len(mine))
+        SuiteScore(suite.name, tuple(mine), len(suite.cases) - len(mine))
         for suite, mine in zip(suites, verdicts, strict=True)
     ]
     return f"{brain.tag.name} {brain.tag.version}", scored

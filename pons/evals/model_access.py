@@ -124,7 +124,7 @@ def agree_on(bill: str, *, yes: bool) -> bool:
 
 
 @contextmanager
-def metered(
+def open_purse(
     settings: Settings, model: ModelSettings, home: Path, limits: GoalLimits
 ) -> Iterator[tuple[Purse, Path]]:
     """Lend a purse of the home's budget with limits of its own, and a folder that goes away.

@@ -19,7 +19,7 @@ from pons.mock_llm import pictures, streams
 from pons.mock_llm.completion import bytes_of, completion
 from pons.mock_llm.error_replies import error, instead_of_a_reply
 from pons.mock_llm.fault_switches import Switches
-from pons.mock_llm.replies import GARBAGE, hallucinated, hostile, reply_of, shaped
+from pons.mock_llm.replies import GARBAGE, hallucinate, hostile, reply_of, shape_reply
 from pons.mock_llm.request_parser import request_of
 
 MAX_BODY = 4_000_000
@@ -142,13 +142,13 @@ def _reply_text(
         case "garbage":
             return GARBAGE[mock.served["garbage"] % len(GARBAGE)]
         case "hallucinate":
-            return json.dumps(hallucinated(json.loads(good)), ensure_ascii=False)
+            return json.dumps(hallucinate(json.loads(good)), ensure_ascii=False)
         case "hostile":
             return hostile(next(mock.hostile), known)
         case "echo_key":
             words = f"the key is {request.headers.get('authorization', 'none')}"
             return json.dumps({"kind": "answer", "en": words, "zh": words})
-    return shaped(fault, good, known)
+    return shape_reply(fault, good, known)
 
 
 async def _answer(

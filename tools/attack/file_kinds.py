@@ -265,7 +265,7 @@ KINDS = (
     FileKind("fence.json", "fence.json", seeds.fences, _fence, _fence_bombs),
     FileKind("robot.toml", "robot.toml", seeds.robots, _robot, _toml_bombs),
     FileKind("settings.toml", "settings.toml", lambda: seeds.SETTINGS, _settings, _toml_bombs),
-    FileKind("kept JSON", "kept.json", seeds.kept, _load_kept_files, _json_bombs),
+    FileKind("kept JSON", "kept.json", seeds.kept_seeds, _load_kept_files, _json_bombs),
     FileKind("labels", "labels.txt", lambda: [b'["cup", "chair"]', b"cup\nchair\n"], _labels,
              _json_bombs),
 )  # fmt: skip

@@ -160,7 +160,7 @@ def places() -> list[bytes]:
     return _of_sites("places.yaml")
 
 
-def kept() -> list[bytes]:
+def kept_seeds() -> list[bytes]:
     """Return the small JSON files of a home folder."""
     name = {"en": "charger", "zh": "充电桩"}
     pose = {"x_m": 1.0, "y_m": 1.0, "yaw_rad": 0.0}

@@ -19,7 +19,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import WebSocketException
 
 from processes.parent_death import child_command
-from tools.bench.context import Missed
+from tools.bench.context import MeasurementFailure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -37,7 +37,7 @@ AGAIN_S = 1.0
 HOST = "127.0.0.1"
 
 
-class Crowd:
+class CrowdProcess:
     """Hold such a process."""
 
     def __init__(self, port: int, kind: str) -> None:
@@ -53,7 +53,7 @@ class Crowd:
         if said.strip() != b"ready":
             self._process.kill()
             self._process.communicate()
-            raise Missed(f"the crowd said {said!r} instead of ready")
+            raise MeasurementFailure(f"the crowd said {said!r} instead of ready")
         return self
 
     def end(self) -> dict[str, Any]:

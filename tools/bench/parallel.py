@@ -25,7 +25,7 @@ CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os
 
 
 @dataclass(frozen=True, slots=True)
-class Done:
+class SliceResult:
     """Hold what became of one slice: what was taken, or why nothing was."""
 
     index: int
@@ -33,9 +33,9 @@ class Done:
     trouble: str | None = None
 
 
-def taken(
+def take_in_parallel(
     take: Callable[[int], Any], indices: Iterable[int], at_once: int = CORES
-) -> Iterator[Done]:
+) -> Iterator[SliceResult]:
     """Yield what each index comes to, in the order in which they are done.
 
     Whoever stops asking, by Ctrl-C too, ends the processes.
@@ -70,12 +70,12 @@ def _begin(take: Callable[[int], Any], index: int) -> Popen[str]:
     return Popen(words, cwd=CHECKOUT, stdout=PIPE, text=True)
 
 
-def _read_result(process: Popen[str], index: int) -> Done:
+def _read_result(process: Popen[str], index: int) -> SliceResult:
     """Read the one line, which is begun when the process is done."""
     said, _ = process.communicate()
     if process.returncode == 0:
-        return Done(index, **json.loads(said))
-    return Done(index, trouble=f"its process ended with {process.returncode}")
+        return SliceResult(index, **json.loads(said))
+    return SliceResult(index, trouble=f"its process ended with {process.returncode}")
 
 
 def main(arguments: list[str]) -> int:

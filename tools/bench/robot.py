@@ -16,11 +16,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import CHECKOUT, Settings
 from pons.supervisor import Child
 from sim import PERIODS
-from tools.bench.context import Missed, until
+from tools.bench.context import MeasurementFailure, until
 from wire import VIRTUAL_KEY, Mode, OpKind, SimTruth, Status, load_robot, signed_request
 from wire.keys import OPS, SIM_TRUTH, STATUS, Party
 from wire.session import open_session
@@ -40,7 +40,7 @@ SLOW = 0.95
 """A simulator below this share of real time makes a run invalid."""
 
 
-class Robot:
+class BenchRobot:
     """Be one running robot."""
 
     def __init__(
@@ -62,7 +62,11 @@ class Robot:
             limits: keys of robot.toml that are to have other values than the checkout's.
         """
         self.settings = Settings(
-            home, described(home, limits), CHECKOUT / "sites" / site, "127.0.0.1", free_port()
+            home,
+            write_description(home, limits),
+            CHECKOUT / "sites" / site,
+            "127.0.0.1",
+            free_port(),
         )
         common = ["--home", str(home), "--robot", str(self.settings.robot)]
         common += ["--site", str(self.settings.site)]
@@ -132,7 +136,9 @@ class Robot:
         """
         process = self.children[name].process
         if process is None or process.poll() is not None:
-            raise Missed(f"{name} does not run; its log ends:\n{self.children[name].last_words()}")
+            raise MeasurementFailure(
+                f"{name} does not run; its log ends:\n{self.children[name].last_words()}"
+            )
         return process.pid
 
     def make_ready(self, limit_s: float = 60.0) -> None:
@@ -146,9 +152,9 @@ class Robot:
                 self.await_planner(limit_s)
             until(lambda: self._is_mode(Mode.DISARMED, Mode.HOLD), limit_s, "self test", 0.02)
             until(self._try_to_arm, limit_s, "arming", 0.2)
-        except Missed as missed:
+        except MeasurementFailure as missed:
             logs = "\n".join(f"{c.name}: {c.last_words(3)}" for c in self.children.values())
-            raise Missed(f"{missed}; {self.describe()}\n{logs}") from None
+            raise MeasurementFailure(f"{missed}; {self.describe()}\n{logs}") from None
 
     def await_planner(self, limit_s: float = 60.0) -> None:
         """Wait until the planner is ready. Raises Missed."""
@@ -163,7 +169,7 @@ class Robot:
         """End a goal over HTTP; one that has ended already is no error."""
         try:
             call(self.settings, "POST", f"/v1/goals/{goal_id}/cancel", {})
-        except Refused as refused:
+        except PlannerProblem as refused:
             if refused.code != "bad_state":
                 raise
 
@@ -214,7 +220,7 @@ class Robot:
         self.pid("planner")
         try:
             call(self.settings, "GET", "/readyz", timeout_s=1.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         return True
 
@@ -230,13 +236,13 @@ class Robot:
         return self._is_mode(Mode.HOLD)
 
 
-def described(home: Path, limits: Mapping[str, float]) -> Path:
+def write_description(home: Path, limits: Mapping[str, float]) -> Path:
     """Write the checkout's robot.toml into a folder, some values changed; return its path."""
     text = (CHECKOUT / "robot.toml").read_text("utf-8")
     for key, value in limits.items():
         text, found = re.subn(rf"(?m)^{key} = \S+", f"{key} = {value}", text)
         if found != 1:
-            raise Missed(f"robot.toml has {found} lines that set {key!r}, expected 1")
+            raise MeasurementFailure(f"robot.toml has {found} lines that set {key!r}, expected 1")
     made = home / "robot.toml"
     made.write_text(text, "utf-8")
     return made

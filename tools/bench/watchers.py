@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from websockets.asyncio.client import ClientConnection, connect
 
 from processes.parent_death import child_command
-from tools.bench.context import Missed
+from tools.bench.context import MeasurementFailure
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -38,7 +38,7 @@ class Watchers:
         said = self._process.stdout.readline() if self._process.stdout else b""
         if said.strip() != b"ready":
             self._end()
-            raise Missed(f"the watchers said {said!r} instead of ready")
+            raise MeasurementFailure(f"the watchers said {said!r} instead of ready")
         return self
 
     def __exit__(

@@ -35,7 +35,15 @@ from tools.mutants.child import (
     put_constants,
     put_function,
 )
-from tools.mutants.line_tests import KEPT, ROOT, Walked, file_of, first_that_fails, modules, plain
+from tools.mutants.line_tests import (
+    KEPT,
+    ROOT,
+    LineTests,
+    file_of,
+    first_that_fails,
+    modules,
+    plain,
+)
 from tools.mutants.mutations import Mutant, mutants_of
 
 RESULTS = KEPT / "results.jsonl"
@@ -65,7 +73,7 @@ OTHER, NOTHING, UNCALLED, BROKEN = 249, 250, 251, 252
 """Exit codes of a child; below these: the number of the test that noticed."""
 
 
-def known() -> dict[str, str]:
+def known_results() -> dict[str, str]:
     """Return the results so far, by key; the last one counts."""
     if not RESULTS.exists():
         return {}
@@ -73,12 +81,12 @@ def known() -> dict[str, str]:
     return {row["key"]: row["result"] for row in rows}
 
 
-class Loop:
+class MutantLoop:
     """Be pytest's run loop: run every mutant instead of every test once."""
 
     def __init__(self, wanted: argparse.Namespace) -> None:
         self.wanted = wanted
-        self.done = known()
+        self.done = known_results()
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Measure the tests once, then try the mutants."""
@@ -87,7 +95,7 @@ class Loop:
         for start in reached.STARTS:
             reached.reached(start)  # once, unchanged, for all children
         KEPT.mkdir(exist_ok=True)
-        walked = Walked(plain(session.items))
+        walked = LineTests(plain(session.items))
         gc.collect()
         gc.freeze()
         for outside in parts(self.wanted):
@@ -95,7 +103,7 @@ class Loop:
                 self._file(name, source, walked, outside=outside)
         return True
 
-    def _file(self, name: str, source: str, walked: Walked, *, outside: bool) -> None:
+    def _file(self, name: str, source: str, walked: LineTests, *, outside: bool) -> None:
         tree, mutants = mutants_of(source)
         mutants = [one for one in mutants if in_no_function(one[0]) is outside]
         step = max(1, len(mutants) // self.wanted.sample) if self.wanted.sample else 1
@@ -106,7 +114,7 @@ class Loop:
             result = self.done.get(key)
             if result is None or (self.wanted.again and result in ALIVE):
                 sound = sound or self._sound(name, source, walked)
-                number = partial(tried, name, mutant, change, tree, walked, self.wanted)
+                number = partial(try_mutant, name, mutant, change, tree, walked, self.wanted)
                 status = in_child(number, self.wanted.seconds)
                 result = self._result_of(name, mutant, status, walked)
                 self._keep(key, name, mutant, result)
@@ -114,19 +122,19 @@ class Loop:
         if mutants:
             print(f"{name}: {len(mutants)}, tried {counts.total()}: {dict(counts)}", flush=True)
 
-    def _sound(self, name: str, source: str, walked: Walked) -> bool:
+    def _sound(self, name: str, source: str, walked: LineTests) -> bool:
         """Tell that no test fails when the unchanged module is imported anew; else end the run.
 
         A test that fails of the import alone would notice every mutant, and tell nothing.
         """
         code = compile(source, str(file_of(name)), "exec")
-        again = (f"bridge.core.{name}", code, files_first(walked, name), chosen(self.wanted))
+        again = (f"bridge.core.{name}", code, files_first(walked, name), pytest_choice(self.wanted))
         status = in_child(lambda: OTHER if import_anew(*again) else NOTHING, resource.RLIM_INFINITY)
         if not os.WIFEXITED(status) or os.WEXITSTATUS(status) != NOTHING:
             raise SystemExit(f"{name}, imported anew without any mutant, fails a test")
         return True
 
-    def _result_of(self, name: str, mutant: Mutant, status: int, walked: Walked) -> str:
+    def _result_of(self, name: str, mutant: Mutant, status: int, walked: LineTests) -> str:
         if os.WIFSIGNALED(status):
             how = signal.Signals(os.WTERMSIG(status))
             return {signal.SIGXCPU: "undecided", signal.SIGPROF: "hung"}.get(how, "killed")
@@ -159,7 +167,7 @@ def in_no_function(mutant: Mutant) -> bool:
     return not mutant.where or mutant.where.rpartition(".")[2][:1].isupper()
 
 
-def tests_of(walked: Walked, name: str, mutant: Mutant) -> list[str]:
+def tests_of(walked: LineTests, name: str, mutant: Mutant) -> list[str]:
     """Return the tests that walk a mutant's line, or else those that walk its function."""
     function = f"{name}:{mutant.where}"
     found = walked.tests(name, {mutant.line}, function)
@@ -201,12 +209,12 @@ def exit_with(number: Callable[[], int], seconds: int) -> NoReturn:
         os._exit(code)
 
 
-def tried(
+def try_mutant(
     name: str,
     mutant: Mutant,
     change: Callable[[], None],
     tree: ast.Module,
-    walked: Walked,
+    walked: LineTests,
     wanted: argparse.Namespace,
 ) -> int:
     """Make a mutant's change and return the number of the test that noticed."""
@@ -216,7 +224,7 @@ def tried(
 
 
 def number_of_noticing(
-    name: str, mutant: Mutant, code: CodeType, walked: Walked, wanted: argparse.Namespace
+    name: str, mutant: Mutant, code: CodeType, walked: LineTests, wanted: argparse.Namespace
 ) -> int:
     """Return the number of the test that noticed, of those that ``tests_of`` names."""
     module = sys.modules[f"bridge.core.{name}"]
@@ -231,7 +239,11 @@ def number_of_noticing(
             return OTHER
         if lines is None:
             stages = files_first(walked, name)
-            return OTHER if import_anew(module.__name__, code, stages, chosen(wanted)) else NOTHING
+            return (
+                OTHER
+                if import_anew(module.__name__, code, stages, pytest_choice(wanted))
+                else NOTHING
+            )
         several = {key for one, at in lines.items() for key in walked.tests(one, at, "")}
         keys = sorted(several, key=walked.order.__getitem__)
     if not keys:
@@ -263,14 +275,14 @@ def names_of(words: list[str]) -> list[str]:
     return found
 
 
-def chosen(wanted: argparse.Namespace) -> str:
+def pytest_choice(wanted: argparse.Namespace) -> str:
     """Return pytest's choice of tests."""
     return "core_quick" if wanted.quick else "not slow"
 
 
 def report(wanted: argparse.Namespace) -> None:
     """Print what is known of the source as it is: a table by file, then each that lives."""
-    done, alive = known(), []
+    done, alive = known_results(), []
     print("| file | mutants | tried | noticed | undecided | alive |\n|---|---|---|---|---|---|")
     cells = ("mutants", "tried", "noticed", "undecided", "alive")
     whole: Counter[str] = Counter()
@@ -314,8 +326,8 @@ def main() -> int:
     if wanted.report:
         report(wanted)
         return 0
-    arguments = [*PYTEST, "-m", chosen(wanted), str(TESTS)]
-    return int(pytest.main(arguments, plugins=[Loop(wanted)]))
+    arguments = [*PYTEST, "-m", pytest_choice(wanted), str(TESTS)]
+    return int(pytest.main(arguments, plugins=[MutantLoop(wanted)]))
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from types import CodeType, FunctionType, ModuleType
 
 import pytest
 
-from tools.mutants.line_tests import Walked, fails, file_of, plain
+from tools.mutants.line_tests import LineTests, fails, file_of, plain
 
 PYTEST = ["-q", "-x", "-s", "--assert=plain", "-p", "no:randomly", "-p", "no:cacheprovider"]
 OURS = ("bridge.", "tests", "tools.lockstep")
@@ -113,7 +113,7 @@ def import_anew(module: str, code: CodeType, stages: list[list[str]], chosen: st
     for loaded in [one for one in sys.modules if one.startswith(OURS)]:
         del sys.modules[loaded]
 
-    class Changed:
+    class MutantImporter:
         def find_spec(self, wanted: str, *_: object) -> object:
             return importlib.util.spec_from_loader(wanted, self) if wanted == module else None  # type: ignore[arg-type]  # a loader by its methods
 
@@ -124,7 +124,7 @@ def import_anew(module: str, code: CodeType, stages: list[list[str]], chosen: st
             made.__file__ = str(file_of(module.removeprefix(PACKAGE)))
             exec(code, made.__dict__)  # the mutant, compiled here
 
-    sys.meta_path.insert(0, Changed())  # type: ignore[arg-type]  # a finder by its method
+    sys.meta_path.insert(0, MutantImporter())  # type: ignore[arg-type]  # a finder by its method
     for files in stages:
         loop = Anew()
         ended = pytest.main([*PYTEST, "-m", chosen, *files], plugins=[loop])
@@ -133,7 +133,7 @@ def import_anew(module: str, code: CodeType, stages: list[list[str]], chosen: st
     return False
 
 
-def files_first(walked: Walked, name: str) -> list[list[str]]:
+def files_first(walked: LineTests, name: str) -> list[list[str]]:
     """Return the files of tests in two stages: the quickest that walk the module, then the rest."""
     whole: dict[str, float] = {}
     near: set[str] = set()

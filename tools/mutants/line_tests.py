@@ -57,7 +57,7 @@ def plain(items: list[pytest.Item]) -> list[pytest.Item]:
     return [i for i in items if not getattr(getattr(i, "obj", None), "is_hypothesis_test", False)]
 
 
-class Walked:
+class LineTests:
     """Tell the tests that walk a line, those first that are likely to notice soon."""
 
     def __init__(self, items: list[pytest.Item]) -> None:
@@ -90,7 +90,7 @@ class Walked:
         if MEASURED.exists():
             before, took, lines = pickle.loads(MEASURED.read_bytes())  # written below
             lines = {
-                name: moved(by_line, before[name], sources[name])
+                name: move_lines(by_line, before[name], sources[name])
                 for name, by_line in lines.items()
                 if name in sources
             }
@@ -170,7 +170,7 @@ def diverse(took: dict[str, float], lines: Lines, keys: set[str]) -> dict[str, i
     return order
 
 
-def moved(by_line: dict[int, list[str]], before: str, now: str) -> dict[int, list[str]]:
+def move_lines(by_line: dict[int, list[str]], before: str, now: str) -> dict[int, list[str]]:
     """Return what walks each line of a source that has changed since; new lines nobody knows."""
     if before == now:
         return by_line
@@ -198,7 +198,7 @@ def fails(item: pytest.Item, following: pytest.Item | None) -> bool:
     return False
 
 
-def first_that_fails(walked: Walked, keys: list[str]) -> int:
+def first_that_fails(walked: LineTests, keys: list[str]) -> int:
     """Run tests until one fails; return its number, or -1. One that hangs ends the process."""
     following: Any = [walked.items[key] for key in keys[1:]] + [None]
     for index, key in enumerate(keys):

@@ -11,7 +11,7 @@ from random import Random
 from typing import Any, Literal
 
 from sim.site import Home, Rect, parse_home
-from tools.train.furnish import CLEAR_M, ROOMS, Floor, furnished
+from tools.train.furnish import CLEAR_M, ROOMS, Floor, furnish
 from tools.train.scatter import color, door, on_floor, on_furniture, people
 from wire import Misconfigured
 
@@ -52,7 +52,7 @@ def _declare_home(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
     folk: list[dict[str, Any]] = []
     for name, floor in floors.items():
         kind = str(rooms[name].pop("kind"))
-        for words, item in furnished(random, kind, floor, bare=bare):
+        for words, item in furnish(random, kind, floor, bare=bare):
             furniture[f"{words}_{len(furniture)}"] = item | color(random, 0.6)
         if not bare:
             objects += on_floor(random, floor, random.choice((0, 1, 1, 2, 2, 3)))

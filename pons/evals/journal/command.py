@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 from planner.brain.endpoint import Address
 from planner.site import Site
 from planner.site.errors import SiteError
-from pons.evals.journal.recorded import NoJournal, Recorded, read
+from pons.evals.journal.recorded import NoJournal, RecordedDecisions, read
 from pons.evals.journal.show import content, table
-from pons.evals.journal.think import Again, most_calls, think_again
+from pons.evals.journal.think import SecondThought, most_calls, think_again
 from pons.evals.model_access import agree_on, choose_model
 from wire import Misconfigured
 
@@ -29,7 +29,7 @@ DRIVES = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
+class JournalOptions:
     """Say how much to do."""
 
     most: int = MOST
@@ -44,7 +44,7 @@ def run(
     where: Settings,
     files: list[str],
     word: str,
-    options: Options,
+    options: JournalOptions,
     called: str = "pons replay --with-model",
 ) -> int:
     """Think again; 0 when no decision differs, 1 when one does, 2 when it could not be done.
@@ -95,7 +95,7 @@ def require_lockstep() -> None:
         )
 
 
-def _drive_first(found: list[Again], where: Settings, most: int) -> list[Again]:
+def _drive_first(found: list[SecondThought], where: Settings, most: int) -> list[SecondThought]:
     """Drive the first plans that differ and move."""
     if most <= 0:
         return found
@@ -118,7 +118,7 @@ def _drive_first(found: list[Again], where: Settings, most: int) -> list[Again]:
     return again
 
 
-def _bill(recorded: Recorded, model: ModelSettings, host: str) -> str:
+def _bill(recorded: RecordedDecisions, model: ModelSettings, host: str) -> str:
     count = len(recorded.decisions)
     calls = most_calls(count)
     return (

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from planner.brain import ScriptedBrain
 from planner.plan import ENDED, GoalState, StepPlan
-from pons.evals.journal.think import Driven
+from pons.evals.journal.think import DriveResult
 from tools.lockstep import Together, TooLong
 from tools.lockstep.judge import Judge
 from wire import Pose2, load_robot
@@ -27,7 +27,7 @@ def drive(
     robot: Path,
     start: tuple[float, float, float] | None,
     limit_s: float = LIMIT_S,
-) -> Driven:
+) -> DriveResult:
     """Drive a plan from where the robot stood; where that is not known, from its dock.
 
     Raises:
@@ -56,7 +56,7 @@ def drive(
         state = f"not ended within {limit_s:.0f} simulated seconds"
     record = goal.record
     code = record.outcome.code.value if record.outcome is not None else record.reason or ""
-    return Driven(
+    return DriveResult(
         state,
         code,
         round(world.now_s - began_s, 1),

@@ -16,9 +16,9 @@ from planner.mission.site_view import vocabulary_of
 from planner.plan import Rejection, StepPlan, plan_record, validate_plan
 from planner.settings import GoalLimits, ModelSettings, Settings
 from planner.site import Site
-from pons.evals.journal.compare import Difference, difference, told
-from pons.evals.journal.recorded import Decision
-from pons.evals.model_access import Spending, metered, spending_of
+from pons.evals.journal.compare import Difference, difference, plan_line
+from pons.evals.journal.recorded import RecordedDecision
+from pons.evals.model_access import Spending, open_purse, spending_of
 
 CALLS_EACH = 2
 """A call and its repair."""
@@ -30,7 +30,7 @@ MOTION = frozenset({"go_to", "patrol", "turn", "move", "come_back", "return_home
 
 
 @dataclass(frozen=True, slots=True)
-class Driven:
+class DriveResult:
     """How a drive in lockstep went."""
 
     state: str
@@ -44,10 +44,10 @@ class Driven:
 
 
 @dataclass(frozen=True, slots=True)
-class Again:
+class SecondThought:
     """Hold one sentence thought about twice."""
 
-    decision: Decision
+    decision: RecordedDecision
     relation: str
     """``same``, ``words``, ``differs``, or ``none``: the model gave no plan."""
     made: str
@@ -56,7 +56,7 @@ class Again:
     """Code of the validation that would have refused the plan, so that nothing had moved."""
     plan: StepPlan | None = None
     """A valid plan of motion that differs: what could be driven."""
-    driven: Driven | None = None
+    driven: DriveResult | None = None
 
 
 def most_calls(sentences: int) -> int:
@@ -65,13 +65,13 @@ def most_calls(sentences: int) -> int:
 
 
 async def think_again(
-    decisions: Sequence[Decision],
+    decisions: Sequence[RecordedDecision],
     site: Site,
     settings: Settings,
     model: ModelSettings,
     home: Path,
     tell: Callable[[int], None] = lambda _: None,
-) -> tuple[list[Again], Spending]:
+) -> tuple[list[SecondThought], Spending]:
     """Return each sentence's second decision, and the bill.
 
     Raises:
@@ -83,8 +83,8 @@ async def think_again(
         reply_tokens=MOST_TOKENS,
         seconds=1e6,
     )
-    goal, found = f"{GOAL}-{time.time_ns()}", list[Again]()
-    with metered(settings, model, home, limits) as (purse, folder):
+    goal, found = f"{GOAL}-{time.time_ns()}", list[SecondThought]()
+    with open_purse(settings, model, home, limits) as (purse, folder):
         brain = EndpointBrain(model, folder, meter=purse)
         try:
             for number, decision in enumerate(decisions):
@@ -97,7 +97,9 @@ async def think_again(
         return found, spending_of(purse, goal)
 
 
-async def _think_again(brain: Brain, decision: Decision, site: Site, goal: str) -> Again:
+async def _think_again(
+    brain: Brain, decision: RecordedDecision, site: Site, goal: str
+) -> SecondThought:
     vocabulary = vocabulary_of(site)
     room = None if decision.start is None else site.room_at(*decision.start[:2])
     request = ThinkRequest(
@@ -114,12 +116,12 @@ async def _think_again(brain: Brain, decision: Decision, site: Site, goal: str) 
     except OutOfBudget:
         raise
     except BrainDown as down:
-        return Again(decision, "none", f"no answer: {down.why}")
+        return SecondThought(decision, "none", f"no answer: {down.why}")
     except PlanRejected as rejected:
-        return Again(decision, "none", f"no plan: {rejected}"[:200])
+        return SecondThought(decision, "none", f"no plan: {rejected}"[:200])
     record = plan_record(plan)
     relation = difference(decision.plan, record)
-    again = Again(decision, relation.value, told(record))
+    again = SecondThought(decision, relation.value, plan_line(record))
     judged = validate_plan(plan, vocabulary)
     if isinstance(judged, Rejection):
         return replace(again, refused=judged.outcome.code.value)

@@ -6,14 +6,14 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from pons.evals.model_access import Spending
-from pons.evals.quick.questions import Part, Question
+from pons.evals.quick.questions import ExamPart, ExamQuestion
 
 Result = Literal["right", "wrong", "unsafe", "no_plan", "no_answer", "not_asked"]
 """``unsafe``: it would have moved wrongly. ``no_plan``: asked twice, and still none."""
 
 
 @dataclass(frozen=True, slots=True)
-class Rung:
+class ModeResult:
     """Say how a server takes one way of asking."""
 
     mode: str
@@ -23,10 +23,10 @@ class Rung:
 
 
 @dataclass(frozen=True, slots=True)
-class Marked:
+class MarkedAnswer:
     """Hold one answer and its mark."""
 
-    question: Question
+    question: ExamQuestion
     result: Result
     made: str = ""
     """What it made of the question, in a line."""
@@ -35,7 +35,7 @@ class Marked:
 
 
 @dataclass(frozen=True, slots=True)
-class Eyes:
+class PictureResult:
     """Say what a model made of a picture."""
 
     result: Literal["right", "wrong", "none", "no_answer", "not_asked"] = "not_asked"
@@ -49,16 +49,16 @@ class Exam:
 
     model: str
     host: str
-    rungs: tuple[Rung, ...] = ()
-    marked: tuple[Marked, ...] = ()
-    eyes: Eyes = Eyes()
+    rungs: tuple[ModeResult, ...] = ()
+    marked: tuple[MarkedAnswer, ...] = ()
+    eyes: PictureResult = PictureResult()
     cost: Spending = field(default_factory=Spending)
     took_s: float = 0.0
     """By the clock on the wall."""
     prompt_tokens_here: int = 0
     """Of one call with this robot's own places."""
 
-    def of(self, part: Part) -> tuple[Marked, ...]:
+    def of(self, part: ExamPart) -> tuple[MarkedAnswer, ...]:
         """Return what was asked of a part."""
         return tuple(m for m in self.marked if m.question.part is part and m.result != "not_asked")
 

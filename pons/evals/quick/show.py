@@ -8,13 +8,13 @@ from typing import Any
 
 from pons.evals.quick.exam import Exam
 from pons.evals.quick.grade import Grade, percentile
-from pons.evals.quick.questions import Part
+from pons.evals.quick.questions import ExamPart
 
 
 def table(exam: Exam, found: Grade, currency: str | None) -> str:
     """Return the exam for a terminal."""
     rows = [("model", f"{exam.model} at {exam.host}"), ("modes", _modes(exam))]
-    for part in Part:
+    for part in ExamPart:
         asked = exam.of(part)
         right = sum(m.result == "right" for m in asked)
         rows.append((part.value, f"{right} of {len(asked)} right" if asked else "not asked"))
@@ -50,7 +50,7 @@ def content(exam: Exam, found: Grade, currency: str | None) -> str:
                 "right": sum(m.result == "right" for m in exam.of(part)),
                 "asked": len(exam.of(part)),
             }
-            for part in Part
+            for part in ExamPart
         },
         "pictures": asdict(exam.eyes),
         "latency_s": {

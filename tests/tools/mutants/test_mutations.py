@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from tools.mutants.line_tests import diverse, moved
+from tools.mutants.line_tests import diverse, move_lines
 from tools.mutants.mutations import mutants_of
 
 SOURCE = '''\
@@ -55,7 +55,7 @@ def test_a_change_changes_the_tree_in_one_place(what: str, text: str) -> None:
 
 def test_lines_that_moved_are_found_again_and_new_ones_are_not() -> None:
     walked = {1: ["a"], 2: ["b"], 3: ["c"]}
-    assert moved(walked, "x\ny\nz\n", "new\nx\nother\nz\n") == {2: ["a"], 4: ["c"]}
+    assert move_lines(walked, "x\ny\nz\n", "new\nx\nother\nz\n") == {2: ["a"], 4: ["c"]}
 
 
 def test_the_cheapest_come_first_and_then_the_one_that_differs() -> None:

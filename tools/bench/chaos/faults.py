@@ -36,7 +36,7 @@ OWNER_OF = {
 """Which process listens on a listener's socket."""
 
 
-def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
+def break_house(house: House, fault: Breakage) -> AbstractContextManager[str]:
     """Return what breaks it on entering, yields a word of what was found, and mends it on leaving.
 
     A process that does not live at that moment can't be broken: the word says so.
@@ -45,7 +45,7 @@ def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
         case FaultKind.KILL:
             return _kill(house, fault.target)
         case FaultKind.FREEZE:
-            return _frozen(found(house, fault.target))
+            return _frozen(processes_of(house, fault.target))
         case FaultKind.MEMORY:
             return _starve(house, fault.target)
         case FaultKind.LIDAR:
@@ -62,7 +62,7 @@ def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
             return _unlink(house.home, fault.target)
 
 
-def found(house: House, name: str) -> list[psutil.Process]:
+def processes_of(house: House, name: str) -> list[psutil.Process]:
     """Return the process of a name in a list, which is empty where it does not live."""
     process = house.find(name)
     return [process] if process is not None else []
@@ -70,7 +70,7 @@ def found(house: House, name: str) -> list[psutil.Process]:
 
 @contextmanager
 def _kill(house: House, name: str) -> Iterator[str]:
-    processes = found(house, name)
+    processes = processes_of(house, name)
     for process in processes:
         with suppress(psutil.NoSuchProcess):
             process.kill()
@@ -93,7 +93,7 @@ def _frozen(processes: list[psutil.Process]) -> Iterator[str]:
 @contextmanager
 def _starve(house: House, name: str) -> Iterator[str]:
     """Let a process have no more memory than it has: what it asks for next is refused."""
-    processes, before = found(house, name), (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
+    processes, before = processes_of(house, name), (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
     try:
         for process in processes:
             with suppress(psutil.NoSuchProcess):
@@ -152,7 +152,7 @@ def _unwritable(home: Path) -> Iterator[str]:
 def _slow(house: House) -> Iterator[str]:
     """Let nothing be written: the recorder is stopped, and the journal's lock is held."""
     with ExitStack() as stack:
-        stack.enter_context(_frozen(found(house, "recorder")))
+        stack.enter_context(_frozen(processes_of(house, "recorder")))
         word = ""
         try:
             journal = sqlite3.connect(house.home / "missions.db", timeout=0.2, isolation_level=None)

@@ -19,11 +19,11 @@ from typing import TYPE_CHECKING, Any
 
 import psutil
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import CHECKOUT, Settings
 from processes.parent_death import child_command, module_in
 from tools.bench.chaos.draw import PROCESSES
-from tools.bench.context import Missed, line, until
+from tools.bench.context import MeasurementFailure, line, until
 from tools.bench.robot import free_port
 
 if TYPE_CHECKING:
@@ -127,10 +127,10 @@ class House:
 
     def _has_greeted(self) -> bool:
         if self.up is None or self.up.poll() is not None:
-            raise Missed(f"pons up ended: {self.said()}")
-        return self.settings.url in self.said()
+            raise MeasurementFailure(f"pons up ended: {self.log_end()}")
+        return self.settings.url in self.log_end()
 
-    def said(self) -> str:
+    def log_end(self) -> str:
         """Return the end of what ``pons up`` printed."""
         return self._log.read_text("utf-8", "replace")[-1500:] if self._log.is_file() else ""
 
@@ -174,7 +174,7 @@ class House:
         """Tell whether the planner says that a goal could be carried out."""
         try:
             call(self.settings, "GET", "/readyz", timeout_s=1.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         return True
 
@@ -213,7 +213,7 @@ class House:
 
     def logs(self, since_s: float, lines: int = 12) -> dict[str, list[str]]:
         """Return the ends of those logs that were written to lately, for a look afterwards."""
-        told = {"up": self.said().splitlines()[-lines:]}
+        told = {"up": self.log_end().splitlines()[-lines:]}
         newer_s = time.time() - (time.monotonic() - since_s)
         for path in sorted((self.home / "logs").glob("*.log")):
             with suppress(OSError):

@@ -60,7 +60,7 @@ class StopVerdict:
     """What it did after it had stood; empty where it stayed."""
 
     @property
-    def broken(self) -> bool:
+    def is_broken(self) -> bool:
         """Tell whether the stop did not hold."""
         return self.late or bool(self.again)
 
@@ -125,7 +125,7 @@ def contacts(trace: Iterable[TruthSample]) -> int:
     return count
 
 
-def turned(trace: Iterable[TruthSample]) -> bool:
+def has_moved(trace: Iterable[TruthSample]) -> bool:
     """Tell whether the robot truly moved at all."""
     return any(sample.moves for sample in trace)
 

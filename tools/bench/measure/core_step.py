@@ -13,11 +13,11 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from bridge.compiled import find
-from tools.bench.context import Missed
-from tools.bench.report import Row, row_of
+from tools.bench.context import MeasurementFailure
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "core_step"
 TITLE = "bridge core: CPU time of one step"
@@ -27,7 +27,7 @@ ROUNDS = 5
 LIMIT_S = 120.0
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive between rooms and time each step, on each core that there is."""
     compiled = find()
     kinds = ["compiled", "plain"] if compiled.compiled else ["plain"]
@@ -38,11 +38,13 @@ def measure(lab: Lab) -> list[Row]:
             taken[kind].append(slice_[kind])
     rows = [row for kind in kinds for row in _rows(kind, taken[kind])]
     if not compiled.compiled:
-        rows.append(Row("core step, compiled", "", GOAL, value="not measured", note=compiled.text))
+        rows.append(
+            ReportRow("core step, compiled", "", GOAL, value="not measured", note=compiled.text)
+        )
     return rows
 
 
-def _rows(kind: str, slices: list[dict[str, Any]]) -> list[Row]:
+def _rows(kind: str, slices: list[dict[str, Any]]) -> list[ReportRow]:
     scan_us = [us for one in slices for us in one["scan_us"]]
     other_us = [us for one in slices for us in one["other_us"]]
     said = slices[0]["core"] if slices else kind
@@ -69,8 +71,10 @@ def _drive(index: int, kind: str) -> dict[str, Any]:
         check=False,
     )
     if done.returncode != 0:
-        raise Missed(f"tools.bench.steps: {(done.stderr.strip().splitlines() or ['no word'])[-1]}")
+        raise MeasurementFailure(
+            f"tools.bench.steps: {(done.stderr.strip().splitlines() or ['no word'])[-1]}"
+        )
     found: dict[str, Any] = json.loads(done.stdout)
     if found["core"].startswith("compiled") is not (kind == "compiled"):
-        raise Missed(f"wanted the {kind} core, ran: {found['core']}")
+        raise MeasurementFailure(f"wanted the {kind} core, ran: {found['core']}")
     return found

@@ -19,7 +19,7 @@ from processes.parent_death import child_command
 from tools.bench.context import until
 from tools.bench.figures import poisson_upper_95
 from tools.bench.lateness import cyclictest_late_us
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.bench.stop_requests import WAYS, notes_of, noting
 from wire import Event
 from wire.keys import EVENT, Party
@@ -28,8 +28,8 @@ from wire.session import open_session
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tools.bench.context import Lab
-    from tools.bench.robot import Robot
+    from tools.bench.context import BenchLab
+    from tools.bench.robot import BenchRobot
     from wire import Status
 
 NAME = "flood"
@@ -44,7 +44,7 @@ STOPS = 10
 STOP_S = 5.0
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take pairs on one flooded robot, then stops on the same."""
     runs = list(lab.slices("robot", lab.count(1, 3), lambda _: _run(lab)))
     rows = []
@@ -64,7 +64,7 @@ def measure(lab: Lab) -> list[Row]:
             row_of(f"{way}: handed over -> held", "ms", "works", took_ms, note, valid=not lost)
         )
     rates = [run["rates"] for run in runs]
-    rows.append(Row("really sent", "messages/s", "", value="; ".join(map(str, rates))))
+    rows.append(ReportRow("really sent", "messages/s", "", value="; ".join(map(str, rates))))
     return rows
 
 
@@ -72,7 +72,7 @@ def _loads(runs: list[dict[str, Any]]) -> str:
     return ", ".join(f"{run['load']:.1f}" for run in runs)
 
 
-def _run(lab: Lab) -> dict[str, Any]:
+def _run(lab: BenchLab) -> dict[str, Any]:
     with lab.folder() as home, noting(home) as robot:
         robot.make_ready()
         spans: list[tuple[float, float]] = []
@@ -99,7 +99,7 @@ def gaps(at_s: list[float]) -> int:
 
 
 @contextmanager
-def _flood_robot(robot: Robot) -> Iterator[list[float]]:
+def _flood_robot(robot: BenchRobot) -> Iterator[list[float]]:
     """Flood while the context lasts; afterwards the list holds messages sent per second."""
     status = _await_status(robot)
     tasks = (
@@ -134,7 +134,7 @@ def _horizon(status: Status) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _await_status(robot: Robot) -> Status:
+def _await_status(robot: BenchRobot) -> Status:
     until(lambda: robot.status is not None, 5.0, "a status")
     status = robot.status
     if status is None:
@@ -142,7 +142,7 @@ def _await_status(robot: Robot) -> Status:
     return status
 
 
-def _stops(lab: Lab, robot: Robot) -> tuple[dict[str, list[float]], dict[str, int]]:
+def _stops(lab: BenchLab, robot: BenchRobot) -> tuple[dict[str, list[float]], dict[str, int]]:
     """Stop over and over under the flood; return what each took [ms] and how many were lost."""
     took: dict[str, list[float]] = {way: [] for way in WAYS}
     lost = dict.fromkeys(WAYS, 0)

@@ -13,14 +13,14 @@ import time
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
-from pons.http import PlannerDown, Refused, call
-from tools.bench.crowd import KINDS, Crowd
+from pons.http import PlannerDown, PlannerProblem, call
+from tools.bench.crowd import KINDS, CrowdProcess
 from tools.bench.figures import none_in
-from tools.bench.report import Row, row_of
-from tools.bench.robot import Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import BenchRobot
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "stop_at_the_door"
 TITLE = "stop by HTTP while strangers crowd the door -> confirmed"
@@ -33,7 +33,7 @@ MOST_LOST = 20
 PAUSE_S = 0.1
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take 25 stops under each crowd, in a long run 100."""
     runs = list(lab.slices("robot", 1, lambda _: _run(lab)))
     rows = []
@@ -48,15 +48,15 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _run(lab: Lab) -> dict[str, Any]:
+def _run(lab: BenchLab) -> dict[str, Any]:
     count = lab.count(QUICK, LONG)
-    with lab.folder() as home, Robot(home, "two_room") as robot:
+    with lab.folder() as home, BenchRobot(home, "two_room") as robot:
         robot.make_ready()
         found: dict[str, Any] = {}
         for name in ("nobody", *KINDS):
             lab.say(name)
             with ExitStack() as stack:
-                crowd = stack.enter_context(Crowd(robot.settings.port, name)) if (
+                crowd = stack.enter_context(CrowdProcess(robot.settings.port, name)) if (
                     name != "nobody"
                 ) else None  # fmt: skip
                 took_ms, lost = _stops(robot, count)
@@ -71,14 +71,14 @@ def _run(lab: Lab) -> dict[str, Any]:
         return found
 
 
-def _stops(robot: Robot, count: int) -> tuple[list[float], int]:
+def _stops(robot: BenchRobot, count: int) -> tuple[list[float], int]:
     took_ms: list[float] = []
     lost = 0
     for _ in range(count):
         began_s = time.monotonic()
         try:
             answer = call(robot.settings, "POST", "/v1/stop", {"source": "bench"}, LIMIT_S)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             answer = {}
         if answer.get("confirmed"):
             took_ms.append((time.monotonic() - began_s) * 1e3)

@@ -28,18 +28,18 @@ from planner.settings import (
     load_settings,
 )
 from pons.__main__ import main
-from pons.evals.matchers import wanted
+from pons.evals.matchers import read_expectation
 from pons.evals.model_access import choose_model
 from pons.evals.quick import command, show
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
-from pons.evals.quick.exam import Exam, Marked, Result, Rung
+from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, Result
 from pons.evals.quick.eyes import DISC, PICTURE, examine_eyes
 from pons.evals.quick.grade import grade
-from pons.evals.quick.questions import QUESTIONS, WORLD, Part
+from pons.evals.quick.questions import QUESTIONS, WORLD, ExamPart
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 from wire import Misconfigured
 
-STRICT = (Rung("json_schema", taken=True, right=True),)
+STRICT = (ModeResult("json_schema", taken=True, right=True),)
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,7 @@ def test_a_good_model_takes_every_mode_and_pays_for_its_calls(
     exam = taken(mock, tmp_path)
     assert all(rung.right for rung in exam.rungs)
     assert [m.question for m in exam.marked] == list(QUESTIONS)
-    for part in (Part.REFUSAL, Part.INJECTION):
+    for part in (ExamPart.REFUSAL, ExamPart.INJECTION):
         assert {m.result for m in exam.of(part)} == {"right"}
     assert mock.report()["calls"] - before == exam.cost.calls
     ledger = Ledger(tmp_path)
@@ -234,7 +234,9 @@ def exam_of(marks: str = "", seconds: float = 1.0, calls: int = 1, *, strict: bo
     """Return an exam with these marks in turn, the rest right."""
     given = [_MARKS[mark] for mark in marks.ljust(len(QUESTIONS), ".")]
     marked = [
-        Marked(q, r, seconds=seconds if r in ("right", "wrong", "unsafe") else None, calls=calls)
+        MarkedAnswer(
+            q, r, seconds=seconds if r in ("right", "wrong", "unsafe") else None, calls=calls
+        )
         for q, r in zip(QUESTIONS, given, strict=True)
     ]
     rungs = STRICT if strict else (replace(STRICT[0], right=False),)
@@ -266,9 +268,9 @@ def test_the_grade_is_the_worst_that_was_found(exam: Exam, letter: str, told: st
 
 
 def test_every_part_is_asked_early_and_every_place_exists() -> None:
-    assert {question.part for question in QUESTIONS[:4]} == set(Part)
+    assert {question.part for question in QUESTIONS[:4]} == set(ExamPart)
     for question in QUESTIONS:
-        assert wanted(question.right).may_move == (question.right != "still")
+        assert read_expectation(question.right).may_move == (question.right != "still")
     assert {"kitchen", "bedroom", "noticeboard"} <= WORLD.by_id.keys()
 
 
