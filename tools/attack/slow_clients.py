@@ -79,12 +79,12 @@ WAYS = (
 
 def attack(lab: AttackLab) -> list[AttackOutcome]:
     """Try each way on one robot, one after the other."""
-    with _limit_descriptors(lab) as running:
+    with _robot_with_few_files(lab) as running:
         return [_try(lab, running, way) for way in WAYS]
 
 
 @contextmanager
-def _limit_descriptors(lab: AttackLab) -> Iterator[BenchRobot]:
+def _robot_with_few_files(lab: AttackLab) -> Iterator[BenchRobot]:
     """Run a robot whose processes have the usual limit of open files; this one takes more."""
     with ExitStack() as stack:
         with target.users_files():
