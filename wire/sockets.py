@@ -13,7 +13,7 @@ import os
 import socket
 import stat
 import struct
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -146,6 +146,22 @@ def unreachable(home: Path, door: Door) -> str | None:
     except OSError as error:
         return f"{path}: {error.strerror or error}"
     return None
+
+
+def is_listening(path: Path) -> bool:
+    """Tell at once whether a process listens at a socket; False too to a user who may not connect.
+
+    Nothing is waited for: a full queue of others who connect is a listener too, hung or not.
+    """
+    with closing(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)) as probe:
+        probe.setblocking(False)
+        try:
+            probe.connect(str(path))
+        except BlockingIOError:
+            return True  # so many wait that it takes no more
+        except OSError:
+            return False
+    return True
 
 
 def _listening_uid(path: Path) -> int:

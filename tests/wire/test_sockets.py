@@ -18,7 +18,14 @@ from wire import Misconfigured
 from wire.doors import BRIDGE_DOOR, DRIVE_DOOR, SENSES_DOOR
 from wire.keys import Party
 from wire.session import open_session
-from wire.sockets import MAX_SOCKET_PATH, Claim, Endpoints, misplaced_listener, unreachable
+from wire.sockets import (
+    MAX_SOCKET_PATH,
+    Claim,
+    Endpoints,
+    is_listening,
+    misplaced_listener,
+    unreachable,
+)
 
 BRIDGE, SIM, OPERATOR = 61_001, 61_003, 61_004
 """Users of nobody's."""
@@ -227,3 +234,36 @@ def test_a_lock_that_cannot_be_opened_is_named(tmp_path: Path) -> None:
     lock.mkdir(parents=True)
     with pytest.raises(Misconfigured, match=f"home_unwritable.*{lock}"):
         Claim(tmp_path, Party.BRIDGE)
+
+
+def test_a_socket_is_listened_at_from_the_listeners_start_to_its_end(tmp_path: Path) -> None:
+    path = tmp_path / "some.sock"
+    assert not is_listening(path)
+    with closing(socket.socket(socket.AF_UNIX)) as listener:
+        listener.bind(str(path))
+        assert not is_listening(path), "bound only"
+        listener.listen(0)
+        with ExitStack() as stack:
+            while fills_the_queue(path, stack):
+                pass
+            assert is_listening(path), "a listener that takes nobody in, its queue full"
+    assert path.is_socket()
+    assert not is_listening(path), "what a dead process left"
+
+
+def fills_the_queue(path: Path, stack: ExitStack) -> bool:
+    waiting = stack.enter_context(socket.socket(socket.AF_UNIX))
+    waiting.setblocking(False)
+    return waiting.connect_ex(str(path)) == 0
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
+def test_a_socket_that_this_user_may_not_enter_counts_as_silent(home: Path) -> None:
+    path = home / "some.sock"
+    with closing(socket.socket(socket.AF_UNIX)) as listener:
+        listener.bind(str(path))
+        path.chmod(0o600)
+        listener.listen()
+        assert is_listening(path)
+        with acting_as(OPERATOR):
+            assert not is_listening(path)
