@@ -8,8 +8,8 @@ import time
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
-from bench.chaos.draw import Episode, FaultKind
-from bench.chaos.faults import NEEDS_MOUNTS, OWNER_OF, broken, found, sockets
+from bench.chaos.draw import OWNER_OF, Episode, FaultKind
+from bench.chaos.faults import NEEDS_MOUNTS, broken, found, sockets
 from bench.chaos.person import Bystander, StopTold, say_stop
 from bench.chaos.verdict import contacts, judge_stop, said_twice, turned
 from bench.lab import Missed, line, until

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from bench.chaos.draw import PROCESSES
-from bench.chaos.faults import OWNER_OF, sockets
+from bench.chaos.draw import OWNER_OF, PROCESSES
+from bench.chaos.faults import sockets
 from bench.chaos.house import role
 from pons.settings import CHECKOUT, Settings
 from pons.up import children
