@@ -91,7 +91,7 @@ class Supervisor:
     def _tend(self, now_s: float) -> None:
         for child in self._children:
             status = child.died(now_s)
-            if status == REFUSED_TO_START and not (self._said_ready and _may_pass(child)):
+            if status == REFUSED_TO_START:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
             if status is not None:
                 self._sockets.forget(child.name)
@@ -163,12 +163,6 @@ class Supervisor:
         """End the planner first, so that the bridge still brakes; the drive last."""
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
-
-
-def _may_pass(child: Child) -> bool:
-    """Tell whether a refusal may end by itself: a home that can't be written, its log included."""
-    words = child.last_words()
-    return not words or "home_unwritable" in words
 
 
 def arm_direct(settings: Settings) -> bool:
