@@ -25,15 +25,6 @@ if TYPE_CHECKING:
 
 NEEDS_MOUNTS = frozenset({FaultKind.DISK_FULL, FaultKind.READ_ONLY})
 CHUNK_BYTES = 32 << 20
-OWNER_OF = {
-    "bridge": "bridge",
-    "senses": "bridge",
-    "drive": "sim",
-    "robot": "sim",
-    "localization": "localization",
-    "camera": "camera",
-}
-"""Which process listens on a listener's socket."""
 
 
 def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
