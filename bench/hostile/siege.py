@@ -45,6 +45,8 @@ READY_S, DRIVES_S, SETTLED_S, ENDS_S = 60.0, 8.0, 40.0, 10.0
 DRIVES_MPS = 0.15
 PAUSE_S, LATELY_S = 0.1, 0.1
 TRUSTS_S, ANSWERED_S = 0.5, 0.3
+ON_GRANT = "POSE_JUMP"
+"""A row that the next mission's grant ends."""
 LATCHED = (Mode.FAULT, Mode.ESTOPPED)
 
 
@@ -218,7 +220,7 @@ class Siege:
             self.robot.operate("resume")
         else:
             owned = status.owner is not None and status.owner.planner_id != "hostile"
-            mild = all(row.action in MILD for row in status.rows)
+            mild = all(row.action in MILD or row.row == ON_GRANT for row in status.rows)
             return status.mode is Mode.HOLD and owned and mild
         return False
 
