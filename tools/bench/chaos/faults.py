@@ -42,7 +42,7 @@ def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
         case FaultKind.LIDAR:
             return _blind(house, SimFault(fault.target))
         case FaultKind.DISK_FULL:
-            return _full(house.home)
+            return full_disk(house.home)
         case FaultKind.READ_ONLY:
             return _unwritable(house.home)
         case FaultKind.SLOW_DISK:
@@ -117,7 +117,8 @@ def _blind(house: House, fault: SimFault) -> Iterator[str]:
 
 
 @contextmanager
-def _full(home: Path) -> Iterator[str]:
+def full_disk(home: Path) -> Iterator[str]:
+    """Fill the disk of a home to its last byte; empty it again."""
     filler = home / "filler"
     try:
         with suppress(OSError), filler.open("wb") as file:
