@@ -35,16 +35,20 @@ USAGE = (
 _PR_SET_PDEATHSIG = 1  # prctl(2)
 
 
-def child_command(module: str, *arguments: str, session_nice: int = 0) -> tuple[str, ...]:
+def child_command(
+    module: str, *arguments: str, session_nice: int = 0, parent_pid: int | None = None
+) -> tuple[str, ...]:
     """Return how to run a module of ours that gets SIGTERM when this process dies.
 
     Args:
         module: run as ``__main__``.
         arguments: of that module.
         session_nice: how far its session, which it must lead, stands behind others.
+        parent_pid: the process that it must not outlive; this one unless given.
     """
     options = [f"{SESSION_NICE}{session_nice}"] if session_nice else []
-    return (sys.executable, "-m", MODULE, str(os.getpid()), *options, module, *arguments)
+    parent = str(os.getpid() if parent_pid is None else parent_pid)
+    return (sys.executable, "-m", MODULE, parent, *options, module, *arguments)
 
 
 def worker_command(module: str, *arguments: str) -> tuple[str, ...]:

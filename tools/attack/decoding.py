@@ -11,6 +11,7 @@ from tools.attack.lab import side_by_side
 from tools.attack.outcome import AttackOutcome
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from tools.attack.lab import AttackLab, ChildEnd
@@ -34,18 +35,30 @@ def attack(lab: AttackLab) -> list[AttackOutcome]:
     return found
 
 
-def _blind(lab: AttackLab, folder: Path) -> list[AttackOutcome]:
-    seconds = LONG_S if lab.long else QUICK_S
+def _run_fuzzer(
+    lab: AttackLab,
+    folder: Path,
+    module: str,
+    seconds: float,
+    judge: Callable[[str, ChildEnd], AttackOutcome],
+) -> list[AttackOutcome]:
+    """Run one fuzzer's module on every decoder, each in a folder of its own."""
     commands = []
     for decoder in DECODERS:
-        own = folder / decoder.name
+        own = folder / f"{decoder.name}-{module}"  # crashes are kept beside it
         own.mkdir()
-        commands.append(lab.child("tools.attack.fuzz", decoder.name, own, seconds, LONG_COUNT))
+        commands.append(lab.child(module, decoder.name, own, seconds, LONG_COUNT))
     found: dict[int, AttackOutcome] = {}
     for at, ended in side_by_side(commands, seconds + GRACE_S):
-        found[at] = blind_outcome(DECODERS[at].name, ended)
+        found[at] = judge(DECODERS[at].name, ended)
         lab.say(f"{found[at].attack}: {found[at].n} inputs, {found[at].wrong} wrong")
     return [found[at] for at in sorted(found)]
+
+
+def _blind(lab: AttackLab, folder: Path) -> list[AttackOutcome]:
+    return _run_fuzzer(
+        lab, folder, "tools.attack.fuzz", LONG_S if lab.long else QUICK_S, blind_outcome
+    )
 
 
 def blind_outcome(name: str, ended: ChildEnd) -> AttackOutcome:
@@ -73,17 +86,9 @@ def _run_guided(lab: AttackLab, folder: Path) -> list[AttackOutcome]:
     if importlib.util.find_spec("atheris") is None:
         note = "atheris is not installed: make attack installs it where it has a wheel"
         return [AttackOutcome("guided", 0, 0, "0 crashes", note=note, skipped=True)]
-    seconds = LONG_S if lab.long else QUICK_GUIDED_S
-    commands = []
-    for decoder in DECODERS:
-        own = folder / f"{decoder.name}-guided"
-        own.mkdir()
-        commands.append(lab.child("tools.attack.guided", decoder.name, own, seconds, LONG_COUNT))
-    found: dict[int, AttackOutcome] = {}
-    for at, ended in side_by_side(commands, seconds + GRACE_S):
-        found[at] = guided_outcome(DECODERS[at].name, ended)
-        lab.say(f"{found[at].attack}: {found[at].n} inputs, {found[at].wrong} wrong")
-    return [found[at] for at in sorted(found)]
+    return _run_fuzzer(
+        lab, folder, "tools.attack.guided", LONG_S if lab.long else QUICK_GUIDED_S, guided_outcome
+    )
 
 
 def guided_outcome(name: str, ended: ChildEnd) -> AttackOutcome:

@@ -9,8 +9,8 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 from pons.http import PlannerDown, PlannerProblem
-from tools.bench.chaos.draw import Episode, FaultKind
-from tools.bench.chaos.faults import NEEDS_MOUNTS, OWNER_OF, break_house, processes_of, sockets
+from tools.bench.chaos.draw import OWNER_OF, Episode, FaultKind
+from tools.bench.chaos.faults import NEEDS_MOUNTS, break_house, processes_of, sockets
 from tools.bench.chaos.person import Bystander, StopTold, say_stop
 from tools.bench.chaos.verdict import contacts, has_moved, judge_stop, said_twice
 from tools.bench.context import MeasurementFailure, line, until
