@@ -59,7 +59,7 @@ class Supervisor:
         planner: bool,
         issued: IssuedCertificate | None = None,
     ) -> None:
-        self._trust = issued.told() if issued else ()
+        self._trust = issued.trust_lines() if issued else ()
         self._settings = settings
         self._robot = robot
         self._planner = planner

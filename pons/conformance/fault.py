@@ -77,7 +77,7 @@ def _bytes(what: object) -> bytes:
     return what if isinstance(what, bytes) else pack(what)
 
 
-def play_breaker(
+def spoil(
     make: Callable[[FaultStage], Breaker], *, stand: bool = True
 ) -> Callable[[FaultStage], None]:
     """Return the play of a brain whose words go wrong, until it stands or for a while."""

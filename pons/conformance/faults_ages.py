@@ -17,7 +17,7 @@ from pons.conformance.fault import (
     W,
     X,
     everything,
-    play_breaker,
+    spoil,
 )
 from pons.conformance.reference_client import number
 
@@ -116,7 +116,7 @@ def _duplicate(_stage: FaultStage) -> Breaker:
     return breaker
 
 
-def _skew_clock(offset_s: float, rate: float) -> Callable[[FaultStage], None]:
+def _skew(offset_s: float, rate: float) -> Callable[[FaultStage], None]:
     """Return the play of a brain whose clock is wrong and runs wrong."""
 
     def play(stage: FaultStage) -> None:
@@ -139,63 +139,24 @@ def _skew_clock(offset_s: float, rate: float) -> Callable[[FaultStage], None]:
 
 
 FAULTS = (
-    Fault("replayed", "all of the last 2 s again, byte for byte", play_breaker(_replay), SILENT),
-    Fault(
-        "renumbered", "old commands with fresh numbers", play_breaker(_renumber), SILENT, quick=(X,)
-    ),
-    Fault(
-        "clock_ahead",
-        "the sender's clock an hour ahead and 25 % fast",
-        _skew_clock(HOUR_S, 1.25),
-        DRIVES_ON,
-    ),
-    Fault(
-        "clock_behind",
-        "the sender's clock an hour behind and 25 % slow",
-        _skew_clock(-HOUR_S, 0.75),
-        DRIVES_ON,
-    ),
-    Fault(
-        "seen_ahead",
-        f"claims a status {AHEAD} ahead of the newest",
-        play_breaker(lambda _stage: _shift_seen(AHEAD)),
-        SILENT,
-    ),
-    Fault(
-        "seen_behind",
-        f"answers what was said {BEHIND} statuses ago",
-        play_breaker(lambda _stage: _shift_seen(-BEHIND)),
-        SILENT,
-    ),
-    Fault("stale_seen", "one status named for ever", play_breaker(_stale_seen), SILENT),
-    Fault(
-        "stale_used",
-        "lives, but thinks on one status for ever",
-        play_breaker(_stale_used),
-        {W: USED_S},
-        kinds=(W,),
-    ),
-    Fault(
-        "no_heartbeat",
-        "commands, but no heartbeats: velocities are a lease by themselves",
-        play_breaker(_no_heartbeat, stand=False),
-        DRIVES_ON,
-        kinds=(X,),
-    ),
-    Fault(
-        "no_heartbeat",
-        "commands, but no heartbeats",
-        play_breaker(_no_heartbeat),
-        {W: USED_S},
-        kinds=(W,),
-    ),
-    Fault(
-        "reordered",
-        "three commands at a time, shuffled",
-        play_breaker(_reorder, stand=False),
-        DRIVES_ON,
-    ),
-    Fault(
-        "duplicated", "each message three times", play_breaker(_duplicate, stand=False), DRIVES_ON
-    ),
-)
+    Fault("replayed", "all of the last 2 s again, byte for byte", spoil(_replay), SILENT),
+    Fault("renumbered", "old commands with fresh numbers", spoil(_renumber), SILENT, quick=(X,)),
+    Fault("clock_ahead", "the sender's clock an hour ahead and 25 % fast", _skew(HOUR_S, 1.25),
+          DRIVES_ON),
+    Fault("clock_behind", "the sender's clock an hour behind and 25 % slow",
+          _skew(-HOUR_S, 0.75), DRIVES_ON),
+    Fault("seen_ahead", f"claims a status {AHEAD} ahead of the newest",
+          spoil(lambda _stage: _shift_seen(AHEAD)), SILENT),
+    Fault("seen_behind", f"answers what was said {BEHIND} statuses ago",
+          spoil(lambda _stage: _shift_seen(-BEHIND)), SILENT),
+    Fault("stale_seen", "one status named for ever", spoil(_stale_seen), SILENT),
+    Fault("stale_used", "lives, but thinks on one status for ever", spoil(_stale_used),
+          {W: USED_S}, kinds=(W,)),
+    Fault("no_heartbeat", "commands, but no heartbeats: velocities are a lease by themselves",
+          spoil(_no_heartbeat, stand=False), DRIVES_ON, kinds=(X,)),
+    Fault("no_heartbeat", "commands, but no heartbeats", spoil(_no_heartbeat), {W: USED_S},
+          kinds=(W,)),
+    Fault("reordered", "three commands at a time, shuffled", spoil(_reorder, stand=False),
+          DRIVES_ON),
+    Fault("duplicated", "each message three times", spoil(_duplicate, stand=False), DRIVES_ON),
+)  # fmt: skip

@@ -6,7 +6,7 @@ from math import inf, nan
 from typing import TYPE_CHECKING
 
 from pons.conformance.driver import pack
-from pons.conformance.fault import DRIVES_ON, STALE, Fault, W, X, commands, play_breaker
+from pons.conformance.fault import DRIVES_ON, STALE, Fault, W, X, commands, spoil
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -141,50 +141,23 @@ def _into_the_wall(stage: FaultStage) -> None:
 
 
 FAULTS = (
-    Fault("nan", "NaN in a number's place", play_breaker(poison_field(nan)), STALE, quick=(X,)),
-    Fault("infinity", "Infinity and -Infinity", play_breaker(poison_field(inf)), STALE),
-    Fault("out_of_bounds", "numbers no robot has: 1e9", play_breaker(poison_field(-1e9)), STALE),
-    Fault(
-        "too_fast",
-        "9 m/s, four times the turn",
-        play_breaker(_too_fast, stand=False),
-        DRIVES_ON,
-        kinds=(X,),
-    ),
-    Fault("path_too_fast", "a horizon at 9 m/s", play_breaker(_too_fast), STALE, kinds=(W,)),
-    Fault(
-        "jerky",
-        "full speed and turn, to and fro at 20 Hz",
-        play_breaker(_jerky, stand=False),
-        DRIVES_ON,
-        kinds=(X,),
-        quick=(X,),
-    ),
-    Fault(
-        "into_the_wall",
-        "full speed at a wall: the lidar must stop it",
-        _into_the_wall,
-        {X: WALL_S},
-        kinds=(X,),
-    ),
-    Fault(
-        "wrong_types", "strings, lists, truth values for numbers", play_breaker(_wrong_types), STALE
-    ),
-    Fault("junk", "empty, not JSON, nested 3000 deep, not text", play_breaker(_junk), STALE),
-    Fault("truncated", "each message cut at a random byte", play_breaker(_truncate), STALE),
-    Fault(
-        "bit_flipped",
-        "one to eight random bits of each message flipped",
-        play_breaker(_flip_bits, stand=False),
-        DRIVES_ON,
-        quick=(W,),
-    ),
-    Fault("unknown_field", "a field that the schema has not", play_breaker(_unknown_field), STALE),
-    Fault(
-        "field_twice",
-        "one field twice, the second out of bounds",
-        play_breaker(_twice_the_field),
-        STALE,
-    ),
+    Fault("nan", "NaN in a number's place", spoil(poison_field(nan)), STALE, quick=(X,)),
+    Fault("infinity", "Infinity and -Infinity", spoil(poison_field(inf)), STALE),
+    Fault("out_of_bounds", "numbers no robot has: 1e9", spoil(poison_field(-1e9)), STALE),
+    Fault("too_fast", "9 m/s, four times the turn", spoil(_too_fast, stand=False), DRIVES_ON,
+          kinds=(X,)),
+    Fault("path_too_fast", "a horizon at 9 m/s", spoil(_too_fast), STALE, kinds=(W,)),
+    Fault("jerky", "full speed and turn, to and fro at 20 Hz", spoil(_jerky, stand=False),
+          DRIVES_ON, kinds=(X,), quick=(X,)),
+    Fault("into_the_wall", "full speed at a wall: the lidar must stop it", _into_the_wall,
+          {X: WALL_S}, kinds=(X,)),
+    Fault("wrong_types", "strings, lists, truth values for numbers", spoil(_wrong_types), STALE),
+    Fault("junk", "empty, not JSON, nested 3000 deep, not text", spoil(_junk), STALE),
+    Fault("truncated", "each message cut at a random byte", spoil(_truncate), STALE),
+    Fault("bit_flipped", "one to eight random bits of each message flipped",
+          spoil(_flip_bits, stand=False), DRIVES_ON, quick=(W,)),
+    Fault("unknown_field", "a field that the schema has not", spoil(_unknown_field), STALE),
+    Fault("field_twice", "one field twice, the second out of bounds", spoil(_twice_the_field),
+          STALE),
     Fault("huge", "a message of 7 MB and one of 10 MB beside good ones", _huge, DRIVES_ON),
-)
+)  # fmt: skip

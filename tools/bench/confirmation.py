@@ -71,14 +71,14 @@ def by_page(settings: Settings) -> Iterator[Stop]:
                 return time.monotonic() - began_s if confirmed else None
         return None
 
-    def heard() -> float | None:
+    def confirm() -> float | None:
         try:
             return stop()
         except (OSError, WebSocketException):  # closed, or silent for too long
             return None
 
     with socket:
-        yield heard
+        yield confirm
 
 
 WAYS: dict[str, Callable[[Settings], AbstractContextManager[Stop]]] = {

@@ -163,7 +163,7 @@ def played_by(world: Machine, play: Callable[..., tuple[dict[str, MatrixCell], b
     playing = Runner.__new__(Runner)
     parts = {
         "_adapter": adapter(), "_fair": world.fair(), "_name": "velocity", "_play": play,
-        "again": lambda: MatrixCell(True, "0.5 s"),
+        "drive_well": lambda: MatrixCell(True, "0.5 s"),
     }  # fmt: skip
     for name, part in parts.items():
         setattr(playing, name, part)
