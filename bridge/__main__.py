@@ -37,7 +37,6 @@ from bridge.realtime import (
     transport_fifo,
 )
 from bridge.recording.recorder import Recorder
-from bridge.select_core import CORE  # first: it chooses which core the others import
 from bridge.warmup import warm_up
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
@@ -137,7 +136,6 @@ def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> in
         log.log(level, "%s %s: %s", right.name, "granted" if right.granted else "refused",
                 right.detail)  # fmt: skip
     log.info("run %s, %s drive, %s", config.boot, parts.drive.kind, config.robot.id)
-    log.info("core: %s", CORE.text)
     shell = Shell(config, parts, clock.now_s(), real_time=all_granted(rights))
     parts.service.ready()
     desk = parts.desk

@@ -51,7 +51,6 @@ def findings(settings: Settings) -> list[Finding]:
     priority, virtual = robot.realtime.priority, robot.drive.virtual
     return [
         host_checks.python(),
-        checked("core", host_checks.core),
         host_checks.page_size(),
         checked("real_time", lambda: host_checks.real_time(priority, virtual=virtual)),
         checked("locked_memory", host_checks.locked_memory),
