@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING
 
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
-from bridge.drive import SimDrive, braked
+from bridge.drive import SimDrive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
 from bridge.link import Link
-from bridge.node import EXIT_LEFT, Parts, Shell
+from bridge.node import EXIT_LEFT, BridgeNode, Parts
 from bridge.operator_key import load_operator_key
 from bridge.realtime import (
     Collector,
@@ -78,7 +78,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
 
 
 def _serve(options: argparse.Namespace) -> int:
-    asked = _Asked()  # first: a signal during the slow part of the start must end it cleanly too
+    asked = (
+        _LeaveRequest()
+    )  # first: a signal during the slow part of the start must end it cleanly too
     robot = _robot(options.robot)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     config = _config(robot, options.site, home)
@@ -124,10 +126,10 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
 
 
 def _drive(session: Session, robot: RobotDescription, boot: str) -> Drive:
-    return braked({"sim": SimDrive}[robot.drive.kind](session, boot))
+    return require_brakes({"sim": SimDrive}[robot.drive.kind](session, boot))
 
 
-def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> int:
+def _loop(config: CoreConfig, parts: Parts, asked: _LeaveRequest, carried: Right) -> int:
     clock = MonotonicClock()
     warm_up(config, clock.now_s())
     rights = (carried, *_rights(config.robot.realtime, parts.collector))
@@ -136,11 +138,11 @@ def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> in
         log.log(level, "%s %s: %s", right.name, "granted" if right.granted else "refused",
                 right.detail)  # fmt: skip
     log.info("run %s, %s drive, %s", config.boot, parts.drive.kind, config.robot.id)
-    shell = Shell(config, parts, clock.now_s(), real_time=all_granted(rights))
+    shell = BridgeNode(config, parts, clock.now_s(), real_time=all_granted(rights))
     parts.service.ready()
     desk = parts.desk
     status = shell.run(
-        Pacer(clock, config.period_s), lambda: asked.to_leave() or desk.over(clock.now_s())
+        Pacer(clock, config.period_s), lambda: asked.to_leave() or desk.is_over(clock.now_s())
     )
     if status == EXIT_LEFT and not asked.to_leave():
         log.warning("fence_changed: leaving, so that the next start loads the fence put in force")
@@ -155,7 +157,7 @@ def _rights(wanted: RealTime, collector: Collector) -> tuple[Right, ...]:
     return memory, pin(wanted.cpu), take_fifo(wanted.priority)
 
 
-class _Asked:
+class _LeaveRequest:
     """Remember that somebody asked us to leave."""
 
     def __init__(self) -> None:

@@ -60,19 +60,19 @@ def load_learnt(path: Path, robot: RobotDescription) -> tuple[Learnt, str | None
     except FileNotFoundError:
         return UNLEARNT, None
     except OSError as error:
-        return _refused(path, str(error.strerror))
+        return _refuse(path, str(error.strerror))
     if len(data) > MAX_BYTES:
-        return _refused(path, f"{len(data)} bytes, at most {MAX_BYTES}")
+        return _refuse(path, f"{len(data)} bytes, at most {MAX_BYTES}")
     try:
         kept = BrakingFile.model_validate_json(data, strict=True)
     except ValidationError as error:
-        return _refused(path, explain(error, BrakingFile))
+        return _refuse(path, explain(error, BrakingFile))
     if (kept.robot, kept.robot_hash) != (robot.id, robot.hash):
-        return _refused(path, f"it is of robot {kept.robot} with robot.toml {kept.robot_hash}")
+        return _refuse(path, f"it is of robot {kept.robot} with robot.toml {kept.robot_hash}")
     return kept.learnt, None
 
 
-def _refused(path: Path, why: str) -> tuple[Learnt, str]:
+def _refuse(path: Path, why: str) -> tuple[Learnt, str]:
     log.warning(
         "%s: %s: %s; robot.toml's values count until stops teach anew", UNREADABLE, path, why
     )

@@ -78,7 +78,7 @@ class FenceDesk:
         else:
             self._queue.put(asked)
 
-    def over(self, now_s: float) -> bool:
+    def is_over(self, now_s: float) -> bool:
         """Say whether a new fence is written and its verdict was shown: time to start anew."""
         return self._written_s is not None and now_s - self._written_s >= LINGER_S
 

@@ -97,23 +97,23 @@ class Link:
         recorder_says: str = "",
     ) -> Inbox:
         """Take one tick's arrivals, in the order in which they count."""
-        took = _Took()
+        took = _TickDrain()
         stops = self._stops(took)
         ops = self._operator(took)
         return Inbox(
             stops=stops,
             ops=ops,
-            hellos=took.all(HELLO, self._hello),
-            grants=took.all(GRANT, self._grant),
-            heartbeats=took.all(HEARTBEAT, self._heartbeat),
-            localization=took.newest(LOCALIZATION, self._localization),
-            teleop=took.all(TELEOP, self._teleop),
-            external=took.all(EXTERNAL, self._external),
-            waypoints=took.all(WAYPOINTS, self._waypoints),
-            drive=took.sorted_out(DRIVE_STATE, drive),
-            scan=took.newest(SCAN, self._scan),
-            imu=took.newest(IMU, self._imu),
-            estop_link=took.newest(ESTOP_LINK, self._estop_link),
+            hellos=took.take_all(HELLO, self._hello),
+            grants=took.take_all(GRANT, self._grant),
+            heartbeats=took.take_all(HEARTBEAT, self._heartbeat),
+            localization=took.take_newest(LOCALIZATION, self._localization),
+            teleop=took.take_all(TELEOP, self._teleop),
+            external=took.take_all(EXTERNAL, self._external),
+            waypoints=took.take_all(WAYPOINTS, self._waypoints),
+            drive=took.sort_out(DRIVE_STATE, drive),
+            scan=took.take_newest(SCAN, self._scan),
+            imu=took.take_newest(IMU, self._imu),
+            estop_link=took.take_newest(ESTOP_LINK, self._estop_link),
             fences=self._fences(took),
             fence_done=fence_done,
             rejected=tuple(took.rejected),
@@ -134,7 +134,7 @@ class Link:
         for event in decision.events:
             self._event.put(event)
 
-    def _stops(self, took: _Took) -> tuple[Stop, ...]:
+    def _stops(self, took: _TickDrain) -> tuple[Stop, ...]:
         payloads = self._stop.drain_bytes()
         if not payloads:
             return ()
@@ -153,17 +153,17 @@ class Link:
             took.rejected.append(RejectedAt(STOP.path, refused))
         return tuple(reversed(found))
 
-    def _operator(self, took: _Took) -> tuple[OpArrived, ...]:
+    def _operator(self, took: _TickDrain) -> tuple[OpArrived, ...]:
         return tuple(
             OpArrived(kind, request, self._authentic(kind, request))
             for kind, key, subscriber in self._ops
-            for request in took.all(key, subscriber)
+            for request in took.take_all(key, subscriber)
         )
 
-    def _fences(self, took: _Took) -> tuple[FenceArrived, ...]:
+    def _fences(self, took: _TickDrain) -> tuple[FenceArrived, ...]:
         """Take requests for another fence; the text of one that nobody proved goes no further."""
         arrived = []
-        for request in took.all(FENCE, self._fence):
+        for request in took.take_all(FENCE, self._fence):
             fits = authentic_fence(self._operator_key, self._robot_id, request)
             nonce = request.proof.nonce if request.proof is not None else None
             text = request.fence if fits else ""
@@ -174,7 +174,7 @@ class Link:
         return authentic(self._operator_key, kind, self._robot_id, request.proof, request.id)
 
 
-class _Took:
+class _TickDrain:
     """Collect what one drain counted and refused.
 
     Most keys are silent in most ticks, so each is first asked for bytes alone: 0.5 us, four times
@@ -187,21 +187,21 @@ class _Took:
         self.arrived: list[ArrivedAt] = []
         self.rejected: list[RejectedAt] = []
 
-    def all(self, key: Key[M], subscriber: Subscriber[M]) -> tuple[M, ...]:
+    def take_all(self, key: Key[M], subscriber: Subscriber[M]) -> tuple[M, ...]:
         """Return what came on a command key, at most PARSED of it, and count it all."""
         payloads = subscriber.drain_bytes()
         if not payloads:
             return ()
         self.arrived.append(ArrivedAt(key.path, len(payloads)))
-        return self._parsed(key, payloads[-PARSED:])
+        return self._parse(key, payloads[-PARSED:])
 
-    def newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
+    def take_newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
         """Return what came on a state key."""
         payloads = subscriber.drain_bytes()
-        good = self._parsed(key, payloads[-1:]) if payloads else ()
+        good = self._parse(key, payloads[-1:]) if payloads else ()
         return good[-1] if good else None
 
-    def sorted_out(self, key: Key[M], items: Iterable[M | Rejected]) -> tuple[M, ...]:
+    def sort_out(self, key: Key[M], items: Iterable[M | Rejected]) -> tuple[M, ...]:
         """Return the messages and note the refusals."""
         good: list[M] = []
         for item in items:
@@ -211,5 +211,5 @@ class _Took:
                 good.append(item)
         return tuple(good)
 
-    def _parsed(self, key: Key[M], payloads: list[bytes]) -> tuple[M, ...]:
-        return self.sorted_out(key, [decode(key, payload) for payload in payloads])
+    def _parse(self, key: Key[M], payloads: list[bytes]) -> tuple[M, ...]:
+        return self.sort_out(key, [decode(key, payload) for payload in payloads])

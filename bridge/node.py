@@ -48,7 +48,7 @@ class Parts:
     desk: FenceDesk
 
 
-class Shell:
+class BridgeNode:
     """Be the loop of one run."""
 
     def __init__(self, config: CoreConfig, parts: Parts, now_s: float, *, real_time: bool) -> None:

@@ -82,7 +82,7 @@ class _Replay:
             case StateFrame():
                 self._arrive(frame.state)
             case TickFrame():
-                self._again(frame)
+                self._step_again(frame)
 
     def _configure(self, header: Header) -> None:
         if header != self._header:  # another run's: nothing carries over
@@ -98,7 +98,7 @@ class _Replay:
             self._differs(f"tick {recorded.tick}: the state reached is not the recorded one")
         self._state = recorded
 
-    def _again(self, frame: TickFrame) -> None:
+    def _step_again(self, frame: TickFrame) -> None:
         if self._config is None or self._state is None:
             raise BadRecording("recording_stateless", f"tick {frame.tick} comes before any state")
         if self._state.tick != frame.tick:

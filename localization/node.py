@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 PERIOD_S = 0.05
 
 
-class Shell:
+class LocalizationNode:
     """Connect one stand-in to the wire."""
 
     def __init__(self, stand_in: StandIn, session: Session) -> None:

@@ -26,7 +26,7 @@ class Faults:
         self._standing = frozenset(standing)
         self._in_order = tuple(fault for fault in SimFault if fault in self._standing)
         self._sensors = {sensor: self._troubles(sensor) for sensor in ("encoder", "lidar", "gyro")}
-        self.buttons = self._pressed()
+        self.buttons = self._buttons()
         """Which of the drive's inputs are pressed."""
 
     @property
@@ -55,7 +55,7 @@ class Faults:
             return RUNAWAY_RADPS, RUNAWAY_RADPS
         return (-left, -right) if SimFault.REVERSED in self else (left, right)
 
-    def _pressed(self) -> Buttons:
+    def _buttons(self) -> Buttons:
         return Buttons(
             estop=SimFault.ESTOP_PRESSED in self,
             bumper_front=SimFault.BUMPER_FRONT in self,

@@ -8,7 +8,7 @@ from wire import DriveState, Imu, Pose2, Scan, SimScene, SimThing, SimTruth, Twi
 from wire.value import value
 
 if TYPE_CHECKING:
-    from sim.command_watchdog import DeadMan, Wheels
+    from sim.command_watchdog import DeadMan, WheelTargets
     from sim.contacts import Episodes
     from sim.sensors import Encoder, ImuSample, LidarModel, Ranges
     from wire import SimFault
@@ -49,7 +49,7 @@ class Speaker:
         self,
         now_s: float,
         dead_man: DeadMan,
-        wheels: Wheels,
+        wheels: WheelTargets,
         encoders: tuple[Encoder, Encoder],
         battery: float,
         buttons: Buttons,

@@ -33,7 +33,7 @@ class Things:
         self.elsewhere: tuple[SimThing, ...] = ()
         """Those that are not where the home declares them."""
 
-    def where(self, name: str) -> Pose2 | None:
+    def pose_of(self, name: str) -> Pose2 | None:
         """Return where a thing is now; None is nowhere."""
         self._check(name)
         return self._now[name]

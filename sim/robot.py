@@ -25,13 +25,13 @@ from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
 from sim.site.objects import uprights
 from sim.true_parameters import true_base
-from sim.world import World
+from sim.world import PhysicsWorld
 from wire import Pose2, RobotDescription, SimFault, Twist2, compose
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from sim.command_watchdog import Wheels
+    from sim.command_watchdog import WheelTargets
     from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimScene, SimTruth
 
 _STEPS = round(PERIODS.tick_s / PERIODS.step_s)
@@ -63,7 +63,7 @@ class SimRobot:
         self.faults = Faults()
         self._hardware = hardware or Hardware()
         base = true_base(self.robot.base, self._hardware)
-        self._world = World(
+        self._world = PhysicsWorld(
             solids(self.home), base, self._hardware, PERIODS.step_s, uprights(self.home)
         )
         self.things = Things(self.home)
@@ -217,7 +217,7 @@ class SimRobot:
         left_over = gain * max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
         return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 
-    def _drive_due(self, now_s: float, wheels: Wheels) -> DriveState | None:
+    def _drive_due(self, now_s: float, wheels: WheelTargets) -> DriveState | None:
         turning = wheels.left_radps != 0.0 or wheels.right_radps != 0.0
         battery = self.faults.charge(self._battery.charge, turning=turning)
         state = self._speaker.drive(
@@ -244,7 +244,7 @@ class SimRobot:
             self._lidar.directions(lidar_in_map),
             config.range_max_m + _BEYOND_RANGE_M,
         )
-        ranges_m = self._lidar.measured(true_m)
+        ranges_m = self._lidar.measure(true_m)
         if SimFault.LIDAR_BLIND in self.faults:
             ranges_m = (None,) * len(ranges_m)
         return self._speaker.scan(now_s, self._lidar, ranges_m)

@@ -56,14 +56,14 @@ class Channel(Generic[M]):
         if Trouble.STUCK not in troubles:
             self._stuck = None
         if message is not None:
-            message = self._spoilt(message, troubles)
+            message = self._spoil(message, troubles)
         if Trouble.DELAYED in troubles or self._late:
-            message = self._delayed(message, wait=Trouble.DELAYED in troubles)
+            message = self._delay(message, wait=Trouble.DELAYED in troubles)
         shut = self._tick % (OPEN_TICKS + SHUT_TICKS) >= OPEN_TICKS
         lost = Trouble.OFF in troubles or (Trouble.INTERMITTENT in troubles and shut)
         return None if lost else message
 
-    def _spoilt(self, message: M, troubles: frozenset[Trouble]) -> M:
+    def _spoil(self, message: M, troubles: frozenset[Trouble]) -> M:
         if Trouble.STUCK in troubles:
             if self._stuck is None:
                 self._stuck = {name: getattr(message, name) for name in self._payload}
@@ -72,7 +72,7 @@ class Channel(Generic[M]):
             return message.model_copy(update=self._garbage(message))
         return message
 
-    def _delayed(self, message: M | None, *, wait: bool) -> M | None:
+    def _delay(self, message: M | None, *, wait: bool) -> M | None:
         """Put it at the end; give out what has waited long enough, or at once when mended."""
         if message is not None:
             self._late.append((self._tick + DELAY_TICKS, message))

@@ -100,7 +100,7 @@ class LidarModel:
         angles = self._angles + lidar_in_map.yaw_rad
         return np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
 
-    def measured(self, true_m: NDArray[np.float64]) -> Ranges:
+    def measure(self, true_m: NDArray[np.float64]) -> Ranges:
         """Turn true distances (-1: nothing there) into ranges; millimetres, None for no return."""
         count = len(true_m)
         noisy = true_m + self._random.normal(0.0, self._hardware.lidar_noise_m, count)

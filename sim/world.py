@@ -35,7 +35,7 @@ _ICE = 0.02  # Coulomb friction: 0.2 m/s2 at most
 _SEEN_BY_LIDAR = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)  # geom groups, see sim.mjcf
 
 
-class World:
+class PhysicsWorld:
     """Hold one MuJoCo model and its state."""
 
     def __init__(

@@ -83,7 +83,7 @@ class ImagePublisher:
         )
 
     @property
-    def wanted(self) -> bool:
+    def has_listener(self) -> bool:
         """Tell whether anybody listens."""
         status: Any = self._publisher.matching_status  # its stub says bool; it is a record
         return bool(status.matching)
@@ -140,12 +140,12 @@ class Subscriber(Generic[M]):
             return payloads  # the session is closed: nothing more will ever come
         return payloads
 
-    def drain(self) -> Drained[M]:
+    def drain(self) -> Arrivals[M]:
         """Take all that is waiting, parse at most the 4 newest, in order of arrival."""
         payloads = self.drain_bytes()
         if not payloads:  # most keys, in most ticks
             return _NOTHING
-        return Drained(
+        return Arrivals(
             tuple(decode(self._key, raw) for raw in payloads[-_PARSED_PER_DRAIN:]), len(payloads)
         )
 
@@ -173,7 +173,7 @@ class Subscribers(Subscriber[M]):
         return payloads
 
 
-class Drained(Generic[M]):
+class Arrivals(Generic[M]):
     """Give what one drain took from a key: parsed items and how many arrived."""
 
     __slots__ = ("arrived", "items")
@@ -183,7 +183,7 @@ class Drained(Generic[M]):
         self.arrived = arrived
 
 
-_NOTHING: Drained[Any] = Drained((), 0)
+_NOTHING: Arrivals[Any] = Arrivals((), 0)
 
 
 class Session:

@@ -142,7 +142,7 @@ def unreachable(home: Path, door: Door) -> str | None:
     """Say why this user can't connect to a door; None where it can."""
     path = Endpoints(home).socket(door)
     try:
-        _dialled(path).close()
+        _dial(path).close()
     except OSError as error:
         return f"{path}: {error.strerror or error}"
     return None
@@ -150,12 +150,12 @@ def unreachable(home: Path, door: Door) -> str | None:
 
 def _listening_uid(path: Path) -> int:
     """Return the user of the process that listens, as the kernel noted it (unix(7))."""
-    with _dialled(path) as probe:
+    with _dial(path) as probe:
         told = probe.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize("3i"))
     return int(struct.unpack("3i", told)[1])
 
 
-def _dialled(path: Path) -> socket.socket:
+def _dial(path: Path) -> socket.socket:
     with ExitStack() as undo:
         probe = undo.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
         probe.settimeout(PROBE_S)

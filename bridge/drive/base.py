@@ -8,7 +8,7 @@ from wire import DriveCommand, DriveState, Misconfigured, Rejected
 
 Braking = Literal["brake", "coast"]
 """What the wheels do without torque: short or brake, or roll on. Decides what CUT0 is worth; who
-coasts is refused by :func:`braked`."""
+coasts is refused by :func:`require_brakes`."""
 
 
 class Drive(Protocol):
@@ -29,7 +29,7 @@ class Drive(Protocol):
         """Zero both wheels and take the torque away. Never raises: all else may have failed."""
 
 
-def braked(drive: Drive) -> Drive:
+def require_brakes(drive: Drive) -> Drive:
     """Return the drive, whose wheels brake without torque.
 
     Every stop but HOLD2 ends without torque. On wheels that roll on, that is safe only with torque

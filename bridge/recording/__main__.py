@@ -15,7 +15,7 @@ import sys
 import time
 from pathlib import Path
 
-from bridge.recording.foxglove_messages import Clock
+from bridge.recording.foxglove_messages import UnixClock
 from bridge.recording.pipe_frames import BadFrame, Splitter
 from bridge.recording.writer import Writer
 from rank import nice
@@ -77,7 +77,7 @@ def main(arguments: list[str]) -> int:
     be_humble()
     folder, boot, rotate_bytes, cap_bytes, offset_s = arguments
     os.set_blocking(1, False)
-    clock = Clock(float(offset_s))
+    clock = UnixClock(float(offset_s))
     writer = Writer(Path(folder), boot, int(rotate_bytes), int(cap_bytes), clock)
     try:
         pump(0, 1, writer)

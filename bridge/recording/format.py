@@ -62,13 +62,16 @@ class StateFrame:
 
 
 @value
-class Given:
+class StepInput:
     """Give one step's arguments: the number of the tick before it, the time, what arrived."""
 
     tick: int
     now_s: float
     inbox: Inbox
-    __pydantic_config__: ClassVar[ConfigDict] = _STRICT
+    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(
+        extra="forbid", allow_inf_nan=False, title="Given"
+    )
+    """The title of its first version: a title is part of a core's fingerprint."""
 
 
 @value
@@ -102,7 +105,7 @@ Frame = Header | StateFrame | TickFrame
 
 HEADER = TypeAdapter(Header)
 STATE = TypeAdapter(StateFrame)
-GIVEN = TypeAdapter(Given)
+GIVEN = TypeAdapter(StepInput)
 DIGEST = TypeAdapter(Digest)
 COMMAND = TypeAdapter(DriveCommand)
 STATUS = TypeAdapter(Status)

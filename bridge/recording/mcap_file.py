@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from bridge.recording.topics import Topic
+    from bridge.recording.topics import RecordedTopic
 
 CHUNK_BYTES = 16 << 20
 """Never reached: chunks end when they are flushed, between two ticks."""
 LIBRARY = "pons"
 
 
-class BoxFile:
+class McapFile:
     """Be one file being written. Every method may raise OSError; then only ``abandon`` is left."""
 
-    def __init__(self, path: Path, topics: Mapping[str, Topic]) -> None:
+    def __init__(self, path: Path, topics: Mapping[str, RecordedTopic]) -> None:
         self.path = path
         self._sink = _Sink(path)
         self._writer = Writer(

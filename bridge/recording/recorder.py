@@ -73,7 +73,7 @@ class Recorder:
         when ticks are handed over: each look costs a system call."""
         self._schemas_due = True
         self._health = Health(None)
-        self._pipe, self._writer = self._started()
+        self._pipe, self._writer = self._start_writer()
 
     @property
     def writer_pid(self) -> int | None:
@@ -92,7 +92,7 @@ class Recorder:
         if len(self._kept) >= TOGETHER:
             alive = self._look_after(now_s)
             self._hand_over()
-            self.trouble = self._judged(now_s, alive=alive)
+            self.trouble = self._judge(now_s, alive=alive)
 
     def close(self) -> bool:
         """Let the writer finish; say whether it did. After the loop only: it waits."""
@@ -103,7 +103,7 @@ class Recorder:
         self._pipe.close()
         return self._writer is not None and self._writer.join()
 
-    def _judged(self, now_s: float, *, alive: bool) -> str:
+    def _judge(self, now_s: float, *, alive: bool) -> str:
         if not alive or self._pipe.broken:
             return f"{DOWN}: the writing process has died"
         said = self._health.trouble(now_s)
@@ -175,9 +175,9 @@ class Recorder:
         self._until_segment = 0
         self._schemas_due = True
         self._health = Health(self._now_s)
-        self._pipe, self._writer = self._started()
+        self._pipe, self._writer = self._start_writer()
 
-    def _started(self) -> tuple[Pipe, WriterProcess | None]:
+    def _start_writer(self) -> tuple[Pipe, WriterProcess | None]:
         pipe, writer = Pipe(self._pipe_bytes), None
         try:
             writer = WriterProcess(

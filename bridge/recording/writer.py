@@ -12,7 +12,7 @@ from errno import EDQUOT, ENOSPC
 from typing import TYPE_CHECKING
 
 from bridge.recording import foxglove_messages, pipe_frames
-from bridge.recording.mcap_file import BoxFile
+from bridge.recording.mcap_file import McapFile
 from bridge.recording.rotation import free_bytes, next_path, prune
 from bridge.recording.topics import OF_KIND, topics
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-    from bridge.recording.topics import Topic
+    from bridge.recording.topics import RecordedTopic
 
 log = logging.getLogger("bridge.recording")
 
@@ -39,13 +39,13 @@ class Writer:
         boot: str,
         rotate_bytes: int,
         cap_bytes: int,
-        clock: foxglove_messages.Clock,
+        clock: foxglove_messages.UnixClock,
     ) -> None:
         self._folder, self._boot = folder, boot
         self._rotate_bytes, self._cap_bytes = rotate_bytes, cap_bytes
         self._clock = clock
-        self._topics: dict[str, Topic] = {}
-        self._file: BoxFile | None = None
+        self._topics: dict[str, RecordedTopic] = {}
+        self._file: McapFile | None = None
         self._failing = ""
         self._tick, self._now_s, self._at_ns = 0, 0.0, 0
         self._ranges: bytes | None = None
@@ -101,7 +101,7 @@ class Writer:
                 file.close()
             except OSError as error:
                 file.abandon()
-                self._failing = _said(error, self._folder)
+                self._failing = _describe_failure(error, self._folder)
 
     def _worth(self, kind: bytes, payload: bytes) -> list[tuple[str, bytes]]:
         """Return what a frame puts into the file: the well-known first, then itself.
@@ -109,7 +109,7 @@ class Writer:
         The record matters more than its looks: what can't be said again is left out, and said once.
         """
         try:
-            made = list(self._known(kind, payload))
+            made = list(self._well_known(kind, payload))
         except (KeyError, TypeError, ValueError) as error:
             made = []
             if OF_KIND[kind] not in self._unsaid:
@@ -117,7 +117,7 @@ class Writer:
                 log.warning("recorder_unsaid: %s is not shown to viewers: %r", OF_KIND[kind], error)
         return [*made, (OF_KIND[kind], payload)]
 
-    def _known(self, kind: bytes, payload: bytes) -> Iterable[tuple[str, bytes]]:
+    def _well_known(self, kind: bytes, payload: bytes) -> Iterable[tuple[str, bytes]]:
         clock, now_s = self._clock, self._now_s
         if kind == pipe_frames.INBOX:
             return foxglove_messages.from_inbox(payload, self._ranges, self._lidar, clock, now_s)
@@ -141,7 +141,7 @@ class Writer:
             self._folder.mkdir(parents=True, exist_ok=True)
             prune(self._folder, self._boot, self._cap_bytes, self._rotate_bytes)
             self._demand_room()
-            self._file = BoxFile(next_path(self._folder, self._boot, unix_s), self._topics)
+            self._file = McapFile(next_path(self._folder, self._boot, unix_s), self._topics)
             self._failing = ""
         except OSError as error:
             self._fail(error)
@@ -159,16 +159,16 @@ class Writer:
             prune(self._folder, self._boot, self._cap_bytes, self._rotate_bytes)
             self._demand_room()
         except OSError as error:
-            return _said(error, self._folder)
+            return _describe_failure(error, self._folder)
         return ""
 
     def _fail(self, error: OSError) -> None:
         file, self._file = self._file, None
         if file is not None:
             file.abandon()
-        self._failing = _said(error, self._folder)
+        self._failing = _describe_failure(error, self._folder)
 
 
-def _said(error: OSError, folder: Path) -> str:
+def _describe_failure(error: OSError, folder: Path) -> str:
     code = "disk_full" if error.errno in _FULL else "recorder_down"
     return f"{code}: {error.strerror or error} in {folder}"

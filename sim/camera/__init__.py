@@ -6,11 +6,20 @@ taken, ``Appearance`` is all that may vary between homes that hold the same thin
 """
 
 from sim.camera.camera import SimCamera
-from sim.camera.camera_faults import Shot
+from sim.camera.camera_faults import PicturePair
 from sim.camera.frame import Frame
 from sim.camera.noise import spoil
 from sim.camera.renderer import Renderer
 from sim.camera.surfaces import Appearance, Texture
 from sim.camera.view import focal_px
 
-__all__ = ["Appearance", "Frame", "Renderer", "Shot", "SimCamera", "Texture", "focal_px", "spoil"]
+__all__ = [
+    "Appearance",
+    "Frame",
+    "PicturePair",
+    "Renderer",
+    "SimCamera",
+    "Texture",
+    "focal_px",
+    "spoil",
+]

@@ -15,7 +15,7 @@ DELAY_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class Shot:
+class PicturePair:
     """Hold both packed pictures of one instant."""
 
     stamp_s: float
@@ -27,10 +27,12 @@ class Shutter:
     """Pass one camera's shots, one call a period."""
 
     def __init__(self) -> None:
-        self._stuck: Shot | None = None
-        self._late: deque[tuple[float, Shot]] = deque()
+        self._stuck: PicturePair | None = None
+        self._late: deque[tuple[float, PicturePair]] = deque()
 
-    def through(self, shot: Shot, now_s: float, faults: Collection[SimFault]) -> Shot | None:
+    def through(
+        self, shot: PicturePair, now_s: float, faults: Collection[SimFault]
+    ) -> PicturePair | None:
         """Take a shot; return the one that leaves the camera now, if any."""
         if SimFault.CAMERA_OFF in faults:
             return None

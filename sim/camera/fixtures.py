@@ -23,7 +23,7 @@ def shelf(size: Size, coat: Coat) -> list[Part]:
     count = max(2, round(top / 0.36))
     boards = [top * index / count for index in range(count + 1)]
     return [
-        block((-x, -x + 0.02), (-y, y), (0.0, top), coat.shaded),
+        block((-x, -x + 0.02), (-y, y), (0.0, top), coat.shade_color),
         *(block((-x, x), side, (0.0, top), coat.main) for side in ((-y, -y + 0.03), (y - 0.03, y))),
         *(
             block((-x, x), (-y, y), (max(0.0, board - 0.03), max(0.03, board)), coat.main)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sim.camera.primitives import Part, ball, block, rod, shade, tube, unlabelled
+from sim.camera.primitives import Part, ball, block, rod, shade, tube, without_labels
 from sim.site.classes import surface_m
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def _armchair(size: Size, coat: Coat) -> list[Part]:
     x, y, seat = size[0] / 2, size[1] / 2, surface_m("chair", size[2])
     return [
         *_legs(x, y, 0.1, 0.05, coat),
-        block((-x, x), (-y, y), (0.1, seat - 0.12), coat.shaded),
+        block((-x, x), (-y, y), (0.1, seat - 0.12), coat.shade_color),
         block((-x + 0.16, x), (-y + 0.14, y - 0.14), (seat - 0.12, seat), coat.light),
         block((-x, -x + 0.16), (-y, y), (seat - 0.12, size[2]), coat.main),
         *(
@@ -67,7 +67,7 @@ def sofa(size: Size, coat: Coat) -> list[Part]:
     halves = ((-y + arm + 0.01, -0.01), (0.01, y - arm - 0.01))
     return [
         *_legs(x - 0.03, y - 0.03, 0.06, 0.06, coat),
-        block((-x, x - 0.02), (-y + 0.02, y - 0.02), (0.06, seat - 0.13), coat.shaded),
+        block((-x, x - 0.02), (-y + 0.02, y - 0.02), (0.06, seat - 0.13), coat.shade_color),
         block((-x, -x + 0.14), (-y + arm, y - arm), (seat - 0.13, size[2]), coat.main),
         *(block((back, x), side, (seat - 0.12, seat), coat.light) for side in halves),
         *(block((-x + 0.14, back), s, (seat - 0.12, size[2] - 0.06), coat.light) for s in halves),
@@ -83,7 +83,9 @@ def table(size: Size, coat: Coat) -> list[Part]:
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     return [
         block((-x, x), (-y, y), (top - 0.04, top), coat.main),
-        block((-x + 0.06, x - 0.06), (-y + 0.06, y - 0.06), (top - 0.11, top - 0.04), coat.shaded),
+        block(
+            (-x + 0.06, x - 0.06), (-y + 0.06, y - 0.06), (top - 0.11, top - 0.04), coat.shade_color
+        ),
         *_legs(x - 0.03, y - 0.03, top - 0.04, 0.06, coat),
     ]
 
@@ -132,7 +134,7 @@ def fridge(size: Size, coat: Coat) -> list[Part]:
     split, dark, handle = 0.66 * top, (60.0, 62.0, 66.0), (120.0, 124.0, 130.0)
     face = (x - 0.06, x - 0.03)
     return [
-        block((-x, x - 0.06), (-y, y), (0.0, top), coat.shaded),
+        block((-x, x - 0.06), (-y, y), (0.0, top), coat.shade_color),
         block((x - 0.06, x - 0.045), (-y + 0.01, y - 0.01), (0.06, top), dark),
         block(face, (-y, y), (0.08, split - 0.01), coat.main),
         block(face, (-y, y), (split + 0.01, top), coat.main),
@@ -146,7 +148,7 @@ def tv(size: Size, coat: Coat) -> list[Part]:
     base = size[2] if size[2] <= 0.7 else 0.42 * size[2]
     height = 0.62 if size[2] <= 0.7 else size[2] - base
     return [
-        *unlabelled(cabinet((size[0], size[1], base), coat)),
+        *without_labels(cabinet((size[0], size[1], base), coat)),
         *screen((size[0], min(size[1], 1.75 * height), height), coat, base),
     ]
 
@@ -194,7 +196,7 @@ def cabinet(size: Size, coat: Coat) -> list[Part]:
     count = max(1, round(size[1] / 0.55))
     width = size[1] / count
     parts = [
-        block((-x, x - 0.02), (-y, y), (0.0, top - 0.03), coat.shaded),
+        block((-x, x - 0.02), (-y, y), (0.0, top - 0.03), coat.shade_color),
         block((-x, x), (-y, y), (top - 0.03, top), coat.main),
     ]
     for index in range(count):

@@ -59,7 +59,7 @@ def rod(
     return Part(f'type="capsule" size="{_text(radius_m)}" fromto="{ends}"', paint)
 
 
-def unlabelled(parts: list[Part]) -> list[Part]:
+def without_labels(parts: list[Part]) -> list[Part]:
     """Return them as belonging to the thing but not to its class."""
     return [replace(part, labelled=False) for part in parts]
 

@@ -47,12 +47,12 @@ class Renderer:
         """The number of each thing's first part."""
         self.labels: dict[int, tuple[str, str]] = {}
         """Instance and class of every id in a frame; class ``none`` where none is named."""
-        self._painter = Painter(home, look, self._things, self._numbered())
+        self._painter = Painter(home, look, self._things, self._number_instances())
         self._rays = rays(camera)
         # The same rays by planes, as the canvas keeps them.
         self._planes = np.moveaxis(self._rays, 2, 0).astype(np.float32, order="C")
 
-    def _numbered(self) -> list[int]:
+    def _number_instances(self) -> list[int]:
         """Give every instance its number; what carries no label of its class gets another."""
         known: dict[tuple[str, str], int] = {}
         numbers = []
@@ -79,19 +79,19 @@ class Renderer:
         return self._frame(canvas, view)
 
     def _cast_things(self, view: View, canvas: Canvas, moved: dict[str, Pose2 | None]) -> None:
-        placed = [self._placed(thing, moved) for thing in self._things]
+        placed = [self._place(thing, moved) for thing in self._things]
         present = [index for index, at in enumerate(placed) if at is not None]
         if not present:
             return
         at = np.array([placed[index] for index in present])
-        windows = view.windows(_carried(self._corners[present], at))
+        windows = view.windows(_place_boxes(self._corners[present], at))
         seen = [(w[2], k) for k, w in enumerate(windows) if w is not None]
         for ahead_m, k in sorted(seen):  # nearest first: what they hide is not asked for
             window = windows[k]
             if window is not None:
                 self._cast(view, canvas, present[k], at[k], (window[0], window[1]), ahead_m)
 
-    def _placed(self, thing: Instance, moved: dict[str, Pose2 | None]) -> Placed | None:
+    def _place(self, thing: Instance, moved: dict[str, Pose2 | None]) -> Placed | None:
         pose = None if thing.absent else thing.pose
         if thing.movable and thing.id in moved:
             pose = moved[thing.id]
@@ -138,7 +138,7 @@ def _about_z(yaw_rad: float) -> NDArray[np.float64]:
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def _carried(corners: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
+def _place_boxes(corners: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return boxes, shape (n, 8, 3), stood at n places."""
     c, s = np.cos(at[:, 3])[:, None], np.sin(at[:, 3])[:, None]
     x, y, z = np.moveaxis(corners, 2, 0)

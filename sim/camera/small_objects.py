@@ -70,7 +70,7 @@ def carton(size: Size, coat: Coat) -> list[Part]:
         block((-x + 0.002, x - 0.002), (-y + 0.002, y - 0.002), (0.0, z - 0.002), coat.main),
         block((-x, x), (-wide, wide), (0.72 * z, z), tape),
         block((x - 0.003, x), (0.25 * y, 0.8 * y), (0.2 * z, 0.5 * z), _PAPER),
-        block((-x + 0.002, x - 0.002), (-0.004, 0.004), (z - 0.002, z + 0.0005), coat.shaded),
+        block((-x + 0.002, x - 0.002), (-0.004, 0.004), (z - 0.002, z + 0.0005), coat.shade_color),
     ]
 
 
@@ -92,7 +92,7 @@ def door(size: Size, coat: Coat) -> list[Part]:
                     (face[0], face[1]),
                     (-0.72 * inner, 0.72 * inner),
                     (low * top, high * top),
-                    coat.shaded,
+                    coat.shade_color,
                 )
             )
         grip = side * (x + 0.03)

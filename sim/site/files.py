@@ -75,15 +75,15 @@ def _entry(item_id: str, kind: str, item: Room | Place, pose: PoseDeg) -> list[s
     return [
         f"- id: {item_id}",
         f"  kind: {kind}",
-        f"  name: {{en: {_quoted(item.name.en)}, zh: {_quoted(item.name.zh)}}}",
+        f"  name: {{en: {_quote(item.name.en)}, zh: {_quote(item.name.zh)}}}",
         "  aliases:",
-        f"    en: [{', '.join(map(_quoted, item.aliases.en))}]",
-        f"    zh: [{', '.join(map(_quoted, item.aliases.zh))}]",
+        f"    en: [{', '.join(map(_quote, item.aliases.en))}]",
+        f"    zh: [{', '.join(map(_quote, item.aliases.zh))}]",
         f"  pose: {pose_text}",
     ]
 
 
-def _quoted(text: str) -> str:
+def _quote(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 

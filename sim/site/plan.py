@@ -50,17 +50,17 @@ def door_edge(home: Home, door: Door) -> tuple[Line, Span] | None:
         span = (along - door.width_m / 2, along + door.width_m / 2)
         for other_line, theirs in edges(there):
             low, high = max(ours[0], theirs[0]), min(ours[1], theirs[1])
-            on_line = _same(line, other_line) and abs(across - line[1]) <= EPS_M
+            on_line = _is_same_line(line, other_line) and abs(across - line[1]) <= EPS_M
             if on_line and low - EPS_M <= span[0] and span[1] <= high + EPS_M:
                 return line, span
     return None
 
 
-def _same(a: Line, b: Line) -> bool:
+def _is_same_line(a: Line, b: Line) -> bool:
     return a[0] == b[0] and abs(a[1] - b[1]) <= EPS_M
 
 
-def _merged(spans: list[Span]) -> list[Span]:
+def _merge(spans: list[Span]) -> list[Span]:
     joined: list[Span] = []
     for low, high in sorted(spans):
         if joined and low <= joined[-1][1] + EPS_M:
@@ -97,11 +97,11 @@ def walls(home: Home) -> list[Solid]:
     doors = [edge for door in home.doors if (edge := door_edge(home, door)) is not None]
     found: list[Solid] = []
     for line, spans in sorted(_lines(home).items()):
-        for span in _merged(spans):
+        for span in _merge(spans):
             holes = [
                 hole
                 for door_line, hole in doors
-                if _same(line, door_line) and span[0] - EPS_M <= hole[0] <= span[1]
+                if _is_same_line(line, door_line) and span[0] - EPS_M <= hole[0] <= span[1]
             ]
             for low, high in _cut(span, holes, half_m):
                 shape = _slab(line, low, high, half_m)

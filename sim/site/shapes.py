@@ -34,7 +34,7 @@ class Rect:
             and min(self.y1, other.y1) - max(self.y0, other.y0) > EPS_M
         )
 
-    def grown(self, by_m: float) -> Rect:
+    def expand(self, by_m: float) -> Rect:
         """Move every edge outwards (inwards when negative)."""
         return Rect(self.x0 - by_m, self.y0 - by_m, self.x1 + by_m, self.y1 + by_m)
 

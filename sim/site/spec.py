@@ -49,7 +49,7 @@ class Aliases(Record):
     zh: tuple[Words, ...] = ()
 
 
-def _ordered(box: Box, what: str) -> Box:
+def _check_order(box: Box, what: str) -> Box:
     if not (box[0] < box[2] and box[1] < box[3]):
         raise ValueError(f"{what} {list(box)} is not [x0, y0, x1, y1] with x0 < x1 and y0 < y1")
     return box
@@ -65,7 +65,7 @@ class Room(Record):
 
     @model_validator(mode="after")
     def _has_area(self) -> Room:
-        _ordered(self.box, "box")
+        _check_order(self.box, "box")
         return self
 
 
@@ -99,7 +99,7 @@ class Furniture(Record):
         if (self.box is None) == (self.cylinder is None):
             raise ValueError("furniture has either a box or a cylinder")
         if self.box is not None:
-            _ordered(self.box, "box")
+            _check_order(self.box, "box")
         return self
 
 
