@@ -104,7 +104,7 @@ def _serve(options: argparse.Namespace) -> int:
 
 
 def _robot(path: Path | None) -> RobotDescription:
-    """Load the robot and say which: nobody is to drive by defaults unawares."""
+    """Load robot.toml and log which: nobody is to drive by defaults unawares."""
     log.info("robot: %s", path.absolute() if path else "the built-in default: no --robot was given")
     return load_robot(path) if path else RobotDescription()
 
@@ -151,14 +151,14 @@ def _loop(config: CoreConfig, parts: Parts, asked: _LeaveRequest, carried: Right
 
 
 def _rights(wanted: RealTime, collector: Collector) -> tuple[Right, ...]:
-    """Take them in the order that works: memory once all is touched, rank last of all."""
+    """Take real-time rights in the order that works: memory once all is touched, rank last."""
     memory = lock_memory()
     collector.freeze()
     return memory, pin(wanted.cpu), take_fifo(wanted.priority)
 
 
 class _LeaveRequest:
-    """Remember that somebody asked us to leave."""
+    """Note SIGTERM and SIGINT, so that the loop ends between two ticks."""
 
     def __init__(self) -> None:
         self._by = 0

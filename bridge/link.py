@@ -1,4 +1,4 @@
-"""Take what arrived for the bridge and give out what it says. Owns the keys; decides nothing.
+"""Receive the bridge's messages as one inbox a tick and publish its decision. Decides nothing.
 
 Bounded work whatever comes: each key's ring is bounded, at most the 4 newest of a key are parsed,
 and all that came is counted for the flood detector. Stops are the exception: they are searched from
@@ -63,7 +63,7 @@ _OPS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (
 
 
 class Link:
-    """Be all the bridge's keys but the drive's."""
+    """Hold subscribers and publishers of all the bridge's keys but the drive's."""
 
     def __init__(self, session: Session, robot_id: str, operator_key: bytes) -> None:
         self._robot_id = robot_id
@@ -96,7 +96,7 @@ class Link:
         fence_done: FenceDone | None = None,
         recorder_says: str = "",
     ) -> Inbox:
-        """Take one tick's arrivals, in the order in which they count."""
+        """Drain one tick's arrivals into an inbox, stops first."""
         took = _TickDrain()
         stops = self._stops(took)
         ops = self._operator(took)
@@ -126,7 +126,7 @@ class Link:
         )
 
     def publish(self, decision: Decision) -> None:
-        """Say what was decided."""
+        """Publish status, odometry and events of a decision."""
         if decision.status is not None:
             self._status.put(decision.status)
         if decision.odometry is not None:
@@ -161,7 +161,7 @@ class Link:
         )
 
     def _fences(self, took: _TickDrain) -> tuple[FenceArrived, ...]:
-        """Take requests for another fence; the text of one that nobody proved goes no further."""
+        """Take requests for another fence; an unproven one's text goes no further."""
         arrived = []
         for request in took.take_all(FENCE, self._fence):
             fits = authentic_fence(self._operator_key, self._robot_id, request)
@@ -175,7 +175,7 @@ class Link:
 
 
 class _TickDrain:
-    """Collect what one drain counted and refused.
+    """Collect the counts and refusals of one tick's drain.
 
     Most keys are silent in most ticks, so each is first asked for bytes alone: 0.5 us, four times
     cheaper than an empty list of messages.
@@ -188,7 +188,7 @@ class _TickDrain:
         self.rejected: list[RejectedAt] = []
 
     def take_all(self, key: Key[M], subscriber: Subscriber[M]) -> tuple[M, ...]:
-        """Return what came on a command key, at most PARSED of it, and count it all."""
+        """Return a command key's messages, at most the PARSED newest, and count them all."""
         payloads = subscriber.drain_bytes()
         if not payloads:
             return ()
@@ -196,7 +196,7 @@ class _TickDrain:
         return self._parse(key, payloads[-PARSED:])
 
     def take_newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
-        """Return what came on a state key."""
+        """Return a state key's newest message."""
         payloads = subscriber.drain_bytes()
         good = self._parse(key, payloads[-1:]) if payloads else ()
         return good[-1] if good else None

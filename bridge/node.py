@@ -1,4 +1,4 @@
-"""Turn the loop: drain, step, drive, tell, record. No `if` about driving lives here.
+"""Run the loop: drain, step, drive, publish, record. No `if` about driving lives here.
 
 Owns the order of a tick and the way out. What may move is the core's word alone; what the shell
 adds is that whatever ends the loop, the drive is halted.
@@ -37,7 +37,7 @@ EXIT_BROKEN = 70
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """Hold what the loop works with."""
+    """Hold the parts that the loop works with."""
 
     link: Link
     drive: Drive
@@ -49,7 +49,7 @@ class Parts:
 
 
 class BridgeNode:
-    """Be the loop of one run."""
+    """Run the bridge's loop from the first tick to the halt."""
 
     def __init__(self, config: CoreConfig, parts: Parts, now_s: float, *, real_time: bool) -> None:
         self.state = initial(config, now_s)
@@ -73,7 +73,7 @@ class BridgeNode:
         return status
 
     def tick(self, tick: Tick, period_s: float) -> None:
-        """Take one tick."""
+        """Run one tick: drain, step, drive, publish, record."""
         parts = self._parts
         state, now_s = self.state, tick.now_s
         inbox = self._inbox(tick)

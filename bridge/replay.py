@@ -33,7 +33,7 @@ __all__ = ["BadRecording", "ReplayReport", "replay"]
 
 @dataclass(frozen=True, slots=True)
 class ReplayReport:
-    """Say how a replay went."""
+    """Count a replay's ticks, gaps and differences."""
 
     ticks: int
     differing: int
@@ -62,7 +62,7 @@ def replay(paths: Iterable[Path]) -> ReplayReport:
 
 
 class _Replay:
-    """Hold what one frame hands to the next."""
+    """Carry configuration and state from one recorded frame to the next."""
 
     def __init__(self) -> None:
         self._header: Header | None = None
@@ -74,7 +74,7 @@ class _Replay:
         self.other_core: str | None = None
 
     def take(self, frame: Frame) -> None:
-        """Go on by one frame."""
+        """Replay one frame."""
         self.frames += 1
         match frame:
             case Header():

@@ -1,4 +1,4 @@
-"""Find the last stop in the recordings and say what stopped the robot.
+"""Find the last stop in the recordings and report its cause.
 
 Looks through the newest recordings' events for the last time that ACTIVE, TELEOP or HOLD was left
 for a mode that drives nobody, or that a self test ended in FAULT, runs that segment again through
@@ -47,7 +47,7 @@ AFTER_TICKS = 1000
 
 @dataclass(frozen=True, slots=True)
 class StopReport:
-    """Tell of one stop."""
+    """Report one stop: cause, rows, speed, way and time to standstill."""
 
     path: Path
     at_unix_s: float
@@ -185,7 +185,7 @@ def _segment(messages: list[Raw], tick: int) -> int | None:
 
 
 class _Story:
-    """Gather what happened from the stop on."""
+    """Gather the events and the motion from a stop on."""
 
     def __init__(self, stop: Raw) -> None:
         self._number, self._at_unix_s = stop.sequence, stop.at_ns / 1e9
@@ -201,7 +201,7 @@ class _Story:
 
     @property
     def has_ended(self) -> bool:
-        """Tell whether the robot stands and the bridge has settled."""
+        """Return whether the robot stands and the bridge has left STOPPING."""
         now = self._now
         return self._stood_s is not None and now is not None and now.mode is not Mode.STOPPING
 
@@ -212,7 +212,7 @@ class _Story:
         after: BridgeState,
         events: list[tuple[str, str]],
     ) -> None:
-        """Go on by one tick."""
+        """Add one tick that was run again."""
         if tick.tick < self._number:
             return
         if tick.tick == self._number:
@@ -228,7 +228,7 @@ class _Story:
             self._stood_s = passed_s
 
     def report(self, box: McapReader, ago_s: float) -> StopReport:
-        """Return the whole."""
+        """Return the report."""
         before, after, now = self._from, self._at, self._now
         if before is None or after is None or now is None:
             raise BadRecording("recording_stateless", f"{box.path}: the stop can't be run again")

@@ -1,4 +1,4 @@
-"""Touch every path of a tick before the first one: imports, validators, serialisers, the step.
+"""Warm up a tick's code before the first one: imports, validators, serialisers, the step.
 
 What is made here goes nowhere: no key is published, no state is kept. Without it the first scan or
 the first stop pays for what Python and pydantic put off, milliseconds late.
@@ -93,7 +93,7 @@ def warm_up(config: CoreConfig, now_s: float) -> int:
 
 
 def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox:
-    """Make what a lively second brings, each message through the codec."""
+    """Make one tick's inbox, each message through the codec."""
     tenth = count % 10 == 0
     drive = DriveState(
         boot_id=_NAME, seq=count, stamp_s=now_s, echo_boot=config.boot, echo_seq=echo_seq,
@@ -115,7 +115,7 @@ def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox
 
 
 def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
-    """Return a tick in which everybody speaks."""
+    """Return an inbox with a message of every kind."""
     proof = sign(VIRTUAL_KEY, "arm", config.robot.id, _NAME, _NAME)
     arm = _through_codec(ARM, OpRequest(id=_NAME, source=_NAME, proof=proof))
     fits = authentic(VIRTUAL_KEY, "arm", config.robot.id, proof, _NAME)
@@ -161,7 +161,7 @@ def _fence(config: CoreConfig) -> FenceArrived:
 
 
 def _orders(config: CoreConfig, count: int) -> Inbox:
-    """Return what an owner and a stick say, each message through its bytes."""
+    """Return an inbox of an owner's orders and a teleop command."""
     epoch = f"{config.boot}-1"
     points = tuple(Waypoint(x_m=0.1 * n, y_m=0.0, speed_mps=0.3) for n in range(50))
     hello = Hello(

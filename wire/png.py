@@ -1,4 +1,4 @@
-"""Tell whether a PNG's chunks lie within its bytes. Knows lengths; unpacks nothing.
+"""Check that a PNG's chunks lie within its bytes. Unpacks nothing.
 
 A chunk says its own length first, up to 2 GB, and decoders allot that much before they find that
 the bytes never came: 102 bytes cost OpenCV 4 GB. Source: PNG specification, "Chunk layout".

@@ -1,4 +1,4 @@
-"""Say what a drive must be able to do: three methods and three facts about its metal."""
+"""Define the interface of a drive: three methods and three facts about its metal."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ coasts is refused by :func:`require_brakes`."""
 
 
 class Drive(Protocol):
-    """Be the hands of the bridge. No method blocks."""
+    """Move the wheels and read them. No method blocks."""
 
     kind: str
     virtual: bool
@@ -30,7 +30,7 @@ class Drive(Protocol):
 
 
 def require_brakes(drive: Drive) -> Drive:
-    """Return the drive, whose wheels brake without torque.
+    """Return the drive if its wheels brake without torque.
 
     Every stop but HOLD2 ends without torque. On wheels that roll on, that is safe only with torque
     kept at standstill until a person acts, which this bridge does not do.

@@ -1,4 +1,4 @@
-"""Wake the loop when it should be awake, and say honestly where the system refused to help."""
+"""Pace the bridge's loop: clock, real-time rights, garbage collection, systemd's watchdog."""
 
 from bridge.realtime.clock import Clock, MonotonicClock
 from bridge.realtime.collector import Collector

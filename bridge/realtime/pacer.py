@@ -1,4 +1,4 @@
-"""Decide when the next tick is. Owns the schedule; knows no work.
+"""Schedule ticks at a fixed period and skip missed ones.
 
 Whole missed periods are counted and skipped, never caught up in a burst: a burst would send old
 decisions as if they were new. A tick less than a period late just runs late.
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @value
 class Tick:
-    """Say when a tick woke, how late that was, and how many periods were skipped before it."""
+    """Hold a tick's wake time, its lateness, and the periods skipped before it."""
 
     now_s: float
     late_s: float
@@ -26,7 +26,7 @@ class Tick:
 
 
 class Pacer:
-    """Give one Tick per period of an absolute schedule."""
+    """Wait for each period of an absolute schedule."""
 
     def __init__(self, clock: Clock, period_s: float) -> None:
         if not period_s > 0.0:

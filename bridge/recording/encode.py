@@ -1,4 +1,4 @@
-"""Turn ticks into frames for the writing process. Runs in the loop: every microsecond counts here.
+"""Encode ticks as frames for the writing process. Runs in the loop: every microsecond counts.
 
 Serializers are called without the wrapper of their adapters, and defaults are left out: of most
 ticks nothing but the drive's report came. A scan's ranges are copied as doubles, for formatting 360
@@ -89,7 +89,7 @@ def unpack_ranges(data: bytes) -> list[float | None]:
 
 
 def segment_frames(config: CoreConfig, core: str, state: BridgeState) -> bytes:
-    """Return what a segment begins with."""
+    """Return the boot and state frames that begin a segment."""
     return b"".join(
         (
             pipe_frames.frame(pipe_frames.TICK, _TICK(state.tick, state.now_s)),
@@ -107,7 +107,7 @@ def warm_frames(
     config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float, decision: Decision, *,
     whole: bool,
 ) -> bytes:  # fmt: skip
-    """Make what a tick is worth and throw it away, for code that has run once runs faster."""
+    """Encode a tick and throw it away: code that has run once runs faster."""
     out = [segment_frames(config, "", state)] if whole else []
     tick_frames(out, state, inbox, now_s, decision)
     return b"".join(out)

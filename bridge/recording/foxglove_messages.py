@@ -1,4 +1,4 @@
-"""Say again in well-known schemas what came as the bridge's own JSON.
+"""Convert the bridge's own JSON into Foxglove's well-known schemas.
 
 Scan, frames, pose, plan and log, for viewers: replay and `pons why` read none of it but the scan's
 ranges. Each function returns topic and bytes of what one of our messages is worth there. Numbers

@@ -1,4 +1,4 @@
-"""Walk through an MCAP file, however its writer ended. Knows the container, not what is in it.
+"""Read an MCAP file's messages, however its writer ended.
 
 A file whose writer was killed, or whose host lost its power, has no footer and may end in half a
 record: it is read up to there. A file that was closed and is damaged is refused by name. Reads what
@@ -32,7 +32,7 @@ _MESSAGE_HEAD = struct.Struct("<HIQQ")
 
 
 class BadRecording(Exception):
-    """Say why a file is no recording that can be read, by stable code."""
+    """Name by stable code why a recording can't be read."""
 
     def __init__(self, code: str, detail: str) -> None:
         super().__init__(f"{code}: {detail}")
@@ -42,7 +42,7 @@ class BadRecording(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Raw:
-    """Give one message as it stands in the file."""
+    """Hold one message as it stands in the file."""
 
     topic: str
     sequence: int
@@ -52,7 +52,7 @@ class Raw:
 
 @dataclass(slots=True)
 class Chunk:
-    """Say where a chunk lies and, by its index, which topics it has."""
+    """Hold a chunk's place and, by its index, its topics."""
 
     at: int
     size: int
@@ -60,7 +60,7 @@ class Chunk:
 
 
 class McapReader:
-    """Be one file, its chunks found and not yet unpacked."""
+    """Read one MCAP file chunk by chunk."""
 
     def __init__(self, path: Path) -> None:
         """Find the chunks.
@@ -179,7 +179,7 @@ class McapReader:
 
 
 def _decompress(packed: bytes, size: int) -> bytes:
-    """Unpack one frame, whose own word on its size outranks ours inside the library."""
+    """Unpack one zstd frame; the library believes the frame's own size before ours."""
     said = zstandard.frame_content_size(packed)
     if said not in {-1, size}:  # -1: it does not say
         raise ValueError(f"a frame of {said} bytes in a chunk of {size}")
@@ -202,7 +202,7 @@ def _records(file: IO[bytes], size: int) -> Iterator[tuple[int, int, int]]:
 
 
 def _is_locked(file: IO[bytes]) -> bool:
-    """Tell whether a process holds the lock that a writer takes (mcap_file)."""
+    """Return whether a process holds the lock that a writer takes (mcap_file)."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

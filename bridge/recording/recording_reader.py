@@ -1,4 +1,4 @@
-"""Read recordings as what the bridge meant: boots, states, ticks. Runs nothing.
+"""Read a recording's boots, states and ticks. Runs nothing.
 
 The door for whoever reads; bridge.recording's own is the loop's, which must not load what is needed
 here. A recording of another core is refused only where this one can't understand it, and then by
@@ -65,7 +65,7 @@ def read_recording(path: Path) -> Iterator[Frame]:
 
 
 def frames_of(path: Path, messages: Iterable[Raw]) -> Iterator[Frame]:
-    """Yield what messages mean.
+    """Yield the frames that messages stand for.
 
     Raises:
         BadRecording: they are none of ours.
@@ -93,7 +93,7 @@ def frames_of(path: Path, messages: Iterable[Raw]) -> Iterator[Frame]:
 
 
 def _core_said(boot: Raw) -> str:
-    """Return whose recording it says it is, even where this core can't read the rest of it."""
+    """Return the core's fingerprint in a boot, even where the rest can't be read."""
     try:
         return str(json.loads(boot.data)["core"])
     except (ValueError, KeyError, TypeError):

@@ -31,7 +31,7 @@ OF_KIND = {
 
 @dataclass(frozen=True, slots=True)
 class RecordedTopic:
-    """Say how the messages of one topic are written."""
+    """Hold the schema and encoding of one topic."""
 
     schema: str
     schema_encoding: str

@@ -1,4 +1,4 @@
-"""Turn frames into files, and say how that goes. Owns which file is open; knows no tick's meaning.
+"""Write frames into MCAP files and report trouble. Owns which file is open.
 
 It never gives up: where the disk is full or gone, what comes is thrown away and said so, and every
 second it is tried again. A new file begins with a segment only, so one is asked for.
@@ -31,7 +31,7 @@ _FULL = frozenset({ENOSPC, EDQUOT})
 
 
 class Writer:
-    """Hold the open file and what a frame needs to know of those before it."""
+    """Hold the open file and the last tick's time, ranges and lidar pose."""
 
     def __init__(
         self,
@@ -53,7 +53,7 @@ class Writer:
         self._unsaid: set[str] = set()
 
     def take(self, kind: bytes, payload: bytes, unix_s: float) -> None:
-        """Take one frame. Never raises for what a disk does."""
+        """Write one frame. Never raises for the disk's failures."""
         if kind == pipe_frames.TICK:
             self._tick, self._now_s = pipe_frames.TICK_OF.unpack(payload)
             self._at_ns = max(self._at_ns, self._clock.ns(self._now_s))
@@ -70,7 +70,7 @@ class Writer:
                     self._file.add(topic, self._at_ns, self._tick & 0xFFFFFFFF, data)
 
     def beat(self) -> bytes:
-        """Bring what came within reach of a reader; return the word that the loop must hear."""
+        """Flush the file and return the answer for the loop."""
         if self._file is not None:
             try:
                 self._file.flush()
@@ -86,7 +86,7 @@ class Writer:
         return word
 
     def sync(self) -> None:
-        """Bring what was flushed to the disk itself."""
+        """Bring the flushed bytes to the disk itself."""
         if self._file is not None:
             try:
                 self._file.sync()
@@ -104,7 +104,7 @@ class Writer:
                 self._failing = _describe_failure(error, self._folder)
 
     def _worth(self, kind: bytes, payload: bytes) -> list[tuple[str, bytes]]:
-        """Return what a frame puts into the file: the well-known first, then itself.
+        """Return a frame's messages: Foxglove's first, then its own.
 
         The record matters more than its looks: what can't be said again is left out, and said once.
         """
@@ -153,7 +153,7 @@ class Writer:
             )
 
     def _still_failing(self) -> str:
-        """Look whether writing might work again; the next segment will show."""
+        """Return why writing still can't work; empty where the next segment may try."""
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
             prune(self._folder, self._boot, self._cap_bytes, self._rotate_bytes)

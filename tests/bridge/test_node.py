@@ -193,7 +193,7 @@ def test_a_drive_that_raises_is_halted_too(
     assert diary.words[-1] == "halt"
 
 
-def test_nothing_of_the_shell_depends_on_the_mode(repository: Path) -> None:
-    text = (repository / "bridge" / "shell.py").read_text()
+def test_nothing_of_the_loop_depends_on_the_mode(repository: Path) -> None:
+    text = (repository / "bridge" / "node.py").read_text()
     for word in ("Mode", ".mode", "Action", "speed", "epoch", "armed"):
         assert word not in text
