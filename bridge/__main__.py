@@ -21,15 +21,15 @@ from bridge.core import CoreConfig
 from bridge.drive import SimDrive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
-from bridge.link import Link
+from bridge.link import BridgeLink
 from bridge.node import EXIT_LEFT, BridgeNode, Parts
 from bridge.operator_key import load_operator_key
 from bridge.realtime import (
-    Collector,
     MonotonicClock,
     Pacer,
     Right,
     Service,
+    SlackCollector,
     all_granted,
     lock_memory,
     pin,
@@ -89,11 +89,11 @@ def _serve(options: argparse.Namespace) -> int:
         opened = open_session(Party.BRIDGE, robot.id, home)
     with opened as session:
         drive = _drive(session, robot, config.boot)
-        link = Link(session, robot.id, key)
+        link = BridgeLink(session, robot.id, key)
         recorder = Recorder(home.absolute() / "recordings", config)
         keeper = BrakingKeeper(path_of(home, robot), robot, config.learnt)
         desk = FenceDesk(Ground(options.site, home, config.map_id, config.fence_hash))
-        parts = Parts(link, drive, recorder, Collector(), Service(), keeper, desk)
+        parts = Parts(link, drive, recorder, SlackCollector(), Service(), keeper, desk)
         try:
             return _loop(config, parts, asked, carried)
         finally:
@@ -150,7 +150,7 @@ def _loop(config: CoreConfig, parts: Parts, asked: _LeaveRequest, carried: Right
     return status
 
 
-def _rights(wanted: RealTime, collector: Collector) -> tuple[Right, ...]:
+def _rights(wanted: RealTime, collector: SlackCollector) -> tuple[Right, ...]:
     """Take real-time rights in the order that works: memory once all is touched, rank last."""
     memory = lock_memory()
     collector.freeze()

@@ -62,7 +62,7 @@ _OPS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (
 )
 
 
-class Link:
+class BridgeLink:
     """Hold subscribers and publishers of all the bridge's keys but the drive's."""
 
     def __init__(self, session: Session, robot_id: str, operator_key: bytes) -> None:

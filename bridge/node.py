@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from bridge.core import CoreConfig, Inbox
     from bridge.drive import Drive
     from bridge.fence_update import FenceDesk
-    from bridge.link import Link
-    from bridge.realtime import Collector, Pacer, Service, Tick
+    from bridge.link import BridgeLink
+    from bridge.realtime import Pacer, PacerTick, Service, SlackCollector
     from bridge.recording.recorder import Recorder
 
 log = logging.getLogger("bridge")
@@ -39,10 +39,10 @@ EXIT_BROKEN = 70
 class Parts:
     """Hold the parts that the loop works with."""
 
-    link: Link
+    link: BridgeLink
     drive: Drive
     recorder: Recorder
-    collector: Collector
+    collector: SlackCollector
     service: Service
     keeper: BrakingKeeper
     desk: FenceDesk
@@ -72,7 +72,7 @@ class BridgeNode:
             self._parts.drive.halt()
         return status
 
-    def tick(self, tick: Tick, period_s: float) -> None:
+    def tick(self, tick: PacerTick, period_s: float) -> None:
         """Run one tick: drain, step, drive, publish, record."""
         parts = self._parts
         state, now_s = self.state, tick.now_s
@@ -89,7 +89,7 @@ class BridgeNode:
         self._stats.add(tick.late_s + tick.missed * period_s, step_ns)
         parts.service.feed(now_s)
 
-    def _inbox(self, tick: Tick) -> Inbox:
+    def _inbox(self, tick: PacerTick) -> Inbox:
         """Drain everything that arrived."""
         parts, figures = self._parts, self._stats.summary
         unrecorded = parts.recorder.trouble

@@ -1,4 +1,4 @@
-"""Be the drive's own dead-man: no fresh command for the time-out, no motion. Pure; told the time.
+"""Stop the wheels when no fresh command came for the time-out. Pure; told the time.
 
 Law: an old command can never keep wheels turning, whatever its sender believes. Age runs from
 RECEIPT on the drive's own clock; a command whose seq does not rise within its boot is no sign of
@@ -31,7 +31,7 @@ def towards_zero(value: float, step: float) -> float:
 
 
 class DeadMan:
-    """Turn received commands into what the motors get, tick by tick."""
+    """Turn received commands into the motors' targets, tick by tick."""
 
     def __init__(self, timeout_s: float, ramp_radps2: float) -> None:
         self._timeout_s = timeout_s
@@ -55,7 +55,7 @@ class DeadMan:
         return True
 
     def wheels(self, now_s: float) -> WheelTargets:
-        """Say what the motors get now. Call once per tick with a clock that never goes back."""
+        """Return the motors' targets now. Call once per tick with a clock that never goes back."""
         elapsed_s, self._asked_s = now_s - self._asked_s, now_s
         command = self._command
         if command is not None and 0.0 <= now_s - self._received_s <= self._timeout_s:

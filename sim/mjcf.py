@@ -50,7 +50,7 @@ def world_mjcf(
     step_s: float,
     uprights: Iterable[Upright] = (),
 ) -> str:
-    """Return the whole model as XML: what is fixed, what somebody may carry about, the robot.
+    """Return the whole model as XML: fixed solids, movable things, the robot.
 
     Elliptic cones with impratio 10 keep wheels from creeping. With some tens of solids and one
     robot, islands and the mid-phase cost more than they save (78 against 62 us for 5 steps).

@@ -1,4 +1,4 @@
-"""Remember where the movable things of a home are. Knows no physics, nor which are solid.
+"""Hold the poses of a home's movable things. Knows no physics.
 
 What nobody moved stands as the home declares; only the rest is worth telling.
 """
@@ -34,7 +34,7 @@ class Things:
         """Those that are not where the home declares them."""
 
     def pose_of(self, name: str) -> Pose2 | None:
-        """Return where a thing is now; None is nowhere."""
+        """Return a thing's pose now; None where it is nowhere."""
         self._check(name)
         return self._now[name]
 

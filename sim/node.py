@@ -90,7 +90,7 @@ class SimNode:
             self._truth.put(report.truth)
 
     def _show(self, now_s: float) -> None:
-        """Tell the simulated camera what there is to draw."""
+        """Publish the scene for the simulated camera."""
         self._ticks += 1
         if self._scene is not None and self._ticks % PERIODS.scene_ticks == 0:
             self._scene.put(self._robot.scene(now_s))

@@ -34,7 +34,7 @@ class RealTimeFactor:
         self._stamps: deque[float] = deque(maxlen=round(window_s / period_s) + 1)
 
     def note_tick(self, now_s: float) -> float:
-        """Note a tick and return the factor; 1 until there are two ticks to compare."""
+        """Add a tick and return the real-time factor; 1 until there are two ticks to compare."""
         self._stamps.append(now_s)
         real_s = now_s - self._stamps[0]
         return (len(self._stamps) - 1) * self._period_s / real_s if real_s > 0.0 else 1.0

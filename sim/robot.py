@@ -1,4 +1,4 @@
-"""Be a robot in a home: commands in, sensor messages out, tick by tick.
+"""Simulate a robot in a home: commands in, sensor messages out, tick by tick.
 
 The one object that the process shell and the lockstep harness both drive. Deterministic: the same
 site, seed and calls give the same messages. It owns no clock; it is told the time of each receipt
@@ -140,7 +140,7 @@ class SimRobot:
         )
 
     def scene(self, now_s: float) -> SimScene:
-        """Say what a camera on the robot could draw now."""
+        """Return the scene that a camera on the robot could draw now."""
         return self._speaker.scene(
             now_s, self._world.pose(), self.things.elsewhere, self.faults.standing
         )
@@ -167,7 +167,7 @@ class SimRobot:
         self.place_thing(name, Pose2(x_m, y_m, yaw_rad))
 
     def remove_obstacle(self, name: str = OBSTACLES[0]) -> None:
-        """Take a spare obstacle out of the home."""
+        """Remove a spare obstacle from the home."""
         self.place_thing(name, None)
 
     def place_thing(self, name: str, pose: Pose2 | None) -> None:
@@ -187,7 +187,7 @@ class SimRobot:
             self._world.place_obstacle(name, pose.x_m, pose.y_m, pose.yaw_rad)
 
     def control(self, control: SimControl) -> None:
-        """Do what a test asked over the wire; the same id again is the same wish, already done.
+        """Carry out a test's request over the wire; the same id again is the same request.
 
         Raises:
             Misconfigured: ``obstacle_unknown``; what stood before it in the wish is done.
@@ -213,7 +213,7 @@ class SimRobot:
         self._world.make_slippery(slippery=SimFault.SLIP in self.faults)
 
     def _past_dead_zone(self, wheel_radps: float, gain: float) -> float:
-        """Return what the motor follows: friction swallows the first part of every wish."""
+        """Return the speed that a motor follows: friction takes the first part of every target."""
         left_over = gain * max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
         return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 

@@ -1,4 +1,4 @@
-"""Carry one sensor's messages to the wire, and lose, repeat, spoil or delay them when told to.
+"""Pass one sensor's messages on, or drop, repeat, spoil or delay them when it is broken.
 
 Knows no sensor: what a message's payload is, and how garbage of it looks, is given. Counts ticks;
 owns no clock.
@@ -23,7 +23,7 @@ OPEN_TICKS = SHUT_TICKS = 40
 
 
 class Trouble(StrEnum):
-    """Name what can be wrong with any sensor."""
+    """Name the troubles of a sensor."""
 
     OFF = "off"
     STUCK = "stuck"
@@ -73,7 +73,7 @@ class Channel(Generic[M]):
         return message
 
     def _delay(self, message: M | None, *, wait: bool) -> M | None:
-        """Put it at the end; give out what has waited long enough, or at once when mended."""
+        """Queue a message; return one that has waited long enough, or the newest when mended."""
         if message is not None:
             self._late.append((self._tick + DELAY_TICKS, message))
         if not wait:

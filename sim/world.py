@@ -1,4 +1,4 @@
-"""Be the physics: floor, walls, furniture and a differential robot in MuJoCo.
+"""Simulate floor, walls, furniture and a differential robot in MuJoCo.
 
 The only file that calls MuJoCo. Knows metres, radians and newtons; no messages, no noise, no clock
 beyond the step. Frame: ``map`` is the world frame.
@@ -110,7 +110,7 @@ class PhysicsWorld:
         return sum([self._chassis in pair for pair in pairs])
 
     def place_robot(self, pose: Pose2) -> None:
-        """Put the robot down at rest. Wheels keep their angles, as when somebody carries it."""
+        """Put the robot down at rest. Wheels keep their angles, as when it is carried."""
         self._qpos[0:3] = (pose.x_m, pose.y_m, 0.0)
         self._qpos[3:7] = quaternion(pose.yaw_rad)
         self._qvel[:] = 0.0

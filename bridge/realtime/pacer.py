@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @value
-class Tick:
+class PacerTick:
     """Hold a tick's wake time, its lateness, and the periods skipped before it."""
 
     now_s: float
@@ -35,7 +35,7 @@ class Pacer:
         self.period_s = period_s
         self._due_s = clock.now_s() + period_s
 
-    def wait(self) -> Tick:
+    def wait(self) -> PacerTick:
         """Sleep until the next tick is due and say how it went."""
         self._clock.sleep_until(self._due_s)
         now_s = self._clock.now_s()
@@ -43,7 +43,7 @@ class Pacer:
         self._due_s += missed * self.period_s
         late_s = max(0.0, now_s - self._due_s)
         self._due_s += self.period_s
-        return Tick(now_s, late_s, missed)
+        return PacerTick(now_s, late_s, missed)
 
     def slack_s(self) -> float:
         """Return the time until the next tick is due; negative when it is already late."""

@@ -1,4 +1,4 @@
-"""Be a colour-and-depth camera in the simulated home. Imports sim.site and wire.
+"""Simulate a colour-and-depth camera in the home. Imports sim.site and wire.
 
 ``Renderer`` draws clean pictures with the name of what every pixel shows, ``spoil`` makes them look
 taken, ``Appearance`` is all that may vary between homes that hold the same things.

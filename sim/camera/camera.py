@@ -1,4 +1,4 @@
-"""Be the simulated camera: a scene in, both pictures out. Owns its noise; knows no wire, no clock.
+"""Turn a scene into a colour and a depth picture with noise. Knows neither wire nor clock.
 
 Two cameras with one seed that see the same scenes take the same pictures.
 """
@@ -33,7 +33,7 @@ class SimCamera:
         self._shutter = Shutter()
 
     def take(self, scene: SimScene, now_s: float) -> PicturePair | None:
-        """Return what leaves the camera now, stamped as the scene was; None where nothing does."""
+        """Return the pictures that leave the camera now, or None, with the scene's stamp."""
         return self._shutter.through(self._take_pictures(scene), now_s, scene.faults)
 
     def frame(self, scene: SimScene) -> Frame:

@@ -1,4 +1,4 @@
-"""Keep, repeat or hold back pictures when the camera is broken. Told the time; knows no pixel."""
+"""Repeat, delay or drop pictures when the camera is broken. Pure; told the time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class PicturePair:
 
 
 class Shutter:
-    """Pass one camera's shots, one call a period."""
+    """Pass one camera's pictures, one call a period."""
 
     def __init__(self) -> None:
         self._stuck: PicturePair | None = None
@@ -33,7 +33,7 @@ class Shutter:
     def through(
         self, shot: PicturePair, now_s: float, faults: Collection[SimFault]
     ) -> PicturePair | None:
-        """Take a shot; return the one that leaves the camera now, if any."""
+        """Take both pictures; return those that leave the camera now, if any."""
         if SimFault.CAMERA_OFF in faults:
             return None
         if SimFault.CAMERA_STUCK in faults:

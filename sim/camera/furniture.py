@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sim.camera.primitives import Part, ball, block, rod, shade, tube, without_labels
+from sim.camera.primitives import GeomPart, ball, block, rod, shade, tube, without_labels
 from sim.site.classes import surface_m
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sim.site.classes import Size
 
 
-def _legs(x: float, y: float, top: float, thick: float, coat: Coat) -> list[Part]:
+def _legs(x: float, y: float, top: float, thick: float, coat: Coat) -> list[GeomPart]:
     half = thick / 2
     return [
         block((px - half, px + half), (py - half, py + half), (0.0, top), coat.frame)
@@ -25,7 +25,7 @@ def _legs(x: float, y: float, top: float, thick: float, coat: Coat) -> list[Part
     ]
 
 
-def chair(size: Size, coat: Coat) -> list[Part]:
+def chair(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw seat, four legs and a back of two posts and three slats; wide ones get arms."""
     x, y, seat = size[0] / 2, size[1] / 2, surface_m("chair", size[2])
     if min(size[0], size[1]) > 0.6:
@@ -45,7 +45,7 @@ def chair(size: Size, coat: Coat) -> list[Part]:
     return parts
 
 
-def _armchair(size: Size, coat: Coat) -> list[Part]:
+def _armchair(size: Size, coat: Coat) -> list[GeomPart]:
     x, y, seat = size[0] / 2, size[1] / 2, surface_m("chair", size[2])
     return [
         *_legs(x, y, 0.1, 0.05, coat),
@@ -59,7 +59,7 @@ def _armchair(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def sofa(size: Size, coat: Coat) -> list[Part]:
+def sofa(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw base, back, arms and two seat and back cushions."""
     x, y, seat = size[0] / 2, size[1] / 2, surface_m("sofa", size[2])
     arm = min(0.2, 0.12 * size[1])
@@ -78,7 +78,7 @@ def sofa(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def table(size: Size, coat: Coat) -> list[Part]:
+def table(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a top on an apron and four legs."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     return [
@@ -90,7 +90,7 @@ def table(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def round_table(size: Size, coat: Coat) -> list[Part]:
+def round_table(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a round top on one column and a foot."""
     radius, top = min(size[0], size[1]) / 2, size[2]
     return [
@@ -100,7 +100,7 @@ def round_table(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def bed(size: Size, coat: Coat) -> list[Part]:
+def bed(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a frame, a white mattress, two pillows, a blanket over the foot and a headboard."""
     x, y, top = size[0] / 2, size[1] / 2, surface_m("bed", size[2])
     white, head = (238.0, 236.0, 230.0), -x + 0.07
@@ -128,7 +128,7 @@ def bed(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def fridge(size: Size, coat: Coat) -> list[Part]:
+def fridge(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a tall body with two doors, the gap between them and two handles."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     split, dark, handle = 0.66 * top, (60.0, 62.0, 66.0), (120.0, 124.0, 130.0)
@@ -143,7 +143,7 @@ def fridge(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def tv(size: Size, coat: Coat) -> list[Part]:
+def tv(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a dark screen in a thin frame on a low cabinet; only the screen is the television."""
     base = size[2] if size[2] <= 0.7 else 0.42 * size[2]
     height = 0.62 if size[2] <= 0.7 else size[2] - base
@@ -153,8 +153,8 @@ def tv(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def screen(size: Size, coat: Coat, base: float = 0.0) -> list[Part]:
-    """Draw a television without what it stands on: a foot and a screen."""
+def screen(size: Size, coat: Coat, base: float = 0.0) -> list[GeomPart]:
+    """Draw a television without its stand: a foot and a screen."""
     y, low, top = size[1] / 2, base + 0.05, base + size[2]
     foot = min(0.1, size[0] / 2)
     edge = 0.015
@@ -166,7 +166,7 @@ def screen(size: Size, coat: Coat, base: float = 0.0) -> list[Part]:
     ]
 
 
-def plant(size: Size, coat: Coat) -> list[Part]:
+def plant(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a pot with earth, a stem and a bush of leaves in three greens."""
     radius, top = min(size[0], size[1]) / 2, size[2]
     pot = min(0.34 * top, 0.4)
@@ -190,7 +190,7 @@ def plant(size: Size, coat: Coat) -> list[Part]:
     return parts
 
 
-def cabinet(size: Size, coat: Coat) -> list[Part]:
+def cabinet(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a body with doors and knobs: any piece that no class names."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     count = max(1, round(size[1] / 0.55))

@@ -1,4 +1,4 @@
-"""Choose the colours of one thing: what its home declares, else what such things often have.
+"""Choose the colours of one thing: as its home declares, else as such things often have.
 
 Seeded by appearance and id, so that the same home looks the same every time.
 """
@@ -47,7 +47,7 @@ _POTS: Final[tuple[Rgb, ...]] = ((176, 92, 60), (226, 222, 214), (92, 96, 104), 
 
 @dataclass(frozen=True, slots=True)
 class Coat:
-    """Hold the colours of one thing, by what they are for."""
+    """Hold the colours of one thing, by their use."""
 
     main: Rgb
     frame: Rgb
@@ -63,7 +63,7 @@ class Coat:
 
     @property
     def shade_color(self) -> Rgb:
-        """Return the main colour a little darker."""
+        """Return the main colour, a little darker."""
         return shade(self.main, 0.82)
 
     @property
@@ -73,7 +73,7 @@ class Coat:
 
     @property
     def cap(self) -> Rgb:
-        """Return what sits on top of a bottle."""
+        """Return the colour of a bottle's cap."""
         return shade(self.main, 0.55)
 
 

@@ -1,4 +1,4 @@
-"""Run the simulated camera as a process: hear the newest scene, draw, send, at a steady pace.
+"""Run the simulated camera as a process: read the newest scene, draw, send, at a steady pace.
 
 Knows the wire's session and the clock. What the simulator does not say is not drawn: when it is
 gone, so are the pictures. A period that is missed is skipped, never caught up.
@@ -60,7 +60,7 @@ class CameraNode:
 
     @property
     def _has_listener(self) -> bool:
-        """Tell whether anybody listens: a picture that nobody gets is not drawn."""
+        """Return whether anything subscribes: a picture that nothing receives is not drawn."""
         return self._color.has_listener or self._depth.has_listener
 
     def _send(self, shot: PicturePair) -> None:

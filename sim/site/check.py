@@ -1,4 +1,4 @@
-"""Refuse a home in which a robot could not live: overlaps, narrow doors, cramped or cut-off places.
+"""Refuse a home that a robot can't drive: overlaps, narrow doors, cramped or cut-off places.
 
 Judges what needs several parts of a declaration at once. Every refusal names what came, what was
 expected and, where names are concerned, what exists.
@@ -20,7 +20,7 @@ from sim.site.shapes import EPS_M, Rect, Solid
 from wire import Misconfigured
 
 if TYPE_CHECKING:
-    from sim.site.spec import Home, Place, PoseDeg, Room
+    from sim.site.spec import Home, HomePlace, PoseDeg, Room
 
 DOOR_M = 0.90
 PLACE_TO_OBSTACLE_M = 0.40
@@ -58,7 +58,7 @@ def _names(home: Home) -> Iterator[Finding]:
     for both in sorted(home.rooms.keys() & home.places.keys()):
         yield "id_taken", f"{both!r} is a room and a place"
     owner: dict[str, str] = {}
-    named: list[tuple[str, Room | Place]] = [*home.rooms.items(), *home.places.items()]
+    named: list[tuple[str, Room | HomePlace]] = [*home.rooms.items(), *home.places.items()]
     for item_id, item in named:
         plain = item_id.replace("_", " ")
         for word in (plain, item.name.en, item.name.zh, *item.aliases.en, *item.aliases.zh):

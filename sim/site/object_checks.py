@@ -1,4 +1,4 @@
-"""Refuse things that could not be where a home puts them: off their table, in a wall, in the way.
+"""Check a home's objects and people: off their table, in a wall, in the way.
 
 Names every finding; ``check`` decides once.
 """
@@ -26,7 +26,7 @@ FLAT_M = 0.05
 
 
 def check_things(home: Home) -> Iterator[Finding]:
-    """Return what is wrong with objects and people."""
+    """Yield the faults of a home's objects and people."""
     yield from _names(home)
     for object_id, item in home.objects.items():
         title = f"object {object_id!r} at {list(item.at)}"
@@ -69,7 +69,7 @@ def _contains(outer: Shape, inner: Shape) -> bool:
 
 
 def _hung(home: Home, title: str, item: Object) -> Iterator[Finding]:
-    """Say when no one wall holds a door in its whole breadth."""
+    """Check that one wall holds a door in its whole breadth."""
     for wall in walls(home):
         area = wall.shape.bounds
         along = (area.x0, area.x1) if area.x1 - area.x0 > area.y1 - area.y0 else (area.y0, area.y1)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 from sim.site.shapes import EPS_M, Disc, Rect, Solid
 
 if TYPE_CHECKING:
-    from sim.site.spec import Door, Furniture, Home
+    from sim.site.spec import Furniture, Home, HomeDoor
 
 Axis = Literal["x", "y"]
 Line = tuple[Axis, float]
@@ -39,7 +39,7 @@ def edges(room: Rect) -> tuple[tuple[Line, Span], ...]:
     )
 
 
-def door_edge(home: Home, door: Door) -> tuple[Line, Span] | None:
+def door_edge(home: Home, door: HomeDoor) -> tuple[Line, Span] | None:
     """Return the line and the span that a door opens; None where its rooms share no such wall."""
     rooms = room_rects(home)
     if not all(room_id in rooms for room_id in door.between):

@@ -12,7 +12,7 @@ from bridge import node as shell_file
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, LoopFacts
 from bridge.core.state_braking import Learnt
 from bridge.node import EXIT_BROKEN, EXIT_LEFT, BridgeNode, Parts
-from bridge.realtime import Pacer, Tick
+from bridge.realtime import Pacer, PacerTick
 from tests.bridge.ground import FakeClock, core_config
 from wire import DriveCommand, DriveState, Rejected
 
@@ -116,19 +116,19 @@ def countdown(turns: int) -> Iterator[bool]:
 
 def test_one_tick_is_drain_step_drive_tell_record(shell: BridgeNode, diary: Diary) -> None:
     before = shell.state
-    shell.tick(Tick(100.01, 0.0, 0), CONFIG.period_s)
+    shell.tick(PacerTick(100.01, 0.0, 0), CONFIG.period_s)
     assert diary.words == ["read", "drain", "write", "publish", "record", "feed"]
     assert shell.state is not before
 
 
 def test_the_core_is_told_how_the_loop_goes(shell: BridgeNode, diary: Diary) -> None:
-    shell.tick(Tick(100.034, 0.004, 2), CONFIG.period_s)
+    shell.tick(PacerTick(100.034, 0.004, 2), CONFIG.period_s)
     (inbox,) = diary.inboxes
     assert inbox.loop == LoopFacts(late_s=0.004, missed_ticks=2, record_gaps=3)
     assert inbox.real_time
     assert (inbox.recorder_ok, inbox.recorder_says) == (True, "")
     diary.trouble = "disk_full: no space left"
-    shell.tick(Tick(100.044, 0.0, 0), CONFIG.period_s)
+    shell.tick(PacerTick(100.044, 0.0, 0), CONFIG.period_s)
     inbox = diary.inboxes[-1]
     assert (inbox.recorder_ok, inbox.recorder_says) == (False, "disk_full: no space left")
 
@@ -137,7 +137,7 @@ def test_each_tick_is_given_chance_of_its_own_that_nobody_can_foretell(
     shell: BridgeNode, diary: Diary
 ) -> None:
     for number in range(100):
-        shell.tick(Tick(100.0 + number * 0.01, 0.0, 0), CONFIG.period_s)
+        shell.tick(PacerTick(100.0 + number * 0.01, 0.0, 0), CONFIG.period_s)
     drawn = [inbox.chance for inbox in diary.inboxes]
     assert len(set(drawn)) == 100
     assert all(re.fullmatch(r"[0-9a-f]{16}", one) for one in drawn)
@@ -147,7 +147,9 @@ def test_each_tick_is_given_chance_of_its_own_that_nobody_can_foretell(
 
 def test_lateness_of_a_second_counts_skipped_periods(shell: BridgeNode, diary: Diary) -> None:
     for number in range(101):
-        shell.tick(Tick(100.0 + number * 0.01, 0.001, 1 if number == 50 else 0), CONFIG.period_s)
+        shell.tick(
+            PacerTick(100.0 + number * 0.01, 0.001, 1 if number == 50 else 0), CONFIG.period_s
+        )
     facts = diary.inboxes[-1].loop
     assert facts.late_p50_us == pytest.approx(1_000.0)
     assert facts.late_max_us == pytest.approx(11_000.0)
