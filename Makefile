@@ -17,7 +17,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
+.PHONY: help setup dev page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -25,10 +25,6 @@ help: ## list these targets
 setup: $(RUNTIME) $(PAGE) ## make .venv, install what running needs from the locks, build the page
 
 dev: $(DEV) $(PAGE_DEV) ## add what testing and checking need
-
-core: $(DEV) ## compile the bridge's core (minutes; needs a C compiler) and prove it equal
-	@nice -n 10 $(BIN)/python scripts/compile_core.py
-	@$(BIN)/python -m pytest -q tests/bridge/test_compiled.py $(ARGS)
 
 page: $(RUNTIME) ## build the page anew
 	@scripts/page.sh build

@@ -52,7 +52,7 @@ def parse_fence(data: bytes, name: str = NAME) -> Fence:
 
 
 def read_record(data: bytes, name: str = NAME) -> FenceFile:
-    """Return what the file's bytes say, its outlines checked.
+    """Parse the bytes of fence.json and check its outlines.
 
     Raises:
         Misconfigured: malformed, or with an outline without area or one that crosses itself.

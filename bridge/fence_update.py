@@ -35,7 +35,7 @@ LAST_WORD_S = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """Say where the fence lies and what it must fit."""
+    """Hold the fence's paths and the map and hash that it must fit."""
 
     site: Path
     home: Path
@@ -58,7 +58,7 @@ class FenceDesk:
         self._thread.start()
 
     def take(self) -> FenceDone | None:
-        """Return what became of a request since the last call."""
+        """Return the outcome of a fence request since the last call."""
         if self._noted is None:
             return None
         try:
@@ -67,7 +67,7 @@ class FenceDesk:
             return None
 
     def note(self, asked: FenceAsked | None, now_s: float) -> None:
-        """Take what the core asks for."""
+        """Queue the fence that the core asks to be written."""
         if asked is self._noted:
             return
         self._noted = asked
@@ -78,8 +78,8 @@ class FenceDesk:
         else:
             self._queue.put(asked)
 
-    def over(self, now_s: float) -> bool:
-        """Say whether a new fence is written and its verdict was shown: time to start anew."""
+    def is_over(self, now_s: float) -> bool:
+        """Return whether a new fence is written and its verdict was shown: time to start anew."""
         return self._written_s is not None and now_s - self._written_s >= LINGER_S
 
     def close(self) -> bool:
@@ -137,7 +137,7 @@ def check(ground: Ground, data: bytes, x_m: float, y_m: float) -> None:
 
 
 def _audit(ground: Ground, asked: FenceAsked, new_hash: str) -> None:
-    """Add who, when and what to ``$PONS_HOME/fence/accepted.jsonl``."""
+    """Add source, time and hash to ``$PONS_HOME/fence/accepted.jsonl``."""
     line = {
         "at": datetime.now(UTC).isoformat(timespec="seconds"),
         "by": asked.source,

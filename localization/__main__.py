@@ -14,7 +14,7 @@ import sys
 import threading
 from pathlib import Path
 
-from localization.node import Shell
+from localization.node import LocalizationNode
 from localization.site_map import read_map_id
 from localization.standin import StandIn
 from processes.priority import set_fifo
@@ -49,7 +49,7 @@ def _serve(options: argparse.Namespace) -> None:
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.LOCALIZATION, robot_id, home) as session:
-        shell = Shell(stand_in, session)
+        shell = LocalizationNode(stand_in, session)
         gc.collect()
         gc.freeze()
         log.warning("STAND-IN: simulator truth plus noise, no localization; seed %d", options.seed)

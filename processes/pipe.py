@@ -1,4 +1,4 @@
-"""Hand bytes to another process without ever waiting. Owns one pipe; knows no meaning.
+"""Send bytes to another process through a pipe without ever waiting.
 
 A write to a pipe larger than what is free is cut short (pipe(7)), so the rest of one piece is kept
 and goes first next time. At most that one piece waits: memory does not grow behind a slow reader.
@@ -19,7 +19,7 @@ _F_SETPIPE_SZ = getattr(fcntl, "F_SETPIPE_SZ", None)
 
 
 class Pipe:
-    """Be the writing end of a non-blocking pipe whose pieces arrive whole or not at all."""
+    """Write to a non-blocking pipe whose pieces arrive whole or not at all."""
 
     def __init__(self, wanted_bytes: int = WANTED_BYTES) -> None:
         self._read_fd, self._write_fd = (
@@ -43,7 +43,7 @@ class Pipe:
             self._read_fd = -1
 
     def send(self, piece: bytes) -> bool:
-        """Take the piece whole, or say that it could not be taken. Never blocks, never raises."""
+        """Send the piece whole and return True, or return False. Never blocks, never raises."""
         if not self.flush():
             return False
         sent = self._write(piece)
@@ -53,13 +53,13 @@ class Pipe:
         return True
 
     def flush(self) -> bool:
-        """Push out what is left of the piece before; say whether nothing of it is left."""
+        """Send the rest of the piece before; return whether none is left."""
         if self._rest:
             self._rest = self._rest[self._write(self._rest) :]
         return not self._rest and not self.broken
 
     def waiting_bytes(self) -> int:
-        """Return what the reader has not taken yet."""
+        """Return how many bytes the reader has not taken yet."""
         if self.broken:
             return 0
         answer = fcntl.ioctl(self._write_fd, termios.FIONREAD, b"\0\0\0\0")

@@ -16,7 +16,7 @@ import threading
 from pathlib import Path
 
 from processes.priority import set_fifo
-from sim.node import Shell
+from sim.node import SimNode
 from sim.robot import SimRobot
 from sim.site import check_fresh
 from sim.true_parameters import load_metal
@@ -65,7 +65,7 @@ def _serve(options: argparse.Namespace) -> None:
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:
-        shell = Shell(robot, session)
+        shell = SimNode(robot, session)
         gc.collect()
         gc.freeze()
         logging.getLogger("sim").info(

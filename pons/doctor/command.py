@@ -51,7 +51,6 @@ def findings(settings: Settings) -> list[HealthFinding]:
     priority, virtual = robot.realtime.priority, robot.drive.virtual
     return [
         host_checks.python(),
-        run_check("core", host_checks.core),
         host_checks.page_size(),
         run_check("real_time", lambda: host_checks.real_time(priority, virtual=virtual)),
         run_check("locked_memory", host_checks.locked_memory),

@@ -1,4 +1,4 @@
-"""Check the machine itself: Python, the core, page size, real-time rights, memory, Node."""
+"""Check the machine itself: Python, page size, real-time rights, memory, Node."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import subprocess
 import sys
 import threading
 
-from bridge.compiled import find
 from bridge.realtime import Right, take_fifo
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 
@@ -34,14 +33,6 @@ def python() -> HealthFinding:
             "安装后运行 `make clean setup PYTHON=python3.12`",
         ),
     )
-
-
-def core() -> HealthFinding:
-    """Say which core the bridge will run; the plain source decides the same, at twice the cost."""
-    found = find()
-    if found.compiled:
-        return ok("core", found.text, f"已编译（{found.text.split()[-1]}）")
-    return ok("core", found.text, "使用纯 Python 源码；`make core` 可编译，CPU 用量更低")
 
 
 def page_size() -> HealthFinding:

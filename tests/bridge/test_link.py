@@ -16,7 +16,7 @@ import pytest
 
 from bridge.core import ON_TIME, ArrivedAt, Decision, Inbox, OpArrived, initial
 from bridge.core.state_fence import FenceArrived
-from bridge.link import STOPS_KEPT, Link
+from bridge.link import STOPS_KEPT, BridgeLink
 from tests.bridge.ground import core_config, until
 from tests.wire.examples import EXAMPLES, STATUS
 from wire import (
@@ -61,7 +61,7 @@ HOSTILE = (
 class Ends:
     """Hold the bridge's link and, for each of its doors, somebody who may say what it hears."""
 
-    link: Link
+    link: BridgeLink
     others: tuple[Session, ...]
 
     @property
@@ -99,7 +99,7 @@ def ends(home: Path) -> Iterator[Ends]:
         open_session(Party.BUTTON, "r1", home) as button,
         open_session(Party.ROBOT, "r1", home) as robot,
     ):
-        link = Link(bridge, "r1", VIRTUAL_KEY)
+        link = BridgeLink(bridge, "r1", VIRTUAL_KEY)
         ends = Ends(link, (operator, localization, button, robot))
         assert until(lambda: bridge.peers() == len(ends.others))
         for other in ends.others:

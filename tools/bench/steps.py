@@ -1,8 +1,7 @@
 """Time each core step of one drive in lockstep: ``python -m tools.bench.steps INDEX``; prints JSON.
 
-A process of its own, because a process has one core: the compiled one if there is one of these
-sources, the plain source with ``PONS_CORE=plain``. The garbage collector is kept out, as in the
-bridge. Thread CPU time, so that other work on the machine does not count.
+The garbage collector is kept out, as in the bridge. Thread CPU time, so that other work on the
+machine counts only by what it pushes out of the caches.
 """
 
 from __future__ import annotations
@@ -12,6 +11,9 @@ import json
 import sys
 import time
 from typing import TYPE_CHECKING, Any
+
+from bridge.core import step
+from tools.lockstep import Together
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,17 +45,11 @@ class TimedStep:
 
 def main(index: int) -> int:
     """Drive between rooms and print what each step cost."""
-    from bridge.compiled import use
-
-    core = use()  # before anything imports the core
-    print(json.dumps({"core": core.text, **_drive(index)}))
+    print(json.dumps(_drive(index)))
     return 0
 
 
 def _drive(index: int) -> dict[str, Any]:
-    from bridge.core import step
-    from tools.lockstep import Together
-
     timed = TimedStep(step)
     world = Together(site="home", seed=index + 1, step=timed)
     gc.collect()

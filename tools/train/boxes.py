@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from sim.camera.primitives import Part
+    from sim.camera.primitives import GeomPart
     from sim.camera.scene import Instance
     from wire import CameraConfig
 
@@ -70,7 +70,7 @@ def hulls(things: Iterable[Instance]) -> dict[str, Hull]:
     return found
 
 
-def _bounds(part: Part) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _bounds(part: GeomPart) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return a part's lowest and highest corner in its thing's frame [m]."""
     said = dict(NUMBER.findall(part.form))
     size = np.array(said["size"].split(), np.float64)

@@ -118,7 +118,7 @@ class Floor:
         """Take an area if it lies inside and is free; say whether."""
         box = self.inside
         holds = box.x0 <= area.x0 and box.y0 <= area.y0 and area.x1 <= box.x1 and area.y1 <= box.y1
-        if not holds or any(area.grown(gap_m).overlaps(other) for other in self.taken):
+        if not holds or any(area.expand(gap_m).overlaps(other) for other in self.taken):
             return False
         self.taken.append(area)
         return True

@@ -94,8 +94,8 @@ def _plan(
         words = f"room {index}"
         rooms[name] = {"name": {"en": words, "zh": words}, "box": box, "pose": pose}
         rooms[name]["kind"] = random.choice(tuple(ROOMS))
-        middle = Rect(pose[0], pose[1], pose[0], pose[1]).grown(CLEAR_M)
-        floors[name] = Floor(Rect(*box).grown(-HALF_WALL_M), [middle])
+        middle = Rect(pose[0], pose[1], pose[0], pose[1]).expand(CLEAR_M)
+        floors[name] = Floor(Rect(*box).expand(-HALF_WALL_M), [middle])
         if index:
             at = [box[0], round(random.uniform(1.0, deep - 1.0), 2)]
             width = round(random.uniform(0.9, 1.4), 2)

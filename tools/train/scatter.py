@@ -128,7 +128,7 @@ def people(random: Random, floor: Floor, count: int) -> list[dict[str, Any]]:
 
 
 def _free(random: Random, floor: Floor, half: float) -> tuple[float, float] | None:
-    room = floor.inside.grown(-half - EDGE_M)
+    room = floor.inside.expand(-half - EDGE_M)
     x, y = random.uniform(room.x0, room.x1), random.uniform(room.y0, room.y1)
     return (x, y) if floor.take(Rect(x - half, y - half, x + half, y + half)) else None
 

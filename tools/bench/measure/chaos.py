@@ -11,7 +11,7 @@ from collections import Counter
 from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any
 
-from bridge.recording.mcap_reader import BadRecording, BoxReader
+from bridge.recording.mcap_reader import BadRecording, McapReader
 from pons.http import PlannerDown, PlannerProblem
 from tools.bench.chaos.draw import Breakage, FaultKind, draw
 from tools.bench.chaos.episode import Play
@@ -121,7 +121,7 @@ def lost_records(home: Path, goals: list[str]) -> dict[str, Any]:
     files, bad = sorted((home / "recordings").glob("*.mcap")), []
     for path in files[:-1]:  # the last one is being written
         try:
-            with BoxReader(path) as reader:
+            with McapReader(path) as reader:
                 for chunk in reader.chunks:
                     reader.read(chunk)
         except BadRecording as trouble:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
-from bridge.compiled import find
 from tools.bench.processes import cpu_s, rss_mb
 from tools.bench.report import ReportRow, row_of
 from tools.bench.robot import SLOW, BenchRobot
@@ -37,8 +36,6 @@ def measure(lab: BenchLab) -> list[ReportRow]:
             samples = [value for run in runs for value in run[name][kind]]
             goal = GOALS.get((name, kind), "")
             note = f"without its workers; slowest run's simulator {slowest:.2f} x"
-            if name == "bridge":
-                note = f"core: {find().text}; {note}"
             rows.append(row_of(f"{name} {kind}", unit, goal, samples, note, valid=slowest >= SLOW))
     return rows
 
