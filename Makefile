@@ -17,7 +17,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
+.PHONY: help setup dev core page wheel run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -32,6 +32,9 @@ core: $(DEV) ## compile the bridge's core (minutes; needs a C compiler) and prov
 
 page: $(RUNTIME) ## build the page anew
 	@scripts/page.sh build
+
+wheel: $(DEV) $(PAGE) ## build the wheel into dist/: packages, page, prompts, sites, detector, no tools
+	@$(BIN)/python -m scripts.wheel dist
 
 run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
 	@exec $(BIN)/pons up $(ARGS)

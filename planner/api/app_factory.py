@@ -57,7 +57,7 @@ def build(
     access: Access,
     lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] | None = None,
     *,
-    page: Path = static_files.BUILT,
+    page: Path = static_files.PAGE,
     authority: bytes = b"",
 ) -> FastAPI:
     """Return the application; documentation pages that load scripts from elsewhere stay off.

@@ -15,6 +15,7 @@ from pons.calibrate.procedure import Plan, calibrate
 from pons.calibrate.reference import MEASURED
 from pons.calibrate.robot_toml import difference, edited, replace
 from pons.calibrate.session import Rig
+from pons_assets import IS_INSTALLED, ROBOT_FILE
 from wire import Misconfigured, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -42,6 +43,8 @@ def run(
     """Calibrate; 0 written or nothing to change, 3 refused, 130 interrupted."""
     signal.signal(signal.SIGTERM, _interrupt)
     try:
+        if IS_INSTALLED and settings.robot == ROBOT_FILE:
+            raise CalibrationRefused("shipped_robot_toml", f"cp {ROBOT_FILE} robot.toml")
         text = settings.robot.read_text("utf-8") if settings.robot.is_file() else ""
         stamp = time.gmtime()
         kind = MEASURED if measured_m is not None else reference

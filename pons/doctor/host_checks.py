@@ -13,6 +13,7 @@ import threading
 from bridge.compiled import find
 from bridge.realtime import Right, take_fifo
 from pons.doctor.finding import Finding, Words, fail, ok, warn
+from pons_assets import IS_INSTALLED
 
 USUAL_PAGE_BYTES = 4096
 NODE_LOWEST = (20, 19)
@@ -102,6 +103,8 @@ def locked_memory() -> Finding:
 
 def node() -> Finding:
     """Look for Node; only building the page needs it, and `make setup` can bring it as a wheel."""
+    if IS_INSTALLED:
+        return ok("node", "not needed: the page came built", "不需要：网页已随安装包构建")
     path = shutil.which("node")
     found = _node_version(path) if path else None
     if found is not None and found >= NODE_LOWEST:

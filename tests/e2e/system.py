@@ -69,6 +69,7 @@ class System:
         self._settings = settings
         self.scheme = "https" if settings.get("PONS_TLS") == "1" else "http"
         self.arguments: tuple[str, ...] = ()
+        self.python, self.folder = sys.executable, ROOT
         self.up: subprocess.Popen[bytes] | None = None
 
     @property
@@ -100,7 +101,7 @@ class System:
         with self.log.open("ab") as log:
             self.up = subprocess.Popen(
                 [
-                    sys.executable,
+                    self.python,
                     "-m",
                     "pons.pdeathsig_exec",
                     str(os.getpid()),
@@ -108,7 +109,7 @@ class System:
                     "up",
                     *self.arguments,
                 ],  # dies with us
-                cwd=ROOT,
+                cwd=self.folder,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
@@ -221,8 +222,8 @@ class System:
     def pons(self, *words: str, timeout_s: float = 40.0) -> subprocess.CompletedProcess[str]:
         """Run a ``pons`` command as a person in a shell."""
         return subprocess.run(
-            [sys.executable, "-m", "pons", *words],
-            cwd=ROOT,
+            [self.python, "-m", "pons", *words],
+            cwd=self.folder,
             env=self.environment,
             capture_output=True,
             text=True,
