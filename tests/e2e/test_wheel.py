@@ -1,8 +1,7 @@
-"""Install the wheel where no checkout is, and drive by a sentence: ``pons up`` in an empty folder."""
+"""Install the wheel where no checkout is, and drive by a sentence from an empty folder."""
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import zipfile
@@ -138,4 +137,4 @@ def test_what_needs_a_checkout_says_so(installed: InstalledSystem) -> None:
         asked = installed.run("-m", module, "--check")
         assert asked.returncode == 1
         assert asked.stderr.startswith("needs_checkout: "), asked.stderr
-        assert os.listdir(installed.folder) == []
+        assert not list(installed.folder.iterdir())
