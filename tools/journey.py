@@ -97,11 +97,11 @@ def bridge_files(sentence: str = SENTENCE, site: str = "home") -> Counter[str]:
     """
     scans = [False]
 
-    def noted(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
+    def step_and_note(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
         scans[0] = inbox.scan is not None
         return step(config, state, inbox, now_s)
 
-    world = Together(site=site, step=noted)
+    world = Together(site=site, step=step_and_note)
     world.say(sentence)
     world.run_until(turns_a_wheel, LIMIT_S)
     world.run(UNDER_WAY_S)
