@@ -97,7 +97,9 @@ def bridge_files(sentence: str = SENTENCE, site: str = "home") -> Counter[str]:
     """
     scans = [False]
 
-    def step_and_note(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
+    def step_and_note(
+        config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float
+    ) -> Decision:
         scans[0] = inbox.scan is not None
         return step(config, state, inbox, now_s)
 
