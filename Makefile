@@ -17,7 +17,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
+.PHONY: help setup dev page wheel run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -28,6 +28,9 @@ dev: $(DEV) $(PAGE_DEV) ## add what testing and checking need
 
 page: $(RUNTIME) ## build the page anew
 	@scripts/page.sh build
+
+wheel: $(DEV) $(PAGE) ## build the wheel into dist/: packages, page, prompts, sites, detector, no tools
+	@$(BIN)/python -m scripts.wheel dist
 
 run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
 	@exec $(BIN)/pons up $(ARGS)
@@ -46,9 +49,9 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 	@scripts/units.sh $(ARGS)
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
-e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, fence, black box, units, and the page in Chromium
+e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py $(OWN) $(ARGS) \
+	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py tests/e2e/test_wheel.py $(OWN) $(ARGS) \
 	  ++ scripts/stories.sh -n 0 -m e2e tests/web $(WHOLE) $(ARGS)
 	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a flood takes what a second robot needs
 

@@ -185,7 +185,7 @@ THREATS = (
            ("pons/test_private.py::test_what_a_robot_keeps_is_readable_by_its_own_user_alone",)),
     Threat("A bridge that was frozen for seconds goes on",
            "From zero, where the drive has timed out meanwhile",
-           ("bridge/core/motion/test_command.py::test_after_a_freeze_nothing_is_ramped_down",)),
+           ("bridge/core/motion/test_wheel_command.py::test_after_a_freeze_nothing_is_ramped_down",)),
 )  # fmt: skip
 
 _INTRODUCTION = """\

@@ -13,7 +13,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from planner.brain.interface import Observation, ThinkRequest
-from planner.brain.prompt_template import FOLDER, Template, as_json, repair
+from planner.brain.prompt_template import Template, as_json, repair
 from planner.brain.schema import (
     CLARIFY_CODES,
     REFUSE_CODES,
@@ -23,6 +23,7 @@ from planner.brain.schema import (
     step_models,
 )
 from planner.plan import NEEDS_CAMERA, Code, Language, Vocabulary
+from pons_assets import PROMPTS
 
 BUDGET_TOKENS = 1500
 ORDER_TOKENS = 120
@@ -62,7 +63,7 @@ class Prompt:
     fingerprint: str
 
     @classmethod
-    def load(cls, path: Path = FOLDER / "plan.md") -> Prompt:
+    def load(cls, path: Path = PROMPTS / "plan.md") -> Prompt:
         """Read a template.
 
         Raises:

@@ -15,6 +15,7 @@ from pons.calibrate.procedure import CalibrationPlan, calibrate
 from pons.calibrate.reference import MEASURED
 from pons.calibrate.robot_toml import difference, edit_values, replace
 from pons.calibrate.session import CalibrationRig
+from pons_assets import IS_INSTALLED, ROBOT_FILE
 from wire import Misconfigured, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -42,6 +43,8 @@ def run(
     """Calibrate; 0 written or nothing to change, 3 refused, 130 interrupted."""
     signal.signal(signal.SIGTERM, _interrupt)
     try:
+        if IS_INSTALLED and settings.robot == ROBOT_FILE:
+            raise CalibrationRefusal("shipped_robot_toml", f"cp {ROBOT_FILE} robot.toml")
         text = settings.robot.read_text("utf-8") if settings.robot.is_file() else ""
         stamp = time.gmtime()
         kind = MEASURED if measured_m is not None else reference
@@ -80,7 +83,7 @@ def _metres(typed: list[float]) -> Iterator[float]:
     """Yield what a person measured: first what came with the command, then what is typed now.
 
     Raises:
-        CalibrationRefused: ``no_measure``.
+        CalibrationRefusal: ``no_measure``.
     """
     yield from typed
     while True:

@@ -23,7 +23,7 @@ from pons.conformance.runner import NAMES, play_all
 from pons.conformance.site_track import find_track
 from pons.conformance.system_under_test import OURS, SystemUnderTest
 from pons.machine import commit, machine, today
-from pons.settings import CHECKOUT
+from pons_assets import SITES
 from wire import Misconfigured, load_robot
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 EXIT_HELD, EXIT_BROKEN, EXIT_UNTESTED, EXIT_INTERRUPTED = 0, 1, 2, 130
 KINDS = {name: kind for kind, name in NAMES.items()}
-SITE = CHECKOUT / "sites" / "two_room"
+SITE = SITES / "two_room"
 
 
 def parser() -> argparse.ArgumentParser:

@@ -12,6 +12,7 @@ import threading
 
 from bridge.realtime import Right, take_fifo
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from pons_assets import IS_INSTALLED
 
 USUAL_PAGE_BYTES = 4096
 NODE_LOWEST = (20, 19)
@@ -101,6 +102,8 @@ def locked_memory() -> HealthFinding:
 
 def node() -> HealthFinding:
     """Look for Node; only building the page needs it, and `make setup` can bring it as a wheel."""
+    if IS_INSTALLED:
+        return ok("node", "not needed: the page came built", "不需要：网页已随安装包构建")
     path = shutil.which("node")
     found = _node_version(path) if path else None
     if found is not None and found >= NODE_LOWEST:

@@ -7,10 +7,11 @@ from pathlib import Path
 from pons.evals.cases import MissingSuite, Suite, read_tsv
 from pons.evals.external_suites import chinese, gpsr
 from pons.evals.world import site_world
+from pons_assets import DEFAULT_SITE, ROOT
 
 OURS = Path(__file__).parent / "suites"
-HOME_SITE = Path(__file__).parents[2] / "sites" / "home"
-DATA = Path(__file__).parents[3] / "shared" / "data" / "commands"
+HOME_SITE = DEFAULT_SITE
+DATA = ROOT.parent / "shared" / "data" / "commands"
 """Where the orders of others lie, beside a checkout; --data names another folder."""
 SETS = {"home": ("home_en", "home_zh"), "outside": ("gpsr", "zh")}
 

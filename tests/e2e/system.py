@@ -70,6 +70,7 @@ class System:
         self._settings = settings
         self.scheme = "https" if settings.get("PONS_TLS") == "1" else "http"
         self.arguments: tuple[str, ...] = ()
+        self.python, self.folder = sys.executable, ROOT
         self.up: subprocess.Popen[bytes] | None = None
 
     @property
@@ -100,8 +101,8 @@ class System:
         self.log.unlink(missing_ok=True)
         with self.log.open("ab") as log:
             self.up = subprocess.Popen(
-                child_command("pons", "up", *self.arguments),  # dies with us
-                cwd=ROOT,
+                (self.python, *child_command("pons", "up", *self.arguments)[1:]),  # dies with us
+                cwd=self.folder,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
@@ -214,8 +215,8 @@ class System:
     def pons(self, *words: str, timeout_s: float = 40.0) -> subprocess.CompletedProcess[str]:
         """Run a ``pons`` command as a person in a shell."""
         return subprocess.run(
-            [sys.executable, "-m", "pons", *words],
-            cwd=ROOT,
+            [self.python, "-m", "pons", *words],
+            cwd=self.folder,
             env=self.environment,
             capture_output=True,
             text=True,

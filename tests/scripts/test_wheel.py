@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from setuptools import find_packages  # type: ignore[import-untyped]
+from setuptools import find_packages
 
 PRODUCT = {"processes", "wire", "planner", "localization", "bridge", "sim", "pons"}
 LEFT_OUT = {"tools", "tests", "scripts", "examples", "train", "bench", "attack", "lockstep"}

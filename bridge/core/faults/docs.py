@@ -8,19 +8,19 @@ differs, with
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bridge.core.faults.fault_table import ALL, ROWS, Stage
 from bridge.core.faults.hazards import HAZARDS, LAWS
 from bridge.core.modes.mode_table import TRANSITIONS
 from bridge.core.motion.brake_learning import ALIKE, BEGIN_MPS, BETTER_STOPS, WEAK_SHARE
+from pons_assets import ROOT, checkout
 from wire import Action
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-PATH = Path(__file__).parents[3] / "docs" / "safety.md"
+PATH = ROOT / "docs" / "safety.md"
 
 _SOURCES = {"W": "waypoints", "T": "teleop", "X": "external"}
 
@@ -193,6 +193,7 @@ def _sentences() -> str:
 
 def main(arguments: list[str]) -> int:
     """Write, check or print the page."""
+    checkout("writing docs/safety.md")
     page = safety_md()
     if not arguments:
         PATH.write_text(page, "utf-8")
