@@ -11,7 +11,8 @@ from planner.api.goals import IdempotencyKey
 from planner.api.interfaces import Services
 from planner.api.operator import act_behind
 from planner.api.problems import Problem
-from planner.language.stop import is_stop
+from planner.language.stop import StopReading
+from planner.language.utterance import parse
 from planner.plan import Bilingual, Goal, Language
 from planner.voice import BadRecording, Heard, VoiceFailure, read_wav
 
@@ -95,10 +96,10 @@ def routes(services: Services) -> APIRouter:
         goal = await services.goals.submit(
             text,
             language=Language.EN,
-            confirm=confirm or not (heard.sure or is_stop(text)),
+            confirm=confirm or not (heard.sure or parse(text).reading is StopReading.ORDER),
             replace=replace,
             idempotency_key=idempotency_key,
-            act=act_behind(services.robot, text, None),
+            act=act_behind(services.robot, parse(text), None),
         )
         return Spoken(
             transcript=text,

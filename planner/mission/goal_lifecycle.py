@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.language.yes_no import consents
+from planner.language.utterance import parse
 from planner.mission.answer_timeouts import ask_anew, close_older, make_room, waiting_since
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
@@ -241,7 +241,7 @@ def reply(turn: Turn, mission: Mission, text: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = turn.put(mission, given_under_hold=hold_now(turn))
     ask_anew(turn, mission)
-    agreed, order = consents(text), offered(mission)
+    agreed, order = parse(text).consent, offered(mission)
     if asks(mission):
         take_answer(turn, mission, text)
     elif agreed is False and (order is not None or confirms(mission)):

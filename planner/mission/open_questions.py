@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from planner.brain.interface import OFFLINE
 from planner.language.stop import is_stop
-from planner.language.yes_no import consents
+from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
 from planner.mission.motion_on_yes import DO_THAT, first_deed, upon_yes
 from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
@@ -88,7 +88,7 @@ def take_answer(turn: Turn, mission: Mission, text: str) -> None:
 
     What ends the goal ends it now, whatever else runs or holds the robot.
     """
-    facts, agreed = turn.book.facts, consents(text)
+    facts, agreed = turn.book.facts, parse(text).consent
     if agreed or (agreed is None and upon_yes(facts, mission) is None):
         clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])

@@ -21,8 +21,8 @@ from planner.language.commands import (
     Resume,
     Slower,
     Where,
-    intent_of,
 )
+from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
@@ -70,7 +70,9 @@ class Local:
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
         mission = self._book().missions.get(ask.id)
-        intent = intent_of(ask.text) if mission is not None and _by_person(mission, ask) else None
+        intent = (
+            parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
+        )
         if isinstance(intent, Replace):
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if intent is None or mission is None or mission.steps:

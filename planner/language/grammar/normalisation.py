@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from planner.language.folding import fold
+from planner.language.folding import CHINESE, fold
 
-_CJK = r"[\u3400-\u9fff。、]"
+_CJK = rf"[{CHINESE}。、]"
 _CJK_GAP = re.compile(rf"(?<={_CJK})\s+|\s+(?={_CJK})")
 _IN_BRACKETS = re.compile(r"\(([^()\d]+)\)")
 _HYPHEN = re.compile(r"(?<=[a-z])[-_](?=[a-z])")

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from itertools import chain
 
+from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.clause_order import in_order
 from planner.language.grammar.denial import withholds_offers
@@ -39,8 +40,8 @@ from planner.language.grammar.typos import mend, words_of
 from planner.language.grammar.vetoes import vetoed
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
-from planner.language.identification import language_of
-from planner.language.stop import is_stop
+from planner.language.stop import StopReading
+from planner.language.utterance import parse
 from planner.plan import (
     NEEDS_CAMERA,
     RUNNABLE,
@@ -59,7 +60,7 @@ from planner.plan import (
     message,
 )
 
-_OTHER = rf"(?:{MARK}|[\u3400-\u9fff])"
+_OTHER = rf"(?:{MARK}|[{HAN}])"
 _SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
 _BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
 _LATIN = re.compile(r"[a-z]")
@@ -88,7 +89,8 @@ def plan(
     refused = refuse_bad_text(text)
     if refused is not None:
         return refused
-    if is_stop(text):  # the stop lane comes first; should one get here, it stays a stop
+    # The stop lane comes first; should a stop get here, it stays a stop.
+    if parse(text).reading is StopReading.ORDER:
         return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
     apart, quotes = take_quotes(text)
     said = normalise(apart)
@@ -142,7 +144,7 @@ def _understood(
     text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
     marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
-    language = context.language or language_of(text)
+    language = context.language or parse(text).language
     offers = offers and not withholds_offers(marked.text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers)
     vetoed = _vetoed(marked, setting)

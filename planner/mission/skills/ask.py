@@ -11,7 +11,7 @@ where it is.
 
 from __future__ import annotations
 
-from planner.language.yes_no import consents
+from planner.language.utterance import parse
 from planner.mission.skills.actions import Act, Cannot, Done, Question, Scene, Think
 from planner.plan import Bilingual, Code, message, same
 
@@ -30,7 +30,7 @@ def ask(scene: Scene) -> Act:
         return Question(_shall_i(scene), notes) if again else Question(same(scene.step.text or ""))
     if scene.upon is None:
         return Done()
-    yes = consents(answer)
+    yes = parse(answer).consent
     if yes is True:
         return Done({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
     if yes is False or notes.stage == AGAIN:

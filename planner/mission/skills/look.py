@@ -15,6 +15,7 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from planner.language.folding import fold
 from planner.mission.skills.actions import Act, Cannot, Done, Gaze, Inquire, Later, Scene
 from planner.mission.skills.directions import direction, goes_round, listed
 from planner.mission.skills.image_answers import reading
@@ -45,7 +46,7 @@ NO_DETECTOR = Bilingual(en="No detector is here to see anything.", zh="这里没
 
 def looks_round(question: str) -> bool:
     """Tell whether a question asks to look about, and not ahead alone."""
-    return _ROUND.search(question.casefold()) is not None
+    return _ROUND.search(fold(question)) is not None
 
 
 def look(scene: Scene) -> Act:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from planner.language.yes_no import consents
+from planner.language.utterance import parse
 from planner.mission.skills.actions import Act, Cannot, Gaze, Inquire, Question, Scene
 from planner.mission.skills.image_errors import not_pointed
 from planner.mission.skills.look_around import LOOKS
@@ -62,7 +62,7 @@ def _answered(scene: Scene, pose: Pose2, at: At) -> Act | At:
     if answer is None:  # interrupted before anybody answered
         again = notes.stage == AGAIN
         return Question(_proposal(scene, pose, at, again=again), notes)
-    yes = consents(answer)
+    yes = parse(answer).consent
     if yes is True:
         return at
     if yes is None and notes.stage == PROPOSED:

@@ -12,6 +12,7 @@ from enum import StrEnum
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner.language.folding import fold_words
 from planner.language.object_classes import kind_of
 from planner.plan import Bilingual
 
@@ -57,7 +58,7 @@ SAID = {
 
 def parted(words: str) -> tuple[str, Relation, str] | None:
     """Return the thing's words, how it stands, and its neighbour's words; None without any."""
-    plain = " ".join(words.casefold().split())
+    plain = fold_words(words)
     found = _ZH.fullmatch(plain) or _EN.fullmatch(plain)
     if found is None:
         return None
