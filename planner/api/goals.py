@@ -13,9 +13,10 @@ from planner.api.operator import act_behind, persons_act
 from planner.api.problems import Problem
 from planner.api.rates import Rates
 from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalOrder, Move, NewGoal, Reply
+from planner.language.catalogue import say
 from planner.language.utterance import Utterance, parse
 from planner.mission.errors import MissionError
-from planner.plan import Bilingual, Goal
+from planner.plan import Goal
 
 STATUS = {
     "unknown_goal": 404,
@@ -28,11 +29,7 @@ STATUS = {
 
 A_SECOND, AT_ONCE = 2.0, 50
 """Goals and answers of one address. A person is slower; each costs a thought and a line on disk."""
-STOPPED_BUT_LONG = Bilingual(
-    en="The robot was told to stop. The order is too long to be read whole: at most 4,000 "
-    "characters.",
-    zh="已让机器人停止。指令太长，无法完整读取：最多 4000 个字符。",
-)
+STOPPED_BUT_LONG = say("problem.stopped_but_long")
 
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", max_length=200)]
 Limit = Annotated[int, Query(ge=1, le=200)]

@@ -11,6 +11,7 @@ from planner.api.goals import IdempotencyKey
 from planner.api.interfaces import Services
 from planner.api.operator import act_behind
 from planner.api.problems import Problem
+from planner.language.catalogue import say
 from planner.language.stop import StopReading
 from planner.language.utterance import parse
 from planner.plan import Bilingual, Goal, Language
@@ -25,17 +26,8 @@ STATUS = {
 STOP_DOUBT = 0.2
 """A stop heard with at least this confidence stops what moves, though no order would be believed.
 Of other sentences the built-in recogniser makes stops of up to 0.17 (docs/adr/0013)."""
-NOT_HEARD = Bilingual(
-    en="I did not hear an order that I know, so I begin nothing new. Say for example: go to the "
-    "kitchen.",
-    zh="没有听到能确认的英文指令，不会开始新的动作。中文目前请用文字输入。",
-)
-NO_ANSWER_HEARD = Bilingual(
-    en="I heard no answer, so my question still waits and I begin nothing. Say: yes please, or: "
-    "no please don't.",
-    zh="没有听清回答，问题仍在等待，不会开始新的动作。请用英语说 yes please "
-    "或 no please don't，或用文字回答。",
-)
+NOT_HEARD = say("voice.not_heard")
+NO_ANSWER_HEARD = say("voice.no_answer_heard")
 _BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,

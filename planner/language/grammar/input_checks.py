@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import unicodedata
 
-from planner.plan import Bilingual, Code, Refuse, message
+from planner.language.catalogue import message, say
+from planner.plan import Bilingual, Code, Refuse
 
 MAX_CHARACTERS = 2000
-EXAMPLE = Bilingual(en="go to the kitchen", zh="去厨房")
+EXAMPLE = say("grammar.example")
 
 # Control, surrogate, private use: never part of a sentence. Bidirectional overrides show a person
 # another sentence than the one that is read.

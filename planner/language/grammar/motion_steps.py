@@ -7,13 +7,14 @@ from re import Match
 
 from pydantic import ValidationError
 
+from planner.language.catalogue import say
 from planner.language.grammar.numbers import angle_rad, metres, times
 from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
 from planner.language.grammar.place_names import go_to
 from planner.language.grammar.step_builders import missing
-from planner.plan import Bilingual, Code, GoTo, Move, Patrol, Turn
+from planner.plan import Code, GoTo, Move, Patrol, Turn
 
-HOW_FAR = Bilingual(en="how far? For example: one metre.", zh="多远？例如：一米。")
+HOW_FAR = say("grammar.how_far")
 _BACKWARD = ("back", "reverse", "后", "倒", "退")
 _RIGHT = ("right", "clockwise", "右", "顺")
 _HALF_M = 0.5
@@ -53,10 +54,7 @@ def move(found: Match[str], reading: Reading) -> Meaning:
         return Problem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
 
 
-_TOO_FAR = Bilingual(
-    en="a straight move is at most 10 metres; name a place instead",
-    zh="直行最多 10 米，更远请说地点",
-)
+_TOO_FAR = say("grammar.too_far")
 
 
 def turn_and_move(found: Match[str], reading: Reading) -> Meaning:
@@ -95,4 +93,4 @@ def wander(found: Match[str], reading: Reading) -> Meaning:
     return missing(WHERE, found[0], reading)
 
 
-WHERE = Bilingual(en="which places? Name them.", zh="要巡哪些地方？请说出地点。")
+WHERE = say("grammar.which_places")

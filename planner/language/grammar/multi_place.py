@@ -14,14 +14,13 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from planner.language.catalogue import say
 from planner.language.grammar.parse_result import Clause, Meaning, Problem, Reading, Steps
 from planner.language.grammar.place_names import go_to
 from planner.plan import MAX_STEPS, Bilingual, Code, Count, Find, GoTo, Look, Patrol, Step
 
-WHICH = Bilingual(
-    en="in which one of these places, or in the whole home?", zh="在其中哪一处，还是在整个家里？"
-)
-TOO_MANY = Bilingual(en="so many places are too much for one order.", zh="一次说的地点太多了。")
+WHICH = say("grammar.which_one")
+TOO_MANY = say("grammar.too_many")
 _LEAD = re.compile(r"^(?:back )?(?:to|into|in|inside|on) ")
 
 

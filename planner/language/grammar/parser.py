@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from itertools import chain
 
+from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.clause_order import in_order
@@ -57,7 +58,6 @@ from planner.plan import (
     StepPlan,
     Vocabulary,
     lacking,
-    message,
 )
 
 _OTHER = rf"(?:{MARK}|[{HAN}])"

@@ -9,12 +9,9 @@ from __future__ import annotations
 
 import re
 
-from planner.plan import Bilingual
+from planner.language.catalogue import say
 
-ONE_AT_A_TIME = Bilingual(
-    en="I do that with one at a time. Shall I count them?",
-    zh="我一次只能对一个这样做。要我数一数吗？",
-)
+ONE_AT_A_TIME = say("grammar.one_at_a_time")
 _NUMBER = r"(?:two|three|four|five|six|seven|eight|nine|ten|\d+)"
 _MANY = r"(?:[a-z0-9'-]+s|people|men|women|children|sheep|mice)"
 _EN = re.compile(

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from planner.language.catalogue import say
 from planner.plan import Bilingual
 
 
@@ -19,8 +20,8 @@ class Ban:
     pattern: re.Pattern[str]
 
 
-def _ban(en: str, zh: str, *patterns: str) -> Ban:
-    return Ban(Bilingual(en=en, zh=zh), re.compile("|".join(patterns)))
+def _ban(rule: str, *patterns: str) -> Ban:
+    return Ban(say(rule), re.compile("|".join(patterns)))
 
 
 _GUARDS = (
@@ -29,8 +30,7 @@ _GUARDS = (
     r"collisions?|protective stop|e-?stop|watchdog)"
 )
 TAMPERING = _ban(
-    "nothing that watches over people is switched off or passed over",
-    "任何保护人的机制都不能关闭或绕过",
+    "rule.guards",
     rf"\b(?:ignore|disable|override|bypass|switch off|turn off|deactivate|unplug|cover|remove|skip|"
     rf"forget(?: about)?|disregard|do not (?:mind|avoid)) (?:all |any |the |your )*"
     rf"(?:[a-z]+ )?{_GUARDS}\b",
@@ -42,8 +42,7 @@ TAMPERING = _ban(
 """Told ahead of "not": "don't mind the obstacles" is no plain no."""
 HARM = (
     _ban(
-        "it could hurt somebody or something",
-        "可能会伤到人或物",
+        "rule.harm",
         r"\b(?:hit(?! the (?:road|sack|hay)\b)|ram|crash|attack|kick|hurt|harm|"
         r"kill(?! the (?:lights?|power|music|tv|sound)\b)|"
         r"smash|stab|punch|injure|bump|chase|scare|frighten|"
@@ -60,14 +59,12 @@ HARM = (
         r"毁|弄坏|监视|偷窥|跟踪(?!球)",
     ),
     _ban(
-        "a way out stays free",
-        "出口必须保持畅通",
+        "rule.way_out",
         r"\bblock (?:the|a|my|every|all) |\b(?:barricade|obstruct)\b",
         r"堵住|堵在|挡住(?:门|路|出口|他|她|人)|封住",
     ),
     _ban(
-        "this robot drives on level floor only",
-        "这台机器人只在平地上行驶",
+        "rule.level_floor",
         r"\b(?:(?:down|up|off|over|onto|climb|take) (?:the |a )?(?:stairs?|staircase|steps|ledge|"
         r"edge|balcony|"
         r"cliff|kerb|curb|escalator)|(?:into|in) (?:the )?(?:pool|water|fire|pond|river|bathtub|"

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from pydantic import ValidationError
 
+from planner.language.catalogue import CATALOGUE, say
 from planner.language.grammar.lexicon import MARK, NAME
 from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
 from planner.language.grammar.place_names import go_to
@@ -29,13 +30,14 @@ from planner.plan import (
     Step,
 )
 
-WHERE_IS = Bilingual(en="where is {name}? Name the place.", zh="{name}在哪里？请说出地点。")
-WHERE_TO = Bilingual(en="where to?", zh="要去哪里？")
-HOW_LONG = Bilingual(en="how long? For example: ten seconds.", zh="等多久？例如：十秒。")
-WHO = Bilingual(en="who or what is meant?", zh="指的是谁或什么？")
-WHERE_LOOK = Bilingual(en="in which places? Name them.", zh="看哪些地方？请说出地点。")
-SEARCH = Bilingual(en="shall I go and look for it?", zh="要我去找吗？")
-WHERE_ARE_YOU = Bilingual(en="where are you? Name the place.", zh="您在哪里？请说出地点。")
+WHERE_IS = CATALOGUE.build(lambda language: CATALOGUE.raw("grammar.where_is", language))
+"""Its name is put in where it is known."""
+WHERE_TO = say("grammar.where_to")
+HOW_LONG = say("grammar.how_long")
+WHO = say("grammar.who")
+WHERE_LOOK = say("grammar.where_look")
+SEARCH = say("grammar.search")
+WHERE_ARE_YOU = say("grammar.where_are_you")
 
 _SELF = frozenset({"me", "us", "我", "我们"})
 _THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta"})
@@ -226,7 +228,7 @@ def offer_search(words: str, part: str, reading: Reading) -> Meaning:
 
 def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:
     """Say what the sentence leaves open."""
-    filled = Bilingual(en=what.en.format(name=name), zh=what.zh.format(name=name))
+    filled = CATALOGUE.build(lambda language: what.of(language).format(name=name))
     return reading.problem(Code.INCOMPLETE, part, what=filled)
 
 

@@ -133,7 +133,7 @@ async def _again(brain: Brain, decision: Decision, site: Site, goal: str) -> Aga
     again = Again(decision, relation.value, told(record))
     judged = validate_plan(plan, vocabulary)
     if isinstance(judged, Rejection):
-        return replace(again, refused=judged.outcome.code.value)
+        return replace(again, refused=judged.first.code.value)
     moves = isinstance(plan, StepPlan) and any(step.kind in MOTION for step in plan.steps)
     if relation is Difference.DIFFERS and isinstance(plan, StepPlan) and moves:
         return replace(again, plan=plan)

@@ -7,6 +7,7 @@ import random
 
 import pytest
 
+from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
 from planner.language.identification import language_of
 from planner.language.utterance import parse
@@ -16,7 +17,7 @@ from planner.mission.events import Confirm, Planned, Submitted
 from planner.mission.reception import is_active, receive
 from planner.mission.reducer import advance
 from planner.mission.state import MAX_OPEN, Book
-from planner.plan import Code, GoalState, Outcome, Vocabulary, message
+from planner.plan import Code, GoalState, Outcome, Vocabulary
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason
 
