@@ -11,7 +11,7 @@ class MissionError(Exception):
 
     code = "mission_error"
 
-    def __init__(self, **facts: object) -> None:
+    def __init__(self, **facts: str | int) -> None:
         self.message: Bilingual = say(f"refusal.{self.code}", **facts)
         super().__init__(f"{self.code}: {self.message.en}")
 

@@ -130,7 +130,7 @@ class Local:
             place, new = await self._memory.teach(Lesson(en=name, by=SPOKEN_BY))
         except PlaceRefused as refused:
             return not_kept(refused)
-        names = place.name
+        names = Bilingual(en=place.name.en, zh=place.name.zh)
         if new:
             return Answer(text=say("commands.remembered", names=names))
         return Answer(text=say("commands.place_moved", names=names))
@@ -140,7 +140,9 @@ class Local:
             place = await self._memory.forget(name)
         except PlaceRefused as refused:
             return not_kept(refused)
-        return Answer(text=say("commands.forgotten", name=place.name))
+        return Answer(
+            text=say("commands.forgotten", name=Bilingual(en=place.name.en, zh=place.name.zh))
+        )
 
 
 _NOTHING_RUNS = say("commands.nothing_runs")

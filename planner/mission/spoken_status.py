@@ -115,8 +115,9 @@ def _running(book: Book, mission: Mission) -> Bilingual:
     goes = step is not None and step.kind in ("go_to", "return_home", "come_back")
     to = name if goes and name is not None else None
     text = _short(mission.text)
-    figures = {"text": text, "at": at, "count": count}
-    return say("status.step_to", **figures, place=to) if to else say("status.step", **figures)
+    if to is None:
+        return say("status.step", text=text, at=at, count=count)
+    return say("status.step_to", text=text, at=at, count=count, place=to)
 
 
 def _waiting(mission: Mission) -> Bilingual:

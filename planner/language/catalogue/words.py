@@ -13,8 +13,11 @@ from planner.plan.base import Bilingual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
+    from datetime import date
 
     from planner.plan.outcome_codes import Code
+
+    Fact = Bilingual | str | int | float | date | None
 
 FOLDER = Path(__file__).parent
 FIRST = "en"
@@ -74,7 +77,7 @@ class Catalogue:
             raise UnknownMessage(f"no message {code!r} among {len(self._by_language[FIRST])}")
         return self._by_language[language].get(code, first)
 
-    def render(self, code: str, language: str, facts: Mapping[str, object]) -> str:
+    def render(self, code: str, language: str, facts: Mapping[str, Fact]) -> str:
         """Return a message in one language, its blanks filled.
 
         Raises:
@@ -93,7 +96,7 @@ class Catalogue:
         en, zh = make("en"), make("zh")
         return Multilingual(en=en, zh=zh, more=more) if more else Bilingual(en=en, zh=zh)
 
-    def say(self, code: str, /, **facts: object) -> Bilingual:
+    def say(self, code: str, /, **facts: Fact) -> Bilingual:
         """Return a message in every language; a fact in several fills each with its own words."""
         return self.build(lambda language: self.render(code, language, facts))
 
@@ -135,7 +138,7 @@ def _flat(tables: Mapping[str, Mapping[str, str]]) -> dict[str, str]:
 CATALOGUE = load(FOLDER)
 
 
-def say(code: str, /, **facts: object) -> Bilingual:
+def say(code: str, /, **facts: Fact) -> Bilingual:
     """Return a message of the catalogue in every language.
 
     Raises:
@@ -151,7 +154,7 @@ def say_or_quote(group: str, word: str) -> Bilingual:
     return CATALOGUE.say(code) if CATALOGUE.has(code) else Bilingual(en=word, zh=word)
 
 
-def message(code: Code, /, **facts: object) -> Bilingual:
+def message(code: Code, /, **facts: Fact) -> Bilingual:
     """Return the sentence of an outcome's code.
 
     Raises:

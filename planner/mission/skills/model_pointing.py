@@ -73,8 +73,11 @@ def _proposal(scene: Scene, pose: Pose2, at: At, *, again: bool = False) -> Bili
     """Ask whether to drive to a point: how far it is, on which side, and in which room."""
     words, far_m, side = scene.step.object or "", away_m(pose, at[:2]), _side(turn_to(pose, at[:2]))
     room = room_name(scene.facts, room_at(scene.facts, at[:2]))
-    figures: dict[str, object] = {"words": words, "far_m": far_m, "side": side, "room": room}
-    asked = say("look.point_in" if room is not None else "look.point", **figures)
+    asked = (
+        say("look.point_in", words=words, far_m=far_m, side=side, room=room)
+        if room is not None
+        else say("look.point", words=words, far_m=far_m, side=side)
+    )
     return join((say("question.yes_or_no"), asked), "joint.none") if again else asked
 
 

@@ -84,7 +84,7 @@ def found_at(facts: Facts, label: str, color: str | None, room: str | None, away
              wanted: Wanted | None = None) -> Bilingual:  # fmt: skip
     """Say where a thing is: its room and how far it is from the robot."""
     what, where = by_neighbour(called(label, color), wanted), room_name(facts, room)
-    figures: dict[str, object] = {"what": what, "room": where, "away": away}
+    figures: dict[str, Bilingual | str | float | None] = {"what": what, "room": where, "away": away}
     if away is None:
         return say("result.found_in" if where else "result.found", **figures)
     return say("result.found_in_away" if where else "result.found_away", **figures)
