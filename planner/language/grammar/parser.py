@@ -15,15 +15,13 @@ from itertools import chain
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.clause_order import in_order
-from planner.language.grammar.denial import withholds_offers
+from planner.language.grammar.checks import TAMPERING, broken_rule, vetoed, withholds_offers
+from planner.language.grammar.clauses import Heard, at_each, in_order, take_quotes
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.grammar import Grammar
-from planner.language.grammar.input_checks import EXAMPLE, refuse_bad_text
 from planner.language.grammar.lexicon import MARK, Marked, lexicon_of
-from planner.language.grammar.multi_place import Heard, at_each
-from planner.language.grammar.normalisation import normalise
+from planner.language.grammar.names import mark_people
 from planner.language.grammar.parse_result import (
     About,
     Meaning,
@@ -33,12 +31,14 @@ from planner.language.grammar.parse_result import (
     Steps,
     read_by,
 )
-from planner.language.grammar.person_names import mark_people
 from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
-from planner.language.grammar.quoted_speech import take_quotes
-from planner.language.grammar.refused_orders import TAMPERING, broken_rule
-from planner.language.grammar.typos import mend, words_of
-from planner.language.grammar.vetoes import vetoed
+from planner.language.grammar.sentence_text import (
+    EXAMPLE,
+    mend,
+    normalise,
+    refuse_bad_text,
+    words_of,
+)
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.stop import StopReading

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from planner.language.catalogue import list_names, message, say
+from planner.language.grammar.checks import Veto
 from planner.language.grammar.lexicon import Lexicon, Marked
 from planner.language.grammar.parse_result import About, Meaning, Problem, Steps
 from planner.language.grammar.small_talk import Topic, told
 from planner.language.grammar.step_text import option, sentence
-from planner.language.grammar.vetoes import Veto
 from planner.language.place_lists import known_places
 from planner.plan import (
     DRIVES,
