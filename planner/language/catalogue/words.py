@@ -13,11 +13,10 @@ from planner.plan.base import Bilingual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
-    from datetime import date
 
     from planner.plan.outcome_codes import Code
 
-    Fact = Bilingual | str | int | float | date | None
+    Fact = Bilingual | str | int | float | None
 
 FOLDER = Path(__file__).parent
 FIRST = "en"

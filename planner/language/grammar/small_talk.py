@@ -183,4 +183,4 @@ def _clock(topic: Topic, now: datetime) -> Bilingual:
         return say("talk.time", at=at)
     if topic is Topic.DAY:
         return say(f"talk.day_{now.weekday()}")
-    return say("talk.month_day", date=now.date())
+    return say("talk.month_day", year=now.year, month=now.month, day=now.day)
