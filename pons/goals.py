@@ -6,7 +6,7 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
-from planner.language.folding import has_chinese
+from planner.language.folding import is_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
 from pons import stop
 from pons.http import PlannerDown, PlannerProblem, call
@@ -88,8 +88,8 @@ def say_wav(settings: Settings, path: Path, *, wait: bool, replace: bool = False
 
 
 def language_of(text: str) -> str:
-    """Return zh where any Chinese character stands, else en."""
-    return "zh" if has_chinese(text) else "en"
+    """Return zh where the text is Chinese, else en."""
+    return "zh" if is_chinese(text) else "en"
 
 
 def act(settings: Settings, verb: str, goal_id: str | None) -> int:

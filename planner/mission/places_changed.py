@@ -6,11 +6,12 @@ place that was moved is laid anew.
 
 from __future__ import annotations
 
+from planner.language.catalogue import list_names, message
 from planner.mission.queue import end_running, finish, settle_walk
 from planner.mission.state import Facts, Mission
 from planner.mission.step_execution import begin_step
 from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepRecord, StepState, message
+from planner.plan import Bilingual, Code, GoalState, Outcome, StepRecord, StepState
 
 GONE = "place_gone"
 _AHEAD = (StepState.PENDING, StepState.RUNNING)
@@ -41,10 +42,7 @@ def _named(step: StepRecord) -> tuple[str, ...]:
 
 
 def _end(turn: Turn, mission: Mission, name: Bilingual, facts: Facts) -> None:
-    known = Bilingual(
-        en=", ".join(t.name.en for t in facts.targets.values()),
-        zh="、".join(t.name.zh for t in facts.targets.values()),
-    )
+    known = list_names(target.name for target in facts.targets.values())
     said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
     if turn.book.running == mission.id:
         end_running(turn, GoalState.FAILED, Code.UNKNOWN_PLACE, GONE, said=said)

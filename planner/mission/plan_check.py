@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
+from planner.language.catalogue import message, say
 from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import meant, picks_out
 from planner.mission.skills.object_questions import unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Book, Facts, Mission
-from planner.plan import (
-    NEEDS_DETECTOR,
-    Bilingual,
-    Code,
-    Language,
-    Outcome,
-    StepRecord,
-    message,
-    same,
-)
+from planner.plan import NEEDS_DETECTOR, Bilingual, Code, Language, Outcome, StepRecord, same
 
-NO_STEPS = Bilingual(en="there are no steps in it", zh="里面没有步骤")
+NO_STEPS = say("plan.no_steps")
 UP_TO = frozenset({"go_to_object", "follow"})
 """The robot goes up to what these name: any other of its kind is the wrong one."""
 

@@ -7,11 +7,12 @@ with the answer, too.
 
 from __future__ import annotations
 
+from planner.language.catalogue import message
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended, failure
 from planner.mission.state import Book, Mission, Walk
 from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
+from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""

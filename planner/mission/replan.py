@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 
 from planner.brain.interface import OFFLINE
+from planner.language.catalogue import message, say
 from planner.mission.confirmation import needs_yes
 from planner.mission.events import Planned
 from planner.mission.plan_check import NO_STEPS, unwalkable
@@ -20,7 +21,6 @@ from planner.mission.step_failure import give_up
 from planner.mission.transaction import Turn
 from planner.plan import (
     Answer,
-    Bilingual,
     Clarify,
     Code,
     GoalState,
@@ -31,11 +31,10 @@ from planner.plan import (
     StepPlan,
     StepRecord,
     StepState,
-    message,
     plan_record,
 )
 
-SAME_AGAIN = Bilingual(en="the same steps again", zh="与试过的步骤相同")
+SAME_AGAIN = say("plan.same_again")
 
 
 def fingerprint(steps: tuple[StepRecord, ...]) -> str:

@@ -16,8 +16,7 @@ from planner.bridge_client import Identity, Link, StopResult
 from planner.language.commands import Cancel as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import Resume as GoOn
-from planner.language.identification import language_of
-from planner.language.yes_no import consents
+from planner.language.utterance import Utterance, parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
@@ -49,7 +48,7 @@ from planner.mission.open_questions import takes_yes
 from planner.mission.plan_request import thinker
 from planner.mission.planner_commands import Local
 from planner.mission.queue import to_resume
-from planner.mission.reception import Reception, is_active, read_utterance, receive
+from planner.mission.reception import is_active, receive
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.service_view import Shown
 from planner.mission.state import Book, Rules
@@ -150,9 +149,10 @@ class Missions(Shown):
             IdempotencyConflict: the key came with another request before.
             JournalDown: it can't be written down, so it was not taken.
         """
-        spoken, goal_id = language or language_of(text), self._clocks.new_id()
+        said, goal_id = parse(text), self._clocks.new_id()
+        spoken = language or said.language
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
-        heard = self._receive(given, answers=answers)
+        heard = receive(self._book, said, given, self._clocks.monotonic(), answers=answers)
         if heard.stops:
             return await self._stop_goal(heard.given, source)
         body = body_of(text, spoken, confirm, replace)
@@ -175,17 +175,15 @@ class Missions(Shown):
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, whatever else they may mean."""
-        said = read_utterance(text)
+        return self._stops_at(parse(text))
+
+    def _stops_at(self, said: Utterance) -> bool:
         active = is_active(self._book, self._clocks.monotonic())
         return said.orders_stop or (said.may_mean_stop and active)
 
     def awaits_answer(self) -> bool:
         """Return whether a question waits for a yes or no."""
         return any(takes_yes(mission) for mission in self._book.missions.values())
-
-    def _receive(self, given: Submitted, *, answers: bool = True) -> Reception:
-        said, now_s = read_utterance(given.text), self._clocks.monotonic()
-        return receive(self._book, said, given, now_s, answers=answers)
 
     async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
         """Wait until a goal is written down; what can't be is taken back."""
@@ -226,9 +224,9 @@ class Missions(Shown):
         Raises:
             UnknownGoal, BadState: as named.
         """
-        said = read_utterance(text)
+        said = parse(text)
         intent = said.intent
-        if said.orders_stop or (consents(text) is None and self.hears_stop(text)):
+        if said.orders_stop or (said.consent is None and self._stops_at(said)):
             await self.stop("answer")
             if isinstance(intent, Replace):
                 self._obey(Cancel(goal_id))

@@ -6,6 +6,7 @@ pose lies inside the room's outline. Nothing moves or speaks before the journal 
 
 from __future__ import annotations
 
+from planner.language.catalogue import message
 from planner.mission.account import outcome_code
 from planner.mission.bridge_status import cannot_move, standing
 from planner.mission.effects import AskEyes, SayAloud
@@ -41,7 +42,7 @@ from planner.mission.skills import (
 from planner.mission.state import Mission, Walk
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Turn
-from planner.plan import Code, GoalState, Outcome, StepState, message
+from planner.plan import Code, GoalState, Outcome, StepState
 from planner.site.polygon import contains
 from wire import Pose2
 

@@ -11,16 +11,10 @@ from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 
 from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.language.catalogue import message
+from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
-from planner.plan import (
-    EVERY_KIND,
-    Code,
-    Refuse,
-    Rejection,
-    StepPlan,
-    message,
-    validate_plan,
-)
+from planner.plan import EVERY_KIND, Code, Refuse, Rejection, StepPlan, validate_plan
 from pons.evals.cases import Case, Suite
 from pons.evals.matchers import Made
 from pons.evals.motion import moves, wrong_motions
@@ -120,7 +114,7 @@ def judge(
     """Return the verdict over one outcome."""
     checked = validate_plan(made, world.vocabulary, EVERY_KIND)
     if isinstance(checked, Rejection):  # what validation refuses never moves
-        fault = f"no valid plan: {checked.outcome.message.en}"
+        fault = f"no valid plan: {rejection_outcome(checked, world.vocabulary).message.en}"
         return SentenceVerdict(case, made, fault, (), seconds, calls, tokens)
     wrong = _wrong(case, checked, world)
     fault = _fault(case, checked, world)

@@ -9,13 +9,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from planner.brain import ThinkRequest
+from planner.language.folding import has_chinese
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 
 MAX_DEPTH = 12
 MAX_PLACES = 2000
 _LINE = re.compile(r"^([a-z0-9][a-z0-9_]{0,63}): (\[.*\])$", re.MULTILINE)
 _STEP = re.compile(r'^\{"kind":"([a-z_]+)"', re.MULTILINE)
-_CHINESE = re.compile(r"[\u3400-\u9fff]")
 
 
 def request_of(body: dict[str, Any]) -> ThinkRequest:
@@ -74,8 +74,8 @@ def _entry(id_: str, listed: str) -> Entry | None:
         names = [name for name in json.loads(listed) if isinstance(name, str) and name.strip()]
         first = names[0] if names else id_.replace("_", " ")  # an id may be a mere code
         name = Bilingual(
-            en=next((n for n in names if not _CHINESE.search(n)), first),
-            zh=next((n for n in names if _CHINESE.search(n)), first),
+            en=next((n for n in names if not has_chinese(n)), first),
+            zh=next((n for n in names if has_chinese(n)), first),
         )
         return Entry(id=id_, kind="place", name=name, aliases=tuple(names))
     except (ValueError, RecursionError, ValidationError):

@@ -124,7 +124,7 @@ async def _think_again(
     again = SecondThought(decision, relation.value, plan_line(record))
     judged = validate_plan(plan, vocabulary)
     if isinstance(judged, Rejection):
-        return replace(again, refused=judged.outcome.code.value)
+        return replace(again, refused=judged.first.code.value)
     moves = isinstance(plan, StepPlan) and any(step.kind in MOTION for step in plan.steps)
     if relation is Difference.DIFFERS and isinstance(plan, StepPlan) and moves:
         return replace(again, plan=plan)

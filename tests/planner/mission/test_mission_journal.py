@@ -16,6 +16,7 @@ import pytest
 import sqlalchemy as sa
 from sqlalchemy.dialects.postgresql.base import PGDialect
 
+from planner.language.catalogue import message
 from planner.mission.effects import Journal
 from planner.mission.journal import (
     MAX_KEPT,
@@ -30,7 +31,7 @@ from planner.mission.journal import (
 )
 from planner.mission.journal_thread import JournalWriter, Wanted
 from planner.mission.state import MAX_ENDED, Mission
-from planner.plan import Code, GoalState, Language, Outcome, message
+from planner.plan import Code, GoalState, Language, Outcome
 from wire import Misconfigured, Unwritable
 
 

@@ -7,15 +7,17 @@ import random
 
 import pytest
 
+from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
 from planner.language.identification import language_of
+from planner.language.utterance import parse
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.events import Confirm, Planned, Submitted
-from planner.mission.reception import is_active, read_utterance, receive
+from planner.mission.reception import is_active, receive
 from planner.mission.reducer import advance
 from planner.mission.state import MAX_OPEN, Book
-from planner.plan import Code, GoalState, Outcome, Vocabulary, message
+from planner.plan import Code, GoalState, Outcome, Vocabulary
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason
 
@@ -59,7 +61,7 @@ def given(text: str, goal_id: str = "g") -> Submitted:
 
 def hear(book: Book, text: str, goal_id: str, now_s: float) -> tuple[Book, list[object]]:
     """Take one sentence as the planner's door does, and think about it with the offline brain."""
-    heard = receive(book, read_utterance(text), given(text, goal_id), now_s)
+    heard = receive(book, parse(text), given(text, goal_id), now_s)
     book, first = advance(book, heard.given, now_s)
     effects: list[object] = list(first)
     for effect in first:
@@ -129,7 +131,7 @@ def driving() -> Together:
 )  # fmt: skip
 def test_while_it_drives_a_stop_word_stops_first(text: str) -> None:
     world = driving()
-    heard = receive(world.book, read_utterance(text), given(text), world.now_s)
+    heard = receive(world.book, parse(text), given(text), world.now_s)
     assert heard.stops
 
 
@@ -138,7 +140,7 @@ def test_the_same_words_do_nothing_to_a_robot_that_has_nothing_to_do() -> None:
     world.run(0.5)
     text = "uh robot there is a child please stop"
     assert not is_active(world.book, world.now_s)
-    assert not receive(world.book, read_utterance(text), given(text), world.now_s).stops
+    assert not receive(world.book, parse(text), given(text), world.now_s).stops
     assert is_active(world.book, world.now_s + 2.0), "nobody knows any more whether it moves"
 
 
@@ -153,7 +155,7 @@ def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
     world = driving()
     first = world.book.running
     text = "hold on, go to the hall"
-    heard = receive(world.book, read_utterance(text), given(text, "second"), world.now_s)
+    heard = receive(world.book, parse(text), given(text, "second"), world.now_s)
     assert heard.stops
     assert heard.given.doubtful_stop
     world.plans["second"] = go("hall")
@@ -174,7 +176,7 @@ def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
 def test_a_doubtful_stop_of_which_no_plan_is_made_is_a_stop() -> None:
     world = driving()
     text = "there is a child, for heaven's sake stand still"
-    heard = receive(world.book, read_utterance(text), given(text, "second"), world.now_s)
+    heard = receive(world.book, parse(text), given(text, "second"), world.now_s)
     world.plans["second"] = None
     world.event(heard.given)
     refused = Outcome(code=Code.NOT_UNDERSTOOD, message=message(Code.NOT_UNDERSTOOD, part="x"))
@@ -189,10 +191,10 @@ def test_with_all_places_taken_a_doubtful_stop_still_stops() -> None:
     world = driving()
     for _ in range(MAX_OPEN):
         world.give(None)
-    heard = receive(world.book, read_utterance("careful, brake"), given("x"), world.now_s)
+    heard = receive(world.book, parse("careful, brake"), given("x"), world.now_s)
     assert heard.stops
     assert heard.given.stop
-    assert receive(world.book, read_utterance("go to the hall"), given("x"), world.now_s).crowded
+    assert receive(world.book, parse("go to the hall"), given("x"), world.now_s).crowded
 
 
 @pytest.mark.parametrize("held", [True, False])

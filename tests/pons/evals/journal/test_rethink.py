@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from planner.language.catalogue import message
 from planner.mission import MissionJournal
 from planner.mission.effects import Journal
 from planner.mission.state import Mission
@@ -22,7 +23,6 @@ from planner.plan import (
     Say,
     StepPlan,
     Wait,
-    message,
     plan_record,
     same,
 )

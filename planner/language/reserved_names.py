@@ -11,7 +11,7 @@ import re
 
 from planner.language.commands.parser import intent_of
 from planner.language.grammar import plan
-from planner.language.grammar.normalisation import normalise
+from planner.language.grammar.sentence_text import normalise
 from planner.language.stop import is_stop
 from planner.plan import Clarify, Code, Plan, Refuse, Vocabulary
 

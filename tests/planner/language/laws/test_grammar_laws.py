@@ -11,7 +11,7 @@ from rapidfuzz.fuzz import partial_ratio
 
 from planner.language.grammar import Context
 from planner.language.grammar import plan as plan_in
-from planner.language.grammar.normalisation import squash
+from planner.language.grammar.sentence_text import squash
 from planner.plan import (
     DRIVES,
     EVERY_KIND,

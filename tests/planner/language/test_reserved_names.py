@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.language.commands import name_reads_as_order
+from planner.language.reserved_names import name_reads_as_order
 from tests.planner.brain.conftest import HOME
 
 PLAIN = (

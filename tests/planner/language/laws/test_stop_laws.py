@@ -195,7 +195,7 @@ def test_one_wrong_letter_in_the_word_is_forgiven(
 
 def _other_words() -> frozenset[str]:
     """Return words of their own: alone they are taken for a stop, beside others they mean it."""
-    from planner.language.stop_english_orders import OTHER_WORDS
+    from planner.language.stop.en_orders import OTHER_WORDS
 
     return OTHER_WORDS
 

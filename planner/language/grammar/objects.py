@@ -1,19 +1,46 @@
-"""Turn the phrase of a drive into a thing to drive up to, where it names one that eyes know.
+"""Read the things that a sentence is about: one that eyes know, or more than one ("all the cups").
 
-"the red chair", "next to the box in the study", "客厅里红色的箱子旁边". Only the last word is
-looked at here: what the words beside it mean, and whether they mean anything, the eyes' own names
-decide before anything moves. Chinese parts no words, so there what comes before the name must be a
-word of its own: 红色的球 and 那个球 name a ball, 月球 and 台球 do not.
+The words that mean more than one thing stand here: the robot drives up to one at a time.
 """
 
 from __future__ import annotations
 
 import re
 
+from planner.language.catalogue import say
 from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.parse_result import Reading, Steps
-from planner.language.grammar.quantifiers import several
 from planner.plan import GoToObject
+
+ONE_AT_A_TIME = say("grammar.one_at_a_time")
+_NUMBER = r"(?:two|three|four|five|six|seven|eight|nine|ten|\d+)"
+_MANY = r"(?:[a-z0-9'-]+s|people|men|women|children|sheep|mice)"
+_MANY_EN = re.compile(
+    r"(?:all|every|each|both|several|many|a few|a couple of)\b(?! one\b)(?: of)?"
+    r"(?: (?:the|my|our))? "
+    rf"(?P<all>.+)|(?:the |my |our )?{_NUMBER} (?P<some>(?:[^ ]+ )*?{_MANY}\b.*)"
+)
+_UNIT = r"[个只张位把本台瓶杯名条件辆盒罐双支口盏颗种]"
+_MANY_ZH = re.compile(
+    rf"(?:(?:所有|全部)的?|每一?{_UNIT}?|各{_UNIT}|[这那]?(?:[两二三四五六七八九十几]|\d+){_UNIT})"
+    r"(?P<all>.+)|(?P<some>.+)都"
+)
+_PEOPLE = re.compile(r"every(?:one|body)(?P<rest>.*)|(?:大家|所有人|每个人)")
+_ONE = re.compile(r"(?:every|each)\b(?! of)")
+
+
+def several(words: str) -> str | None:
+    """Return what is meant by words for several, without their number; None where one will do."""
+    people = _PEOPLE.fullmatch(words)
+    if people is not None:
+        return f"people{people['rest']}" if words.isascii() else "人"
+    found = _MANY_EN.fullmatch(words) or _MANY_ZH.fullmatch(words)
+    if found is None:
+        return None
+    what = found["all"] or found["some"]
+    plain = _ONE.match(words) and " " not in what and not what.endswith("s")
+    return f"{what}s" if plain else what
+
 
 _THE = r"(?:(?:the|a|an|my|our|your|this|that) )?"
 _EN = re.compile(

@@ -24,10 +24,9 @@ import unicodedata
 from enum import Enum
 from types import ModuleType
 
-from planner.language import stop_chinese as zh
-from planner.language import stop_english as en
-from planner.language import stop_english_orders as orders
 from planner.language.folding import fold, has_chinese, unmask
+from planner.language.stop import en, zh
+from planner.language.stop import en_orders as orders
 
 MAX_READ = 400
 """Characters read at the beginning, and as many at the end: the lane's time is bounded."""

@@ -1,11 +1,14 @@
-"""Do at each of several places what is ordered behind them: "go to the kitchen and the study and
-count the chairs" counts in both, 去厨房和卧室看看 looks in both.
+"""Part a sentence into clauses: quoted words set aside, in their order, at each of their places.
 
-Several places are one order's list: the first with the verb, the others bare. A clause that goes on
-with "there" left unsaid, and whose place follows where the robot is, is done at each; what is only
-said or waited for is done at the last. A search ends where nothing is found, so it can't be done at
-one place after the other ("find the cup in the kitchen and the study"): it is asked where. All
-rooms are the whole home, which `find` and `count` search by themselves.
+Order: "before", "after", "first", 之前. A sentence is turned round at most once; with two such
+words it is left as it is, and then read by no rule.
+
+Places: "go to the kitchen and the study and count the chairs" counts in both, 去厨房和卧室看看
+looks in both. Several places are one order's list: the first with the verb, the others bare. A
+clause that goes on with "there" left unsaid, and whose place follows where the robot is, is done at
+each; what is only said or waited for is done at the last. A search ends where nothing is found, so
+it can't be done at one place after the other ("find the cup in the kitchen and the study"): it is
+asked where. All rooms are the whole home, which `find` and `count` search by themselves.
 """
 
 from __future__ import annotations
@@ -14,14 +17,104 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from planner.language.catalogue import say
+from planner.language.grammar.grammar import FIRST_QUOTE
+from planner.language.grammar.lexicon import MARK
+from planner.language.grammar.names import go_to
 from planner.language.grammar.parse_result import Clause, Meaning, Problem, Reading, Steps
-from planner.language.grammar.place_names import go_to
 from planner.plan import MAX_STEPS, Bilingual, Code, Count, Find, GoTo, Look, Patrol, Step
 
-WHICH = Bilingual(
-    en="in which one of these places, or in the whole home?", zh="在其中哪一处，还是在整个家里？"
+_WORDS = re.compile(
+    r"\bbefore\b|(?<!come )(?<!go )(?<!look )(?<!run )\bafter\b(?! that| this)|\bfirst\b|之前|以前|"
+    r"但先|但是先"
 )
-TOO_MANY = Bilingual(en="so many places are too much for one order.", zh="一次说的地点太多了。")
+_POLITE = r"(?P<polite>(?:(?:please|robot|pons|hey|hi|ok|(?:can|could|would|will) you),? )*)"
+_EN = (
+    re.compile(rf"{_POLITE}before (?P<late>[^,]+), ?(?P<early>.+)"),
+    re.compile(r"(?P<late>.+?)[,.;] ?(?:but |and )?before (?:that|this|it),? (?P<early>.+)"),
+    re.compile(r"(?P<early>.+?),? (?:but |and )?before (?P<late>(?!that\b|this\b|it\b).+)"),
+    re.compile(rf"{_POLITE}after (?P<early>[^,]+), ?(?P<late>.+)"),
+    re.compile(
+        rf"{_POLITE}after (?P<early>[^,]*?{MARK}) (?P<late>(?:go|drive|come|visit|find|look|check|"
+        r"return|turn|head)\b.+)"
+    ),
+    re.compile(r"(?P<late>[^,;.]+?),? (?:but |and |only )?after (?P<early>[^,;.]+)"),
+    re.compile(r"(?P<late>.+?),? (?:but|and) first,? (?P<early>.+)"),
+    re.compile(r"(?P<late>.+)[,;.] ?(?:but |and )?(?P<early>[^,;.]+?) first"),
+)
+_ZH = (
+    re.compile(r"(?P<late>.+?)[,。;]?(?:但是?)?在?(?:此|这|那)之前,?(?:先)?(?P<early>.+)"),
+    re.compile(r"(?:在)?(?P<late>.+?)(?:之前|以前),?(?:请|要)?(?:先)?(?P<early>.+)"),
+    re.compile(r"(?P<late>.+?)[,。;]?但是?先(?P<early>.+)"),
+    re.compile(r"最后(?P<late>.+?)[,。;]先(?P<early>.+)"),
+)
+_BARE = re.compile(rf"(?:(?:the|my|our) )?{MARK}")
+_GERUNDS = {
+    "going": "go", "driving": "drive", "moving": "move", "heading": "head", "walking": "walk",
+    "visiting": "visit", "checking": "check", "coming": "come", "returning": "return",
+    "waiting": "wait", "finding": "find", "looking": "look", "searching": "search",
+    "counting": "count", "turning": "turn", "saying": "say", "telling": "tell",
+    "following": "follow", "patrolling": "patrol", "inspecting": "inspect", "greeting": "greet",
+    "meeting": "meet", "asking": "ask", "locating": "locate", "reaching": "reach",
+    "navigating": "navigate", "entering": "enter", "stopping by": "stop by", "leaving": "leave",
+}  # fmt: skip
+_GERUND = re.compile(rf"^(?:you (?=\w)|(?P<verb>{'|'.join(_GERUNDS)})\b)")
+
+
+def in_order(text: str) -> str:
+    """Return a marked sentence with what is to be done first standing first."""
+    if len(_WORDS.findall(text)) != 1:
+        return text
+    plain = text.rstrip(".!? 。")
+    for pattern in (*_EN, *_ZH):
+        found = pattern.fullmatch(plain)
+        if found:
+            early, late = (_order(found[part]) for part in ("early", "late"))
+            polite = found.groupdict().get("polite") or ""
+            joint = ", then " if pattern in _EN else ",然后"
+            return f"{polite}{_going(early) if pattern in _EN else early}{joint}{late}"
+    return text
+
+
+def _order(clause: str) -> str:
+    """Write "going to the kitchen" as an order."""
+    return _GERUND.sub(
+        lambda found: _GERUNDS[found["verb"]] if found["verb"] else "", clause.strip(" ,")
+    )
+
+
+def _going(clause: str) -> str:
+    return f"go to {clause}" if _BARE.fullmatch(clause) else clause
+
+
+_SAYING = re.compile(
+    r"(?P<verb>\b(?:say|announce|tell (?:me|us|them|everyone))(?: out loud)?"
+    r"|(?:说|說|喊|讲|播报)(?:一声|一句|一下|出)?)\s*[:：,，]?\s*"
+    r"(?:[\"“”「](?P<double>[^\"“”「」]*)[\"“”」]|['‘](?P<single>.*?)['’](?!\w))",
+    re.IGNORECASE,
+)
+_MARKS = re.compile(r"[\"“”「」『』]")
+_MOST = 200
+
+
+def take_quotes(text: str) -> tuple[str, tuple[str, ...]]:
+    """Return the text with each quotation after "say" as one private character, and the words.
+
+    Quotation marks elsewhere (a name in quotes) are dropped and their words stay in the sentence.
+    """
+    words: list[str] = []
+
+    def aside(found: re.Match[str]) -> str:
+        if len(words) >= _MOST:
+            return found[0]
+        words.append(found["double"] if found["double"] is not None else found["single"])
+        return f"{found['verb']} {chr(FIRST_QUOTE + len(words) - 1)}"
+
+    return _MARKS.sub("", _SAYING.sub(aside, text)), tuple(words)
+
+
+WHICH = say("grammar.which_one")
+TOO_MANY = say("grammar.too_many")
 _LEAD = re.compile(r"^(?:back )?(?:to|into|in|inside|on) ")
 
 
