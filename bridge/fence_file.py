@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
-from bridge.core.sensing.fence import Fence, Zone, build_fence
+from bridge.core.geometry.fence import Fence, Zone, build_fence
 from wire.errors import Misconfigured
 from wire.fence import FenceFile, flaw
 from wire.fingerprint import fingerprint

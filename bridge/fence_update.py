@@ -16,7 +16,8 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.polygon import permits
-from bridge.core.state_fence import FenceAsked, FenceDone
+from bridge.core.inbox import FenceDone
+from bridge.core.state_orders import FenceAsked
 from bridge.fence_file import NAME, read_record
 from bridge.files import replace_file
 from wire.errors import Misconfigured

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-from bridge.core.inbox import ArrivedAt, Inbox, LoopFacts, OpArrived, RejectedAt
-from bridge.core.state_fence import FenceArrived
+from bridge.core.inbox import ArrivedAt, FenceArrived, Inbox, LoopFacts, OpArrived, RejectedAt
 from wire import DriveState, OpRequest, Rejected, Stop, authentic, authentic_fence, decode
 from wire.base import Record
 from wire.keys import (
@@ -41,7 +40,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bridge.core.decision import Decision
-    from bridge.core.state_fence import FenceDone
+    from bridge.core.inbox import FenceDone
     from wire import OpKind
     from wire.keys import Key
     from wire.session import Session, Subscriber

@@ -18,7 +18,7 @@ from bridge.core import (
     initial,
     step,
 )
-from bridge.core.state_fence import FenceArrived, FenceDone
+from bridge.core.inbox import FenceArrived, FenceDone
 from bridge.recording.encode import warm_frames
 from wire import (
     IDENTITY,

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bridge.core.state_fence import FenceArrived, FenceDone
 from wire import (
     DriveState,
     EstopLink,
@@ -108,3 +107,24 @@ class Inbox:
 
 
 EMPTY = Inbox()
+
+
+@value
+class FenceArrived:
+    """Give an operator's request for another fence, and whether its proof binds this very text."""
+
+    id: str
+    source: str
+    nonce: str | None
+    authentic: bool
+    text: str
+    """Empty where the proof does not fit: nobody looks at it."""
+
+
+@value
+class FenceDone:
+    """Tell what became of a request: ``ok`` with both hashes, or why the fence can't be."""
+
+    id: str
+    code: str
+    detail: str

@@ -1,11 +1,11 @@
-"""Hold what the core remembers of owner, grants, operator, leg and stick."""
+"""Hold what the core remembers of owner, grants, operator, leg, stick and an asked-for fence."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from bridge.core.geometry.path_profile import Path
-from wire import Answer, Owner, Waypoint, Waypoints
+from wire import Answer, Owner, Pose2, Waypoint, Waypoints
 from wire.value import value
 
 MAX_MISSIONS = 64
@@ -50,6 +50,26 @@ class Grants:
     """What a hand on the stick may still drive before a person acts and signs."""
     since_arm: bool = False
     """A grant was given since arming: the brain's death then disarms."""
+
+    def spent_part(self) -> str | None:
+        """Name what is used up while a mission is granted; None if nothing is."""
+        if self.mission is None:
+            return None
+        for name, left in (
+            ("mission's metres", self.metres),
+            ("mission's seconds", self.seconds),
+            ("operator's metres", self.operator_metres),
+            ("operator's seconds", self.operator_seconds),
+        ):
+            if not left > 0.0:
+                return name
+        return None
+
+    def spent_hand_part(self) -> str | None:
+        """Name what a hand on the stick has used up; None if nothing is."""
+        if not self.hand_metres > 0.0:
+            return "hand's metres"
+        return None if self.hand_seconds > 0.0 else "hand's seconds"
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +117,16 @@ class Leg:
     sent_s: float = 0.0
     """When the status that this horizon was cut on was sent."""
 
+    def has_usable_horizon(self, mission: str | None, now_s: float) -> bool:
+        """Tell whether a fresh horizon of the granted mission asks the robot to move."""
+        return (
+            self.horizon is not None
+            and bool(self.horizon.points)
+            and not self.reached
+            and self.horizon.mission == mission
+            and now_s - self.sent_s <= self.horizon.ttl_s
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class External:
@@ -125,3 +155,17 @@ class Stick:
     w_radps: float = 0.0
     received_s: float = 0.0
     sent_s: float = 0.0
+
+
+@value
+class FenceAsked:
+    """Remember a request whose proof held while nothing had torque."""
+
+    id: str
+    source: str
+    text: str
+    """All that is to be fence.json: what the proof binds."""
+    robot_in_map: Pose2
+    """Where the robot stood: a fence that leaves it outside is refused."""
+    written: bool = False
+    """It stands on the disk and counts from the bridge's next start."""

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority import fence_request, message_score, ownership, rate_limit
+from bridge.core.authority import fence_request, message_score, ownership, rate_limit, requests
+from bridge.core.authority.epoch import revoke
 from bridge.core.authority.grants import hear_grant, meter
 from bridge.core.authority.leg_tracking import hear_waypoints
 from bridge.core.decision import Decision
+from bridge.core.faults.fault_latch import clear_on_grant
 from bridge.core.modes import external_velocity, operator, selftest, teleop
 from bridge.core.modes.external_velocity import hear_external
 from bridge.core.modes.mode_logic import arrive, decide, detect
@@ -84,28 +86,16 @@ def _listen(tick: Tick) -> None:
     """Hear everybody in the order of rank; a stop voids what came with it."""
     inbox = tick.inbox = rate_limit.thinned(tick)
     message_score.drain(tick)
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     ownership.free_the_lost(tick)
     operator.hear_stops(tick)
     for op in inbox.ops:
         operator.hear_op(tick, op)
     if tick.stopped:
         _void(tick)
-        sensor_update.locate(tick)
+        _locate(tick)
     else:
-        for hello in inbox.hellos:
-            ownership.hear_hello(tick, hello)
-        for grant in inbox.grants:
-            hear_grant(tick, grant)
-        for heartbeat in inbox.heartbeats:
-            ownership.hear_heartbeat(tick, heartbeat)
-        sensor_update.locate(tick)
-        for velocity in inbox.teleop:
-            teleop.hear_teleop(tick, velocity)
-        for velocity in inbox.external:
-            hear_external(tick, velocity)
-        for waypoints in inbox.waypoints:
-            hear_waypoints(tick, waypoints)
+        _obey(tick)
     for fence in inbox.fences:
         fence_request.hear_fence(tick, fence)
     if inbox.fence_done is not None:
@@ -113,6 +103,36 @@ def _listen(tick: Tick) -> None:
     if inbox.rejected:
         message_score.hear_rejected(tick)
     teleop.watch(tick)
+
+
+def _obey(tick: Tick) -> None:
+    """Hear the owner, the stick and the external brain, each after what it builds on.
+
+    Who owns comes before what is granted, the pose before waypoints that start at it, and the hand
+    on the stick before the brains that it outranks.
+    """
+    for hello in tick.inbox.hellos:
+        ownership.hear_hello(tick, hello)
+    for grant in tick.inbox.grants:
+        granted = hear_grant(tick, grant)
+        if granted is not None:
+            clear_on_grant(tick)  # rows go down before the grant is said to be given
+            tick.say("granted", granted)
+    for heartbeat in tick.inbox.heartbeats:
+        ownership.hear_heartbeat(tick, heartbeat)
+    _locate(tick)
+    for velocity in tick.inbox.teleop:
+        teleop.hear_teleop(tick, velocity)
+    for velocity in tick.inbox.external:
+        hear_external(tick, velocity)
+    for waypoints in tick.inbox.waypoints:
+        hear_waypoints(tick, waypoints)
+
+
+def _locate(tick: Tick) -> None:
+    """Find the robot in ``map``; where it was displaced, what was granted before is void."""
+    if sensor_update.locate(tick):
+        revoke(tick)
 
 
 def _void(tick: Tick) -> None:

@@ -9,13 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from bridge.core.modes.mode_table import MOVING, POWERED
+from wire import Mode
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
     from bridge.core.inbox import Inbox
     from bridge.core.state import BridgeState
     from wire import Pose2
+
+POWERED = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.TELEOP, Mode.STOPPING})
+MOVING = frozenset({Mode.ACTIVE, Mode.TELEOP})
+"""Output follows from the mode alone: outside of these the target is zero."""
 
 STANDING_MPS = 0.02
 STANDING_RADPS = 0.05

@@ -64,7 +64,8 @@ def _line(data: bytes) -> str:
 def _odd() -> list[str]:
     from bridge.core.geometry.kinematics import saturate, twist_of, wheels_of
     from bridge.core.geometry.odometry import along_arc
-    from bridge.core.motion.limiter import LimiterState, shape, tick_length
+    from bridge.core.motion.limiter import shape, tick_length
+    from bridge.core.state_motion import LimiterState
     from wire import Pose2, RobotDescription, Twist2, compose, wrap
 
     robot = RobotDescription()

@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 
-from bridge.core.state_fence import FenceAsked, FenceDone
+from bridge.core.inbox import FenceDone
+from bridge.core.state_orders import FenceAsked
 from bridge.fence_file import load_fence
 from bridge.fence_update import LINGER_S, FenceDesk, Ground, put_in_force
 from wire import Pose2, fingerprint

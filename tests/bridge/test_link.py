@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from bridge.core import ON_TIME, ArrivedAt, Decision, Inbox, OpArrived, initial
-from bridge.core.state_fence import FenceArrived
+from bridge.core.inbox import FenceArrived
 from bridge.link import STOPS_KEPT, Link
 from tests.bridge.ground import core_config, until
 from tests.wire.examples import EXAMPLES, STATUS

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from bridge.core.sensing.fence import Fence
+from bridge.core.geometry.fence import Fence
 from bridge.fence_file import load_fence
 from planner.mission.site_view import vocabulary_of
 from planner.navigation import RouteLimits

@@ -37,6 +37,13 @@ def hold(tick: Tick, reason: HeldReason, held_id: str) -> None:
     tick.say("held", f"{reason.value} {held_id}")
 
 
+def revoke(tick: Tick) -> None:
+    """End what is granted and followed now; its remainder stays in the book for another grant."""
+    s = tick.s
+    s.grants = shelved(s.grants)
+    s.leg = replace(s.leg, horizon=None, path=None)
+
+
 def shelved(grants: Grants) -> Grants:
     """Put the granted mission's remainder in the book; nothing is granted any more."""
     if grants.mission is None:

@@ -10,15 +10,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.request_answers import settle, verdict_on
-from bridge.core.modes.operator import bad_proof, use_nonce
-from bridge.core.state_fence import FenceAsked
+from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict_on
+from bridge.core.state_orders import FenceAsked
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.state_fence import FenceArrived, FenceDone
+    from bridge.core.inbox import FenceArrived, FenceDone
     from bridge.core.tick_context import Tick
 
 KIND = "fence"

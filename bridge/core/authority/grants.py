@@ -11,9 +11,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import shelved
 from bridge.core.authority.ownership import of_owner
-from bridge.core.authority.request_answers import refuse_openly, settle_openly
-from bridge.core.faults.fault_latch import clear_on_grant
-from bridge.core.modes.mode_table import POWERED
+from bridge.core.authority.requests import refuse_openly, settle_openly
 from bridge.core.state_orders import Grants
 from wire import Mode
 
@@ -32,20 +30,24 @@ METERED = frozenset({"W", "X"})
 """Whose motion is metered by mission; a hand on the stick is metered by itself."""
 
 
-def hear_grant(tick: Tick, grant: Grant) -> None:
-    """Allow a mission of the owner to move, unless held, unpowered or spent."""
+def hear_grant(tick: Tick, grant: Grant) -> str | None:
+    """Allow a mission of the owner to move, unless held, unpowered or spent.
+
+    Returns:
+        What to say of a new grant, once rows that it ends are let go; None where nothing is new.
+    """
     sent_s = of_owner(tick, grant.planner_id, grant.epoch, grant.seen)
     if sent_s is None or tick.s.grants.mission == grant.mission:
-        return
+        return None
     jumped_s = tick.s.pose.jumped_s
     if jumped_s is not None and not sent_s > jumped_s:
         tick.drop("grant_before_jump")
-        return
+        return None
     metres, seconds = _left(tick.s.grants, grant)
     refusal = _refusal(tick, metres, seconds)
     if refusal is not None:
         refuse_openly(tick, "grant", grant.mission, *refusal)
-        return
+        return None
     settle_openly(tick, "grant", grant.mission)
     grants = shelved(tick.s.grants)
     book = tuple(item for item in grants.book if item.mission != grant.mission)
@@ -57,8 +59,7 @@ def hear_grant(tick: Tick, grant: Grant) -> None:
         book=book,
         since_arm=True,
     )
-    clear_on_grant(tick)
-    tick.say("granted", f"{grant.mission} {metres:.1f} m {seconds:.0f} s")
+    return f"{grant.mission} {metres:.1f} m {seconds:.0f} s"
 
 
 def operator_acted(grants: Grants) -> Grants:
@@ -118,28 +119,6 @@ def _meter_hand(tick: Tick, before: BridgeState) -> None:
     )
 
 
-def hand_spent(grants: Grants) -> str | None:
-    """Name what a hand on the stick has used up; None if nothing is."""
-    if not grants.hand_metres > 0.0:
-        return "hand's metres"
-    return None if grants.hand_seconds > 0.0 else "hand's seconds"
-
-
-def spent(grants: Grants) -> str | None:
-    """Name what is used up while a mission is granted; None if nothing is."""
-    if grants.mission is None:
-        return None
-    for name, left in (
-        ("mission's metres", grants.metres),
-        ("mission's seconds", grants.seconds),
-        ("operator's metres", grants.operator_metres),
-        ("operator's seconds", grants.operator_seconds),
-    ):
-        if not left > 0.0:
-            return name
-    return None
-
-
 def _left(grants: Grants, grant: Grant) -> tuple[float, float]:
     for item in grants.book:
         if item.mission == grant.mission:
@@ -151,7 +130,7 @@ def _refusal(tick: Tick, metres: float, seconds: float) -> tuple[str, str] | Non
     s = tick.s
     if s.held is not None:
         return "held", f"{s.held.reason.value} {s.held.id}; arm or resume first"
-    if s.mode not in POWERED:
+    if not tick.powered:
         return "not_armed", f"mode is {s.mode.value}"
     if not (metres > 0.0 and seconds > 0.0):
         return "budget", f"left for this mission: {metres:.2f} m, {seconds:.1f} s"

@@ -13,7 +13,7 @@ from wire.bounded_types import MAX_POINTS
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from bridge.core.sensing.fence import Fence
+    from bridge.core.geometry.fence import Fence
     from wire.commands import Waypoint
     from wire.geometry import Pose2
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from bridge.core.authority.horizon_checks import check_horizon
 from bridge.core.authority.message_score import bad, good
 from bridge.core.authority.ownership import of_owner
-from bridge.core.geometry.path_profile import prepare
-from bridge.core.motion.pursuit import NEW, residuals
+from bridge.core.geometry.path_profile import prepare, residuals
+from bridge.core.state_motion import NEW
 
 if TYPE_CHECKING:
     from bridge.core.tick_context import Tick
@@ -80,18 +80,6 @@ def residual(tick: Tick) -> tuple[float, float]:
     if goal is None or tick.robot_in_map is None:
         return 0.0, 0.0
     return residuals(goal.x_m, goal.y_m, goal.heading_rad, tick.robot_in_map)
-
-
-def callable_horizon(tick: Tick) -> bool:
-    """Tell whether there is a fresh horizon that asks the robot to move."""
-    leg = tick.s.leg
-    return (
-        leg.horizon is not None
-        and bool(leg.horizon.points)
-        and not leg.reached
-        and leg.horizon.mission == tick.s.grants.mission
-        and tick.now_s - leg.sent_s <= leg.horizon.ttl_s
-    )
 
 
 def _late(tick: Tick, new: Waypoints, sent_s: float) -> str | None:

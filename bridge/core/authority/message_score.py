@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.faults.fault_latch import sources
-
 if TYPE_CHECKING:
     from bridge.core.tick_context import Tick
 
@@ -40,7 +38,7 @@ def good(tick: Tick) -> None:
 
 def hear_rejected(tick: Tick) -> None:
     """Count what was no message; score it where its key's owner is in charge."""
-    letters = sources(tick.s) if tick.inbox.rejected else ""
+    letters = tick.s.sources() if tick.inbox.rejected else ""
     for item in tick.inbox.rejected:
         if _KEYS.get(item.key, "-") in letters:
             bad(tick, f"rejected_{item.why.code}")

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import hold, turn
-from bridge.core.authority.request_answers import refuse_openly, settle_openly
+from bridge.core.authority.requests import refuse_openly, settle_openly
 from bridge.core.geometry.message_age import sent_at
 from wire import PROTOCOL, HeldReason, Owner
 

@@ -11,10 +11,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from bridge.core.geometry.debounce import filled
-from bridge.core.state_detectors import Flood
+from bridge.core.state_senses import Flood
 
 if TYPE_CHECKING:
-    from bridge.core.faults.fault_latch import Dirty
     from bridge.core.inbox import Inbox
     from bridge.core.tick_context import Tick
 
@@ -55,13 +54,6 @@ def thinned(tick: Tick) -> Inbox:
     quiet = counts == _NONE and before == _NONE
     tick.s.flood = Flood(half_s, () if quiet else counts, () if quiet else before, level_s, key)
     return _without(tick, inbox, over) if over else inbox
-
-
-def judge(tick: Tick, dirty: Dirty) -> None:
-    """Call it a flood once it has lasted for four windows."""
-    flood = tick.s.flood
-    if not flood.level_s < FULL_S:
-        dirty.append(("CMD_FLOOD.0", f"more than allowed on {flood.key}"))
 
 
 def _turned(flood: Flood, now_s: float) -> tuple[tuple[int, ...], tuple[int, ...], float]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.grants import hand_spent, spent
-from bridge.core.modes.mode_table import POWERED
+from bridge.core.authority.rate_limit import FULL_S
+from bridge.core.tick_context import POWERED
 from wire import Mode
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def commands(tick: Tick, dirty: Dirty) -> None:
     if not s.bad_bucket < BAD_TRIPS:
         dirty.append(("CMD_BAD.0", f"{s.bad_bucket:.0f} bad messages"))
     if s.grants.mission is not None:
-        what = spent(s.grants)
+        what = s.grants.spent_part()
         if what is not None:
             dirty.append(("BUDGET.0", f"{what} are spent"))
 
@@ -64,6 +64,13 @@ def hand(tick: Tick, dirty: Dirty) -> None:
     pressed_s = s.stick.pressed_s
     asks = pressed_s is not None and tick.now_s - pressed_s <= HAND_SHOWN_S
     if s.mode is Mode.TELEOP or (s.mode in POWERED and asks):
-        what = hand_spent(s.grants)
+        what = s.grants.spent_hand_part()
         if what is not None:
             dirty.append(("HAND_BUDGET.0", f"{what} are spent"))
+
+
+def flood(tick: Tick, dirty: Dirty) -> None:
+    """Call it a flood once it has lasted for four windows."""
+    flood = tick.s.flood
+    if not flood.level_s < FULL_S:
+        dirty.append(("CMD_FLOOD.0", f"more than allowed on {flood.key}"))

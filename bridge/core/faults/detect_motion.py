@@ -7,11 +7,10 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import shelved
-from bridge.core.authority.leg_tracking import callable_horizon
 from bridge.core.faults.detect_senses import ENC_S
 from bridge.core.geometry.debounce import filled
 from bridge.core.geometry.message_age import sensor_age_s
-from bridge.core.state_detectors import Sent
+from bridge.core.state_senses import Sent
 from wire import STILL, Mode, wrap
 
 if TYPE_CHECKING:
@@ -145,7 +144,12 @@ def _wheel_held(sent: Twist2, real: Twist2, base: Base) -> bool:
 def _no_progress(tick: Tick) -> str | None:
     s, watch = tick.s, tick.s.watch
     shut = s.gate.blocked or s.gate.shut_since_s is not None
-    if s.mode is not Mode.ACTIVE or s.source != "W" or shut or not callable_horizon(tick):
+    if (
+        s.mode is not Mode.ACTIVE
+        or s.source != "W"
+        or shut
+        or not tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s)
+    ):
         watch.progress_at = None
         return None
     here, last = s.odometry.base_in_odom, watch.progress_at

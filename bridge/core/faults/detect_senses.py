@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.message_age import sensor_age_s
-from bridge.core.modes.arming import pressed
 from bridge.core.sensing.sensor_update import JUMPS, JUMPS_WITHIN_S, pose_trouble
+from bridge.core.sensing.stop_inputs import pressed
 
 if TYPE_CHECKING:
     from bridge.core.faults.fault_latch import Dirty

@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bridge.core.faults.fault_table import ALL, STAGES, Clears
-from bridge.core.motion.brake_learning import weak_share
 from bridge.core.state import RowUp
 from wire import SEVERITY, Action, Mode
 
@@ -16,19 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from bridge.core.faults.fault_table import Stage
-    from bridge.core.state import BridgeState
     from bridge.core.tick_context import Tick
 
 Dirty = list[tuple[str, str]]
 """Stage names whose trouble is seen in this tick, each with the evidence."""
-
-
-def sources(s: BridgeState) -> str:
-    """Return the letters of who moves the robot or holds a grant."""
-    owner = s.ownership.owner
-    if s.grants.mission is None or owner is None:
-        return s.source
-    return s.source + ("W" if owner.kind == "planner" else "X")
 
 
 def binds(stage: Stage, letters: str) -> bool:
@@ -75,7 +65,7 @@ def worst(tick: Tick) -> tuple[Action, str, bool]:
     ESTOP is left out: it is a mode of its own, entered by request.
     """
     action, why, reset_needed = Action.NONE, "", False
-    letters = sources(tick.s)
+    letters = tick.s.sources()
     for name in tick.s.rows:
         stage = STAGES[name]
         if stage.row == "ESTOP" or not binds(stage, letters):
@@ -91,12 +81,12 @@ def cap(tick: Tick) -> tuple[float, str]:
 
     Brakes learnt to be weak cap as a row does; they are no row (docs/adr/0018-learned-braking.md).
     """
-    factor, by = weak_share(tick.s.learnt), "robot"
+    factor, by = tick.s.learnt.speed_share(), "robot"
     if factor < 1.0:
         by = "weak_brakes"
     if not tick.s.rows:
         return factor, by
-    letters = sources(tick.s)
+    letters = tick.s.sources()
     fastest = tick.config.robot.limits.max_speed_mps
     for name in tick.s.rows:
         stage = STAGES[name]

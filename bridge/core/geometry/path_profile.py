@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
-from wire.geometry import wrap
+from wire.geometry import Pose2, wrap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -127,3 +127,13 @@ def _curves(turns: list[float], along: list[float]) -> list[float]:
             low += 1
         curves.append(max(0.0, turned) / (2 * _CORNER_M))
     return curves
+
+
+def residuals(
+    x_m: float, y_m: float, heading_rad: float | None, robot_in_map: Pose2
+) -> tuple[float, float]:
+    """Return distance [m] and turn [rad] from a robot to an end point; no heading, no turn."""
+    away = hypot(x_m - robot_in_map.x_m, y_m - robot_in_map.y_m)
+    if heading_rad is None:
+        return away, 0.0
+    return away, abs(wrap(heading_rad - robot_in_map.yaw_rad))

@@ -9,9 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority import rate_limit
 from bridge.core.authority.epoch import hold, shelved
-from bridge.core.authority.leg_tracking import callable_horizon, judge_arrival
+from bridge.core.authority.leg_tracking import judge_arrival
 from bridge.core.faults import (
     detect_brain,
     detect_coverage,
@@ -25,7 +24,7 @@ from bridge.core.modes import external_velocity, selftest, stop_monitor
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.operator import estop
 from bridge.core.modes.transition import escalate, go
-from bridge.core.state import Gate
+from bridge.core.state_motion import Gate
 from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
@@ -35,7 +34,7 @@ DETECTORS = (
     detect_brain.brain,
     detect_brain.commands,
     detect_brain.hand,
-    rate_limit.judge,
+    detect_brain.flood,
     detect_senses.lidar,
     detect_coverage.blind,
     detect_coverage.no_range,
@@ -111,7 +110,11 @@ def _tire(tick: Tick, *, must_stop: bool) -> None:
         s.grants = shelved(s.grants)
         s.waits_since_s = None
         hold(tick, HeldReason.FAULT, why)
-    if s.mode is Mode.HOLD and s.leg.horizon is not None and not callable_horizon(tick):
+    if (
+        s.mode is Mode.HOLD
+        and s.leg.horizon is not None
+        and not tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s)
+    ):
         s.leg = replace(s.leg, horizon=None, path=None)
     if blocked and s.grants.mission is None:
         s.gate = Gate()
@@ -147,7 +150,7 @@ def _call(tick: Tick) -> None:
         return
     if s.held is not None or s.grants.mission is None or s.gate.blocked or tick.stopped:
         return
-    if callable_horizon(tick):
+    if tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s):
         source = "W"
     elif external_velocity.calls(tick):
         source = "X"

@@ -43,8 +43,6 @@ class Fact(StrEnum):
 Cause = Action | Request | Fact
 
 _M = Mode
-POWERED = frozenset({_M.HOLD, _M.ACTIVE, _M.TELEOP, _M.STOPPING})
-MOVING = frozenset({_M.ACTIVE, _M.TELEOP})
 LATCHED = frozenset({_M.ESTOPPED, _M.FAULT})
 
 TRANSITIONS: dict[tuple[Mode, Cause], Mode] = {

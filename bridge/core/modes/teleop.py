@@ -10,7 +10,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import hold, turn
-from bridge.core.authority.grants import hand_spent
 from bridge.core.authority.message_score import bad, good
 from bridge.core.geometry.message_age import sent_at
 from bridge.core.modes.mode_table import Fact, Request
@@ -93,7 +92,7 @@ def _take_over(tick: Tick, new: Velocity, sent_s: float) -> None:
     if new.source_id not in s.stick.ready or tick.stopped:
         tick.drop("stick_not_ready")
         return
-    if tick.powered and hand_spent(s.grants) is not None:
+    if tick.powered and s.grants.spent_hand_part() is not None:
         tick.drop("hand_spent")
         return
     if not go(tick, Request.TELEOP, f"teleop {new.source_id}"):

@@ -10,15 +10,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import hold
-from bridge.core.modes.mode_table import MOVING, POWERED, Request, after
+from bridge.core.modes.mode_table import Request, after
 from bridge.core.modes.stop_profile import plan_stop
-from bridge.core.motion.limiter import LimiterState, Profile
-from bridge.core.state import SelfTest, Stopping
+from bridge.core.state import SelfTest
+from bridge.core.state_motion import LimiterState, Stopping, profile_of
+from bridge.core.tick_context import MOVING, POWERED
 from wire import SEVERITY, STILL, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
     from bridge.core.modes.mode_table import Cause
-    from bridge.core.modes.stop_profile import StopPlan
+    from bridge.core.state_motion import StopPlan
     from bridge.core.tick_context import Tick
 
 
@@ -73,11 +74,6 @@ def escalate(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> Non
         slow_s=0.0 if faster else stop.slow_s,
     )
     tick.say("stop_escalated", f"{action.value} {why}")
-
-
-def profile_of(action: Action) -> Profile:
-    """Return the ramp that an action means."""
-    return Profile.FASTEST if action is Action.FAST1 else Profile.STOP
 
 
 def _stop_action(cause: Cause) -> Action:

@@ -22,8 +22,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import fastest_rim
-from bridge.core.motion.braking import AS_CONFIGURED, Braking
-from bridge.core.state_braking import LEAST_SHARE, MOST_LAG_S, MOST_STOPS, Learnt, Ramp
+from bridge.core.state_motion import (
+    LEAST_SHARE,
+    MOST_LAG_S,
+    MOST_STOPS,
+    Learnt,
+    Ramp,
+)
 
 if TYPE_CHECKING:
     from bridge.core.state import BridgeState
@@ -48,29 +53,12 @@ WEAKER = 0.85
 LAG_GRAIN_S = 0.01
 """One tick: less is the loop's own grain."""
 SHARE_GRAIN = 0.05
-WEAK_SHARE = 0.5
 WILD_MPS = 0.15
 """A wheel so much faster than the ramp's beginning runs away; nothing about brakes is learnt."""
 BETTER_STOPS = 50
 """A kind of stop that is bad once in 17 shows itself in 50 with 95 % (0.05^(1/50) = 0.94), so what
 was learnt is let go only by 50 better ones in a row, each from nearly the speed that taught it."""
 ALIKE = 0.8
-
-
-def in_force(learnt: Learnt) -> Braking:
-    """Return what gates may count on."""
-    if learnt.lag_more_s == 0.0 and learnt.decel_share == 1.0:
-        return AS_CONFIGURED
-    return Braking(learnt.lag_more_s, learnt.decel_share)
-
-
-def weak_share(learnt: Learnt) -> float:
-    """Return the factor on the limits that weak brakes leave; 1 where they are not weak.
-
-    With the same share of speed as of deceleration a stop takes as long as robot.toml plans, so
-    that "too slow" and "too long" go on judging it by the plan.
-    """
-    return 1.0 if learnt.decel_share >= WEAK_SHARE else learnt.decel_share
 
 
 def watch(tick: Tick, before: BridgeState) -> None:

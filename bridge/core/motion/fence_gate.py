@@ -14,7 +14,7 @@ from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import STANDING_MPS, TURNING_MPS, stop_length_m
 
 if TYPE_CHECKING:
-    from bridge.core.sensing.fence import Fence
+    from bridge.core.geometry.fence import Fence
     from wire.geometry import Pose2, Twist2
     from wire.robot import Base, Limits
 

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, ClassVar
 from pydantic import ConfigDict
 
 from bridge.core.geometry.odometry import along_arc, arc_end
-from bridge.core.motion.braking import TURNING_MPS, reaction_s, speed_scale
+from bridge.core.motion.braking import TURNING_MPS
+from bridge.core.sensing.look_distance import MARGIN_M, REACH_M
 from wire.geometry import Pose2, between, wrap
 from wire.value import value
 
@@ -20,11 +21,6 @@ if TYPE_CHECKING:
     from bridge.core.geometry.lidar_scan import Points, ScanPicture
     from wire.geometry import Twist2
 
-__all__ = ["FreeLength", "free_length", "reaction_s", "speed_scale"]
-
-MARGIN_M = 0.05
-REACH_M = 2.0
-"""Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
 SECTOR_M = 2.0
 """How far the sector reaches in which beams must have come back, however far one looks."""
 MOVED_M = 1.0

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 from bridge.core.geometry.debounce import filled
 from bridge.core.geometry.kinematics import saturate, scaled
 from bridge.core.geometry.message_age import sensor_age_s
-from bridge.core.motion.brake_learning import in_force
 from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.contact_gate import contact_gate, touched
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
 from bridge.core.motion.free_distance import free_length
-from bridge.core.motion.obstacle_gate import FREE_M, look_m, obstacle_gate
-from bridge.core.state import Gate
+from bridge.core.motion.obstacle_gate import obstacle_gate
+from bridge.core.sensing.look_distance import FREE_M, look_m
+from bridge.core.state_motion import Gate
 from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
 from wire import STILL, Mode, Twist2, wrap
 
@@ -57,7 +57,7 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
         s.odometry.measured,
         scan_age_s(tick),
         tick.config.robot,
-        in_force(s.learnt),
+        s.learnt.in_force(),
     )
     motion.free_m, tick.room_m = way.free_m, way.room_m
     if way.scale < 1.0:
@@ -148,7 +148,7 @@ def look(tick: Tick, twist: Twist2) -> FreeLength | None:
     if picture is None:
         return None
     here = tick.s.odometry.base_in_odom
-    reach_m = look_m(robot, in_force(tick.s.learnt))
+    reach_m = look_m(robot, tick.s.learnt.in_force())
     return free_length(picture, here, twist, robot.base.radius_m, reach_m)
 
 

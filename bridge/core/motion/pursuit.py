@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from math import atan2, cos, hypot, inf, pi, sin, sqrt
-from typing import TYPE_CHECKING, ClassVar
-
-from pydantic import ConfigDict
+from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import saturate
 from bridge.core.geometry.path_profile import (
@@ -20,8 +18,10 @@ from bridge.core.geometry.path_profile import (
     TURN_RADIUS_M,
     Path,
     regulated,
+    residuals,
 )
 from bridge.core.motion.braking import speed_within
+from bridge.core.state_motion import FollowState
 from wire.geometry import MAX_COORDINATE_M, STILL, Pose2, Twist2, wrap
 from wire.value import value
 
@@ -44,22 +44,6 @@ _STOP_FIRST_MPS = 0.1
 
 
 @value
-class FollowState:
-    """Remember how far along one path the robot is.
-
-    A new leg begins with :data:`NEW`, the next horizon of a leg with :func:`carried`.
-    """
-
-    along_m: float = 0.0
-    turning: bool = False
-    settled: bool = False
-    """The place is as good as it gets; only a heading may be left."""
-    heading_done: bool = False
-    tries: int = 0
-    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-@value
 class Follow:
     """Answer one tick of following."""
 
@@ -73,22 +57,9 @@ class Follow:
     """Within what counts as reached. Whether the robot stands is for the caller to see."""
 
 
-NEW = FollowState()
-
-
 def carried(state: FollowState) -> FollowState:
     """Return the state for the next horizon of the same leg: progress anew, the rest goes on."""
     return FollowState(0.0, state.turning, state.settled, state.heading_done, state.tries)
-
-
-def residuals(
-    x_m: float, y_m: float, heading_rad: float | None, robot_in_map: Pose2
-) -> tuple[float, float]:
-    """Return distance [m] and turn [rad] from a robot to an end point; no heading, no turn."""
-    away = hypot(x_m - robot_in_map.x_m, y_m - robot_in_map.y_m)
-    if heading_rad is None:
-        return away, 0.0
-    return away, abs(wrap(heading_rad - robot_in_map.yaw_rad))
 
 
 def reached(residual_m: float, residual_rad: float) -> bool:

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 from bridge.core.faults.fault_latch import cap
 from bridge.core.geometry.kinematics import saturate, wheels_of
 from bridge.core.modes import external_velocity, teleop
-from bridge.core.modes.mode_table import POWERED
-from bridge.core.modes.transition import profile_of
 from bridge.core.motion import motion_gates
-from bridge.core.motion.limiter import LimiterState, Profile, shape, tick_length
+from bridge.core.motion.limiter import shape, tick_length
 from bridge.core.motion.pursuit import follow
-from bridge.core.motion.wheel_control import AT_REST, turned
+from bridge.core.motion.wheel_control import turned
+from bridge.core.state_motion import AT_REST, LimiterState, Profile, profile_of
+from bridge.core.tick_context import POWERED
 from wire import STILL, DriveCommand, Mode, Twist2
 
 if TYPE_CHECKING:

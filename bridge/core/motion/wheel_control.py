@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wire.value import value
+from bridge.core.state_motion import AT_REST, Wheel
 
 if TYPE_CHECKING:
     from wire.robot import DriveConfig, RobotDescription
@@ -28,27 +28,6 @@ BEYOND_MPS, DOUBT_S = 0.03, 0.2
 """A wheel that for so long is so far off, beyond what may be corrected, is blocked, pushed,
 reversed or misread: no motor like the one described. It is fed forward alone until it stands, and
 the detectors of such faults see it as if nobody controlled it."""
-
-
-@value
-class Wheel:
-    """Remember one wheel's control between two ticks."""
-
-    integral: float = 0.0
-    """What has been learnt of this motor since it began to turn, as a share of the bound, with the
-    sign of the speed meant: +0.5 is half of what may be added. So it shrinks with the speed."""
-    push: float = 0.0
-    """Proportional and integral part of the newest reading together, likewise."""
-    expected_radps: float = 0.0
-    """What the motor of the description turns at when this tick's command has worked."""
-    due_radps: float = 0.0
-    """That of the tick before: what the newest reading should show."""
-    told_radps: float = 0.0
-    doubt_s: float = 0.0
-    """How long readings have been further off than any motor explains; DOUBT_S stays."""
-
-
-AT_REST = Wheel()
 
 
 def turned(

@@ -6,15 +6,15 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.leg_tracking import residual
-from bridge.core.authority.request_answers import shown
-from bridge.core.faults.fault_latch import binds, sources, worst
+from bridge.core.authority.requests import nonce_text, shown
+from bridge.core.faults.fault_latch import binds, worst
 from bridge.core.faults.fault_table import STAGES
-from bridge.core.modes.arming import arm_lacks, recorder_lack, strayed
-from bridge.core.modes.mode_table import POWERED
-from bridge.core.modes.operator import nonce_text
+from bridge.core.modes.arming import arm_lacks, strayed
 from bridge.core.modes.selftest import waits_for
 from bridge.core.motion.limiter import stopping_m
 from bridge.core.motion.obstacle_gate import weak_m
+from bridge.core.sensing.sensor_update import recorder_lack
+from bridge.core.tick_context import POWERED
 from wire import (
     PROTOCOL,
     SEVERITY,
@@ -121,7 +121,7 @@ def _limits(tick: Tick) -> LimitsInForce:
 
 def _rows(tick: Tick) -> tuple[RowReport, ...]:
     """Show each row once, by its worst stage."""
-    letters = sources(tick.s)
+    letters = tick.s.sources()
     worst_of: dict[str, str] = {}
     for name in tick.s.rows:
         stage = STAGES[name]

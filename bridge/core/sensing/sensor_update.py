@@ -9,13 +9,10 @@ from dataclasses import replace
 from math import hypot, radians
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import shelved
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.geometry.odometry import advance
-from bridge.core.modes.arming import recorder_lack
-from bridge.core.motion.brake_learning import in_force
-from bridge.core.motion.obstacle_gate import sight_m
+from bridge.core.sensing.look_distance import sight_m
 from bridge.core.state_senses import Drift, PoseMemory
 from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
 from wire import compose, wrap
@@ -23,6 +20,7 @@ from wire.geometry import MAX_COORDINATE_M
 
 if TYPE_CHECKING:
     from bridge.core.geometry.odometry import OdometryState
+    from bridge.core.inbox import Inbox
     from bridge.core.tick_context import Tick
     from wire import DriveState, Localization, Pose2, Scan
 
@@ -80,15 +78,21 @@ def sense(tick: Tick) -> None:
         s.loop = replace(s.loop, real_time=inbox.real_time, recorder_ok=inbox.recorder_ok)
 
 
-def locate(tick: Tick) -> None:
-    """Take in localization, and say where the robot is in ``map`` if that may be trusted."""
+def locate(tick: Tick) -> bool:
+    """Take in localization, and say where the robot is in ``map`` if that may be trusted.
+
+    Returns:
+        Whether localization has displaced the robot: what was granted before is void.
+    """
     s = tick.s
+    displaced = False
     if tick.inbox.localization is not None:
-        _hear_localization(tick, tick.inbox.localization)
+        displaced = _hear_localization(tick, tick.inbox.localization)
     if pose_trouble(tick) is None and s.pose.localization is not None:
         here = compose(s.pose.localization.odom_in_map, s.odometry.base_in_odom)
         if abs(here.x_m) <= MAX_COORDINATE_M and abs(here.y_m) <= MAX_COORDINATE_M:
             tick.robot_in_map = here  # anywhere else is no place, and POSE_LOST
+    return displaced
 
 
 def pose_trouble(tick: Tick) -> str | None:
@@ -152,7 +156,7 @@ def _hear_scan(tick: Tick, scan: Scan) -> None:
     equal = last is not None and last.ranges_m == scan.ranges_m
     taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
     robot = tick.config.robot
-    seen_m = sight_m(robot, in_force(s.learnt))
+    seen_m = sight_m(robot, s.learnt.in_force())
     picture = ScanPicture.from_scan(scan, _where(tick, taken_s), robot.lidar, seen_m)
     learns = lidar.baseline_scans < BASELINE_SCANS and sees(picture)
     scans = lidar.baseline_scans + 1 if learns else lidar.baseline_scans
@@ -198,22 +202,21 @@ def _where(tick: Tick, at_s: float) -> Pose2:
     return trail[0][1] if trail else tick.s.odometry.base_in_odom
 
 
-def _hear_localization(tick: Tick, new: Localization) -> None:
+def _hear_localization(tick: Tick, new: Localization) -> bool:
     s = tick.s
     if new.odom_id != tick.config.boot or new.map_id != tick.config.map_id:
         tick.drop("localization_foreign")
-        return
+        return False
     last = s.pose.good
     s.pose = replace(s.pose, localization=new, received_s=tick.now_s)
     if not new.quality >= POOR_QUALITY:
-        return
+        return False
     s.pose = replace(s.pose, good=new)
-    if last is not None:
-        _judge_jump(tick, last, new)
+    return last is not None and _is_jump(tick, last, new)
 
 
-def _judge_jump(tick: Tick, last: Localization, new: Localization) -> None:
-    """See whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p.
+def _is_jump(tick: Tick, last: Localization, new: Localization) -> bool:
+    """Tell whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p.
 
     By one message, or by many that add up to more than odometry may have been wrong.
     """
@@ -227,18 +230,17 @@ def _judge_jump(tick: Tick, last: Localization, new: Localization) -> None:
     small = jump_m <= JUMP_M and abs(yaw_rad) <= JUMP_RAD
     if small and drift_m <= DRIFT_M and abs(drift.yaw_rad) <= DRIFT_RAD:
         s.pose = replace(s.pose, drift=drift)
-        return
+        return False
     at_s = s.pose.drift.jumps_at_s
     if s.grants.mission is not None:
         at_s = (*at_s[-(JUMPS - 1) :], tick.now_s)
     settled = replace(drift, x_m=0.0, y_m=0.0, yaw_rad=0.0, jumps_at_s=at_s)
     s.pose = replace(s.pose, jumped_s=tick.now_s, drift=settled)
-    s.grants = shelved(s.grants)
-    s.leg = replace(s.leg, horizon=None, path=None)
     if small:
         tick.say("pose_drift", f"{drift_m:.2f} m {abs(drift.yaw_rad):.2f} rad bit by bit")
     else:
         tick.say("pose_jump", f"{jump_m:.2f} m {abs(yaw_rad):.2f} rad")
+    return True
 
 
 def _drifted(had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState) -> Drift:
@@ -258,3 +260,9 @@ def _drifted(had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: Odome
         odometry.turned_rad,
         had.jumps_at_s,
     )
+
+
+def recorder_lack(inbox: Inbox) -> tuple[str, str]:
+    """Return code and sentence of why this run is not being recorded."""
+    code, _, detail = inbox.recorder_says.partition(": ")
+    return code or "recorder_down", detail or "the tick recorder takes no records"

@@ -10,7 +10,7 @@ from math import pi, tau
 from typing import Any
 
 from bridge.core import EMPTY, CoreConfig, Decision, Inbox, LoopFacts, OpArrived, initial, step
-from bridge.core.sensing.fence import build_fence
+from bridge.core.geometry.fence import build_fence
 from bridge.core.state import draft
 from tests.bridge.core.fake_planner import (
     BOOT,

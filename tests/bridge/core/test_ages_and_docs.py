@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.faults.docs import PATH, safety_md
 from bridge.core.faults.fault_messages import WORDS
 from bridge.core.faults.fault_table import ROWS, Row
 from bridge.core.geometry.message_age import remembered, sensor_age_s, sent_at
 from bridge.core.modes.mode_table import TRANSITIONS
+from bridge.core.safety_page import PATH, safety_md
 
 
 @given(st.integers(1, 600), st.integers(-10, 700))
@@ -46,7 +46,7 @@ def test_every_row_has_words_and_is_documented(row: Row) -> None:
 
 def test_every_transition_is_documented() -> None:
     page = PATH.read_text("utf-8")
-    assert page == safety_md(), "run python -m bridge.core.faults.docs"
+    assert page == safety_md(), "run python -m bridge.core.safety_page"
     for (mode, _), to in TRANSITIONS.items():
         assert f"| {mode.value} |" in page
         assert f"| {to.value} |" in page

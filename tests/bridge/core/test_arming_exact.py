@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bridge.core.inbox import Inbox
-from bridge.core.modes.arming import pressed, ready_lacks, recorder_lack, reset_lacks
-from bridge.core.state_fence import FenceAsked
+from bridge.core.modes.arming import ready_lacks, reset_lacks
+from bridge.core.sensing.sensor_update import recorder_lack
+from bridge.core.sensing.stop_inputs import pressed
+from bridge.core.state_orders import FenceAsked
 from bridge.core.state_senses import ButtonMemory
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached

@@ -8,7 +8,8 @@ from bridge.core.faults.fault_table import ROWS
 from bridge.core.faults.hazards import HAZARDS
 from bridge.core.modes import mode_logic as decide_module
 from bridge.core.modes.mode_logic import _call, _tire, arrive, decide
-from bridge.core.state import Gate, RowUp
+from bridge.core.state import RowUp
+from bridge.core.state_motion import Gate
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

@@ -9,10 +9,10 @@ import pytest
 
 from bridge.core import ArrivedAt, LoopFacts
 from bridge.core.authority import rate_limit
-from bridge.core.faults import detect_coverage, detect_loop, detect_power
+from bridge.core.faults import detect_brain, detect_coverage, detect_loop, detect_power
 from bridge.core.geometry.debounce import filled
 from bridge.core.state import RowUp
-from bridge.core.state_detectors import Flood
+from bridge.core.state_senses import Flood
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -286,5 +286,5 @@ def test_a_flood_is_one_after_a_second_of_it() -> None:
         tick = at()
         tick.s.flood = Flood(0.0, (), (), level_s, "cmd/hello")
         dirty: Dirty = []
-        rate_limit.judge(tick, dirty)
+        detect_brain.flood(tick, dirty)
         assert len(dirty) == seen

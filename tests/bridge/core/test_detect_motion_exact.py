@@ -7,9 +7,8 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.faults import detect_motion
-from bridge.core.motion.limiter import LimiterState
-from bridge.core.state import Gate
-from bridge.core.state_detectors import Sent
+from bridge.core.state_motion import Gate, LimiterState
+from bridge.core.state_senses import Sent
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

@@ -8,10 +8,9 @@ import pytest
 
 from bridge.core.faults import detect_coverage, detect_power, detect_senses
 from bridge.core.motion import wheel_command
-from bridge.core.motion.limiter import LimiterState
 from bridge.core.motion.wheel_command import shaped
-from bridge.core.motion.wheel_control import AT_REST
 from bridge.core.state import RowUp
+from bridge.core.state_motion import AT_REST, LimiterState
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from bridge.core.authority import leg_tracking, message_score, ownership
+from bridge.core.authority import leg_tracking, message_score, ownership, requests
 from bridge.core.faults import detect_loop, fault_latch
 from bridge.core.faults.detect_brain import brain, commands
 from bridge.core.inbox import LoopFacts
-from bridge.core.modes import mode_logic, operator, stop_monitor, teleop
+from bridge.core.modes import mode_logic, stop_monitor, teleop
 from bridge.core.modes.arming import ready_lacks, reset_lacks
 from bridge.core.modes.stop_profile import too_long
 from bridge.core.motion import motion_gates
-from bridge.core.state import Gate, RowUp
+from bridge.core.state import RowUp
+from bridge.core.state_motion import Gate
 from bridge.core.state_orders import External
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
@@ -51,7 +52,7 @@ def owner(echo_s: float, used_s: float | None = None) -> Judge:
 
 def followed(tick: Tick) -> object:
     tick.s.leg = replace(tick.s.leg, sent_s=0.0)
-    return [leg_tracking.callable_horizon(tick), *rows(commands)(tick)]
+    return [tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s), *rows(commands)(tick)]
 
 
 def external(tick: Tick) -> object:
@@ -80,15 +81,15 @@ def cleaned(tick: Tick) -> object:
 def renewed(tick: Tick) -> object:
     tick.s.operator = replace(tick.s.operator, nonce_made_s=0.0)
     before = tick.s.operator.nonce_no
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     return tick.s.operator.nonce_no - before
 
 
 def old_nonce(tick: Tick) -> object:
     old = {"old_nonce_no": 0, "old_tag": "c", "old_until_s": tick.now_s}
     tick.s.operator = replace(tick.s.operator, **old)  # type: ignore[arg-type]  # names of its fields
-    text = operator.old_nonce_text(tick)
-    return list(operator.bad_proof(tick, "arm", "a1", text, authentic=True))
+    text = requests.old_nonce_text(tick)
+    return list(requests.bad_proof(tick, "arm", "a1", text, authentic=True))
 
 
 def held(received_s: float, sent_s: float) -> Judge:

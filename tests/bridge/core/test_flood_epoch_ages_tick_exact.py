@@ -10,8 +10,8 @@ from bridge.core import ArrivedAt, Inbox
 from bridge.core.authority.epoch import shelved, turn
 from bridge.core.authority.rate_limit import thinned
 from bridge.core.geometry.message_age import remembered, sensor_age_s, sent_at
-from bridge.core.state_detectors import Flood
 from bridge.core.state_orders import Grants, MissionLeft, Stick
+from bridge.core.state_senses import Flood
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.motion.contact_gate import contact_gate
 from bridge.core.motion.motion_gates import _note, _shut_by, look, reconsider, scan_age_s, through
-from bridge.core.motion.obstacle_gate import look_m
-from bridge.core.sensing.fence import build_fence
-from bridge.core.state import Gate
+from bridge.core.sensing.look_distance import look_m
+from bridge.core.state_motion import Gate
 from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached

@@ -7,12 +7,12 @@ from math import pi
 
 import pytest
 
+from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.kinematics import scaled
 from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.fence_gate import fence_scale
 from bridge.core.motion.motion_gates import _inside_fence
-from bridge.core.sensing.fence import build_fence
-from bridge.core.state_braking import Learnt
+from bridge.core.state_motion import Learnt
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

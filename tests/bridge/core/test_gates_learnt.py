@@ -7,13 +7,15 @@ from math import pi, tau
 
 import pytest
 
+from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.kinematics import scaled
 from bridge.core.geometry.odometry import along_arc
-from bridge.core.motion.braking import AS_CONFIGURED, Braking, reaction_s
+from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
-from bridge.core.motion.limiter import LimiterState, shape
-from bridge.core.motion.obstacle_gate import look_m, obstacle_gate, sight_m
-from bridge.core.sensing.fence import build_fence
+from bridge.core.motion.limiter import shape
+from bridge.core.motion.obstacle_gate import obstacle_gate
+from bridge.core.sensing.look_distance import look_m, sight_m
+from bridge.core.state_motion import AS_CONFIGURED, Braking, LimiterState
 from tests.bridge.core.test_gates import BASE, LAG, LIMITS, RADIUS, ROBOT, gap, look
 from wire.geometry import IDENTITY, STILL, Pose2, Twist2
 

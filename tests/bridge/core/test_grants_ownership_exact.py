@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bridge.core.authority import grants, ownership
-from bridge.core.authority.request_answers import refuse_openly
+from bridge.core.authority.requests import refuse_openly
 from bridge.core.state import RowUp
 from bridge.core.state_orders import Grants, MissionLeft, Ownership
 from bridge.core.tick_context import Tick

@@ -6,7 +6,7 @@ from math import hypot, nan
 
 from bridge.core.authority import horizon_checks
 from bridge.core.authority.horizon_checks import check_horizon
-from bridge.core.sensing.fence import build_fence
+from bridge.core.geometry.fence import build_fence
 from tests.bridge.core.table import table
 from wire import Pose2, Waypoint
 

@@ -21,7 +21,8 @@ from bridge.core.geometry.kinematics import (
 )
 from bridge.core.geometry.odometry import OdometryState, advance, along_arc, arc_end, rolled
 from bridge.core.motion import wheel_control
-from bridge.core.motion.wheel_control import AT_REST, Wheel, turned
+from bridge.core.motion.wheel_control import turned
+from bridge.core.state_motion import AT_REST, Wheel
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from wire import STILL, DriveState, Pose2, RobotDescription, Twist2

@@ -112,10 +112,10 @@ def test_the_worst_that_binds_is_found(
 )
 def test_who_moves_and_who_may_is_named(start: str, letters: str) -> None:
     state = reached(start).state
-    assert fault_latch.sources(state) == letters
+    assert state.sources() == letters
     if state.grants.mission is not None:
         state.ownership = replace(state.ownership, owner=None)
-        assert fault_latch.sources(state) == state.source
+        assert state.sources() == state.source
 
 
 @table(

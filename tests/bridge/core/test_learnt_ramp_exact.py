@@ -7,8 +7,7 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.motion import brake_learning as module
-from bridge.core.motion.limiter import LimiterState
-from bridge.core.state_braking import UNLEARNT, Ramp
+from bridge.core.state_motion import UNLEARNT, LimiterState, Ramp
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

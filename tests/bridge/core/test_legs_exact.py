@@ -6,10 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.authority import leg_tracking
 from bridge.core.authority.leg_tracking import hear_waypoints, judge_arrival, residual
 from bridge.core.modes import external_velocity
-from bridge.core.motion.pursuit import NEW, FollowState
+from bridge.core.state_motion import NEW, FollowState
 from bridge.core.state_orders import External
 from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import MAP_ID
@@ -183,7 +182,7 @@ def test_a_horizon_calls_only_where_it_asks_for_motion(against: str) -> None:
     )
     if against == "mission":
         tick.s.grants = replace(tick.s.grants, mission="m2")
-    assert leg_tracking.callable_horizon(tick) is (against == "")
+    assert tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s) is (against == "")
 
 
 def test_another_brain_is_followed_as_its_hand_says() -> None:

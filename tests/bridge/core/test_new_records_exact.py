@@ -10,20 +10,26 @@ from dataclasses import asdict
 
 from bridge.core import Inbox, LoopFacts, initial
 from bridge.core.geometry.odometry import OdometryState
-from bridge.core.modes.stop_profile import NO_STOP, StopPlan
-from bridge.core.motion.pursuit import FollowState
-from bridge.core.motion.wheel_control import Wheel
-from bridge.core.state import BridgeState, Gate, Motion, SelfTest, Voice
-from bridge.core.state_braking import Learnt, Ramp
-from bridge.core.state_detectors import Flood, Watch
-from bridge.core.state_fence import FenceAsked
-from bridge.core.state_orders import Grants, Leg, Operator, Ownership, Stick
+from bridge.core.state import BridgeState, SelfTest, Voice
+from bridge.core.state_motion import (
+    NO_STOP,
+    FollowState,
+    Gate,
+    Learnt,
+    Motion,
+    Ramp,
+    StopPlan,
+    Wheel,
+)
+from bridge.core.state_orders import FenceAsked, Grants, Leg, Operator, Ownership, Stick
 from bridge.core.state_senses import (
     ButtonMemory,
     DriveMemory,
+    Flood,
     LidarMemory,
     LoopMemory,
     PoseMemory,
+    Watch,
 )
 from tests.bridge.core.scripted import config
 from tests.bridge.core.table import table

@@ -12,7 +12,8 @@ from math import radians
 import pytest
 
 from bridge.core.faults.fault_table import STAGES
-from bridge.core.modes.mode_table import LATCHED, MOVING, POWERED, TRANSITIONS
+from bridge.core.modes.mode_table import LATCHED, TRANSITIONS
+from bridge.core.tick_context import MOVING, POWERED
 from tests.bridge.core import oracle
 from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
@@ -142,7 +143,7 @@ NUMBERS: dict[str, dict[str, float]] = {
     "modes.stop_monitor": {"DWELL_S": 0.2, "SLOW_S": 0.15},
     "reporting.report": {"EVERY_S": 0.05, "AT_LEAST_S": 0.025},
     "tick_context": {"STANDING_MPS": 0.02, "STANDING_RADPS": 0.05},
-    "authority.request_answers": {"KEPT": 64, "SHOWN": 16, "SHOWN_S": 10.0, "REFUSAL_S": 1.0},
+    "authority.requests": {"KEPT": 64, "SHOWN": 16, "SHOWN_S": 10.0, "REFUSAL_S": 1.0},
     "geometry.debounce": {"DRAIN": 0.25, "LONGEST_S": 0.05},
 }
 

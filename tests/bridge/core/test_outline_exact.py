@@ -7,6 +7,8 @@ from math import hypot, inf, isnan, nan, sqrt
 
 import pytest
 
+from bridge.core.geometry import fence as fences
+from bridge.core.geometry.fence import Cell, Zone, build_fence
 from bridge.core.geometry.polygon import (
     Edge,
     Polygon,
@@ -18,8 +20,6 @@ from bridge.core.geometry.polygon import (
     nearest_m,
     permits,
 )
-from bridge.core.sensing import fence as fences
-from bridge.core.sensing.fence import Cell, Zone, build_fence
 from tests.bridge.core.table import table
 
 

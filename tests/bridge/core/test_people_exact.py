@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bridge.core import Inbox
+from bridge.core.authority import requests
 from bridge.core.faults.fault_table import STAGES
 from bridge.core.modes import operator, teleop
 from bridge.core.modes.arming import ready_lacks, reset_lacks
@@ -31,7 +32,7 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
     tick.s.operator = replace(tick.s.operator, nonce_made_s=tick.now_s - age_s)
     tick.inbox = Inbox(chance="c" * 16)
     before = tick.s.operator
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     after = tick.s.operator
     assert after == (
         replace(
@@ -48,29 +49,29 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
     )
     if renewed:
         old = f"b0.{before.nonce_no}.{before.nonce_tag}"
-        assert operator.old_nonce_text(tick) == old
+        assert requests.old_nonce_text(tick) == old
         for more_s, codes in ((10.0 - EPS, []), (EPS * 2, ["old_nonce"])):
             tick.now_s += more_s
-            told = operator.bad_proof(tick, "arm", "a1", old, authentic=True)
+            told = requests.bad_proof(tick, "arm", "a1", old, authentic=True)
             assert [code for code, _ in told] == codes
 
 
 def test_a_proof_is_used_once_under_either_nonce() -> None:
     tick = at("disarmed")
     tick.inbox = Inbox(chance="c" * 16)
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     tick.now_s += 60.0
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     now, old = tick.s.operator.nonce_no, tick.s.operator.old_nonce_no
     assert old is not None
-    operator.use_nonce(tick, "arm", "a1")
+    requests.use_nonce(tick, "arm", "a1")
     assert {f"{now} arm a1", f"{old} arm a1"} <= set(tick.s.operator.accepted)
-    text = operator.old_nonce_text(tick)
+    text = requests.old_nonce_text(tick)
     for request_id, codes in (("a1", ["repeated"]), ("a2", [])):
-        told = operator.bad_proof(tick, "arm", request_id, text, authentic=True)
+        told = requests.bad_proof(tick, "arm", request_id, text, authentic=True)
         assert [code for code, _ in told] == codes
     for count in range(40):
-        operator.use_nonce(tick, "arm", f"b{count}")
+        requests.use_nonce(tick, "arm", f"b{count}")
     assert len(tick.s.operator.accepted) == 16
     assert tick.s.operator.accepted[-1].endswith("b39")
 

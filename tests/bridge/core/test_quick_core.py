@@ -9,14 +9,14 @@ import pytest
 
 from bridge.core import Inbox, LoopFacts, initial, step
 from bridge.core.faults.detect_motion import _wheel_held
+from bridge.core.geometry.fence import Fence, build_fence
 from bridge.core.geometry.kinematics import wheels_of
 from bridge.core.geometry.odometry import along_arc
-from bridge.core.modes.stop_profile import NO_STOP
 from bridge.core.motion.contact_gate import touched
 from bridge.core.motion.fence_gate import fence_scale
 from bridge.core.motion.motion_gates import look, scan_age_s
-from bridge.core.sensing.fence import Fence, build_fence
 from bridge.core.state import draft
+from bridge.core.state_motion import NO_STOP
 from bridge.core.tick_context import Tick
 from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S
 from tests.bridge.core.reached import reached

@@ -7,10 +7,10 @@ from math import inf, nan
 
 import pytest
 
+from bridge.core.authority.requests import bad_proof
 from bridge.core.geometry.kinematics import twist_of
 from bridge.core.geometry.odometry import arc_end
 from bridge.core.modes.arming import arm_lacks, reset_lacks
-from bridge.core.modes.operator import bad_proof
 from bridge.core.modes.stop_monitor import _failure
 from bridge.core.modes.transition import _begin_stop
 from bridge.core.motion.contact_gate import contact_gate, touched

@@ -16,12 +16,9 @@ from bridge.core.geometry.kinematics import STOPPED, Wheels
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.odometry import OdometryState
 from bridge.core.geometry.path_profile import Path
-from bridge.core.modes.stop_profile import NO_STOP, StopPlan
 from bridge.core.motion.free_distance import NOTHING_KNOWN, FreeLength
-from bridge.core.motion.limiter import LimiterState
 from bridge.core.motion.obstacle_gate import ObstaclePass
-from bridge.core.motion.pursuit import FollowState
-from bridge.core.state_braking import UNLEARNT, Learnt
+from bridge.core.state_motion import NO_STOP, UNLEARNT, FollowState, Learnt, LimiterState, StopPlan
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from wire import STILL

@@ -9,7 +9,7 @@ import pytest
 from bridge.core import Inbox, initial
 from bridge.core.modes.teleop import CAUSAL_S
 from bridge.core.motion.wheel_command import followed
-from bridge.core.state import Gate
+from bridge.core.state_motion import Gate
 from bridge.core.step import _reconsider
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.reached import reached

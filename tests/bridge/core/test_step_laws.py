@@ -13,10 +13,12 @@ from hypothesis import strategies as st
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
 from bridge.core.codec import DECISION, INBOX, STATE
 from bridge.core.geometry.kinematics import fastest_rim, rim_speeds
-from bridge.core.modes.mode_table import LATCHED, MOVING, POWERED
-from bridge.core.motion.limiter import LimiterState, tick_length
+from bridge.core.modes.mode_table import LATCHED
+from bridge.core.motion.limiter import tick_length
 from bridge.core.motion.wheel_control import CORRECTION_MPS, CREEP_RADPS
+from bridge.core.state_motion import LimiterState
 from bridge.core.state_orders import Answered
+from bridge.core.tick_context import MOVING, POWERED
 from tests.bridge.core.hostile import Hostile
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World

@@ -7,15 +7,9 @@ from math import nan, sqrt
 import pytest
 
 from bridge.core.modes import stop_profile
-from bridge.core.modes.stop_profile import (
-    NO_STOP,
-    StopPlan,
-    plan_stop,
-    planned,
-    planned_rim_mps,
-    too_slow,
-)
-from bridge.core.motion.limiter import LimiterState, Profile, stopping_m
+from bridge.core.modes.stop_profile import plan_stop, planned, planned_rim_mps, too_slow
+from bridge.core.motion.limiter import stopping_m
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, StopPlan
 from tests.bridge.core.table import table
 from wire import STILL, RobotDescription, Twist2
 

@@ -9,8 +9,6 @@ import pytest
 
 from bridge.core.modes import stop_monitor
 from bridge.core.modes.stop_profile import (
-    NO_STOP,
-    StopPlan,
     _against,
     _braking,
     plan_stop,
@@ -19,8 +17,7 @@ from bridge.core.modes.stop_profile import (
     too_long,
     too_slow,
 )
-from bridge.core.motion.limiter import LimiterState, Profile
-from bridge.core.state import Stopping
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, Stopping, StopPlan
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bridge.core.modes.mode_table import Cause, Fact, Request
-from bridge.core.modes.stop_profile import NO_STOP, plan_stop
-from bridge.core.modes.transition import escalate, go, profile_of
-from bridge.core.motion.limiter import LimiterState, Profile
-from bridge.core.state import Stopping
+from bridge.core.modes.stop_profile import plan_stop
+from bridge.core.modes.transition import escalate, go
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, Stopping, profile_of
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table

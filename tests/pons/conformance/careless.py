@@ -20,7 +20,7 @@ import bridge.core.modes.external_velocity as external
 import bridge.core.motion.wheel_command as drive_out
 import bridge.node as bridge_shell
 from bridge.core import step
-from bridge.core.motion.limiter import LimiterState
+from bridge.core.state_motion import LimiterState
 from wire import DriveCommand, Twist2
 from wire.keys import EXTERNAL
 from wire.session import open_session

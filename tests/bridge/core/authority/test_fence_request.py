@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.authority.fence_request import hear_fence
-from bridge.core.modes.operator import nonce_text
-from bridge.core.state_fence import FenceArrived, FenceDone
+from bridge.core.authority.requests import nonce_text
+from bridge.core.inbox import FenceArrived, FenceDone
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
 from tests.bridge.core.test_quick_core import tick_of

@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-from bridge.core.modes.mode_table import (
-    LATCHED,
-    MOVING,
-    POWERED,
-    TRANSITIONS,
-    Cause,
-    Fact,
-    Request,
-    after,
-)
+from bridge.core.modes.mode_table import LATCHED, TRANSITIONS, Cause, Fact, Request, after
+from bridge.core.tick_context import MOVING, POWERED
 from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 

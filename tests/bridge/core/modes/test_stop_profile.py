@@ -8,16 +8,9 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from bridge.core.geometry.kinematics import fastest_rim, saturate
-from bridge.core.modes.stop_profile import (
-    NO_STOP,
-    StopPlan,
-    plan_stop,
-    planned,
-    planned_rim_mps,
-    too_long,
-    too_slow,
-)
-from bridge.core.motion.limiter import LimiterState, Profile, shape
+from bridge.core.modes.stop_profile import plan_stop, planned, planned_rim_mps, too_long, too_slow
+from bridge.core.motion.limiter import shape
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, StopPlan
 from wire.geometry import STILL, Twist2
 from wire.robot import Base, Limits
 

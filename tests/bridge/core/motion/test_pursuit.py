@@ -14,17 +14,10 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from bridge.core.geometry.odometry import along_arc
-from bridge.core.geometry.path_profile import prepare
-from bridge.core.motion.limiter import LimiterState, shape
-from bridge.core.motion.pursuit import (
-    NEW,
-    FollowState,
-    carried,
-    follow,
-    look_ahead_m,
-    reached,
-    residuals,
-)
+from bridge.core.geometry.path_profile import prepare, residuals
+from bridge.core.motion.limiter import shape
+from bridge.core.motion.pursuit import carried, follow, look_ahead_m, reached
+from bridge.core.state_motion import NEW, FollowState, LimiterState
 from wire.commands import Waypoint
 from wire.geometry import STILL, Pose2, Twist2
 from wire.robot import Base, Limits

@@ -1,6 +1,6 @@
 """Write docs/safety.md from the tables, so that it cannot say what the code does not do.
 
-``python -m bridge.core.faults.docs`` writes it; with ``--check`` it fails if that file
+``python -m bridge.core.safety_page`` writes it; with ``--check`` it fails if that file
 differs, with
 ``--print`` it prints it. Knows no tick.
 """
@@ -14,20 +14,21 @@ from typing import TYPE_CHECKING
 from bridge.core.faults.fault_table import ALL, ROWS, Stage
 from bridge.core.faults.hazards import HAZARDS, LAWS
 from bridge.core.modes.mode_table import TRANSITIONS
-from bridge.core.motion.brake_learning import ALIKE, BEGIN_MPS, BETTER_STOPS, WEAK_SHARE
+from bridge.core.motion.brake_learning import ALIKE, BEGIN_MPS, BETTER_STOPS
+from bridge.core.state_motion import WEAK_SHARE
 from wire import Action
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-PATH = Path(__file__).parents[3] / "docs" / "safety.md"
+PATH = Path(__file__).parents[2] / "docs" / "safety.md"
 
 _SOURCES = {"W": "waypoints", "T": "teleop", "X": "external"}
 
 _HEAD = """\
 # What the bridge watches, and what it does about it
 
-This page is printed from the bridge's tables by `python -m bridge.core.faults.docs`; edit those.
+This page is printed from the bridge's tables by `python -m bridge.core.safety_page`; edit those.
 
 The bridge wakes every 10 ms, looks at everything below, and sends the drive exactly one command.
 It is protective software with measured behaviour, not a safety device: a planar lidar sees neither
@@ -198,7 +199,7 @@ def main(arguments: list[str]) -> int:
         PATH.write_text(page, "utf-8")
     elif arguments == ["--check"]:
         if not (PATH.exists() and PATH.read_text("utf-8") == page):
-            print(f"{PATH} is not what the tables say; run python -m bridge.core.faults.docs")
+            print(f"{PATH} is not what the tables say; run python -m bridge.core.safety_page")
             return 1
     else:
         print(page, end="")

@@ -1,0 +1,30 @@
+"""Read the protective-stop inputs: the drive's own, the button's link, and orders by message."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from wire import Mode
+
+if TYPE_CHECKING:
+    from bridge.core.tick_context import Tick
+
+
+LINK_SILENT_S = 0.5
+_UNPROVEN = frozenset({Mode.BOOT, Mode.SELFTEST})
+
+
+def pressed(tick: Tick) -> str | None:
+    """Name the protective-stop input that is pressed now; None if none is."""
+    drive, buttons = tick.s.drive.newest, tick.s.buttons
+    if drive is not None and drive.estop_pressed is not False:
+        if drive.estop_pressed is not None:
+            return "the drive's stop input is pressed"
+        if tick.s.mode not in _UNPROVEN:  # until then the self test waits for it
+            return "the drive does not tell its stop input"
+    if tick.config.robot.inputs.estop_link and buttons.link_received_s is not None:
+        if buttons.link_pressed:
+            return "the stop button's link says pressed"
+        if not tick.now_s - buttons.link_received_s <= LINK_SILENT_S:
+            return "the stop button's link is silent"
+    return None
