@@ -252,3 +252,7 @@ class Motion:
     cap: float = 1.0
     free_m: float | None = None
     margin_m: float | None = None
+
+    def forget_sent(self) -> None:
+        """Begin at rest when torque comes back: what was sent before it went is no speed now."""
+        self.limiter = LimiterState()

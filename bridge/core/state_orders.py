@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bridge.core.geometry.path_profile import Path
 from wire import Answer, Owner, Pose2, Waypoint, Waypoints
@@ -50,6 +50,14 @@ class Grants:
     """What a hand on the stick may still drive before a person acts and signs."""
     since_arm: bool = False
     """A grant was given since arming: the brain's death then disarms."""
+
+    def return_budget(self) -> Grants:
+        """Put the granted mission's remainder in the book; nothing is granted any more."""
+        if self.mission is None:
+            return self
+        left = MissionLeft(self.mission, self.metres, self.seconds)
+        book = (*(item for item in self.book if item.mission != left.mission), left)
+        return replace(self, mission=None, metres=0.0, seconds=0.0, book=book[-MAX_MISSIONS:])
 
     def spent_part(self) -> str | None:
         """Name what is used up while a mission is granted; None if nothing is."""

@@ -8,23 +8,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority import fence_request, message_score, ownership, rate_limit, requests
+from bridge.core.authority import (
+    fence_request,
+    hello,
+    message_score,
+    ownership,
+    rate_limit,
+    requests,
+)
 from bridge.core.authority.epoch import revoke
+from bridge.core.authority.external_velocity import hear_external
 from bridge.core.authority.grants import hear_grant, meter
 from bridge.core.authority.leg_tracking import hear_waypoints
 from bridge.core.decision import Decision
 from bridge.core.faults.fault_latch import clear_on_grant
-from bridge.core.modes import external_velocity, operator, selftest, teleop
-from bridge.core.modes.external_velocity import hear_external
-from bridge.core.modes.mode_logic import arrive, decide, detect
+from bridge.core.modes import operator, selftest, teleop
+from bridge.core.modes.mode_logic import decide, detect
 from bridge.core.motion import brake_learning, motion_gates, wheel_command
-from bridge.core.motion.wheel_command import command, shaped, wanted
+from bridge.core.motion.wheel_command import command
 from bridge.core.reporting.report import events_of, odometry_of, status_of
-from bridge.core.sensing import sensor_update
+from bridge.core.sensing import sensor_update, stop_inputs
 from bridge.core.state import BridgeState, draft
 from bridge.core.state_orders import Operator
 from bridge.core.tick_context import Tick
-from wire import STILL
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
@@ -66,9 +72,11 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     wheel_command.forget_after_gap(tick)
     sensor_update.sense(tick)
     _listen(tick)
+    stop_inputs.note_pressed(tick)
     detect(tick)
     decide(tick)
-    _move(tick)
+    motion_gates.forget_block(tick)
+    wheel_command.move(tick)
     brake_learning.watch(tick, state)
     meter(tick, state)
     sends = not selftest.withholds(tick)
@@ -87,7 +95,7 @@ def _listen(tick: Tick) -> None:
     inbox = tick.inbox = rate_limit.thinned(tick)
     message_score.drain(tick)
     requests.renew_nonce(tick)
-    ownership.free_the_lost(tick)
+    hello.free_lost_owner(tick)
     operator.hear_stops(tick)
     for op in inbox.ops:
         operator.hear_op(tick, op)
@@ -111,8 +119,8 @@ def _obey(tick: Tick) -> None:
     Who owns comes before what is granted, the pose before waypoints that start at it, and the hand
     on the stick before the brains that it outranks.
     """
-    for hello in tick.inbox.hellos:
-        ownership.hear_hello(tick, hello)
+    for new in tick.inbox.hellos:
+        hello.hear_hello(tick, new)
     for grant in tick.inbox.grants:
         granted = hear_grant(tick, grant)
         if granted is not None:
@@ -126,7 +134,9 @@ def _obey(tick: Tick) -> None:
     for velocity in tick.inbox.external:
         hear_external(tick, velocity)
     for waypoints in tick.inbox.waypoints:
+        before = tick.s.leg
         hear_waypoints(tick, waypoints)
+        wheel_command.take_horizon(tick, before)
 
 
 def _locate(tick: Tick) -> None:
@@ -142,28 +152,3 @@ def _void(tick: Tick) -> None:
     for messages in (*came, inbox.waypoints):
         for _ in messages:
             tick.drop("void_by_stop")
-
-
-def _move(tick: Tick) -> None:
-    """Follow whoever is in charge, as far as caps, gate and limits let pass."""
-    motion = tick.s.motion
-    asked, at_end = wanted(tick)
-    arrive(tick, at_end=at_end)
-    if tick.s.gate.blocked:
-        _reconsider(tick)
-    motion.asked = asked if tick.moving else STILL
-    motion.limiter = shaped(tick, motion.asked)
-
-
-def _reconsider(tick: Tick) -> None:
-    """Judge a blocked way on what its owner asks now: a velocity still fresh, or the follower."""
-    owner = tick.s.ownership.owner
-    if owner is not None and owner.kind == "external":
-        motion_gates.reconsider(
-            tick, external_velocity.wanted(tick) if external_velocity.calls(tick) else STILL
-        )
-        return
-    kept = tick.s.motion.follow
-    asked, _ = wheel_command.followed(tick)
-    tick.s.motion.follow = kept  # blocked it stands: nothing has been followed
-    motion_gates.reconsider(tick, asked)

@@ -1,12 +1,12 @@
 """Carry one tick through the core: what is fixed, what is written, what arrived, what is said.
 
-Lives for one ``step`` and is then dropped. Every part of the core takes it and writes only its own
-records of ``s``.
+Lives for one ``step`` and is then dropped. Every part of the core takes it; each field of ``s`` is
+assigned to in one module alone, which tests/bridge/core/test_wings.py lists and holds.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from wire import Mode
@@ -38,6 +38,8 @@ class Tick:
     events: list[tuple[str, str]] = field(default_factory=list)
     """Code and detail, in order."""
     reasons: list[str] = field(default_factory=list)
+    dropped: int = 0
+    """Messages of this tick that were not obeyed."""
     stopped: bool = False
     """A stop was obeyed in this tick: what came with it is void."""
     room_m: float | None = None
@@ -66,7 +68,7 @@ class Tick:
 
     def drop(self, code: str) -> None:
         """Count a message that is not obeyed, and keep the reason for the record."""
-        self.s.voice = replace(self.s.voice, dropped=self.s.voice.dropped + 1)
+        self.dropped += 1
         self.reasons.append(code)
 
     def still_for(self, seconds: float) -> bool:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import shelved
 from bridge.core.authority.ownership import of_owner
 from bridge.core.authority.requests import refuse_openly, settle_openly
 from bridge.core.state_orders import Grants
@@ -49,7 +48,7 @@ def hear_grant(tick: Tick, grant: Grant) -> str | None:
         refuse_openly(tick, "grant", grant.mission, *refusal)
         return None
     settle_openly(tick, "grant", grant.mission)
-    grants = shelved(tick.s.grants)
+    grants = tick.s.grants.return_budget()
     book = tuple(item for item in grants.book if item.mission != grant.mission)
     tick.s.grants = replace(
         grants,
@@ -62,15 +61,25 @@ def hear_grant(tick: Tick, grant: Grant) -> str | None:
     return f"{grant.mission} {metres:.1f} m {seconds:.0f} s"
 
 
-def operator_acted(grants: Grants) -> Grants:
+def renew_budgets(tick: Tick) -> None:
     """Refill what may be driven between two acts of a person."""
-    return replace(
-        grants,
+    tick.s.grants = replace(
+        tick.s.grants,
         operator_metres=OPERATOR_METRES,
         operator_seconds=OPERATOR_SECONDS,
         hand_metres=HAND_METRES,
         hand_seconds=HAND_SECONDS,
     )
+
+
+def end_grant(tick: Tick) -> None:
+    """End the grant; what it had left stays in the book for another grant of the same mission."""
+    tick.s.grants = tick.s.grants.return_budget()
+
+
+def forget_arming(tick: Tick) -> None:
+    """Count no grant as given since arming: the brain's death alone then does not disarm."""
+    tick.s.grants = replace(tick.s.grants, since_arm=False)
 
 
 def meter(tick: Tick, before: BridgeState) -> None:

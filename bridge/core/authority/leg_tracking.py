@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority.horizon_checks import check_horizon
 from bridge.core.authority.message_score import bad, good
-from bridge.core.authority.ownership import of_owner
+from bridge.core.authority.ownership import note_waypoints, of_owner
 from bridge.core.geometry.path_profile import prepare, residuals
-from bridge.core.state_motion import NEW
 
 if TYPE_CHECKING:
     from bridge.core.tick_context import Tick
@@ -36,7 +35,7 @@ def hear_waypoints(tick: Tick, new: Waypoints) -> None:
         else:
             tick.drop("repeated")
         return
-    s.ownership = replace(s.ownership, waypoints_seq=new.seq)
+    note_waypoints(tick, new.seq)
     if s.leg.mission == new.mission and new.leg < s.leg.leg:
         tick.drop("old_leg")
         return
@@ -123,7 +122,7 @@ def _name_leg(tick: Tick, new: Waypoints, refusal: str | None) -> None:
 
 def _take(tick: Tick, new: Waypoints, sent_s: float) -> None:
     s = tick.s
-    before, follow = s.leg, s.motion.follow
+    before = s.leg
     goal: Waypoint | None = new.points[-1] if new.points and new.final else before.goal
     s.leg = replace(
         before,
@@ -132,11 +131,13 @@ def _take(tick: Tick, new: Waypoints, sent_s: float) -> None:
         path=prepare(new.points, tick.config.robot.limits),
         sent_s=sent_s,
     )
-    # Within a leg each horizon is the same way cut anew: what was learnt on it stays, and at its
-    # end the place that was settled stays settled.
-    if before.horizon is None:
-        s.motion.follow = NEW
-    elif goal is not None and goal == before.goal:
-        s.motion.follow = replace(follow, along_m=0.0)
-    else:
-        s.motion.follow = replace(NEW, turning=follow.turning)
+
+
+def forget_horizon(tick: Tick) -> None:
+    """Follow no horizon until another one comes; leg and ``reached`` stay known."""
+    tick.s.leg = replace(tick.s.leg, horizon=None, path=None)
+
+
+def forget_refusal(tick: Tick) -> None:
+    """Show no refusal of what was said in an epoch that is over; its horizon is void, too."""
+    tick.s.leg = replace(tick.s.leg, horizon=None, path=None, refusal=None)

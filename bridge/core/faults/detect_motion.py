@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import shelved
-from bridge.core.faults.detect_senses import ENC_S
 from bridge.core.geometry.debounce import filled
 from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.state_senses import Sent
@@ -20,18 +17,26 @@ if TYPE_CHECKING:
     from wire.robot import Base
 
 SLACK_MPS = 0.15
-RUNAWAY_S, RUNAWAY_LONG_S = 0.1, 0.25
+RUNAWAY_S = 0.1
+RUNAWAY_LONG_S = 0.25
 FOLLOWS_S = 0.2
 """Beyond the drive's lag, as long as something sent may still show."""
 BUCKET_S = 0.05
 
-ASKED_MPS, MOVED_MPS, MOVED_SHARE = 0.10, 0.03, 0.2
-ASKED_RADPS, TURNED_RADPS = 0.2, 0.05
+ASKED_MPS = 0.10
+MOVED_MPS = 0.03
+MOVED_SHARE = 0.2
+ASKED_RADPS = 0.2
+TURNED_RADPS = 0.05
 STUCK_S = 1.0
-PROGRESS_M, PROGRESS_RAD, PROGRESS_S = 0.02, 0.05, 5.0
-TIMES, WITHIN_S = 3, 300.0
+PROGRESS_M = 0.02
+PROGRESS_RAD = 0.05
+PROGRESS_S = 5.0
+TIMES = 3
+WITHIN_S = 300.0
 
-YAW_RADPS, YAW_S = 0.3, 0.5
+YAW_RADPS = 0.3
+YAW_S = 0.5
 GYRO_OLD_S = 0.25
 
 
@@ -98,8 +103,8 @@ def _remember(tick: Tick, left: float, right: float) -> None:
 
 
 def stuck(tick: Tick, dirty: Dirty) -> None:
-    """Judge whether the robot gets on; where it doesn't, end the grant of who asked for it."""
-    s, watch = tick.s, tick.s.watch
+    """Judge whether the robot gets on; where it does not, whatever asked for it loses its grant."""
+    watch = tick.s.watch
     if not tick.moving and watch.stuck_s == 0.0:
         watch.progress_at = None
         return
@@ -111,8 +116,6 @@ def stuck(tick: Tick, dirty: Dirty) -> None:
     dirty.append(("STUCK.0", evidence))
     if len(watch.stuck_at_s) == TIMES and tick.now_s - watch.stuck_at_s[0] <= WITHIN_S:
         dirty.append(("STUCK.1", f"{TIMES} times within {WITHIN_S:.0f} s"))
-    s.grants = shelved(s.grants)
-    s.leg = replace(s.leg, horizon=None, path=None)
 
 
 def _unmoved(tick: Tick) -> str | None:
@@ -186,3 +189,6 @@ def yaw(tick: Tick, dirty: Dirty) -> None:
     s.watch.yaw_s = filled(s.watch.yaw_s, tick.dt_s, YAW_S, dirty=bool(evidence))
     if evidence and s.watch.yaw_s >= YAW_S:
         dirty.append(("YAW_DISAGREE.0", evidence))
+
+
+ENC_S = 0.08

@@ -6,51 +6,25 @@ Rows are evaluated here and never from callbacks.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import hold, shelved
-from bridge.core.authority.leg_tracking import judge_arrival
+from bridge.core.authority import external_velocity
+from bridge.core.authority.epoch import hold, revoke
+from bridge.core.authority.grants import end_grant
+from bridge.core.authority.leg_tracking import forget_horizon, judge_arrival
 from bridge.core.faults import (
-    detect_brain,
-    detect_coverage,
-    detect_loop,
-    detect_motion,
-    detect_power,
-    detect_senses,
     fault_latch,
 )
-from bridge.core.modes import external_velocity, selftest, stop_monitor
+from bridge.core.faults.detectors import DETECTORS
+from bridge.core.modes import selftest, stop_monitor
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.operator import estop
 from bridge.core.modes.transition import escalate, go
-from bridge.core.state_motion import Gate
 from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
     from bridge.core.tick_context import Tick
 
-DETECTORS = (
-    detect_brain.brain,
-    detect_brain.commands,
-    detect_brain.hand,
-    detect_brain.flood,
-    detect_senses.lidar,
-    detect_coverage.blind,
-    detect_coverage.no_range,
-    detect_senses.pose,
-    detect_coverage.zone,
-    detect_senses.drive,
-    detect_motion.runaway,
-    detect_motion.stuck,
-    detect_motion.yaw,
-    detect_power.current,
-    detect_power.battery,
-    detect_senses.buttons,
-    detect_loop.loop,
-    detect_loop.rights,
-)
-"""Each takes the tick and a list to which it adds what it sees. Adding a row adds one here."""
 
 REVOKED_S = 30.0
 """A mission that a HOLD2 has kept waiting for so long needs a person to go on."""
@@ -70,13 +44,15 @@ def detect(tick: Tick) -> None:
         if name == "ESTOP.0":
             estop(tick, "estop")
             tick.reasons.append(evidence)
+        elif name == "STUCK.0":
+            revoke(tick)  # whatever pushes on would go on for the next grant, too
 
 
 def decide(tick: Tick) -> None:
     """Bring the mode up to date."""
     s = tick.s
     if s.mode is Mode.BOOT:
-        go(tick, Fact.UP, "up")
+        selftest.enter(tick, Fact.UP, "up")
     selftest.run(tick)
     action, why, reset_needed = fault_latch.worst(tick)
     if s.gate.blocked and s.mode is Mode.ACTIVE and not SEVERITY[action] >= _HOLD2:
@@ -107,7 +83,7 @@ def _tire(tick: Tick, *, must_stop: bool) -> None:
     elif tick.now_s - s.waits_since_s >= (REVOKED_S if must_stop else REVOKED_BLOCKED_S):
         why = fault_latch.worst(tick)[1] if must_stop else s.gate.by
         tick.say("mission_revoked", f"{s.grants.mission} {why}")
-        s.grants = shelved(s.grants)
+        end_grant(tick)
         s.waits_since_s = None
         hold(tick, HeldReason.FAULT, why)
     if (
@@ -115,9 +91,7 @@ def _tire(tick: Tick, *, must_stop: bool) -> None:
         and s.leg.horizon is not None
         and not tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s)
     ):
-        s.leg = replace(s.leg, horizon=None, path=None)
-    if blocked and s.grants.mission is None:
-        s.gate = Gate()
+        forget_horizon(tick)
 
 
 def _worsen(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> None:
@@ -156,5 +130,4 @@ def _call(tick: Tick) -> None:
         source = "X"
     else:
         return
-    go(tick, fact, s.grants.mission)  # the table has both
-    s.source = source
+    go(tick, fact, s.grants.mission, source=source)  # the table has both

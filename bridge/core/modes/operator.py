@@ -7,16 +7,17 @@ One id gets one verdict; repeats change nothing. Arm, reset and resume need a pr
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import hold, turn
-from bridge.core.authority.grants import operator_acted
+from bridge.core.authority.epoch import hold, new_epoch, release
+from bridge.core.authority.grants import forget_arming, renew_budgets
 from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict_on, void_nonces
 from bridge.core.faults.fault_latch import clear_on_arm, clear_on_reset
+from bridge.core.modes import selftest
 from bridge.core.modes.arming import arm_lacks, reset_lacks
 from bridge.core.modes.mode_table import Fact, Request
 from bridge.core.modes.transition import go
+from bridge.core.sensing.stop_inputs import latch_order
 from wire import HeldReason, Mode
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def hear_stops(tick: Tick) -> None:
         if verdict_on(tick, "stop", stop.id) is None:
             settle(tick, "stop", stop.id, "ok", f"by {stop.source}")
             if not tick.stopped:
-                turn(tick, "stop")
+                new_epoch(tick, "stop")
             tick.stopped = True
             hold(tick, HeldReason.STOP, stop.id)
     if tick.stopped:
@@ -58,7 +59,7 @@ def estop(tick: Tick, why: str) -> None:
     """Latch the protective stop, in a new epoch; said again, it changes nothing."""
     if go(tick, Request.ESTOP, why):
         void_nonces(tick)
-        turn(tick, "estop")
+        new_epoch(tick, "estop")
 
 
 def _against(tick: Tick, op: OpArrived) -> Iterator[tuple[str, str]]:
@@ -77,10 +78,11 @@ def _against(tick: Tick, op: OpArrived) -> Iterator[tuple[str, str]]:
 
 def _arm(tick: Tick, request_id: str) -> None:
     use_nonce(tick, "arm", request_id)
-    tick.s.held = None
+    release(tick)
     clear_on_arm(tick)
-    turn(tick, "armed")
-    tick.s.grants = replace(operator_acted(tick.s.grants), since_arm=False)
+    new_epoch(tick, "armed")
+    renew_budgets(tick)
+    forget_arming(tick)
     go(tick, Request.ARM, "arm")
 
 
@@ -90,7 +92,7 @@ def _disarm(tick: Tick, _request_id: str) -> None:
 
 
 def _estop(tick: Tick, _request_id: str) -> None:
-    tick.s.buttons = replace(tick.s.buttons, ordered=True)
+    latch_order(tick, ordered=True)
     if tick.s.mode is Mode.ESTOPPED:
         void_nonces(tick)  # latched already: what is said again ends a reset signed before it
     estop(tick, "estop")
@@ -98,15 +100,18 @@ def _estop(tick: Tick, _request_id: str) -> None:
 
 def _reset(tick: Tick, request_id: str) -> None:
     use_nonce(tick, "reset", request_id)
-    tick.s.buttons = replace(tick.s.buttons, ordered=False)
+    latch_order(tick, ordered=False)
     clear_on_reset(tick)
-    go(tick, Request.RESET if tick.s.selftest.passed else Fact.UNPROVEN_RESET, "reset")
+    if tick.s.selftest.passed:
+        go(tick, Request.RESET, "reset")
+    else:
+        selftest.enter(tick, Fact.UNPROVEN_RESET, "reset")
 
 
 def _resume(tick: Tick, request_id: str) -> None:
     use_nonce(tick, "resume", request_id)
-    tick.s.held = None
-    tick.s.grants = operator_acted(tick.s.grants)
+    release(tick)
+    renew_budgets(tick)
 
 
 _OBEY = {"arm": _arm, "disarm": _disarm, "estop": _estop, "reset": _reset, "resume": _resume}

@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.transition import go
 from bridge.core.sensing.sensor_update import BASELINE_SCANS, sees
+from bridge.core.state import SelfTest
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from bridge.core.modes.mode_table import Cause
     from bridge.core.tick_context import Tick
 
 FRESH_S = 0.25
@@ -42,6 +44,12 @@ def run(tick: Tick) -> None:
     if next(waits_for(tick), None) is None:
         s.selftest = replace(s.selftest, passed=True)
         go(tick, Fact.PROVEN, "selftest")
+
+
+def enter(tick: Tick, cause: Cause, why: str) -> None:
+    """Begin the self test anew, by the mode table."""
+    if go(tick, cause, why):
+        tick.s.selftest = SelfTest(since_s=tick.now_s)
 
 
 def withholds(tick: Tick) -> bool:

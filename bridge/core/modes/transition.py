@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING
 from bridge.core.authority.epoch import hold
 from bridge.core.modes.mode_table import Request, after
 from bridge.core.modes.stop_profile import plan_stop
-from bridge.core.state import SelfTest
-from bridge.core.state_motion import LimiterState, Stopping, profile_of
+from bridge.core.state_motion import Stopping, profile_of
 from bridge.core.tick_context import MOVING, POWERED
-from wire import SEVERITY, STILL, Action, HeldReason, Mode
+from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
     from bridge.core.modes.mode_table import Cause
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from bridge.core.tick_context import Tick
 
 
-def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> bool:
+def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False, source: str = "") -> bool:
     """Follow the table; tell whether the mode is now what the cause leads to.
 
     Args:
@@ -31,6 +30,7 @@ def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> boo
         cause: what happened.
         why: row, order or code, in lower case, for events and the stop's record.
         reset_needed: the stop that begins ends in FAULT, because its row clears by reset alone.
+        source: the letter of what moves the robot from now on, where the cause leads to motion.
     """
     s = tick.s
     before = s.mode
@@ -45,6 +45,7 @@ def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> boo
         _stand(tick, before, why)
     elif to in MOVING:
         s.stopping = None
+        s.source = source
     else:
         _power_down(tick, to, why)
     s.mode = to
@@ -74,6 +75,17 @@ def escalate(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> Non
         slow_s=0.0 if faster else stop.slow_s,
     )
     tick.say("stop_escalated", f"{action.value} {why}")
+
+
+def forget_stop(tick: Tick) -> None:
+    """End the record of a stop whose ramp is over, or has failed, while the mode stays."""
+    tick.s.stopping = None
+
+
+def note_slow(tick: Tick, stop: Stopping, slow_s: float) -> Stopping:
+    """Remember for how long the stop in progress has been measured to be too slow."""
+    noted = tick.s.stopping = replace(stop, slow_s=slow_s)
+    return noted
 
 
 def _stop_action(cause: Cause) -> Action:
@@ -111,7 +123,7 @@ def _begin_estop(tick: Tick, why: str) -> None:
         s.stopping = Stopping(action, why, tick.now_s, _plan(tick, action), s.source, resumes=False)
     else:
         s.stopping = None
-        s.motion.limiter = LimiterState()
+        s.motion.forget_sent()
     s.source = ""
     _hold_for_fault(tick, why)
 
@@ -125,7 +137,6 @@ def _stand(tick: Tick, before: Mode, why: str) -> None:
     else:
         s.stopping = None
     s.source = ""
-    s.motion.asked = STILL
 
 
 def _power_down(tick: Tick, to: Mode, why: str) -> None:
@@ -136,14 +147,12 @@ def _power_down(tick: Tick, to: Mode, why: str) -> None:
     elif to is Mode.DISARMED and s.stopping is not None and s.stopping.cause != Request.DISARM:
         _hold_for_fault(tick, s.stopping.cause)
     elif to is Mode.SELFTEST:
-        s.selftest = SelfTest(since_s=tick.now_s)
         s.fault = None
     if to is Mode.DISARMED:
         s.fault = None
     s.stopping = None
     s.source = ""
-    s.motion.asked = STILL
-    s.motion.limiter = LimiterState()
+    s.motion.forget_sent()
 
 
 def _hold_for_fault(tick: Tick, why: str) -> None:

@@ -133,6 +133,12 @@ def _tell_crossing(tick: Tick, margin_m: float) -> None:
         tick.say("outside_fence", "a hand on the stick moves the robot outside the fence")
 
 
+def forget_block(tick: Tick) -> None:
+    """Forget a blocked way once nothing is granted: the next mission asks for another way."""
+    if tick.s.gate.blocked and tick.s.grants.mission is None:
+        tick.s.gate = Gate()
+
+
 def scan_age_s(tick: Tick) -> float:
     """Return the age of the newest scan [s], as its row judges it."""
     scan, received_s = tick.s.lidar.newest, tick.s.lidar.received_s

@@ -6,24 +6,57 @@ other mode the target is zero and the output ramps to it, or the torque is off.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from bridge.core.authority import external_velocity
 from bridge.core.faults.fault_latch import cap
 from bridge.core.geometry.kinematics import saturate, wheels_of
-from bridge.core.modes import external_velocity, teleop
+from bridge.core.modes import teleop
+from bridge.core.modes.mode_logic import arrive
 from bridge.core.motion import motion_gates
 from bridge.core.motion.limiter import shape, tick_length
 from bridge.core.motion.pursuit import follow
 from bridge.core.motion.wheel_control import turned
-from bridge.core.state_motion import AT_REST, LimiterState, Profile, profile_of
+from bridge.core.state_motion import AT_REST, NEW, LimiterState, Profile, profile_of
 from bridge.core.tick_context import POWERED
 from wire import STILL, DriveCommand, Mode, Twist2
 
 if TYPE_CHECKING:
+    from bridge.core.motion.pursuit import Follow
+    from bridge.core.state_orders import Leg
     from bridge.core.tick_context import Tick
 
 STALE = "ENC_STALE.0"
 """The row that says that nothing is measured: no feedback, so feed-forward alone."""
+
+
+def move(tick: Tick) -> None:
+    """Follow the source in charge, as far as caps, gates and limits let pass.
+
+    What is asked is noted before the gates judge it, since they name it where they shut the way.
+    """
+    motion = tick.s.motion
+    asked, at_end = wanted(tick)
+    arrive(tick, at_end=at_end)
+    if tick.s.gate.blocked:
+        _reconsider(tick)
+    motion.asked = asked if tick.moving else STILL
+    motion.limiter = shaped(tick, motion.asked)
+
+
+def _reconsider(tick: Tick) -> None:
+    """Judge a blocked way on what its owner asks now: a velocity still fresh, or the follower.
+
+    What the follower would remember of it is not kept: a blocked robot stands and follows nothing.
+    """
+    owner = tick.s.ownership.owner
+    if owner is not None and owner.kind == "external":
+        fresh = external_velocity.calls(tick)
+        motion_gates.reconsider(tick, external_velocity.wanted(tick) if fresh else STILL)
+        return
+    answer = followed(tick)
+    motion_gates.reconsider(tick, STILL if answer is None else answer.target)
 
 
 def wanted(tick: Tick) -> tuple[Twist2, bool]:
@@ -31,20 +64,24 @@ def wanted(tick: Tick) -> tuple[Twist2, bool]:
     s = tick.s
     if s.mode is Mode.TELEOP:
         return teleop.wanted(tick), False
-    if s.mode is Mode.ACTIVE and s.source == "X":
+    if s.mode is not Mode.ACTIVE:
+        return STILL, False
+    if s.source == "X":
         return external_velocity.wanted(tick), False
-    if s.mode is Mode.ACTIVE:
-        return followed(tick)
-    return STILL, False
+    answer = followed(tick)
+    if answer is None:
+        return STILL, False
+    s.motion.follow = answer.state
+    return answer.target, answer.at_end
 
 
-def followed(tick: Tick) -> tuple[Twist2, bool]:
-    """Return what following the horizon asks for, and whether the robot is at its end."""
+def followed(tick: Tick) -> Follow | None:
+    """Return what following the horizon asks for; None without a horizon or a place in ``map``."""
     s = tick.s
     if s.leg.path is None or tick.robot_in_map is None:
-        return STILL, False
+        return None
     robot = tick.config.robot
-    answer = follow(
+    return follow(
         s.motion.follow,
         s.leg.path,
         tick.robot_in_map,
@@ -53,8 +90,28 @@ def followed(tick: Tick) -> tuple[Twist2, bool]:
         robot.limits,
         robot.drive.lag_s,
     )
-    s.motion.follow = answer.state
-    return answer.target, answer.at_end
+
+
+def take_horizon(tick: Tick, before: Leg) -> None:
+    """Begin to follow a horizon that was just taken, or go on where the one before it was left.
+
+    Within a leg each horizon is the same way cut anew: what was learnt on it stays, and at its
+    end the place that was settled stays settled.
+
+    Args:
+        tick: the tick in the making.
+        before: the leg as it was before the waypoints were heard.
+    """
+    leg, motion = tick.s.leg, tick.s.motion
+    if leg.horizon is None or leg.horizon is before.horizon:
+        return  # refused: nothing was taken
+    same_leg = before.mission == leg.mission and before.leg == leg.leg
+    if before.horizon is None or not same_leg:
+        motion.follow = NEW
+    elif leg.goal is not None and leg.goal == before.goal:
+        motion.follow = replace(motion.follow, along_m=0.0)
+    else:
+        motion.follow = replace(NEW, turning=motion.follow.turning)
 
 
 def forget_after_gap(tick: Tick) -> None:

@@ -29,6 +29,8 @@ _ODOM_TICKS = 2
 def status_of(tick: Tick, before: BridgeState) -> Status | None:
     """Return the status if one is due, and remember when it was sent."""
     s = tick.s
+    if tick.dropped:
+        s.voice = replace(s.voice, dropped=s.voice.dropped + tick.dropped)
     pending = s.voice.pending or _changed(before, s)
     last_s = s.voice.status_s
     wait_s = AT_LEAST_S if pending else EVERY_S

@@ -13,6 +13,7 @@ from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.geometry.odometry import advance
 from bridge.core.sensing.look_distance import sight_m
+from bridge.core.sensing.stop_inputs import hear_link
 from bridge.core.state_senses import Drift, PoseMemory
 from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
 from wire import compose, wrap
@@ -41,6 +42,9 @@ DRIVE_LOST_S, SCAN_LOST_S = 0.25, 0.25
 """So long a silence holds the robot by a row of its own; what comes then may count anew."""
 SEQ_AHEAD = 1_000
 """No sender that lives skips so many: who does counts for itself."""
+LATE_S, LATES = 0.005, 5
+"""A tick that begins later than this is late; so many of them are remembered."""
+GAP_S, GAPS = 0.1, 3
 BASELINE_SCANS = 20
 SEES_SHARE = 0.1
 """In homes nine beams of ten come back, under a cover next to none: fewer teach nothing normal."""
@@ -67,15 +71,25 @@ def sense(tick: Tick) -> None:
             pose.drift,
         )
     if inbox.estop_link is not None:
-        s.buttons = replace(
-            s.buttons, link_pressed=inbox.estop_link.pressed, link_received_s=tick.now_s
-        )
+        hear_link(tick, inbox.estop_link)
     changed = s.loop.recorder_ok != inbox.recorder_ok
     if changed and s.tick > 1:
         code, detail = ("recorder_up", "") if inbox.recorder_ok else recorder_lack(inbox)
         tick.say(code, detail)
     if changed or s.loop.real_time != inbox.real_time:
         s.loop = replace(s.loop, real_time=inbox.real_time, recorder_ok=inbox.recorder_ok)
+    note_lateness(tick)
+
+
+def note_lateness(tick: Tick) -> None:
+    """Remember ticks that began late, ticks missed, and gaps, as the shell measured them."""
+    facts, s = tick.inbox.loop, tick.s
+    if facts.missed_ticks:
+        s.loop = replace(s.loop, missed=s.loop.missed + facts.missed_ticks)
+    if facts.late_s > LATE_S:
+        s.loop = replace(s.loop, late_at_s=(*s.loop.late_at_s[-(LATES - 1) :], tick.now_s))
+    if s.tick > 1 and not tick.dt_s <= GAP_S:
+        s.loop = replace(s.loop, gaps_at_s=(*s.loop.gaps_at_s[-(GAPS - 1) :], tick.now_s))
 
 
 def locate(tick: Tick) -> bool:

@@ -2,16 +2,35 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from wire import Mode
 
 if TYPE_CHECKING:
     from bridge.core.tick_context import Tick
+    from wire import EstopLink
 
 
 LINK_SILENT_S = 0.5
 _UNPROVEN = frozenset({Mode.BOOT, Mode.SELFTEST})
+
+
+def hear_link(tick: Tick, link: EstopLink) -> None:
+    """Take in what the stop button's link says."""
+    buttons = tick.s.buttons
+    tick.s.buttons = replace(buttons, link_pressed=link.pressed, link_received_s=tick.now_s)
+
+
+def note_pressed(tick: Tick) -> None:
+    """Remember when an input was last seen pressed, in the mode that this tick's orders left."""
+    if pressed(tick) is not None:
+        tick.s.buttons = replace(tick.s.buttons, pressed_s=tick.now_s)
+
+
+def latch_order(tick: Tick, *, ordered: bool) -> None:
+    """Remember that a protective stop was asked for by message, until a reset."""
+    tick.s.buttons = replace(tick.s.buttons, ordered=ordered)
 
 
 def pressed(tick: Tick) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bridge.core.faults import detectors
 from bridge.core.faults.fault_table import ROWS
 from bridge.core.faults.hazards import HAZARDS
 from bridge.core.modes import mode_logic as decide_module
@@ -214,7 +215,10 @@ def test_who_stands_at_the_end_has_arrived(
 def test_each_detector_that_a_hazard_names_is_run_and_no_other() -> None:
     rows = {row.id for row in ROWS}
     named = {hazard.function for hazard in HAZARDS if hazard.guard in rows}
-    run = [f"{one.__module__.rpartition('.')[2]}.{one.__name__}" for one in decide_module.DETECTORS]
+    run = [
+        f"{one.__module__.removeprefix('bridge.core.')}.{one.__name__}"
+        for one in detectors.DETECTORS
+    ]
     assert sorted(run) == sorted(named)
     tick = tick_of(reached("active"))
     tick.s.drive.reborn_s = tick.now_s

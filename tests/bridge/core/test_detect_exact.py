@@ -9,8 +9,9 @@ import pytest
 
 from bridge.core import ArrivedAt, LoopFacts
 from bridge.core.authority import rate_limit
-from bridge.core.faults import detect_brain, detect_coverage, detect_loop, detect_power
+from bridge.core.faults import detectors
 from bridge.core.geometry.debounce import filled
+from bridge.core.sensing import sensor_update
 from bridge.core.state import RowUp
 from bridge.core.state_senses import Flood
 from bridge.core.tick_context import Tick
@@ -70,7 +71,8 @@ def test_a_late_loop_is_seen_at_its_edges(
     tick.s.loop = replace(tick.s.loop, late_at_s=late_at_s, missed=5)
     tick.dt_s = dt_s
     dirty: Dirty = []
-    detect_loop.loop(tick, dirty)
+    sensor_update.note_lateness(tick)
+    detectors.loop(tick, dirty)
     assert [name for name, _ in dirty] == rows
     assert tick.s.loop.missed == 5 + facts.missed_ticks
     assert len(tick.s.loop.late_at_s) <= 5
@@ -94,7 +96,8 @@ def test_three_gaps_in_ten_seconds(gaps_s: tuple[float, ...], ticks: int, rows: 
     tick.s.tick, tick.dt_s = ticks, 0.2
     tick.s.loop = replace(tick.s.loop, gaps_at_s=tuple(tick.now_s + one for one in gaps_s))
     dirty: Dirty = []
-    detect_loop.loop(tick, dirty)
+    sensor_update.note_lateness(tick)
+    detectors.loop(tick, dirty)
     assert [name for name, _ in dirty] == rows
     assert len(tick.s.loop.gaps_at_s) == min(3, len(gaps_s) + bool(rows))
 
@@ -106,7 +109,7 @@ def test_rights_refused_matter_on_a_real_drive(granted: bool, virtual: bool, see
     drive = ROBOT.drive.model_copy(update={"kind": "sim" if virtual else "metal"})
     tick.config = replace(tick.config, robot=ROBOT.model_copy(update={"drive": drive}))
     dirty: Dirty = []
-    detect_loop.rights(tick, dirty)
+    detectors.rights(tick, dirty)
     assert len(dirty) == seen
 
 
@@ -117,7 +120,7 @@ def drawing(amps: float | None, *, peak_s: float = 0.0, heat: float = 0.0) -> tu
     tick.s.drive.newest = state.model_copy(update={"current_a": amps})
     tick.s.watch.peak_s, tick.s.watch.heat_a2s = peak_s, heat
     dirty: Dirty = []
-    detect_power.current(tick, dirty)
+    detectors.current(tick, dirty)
     return tick, dirty
 
 
@@ -180,7 +183,7 @@ def test_a_battery_is_low_after_two_seconds_until_well_above(
     tick.s.watch.low_s, tick.s.watch.empty_s = low_s, empty_s
     tick.s.rows = {name: RowUp(0.0, 0.0, "old") for name in up}
     dirty: Dirty = []
-    detect_power.battery(tick, dirty)
+    detectors.battery(tick, dirty)
     assert [name for name, _ in dirty] == rows
     if charge is None:
         assert {evidence for _, evidence in dirty} <= {"old"}
@@ -209,7 +212,7 @@ def test_a_lidar_is_blind_where_few_beams_come_back(
     tick.s.lidar = replace(tick.s.lidar, picture=picture, baseline_returns=normal)
     tick.s.watch.blind_s = blind_s
     dirty: Dirty = []
-    detect_coverage.blind(tick, dirty)
+    detectors.blind(tick, dirty)
     assert [name for name, _ in dirty] == rows
 
 
@@ -233,7 +236,7 @@ def test_somebody_must_watch_for_obstacles(
     tick.s.lidar = replace(tick.s.lidar, newest=newest)
     tick.s.rows = {name: RowUp(0.0, 0.0, "old") for name in up}
     dirty: Dirty = []
-    detect_coverage.no_range(tick, dirty)
+    detectors.no_range(tick, dirty)
     assert [name for name, _ in dirty] == ["NO_RANGE.0", "NO_RANGE.1"][:seen]
 
 
@@ -286,5 +289,5 @@ def test_a_flood_is_one_after_a_second_of_it() -> None:
         tick = at()
         tick.s.flood = Flood(0.0, (), (), level_s, "cmd/hello")
         dirty: Dirty = []
-        detect_brain.flood(tick, dirty)
+        detectors.flood(tick, dirty)
         assert len(dirty) == seen

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.faults import detect_coverage, detect_power, detect_senses
+from bridge.core.faults import detectors
 from bridge.core.motion import wheel_command
 from bridge.core.motion.wheel_command import shaped
 from bridge.core.state import RowUp
@@ -29,7 +29,7 @@ def at(start: str = "active") -> Tick:
 
 def seen(detector: str, tick: Tick) -> list[str]:
     dirty: list[tuple[str, str]] = []
-    getattr(detect_senses, detector)(tick, dirty)
+    getattr(detectors, detector)(tick, dirty)
     return [name for name, _ in dirty]
 
 
@@ -136,20 +136,20 @@ def test_a_low_charge_fills_its_windows(
     assert state is not None
     tick.s.drive.newest = state.model_copy(update={"battery": charge})
     tick.s.watch.low_s, tick.s.watch.empty_s = low_s, empty_s
-    detect_power.battery(tick, [])
+    detectors.battery(tick, [])
     assert (tick.s.watch.low_s, tick.s.watch.empty_s) == pytest.approx(after)
 
 
 def test_a_lidar_that_sees_again_drains_its_window_and_a_zone_left_is_none() -> None:
     tick = at()
     tick.s.watch.blind_s, tick.s.watch.zone_mps = 0.5, 0.2
-    detect_coverage.blind(tick, [])
+    detectors.blind(tick, [])
     assert tick.s.watch.blind_s == pytest.approx(0.4975)
     for level_s, after_s in ((0.0, 0.0), (1.0, 0.9975)):
         tick.s.watch.blind_s = level_s
-        detect_coverage.blind(tick, [])
+        detectors.blind(tick, [])
         assert tick.s.watch.blind_s == pytest.approx(after_s)
-    detect_coverage.zone(tick, [])
+    detectors.zone(tick, [])
     zone_mps: float | None = tick.s.watch.zone_mps
     assert zone_mps is None
 
@@ -183,11 +183,13 @@ def test_who_follows_nobody_wants_to_stand_and_is_at_no_end(start: str) -> None:
 
 def test_without_a_path_or_a_place_nothing_is_followed() -> None:
     tick = at()
-    assert wheel_command.followed(tick) == (STILL, False)  # no place in this tick yet
+    assert wheel_command.followed(tick) is None  # no place in this tick yet
     tick.robot_in_map = tick.s.odometry.base_in_odom
-    assert wheel_command.followed(tick)[0] != STILL
+    answer = wheel_command.followed(tick)
+    assert answer is not None
+    assert answer.target != STILL
     tick.s.leg = replace(tick.s.leg, path=None)
-    assert wheel_command.followed(tick) == (STILL, False)
+    assert wheel_command.followed(tick) is None
 
 
 @table(("start", "arrives"), [("teleop", False), ("active_external", False)])

@@ -10,13 +10,14 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from bridge.core.authority import leg_tracking, message_score, ownership, requests
-from bridge.core.faults import detect_loop, fault_latch
-from bridge.core.faults.detect_brain import brain, commands
+from bridge.core.faults import detectors, fault_latch
+from bridge.core.faults.detectors import brain, commands
 from bridge.core.inbox import LoopFacts
 from bridge.core.modes import mode_logic, stop_monitor, teleop
 from bridge.core.modes.arming import ready_lacks, reset_lacks
 from bridge.core.modes.stop_profile import too_long
 from bridge.core.motion import motion_gates
+from bridge.core.sensing import sensor_update
 from bridge.core.state import RowUp
 from bridge.core.state_motion import Gate
 from bridge.core.state_orders import External
@@ -157,7 +158,8 @@ def late(count: int, within: str) -> Judge:
         else:
             tick.s.loop = replace(tick.s.loop, gaps_at_s=(0.0,) * count)
             tick.dt_s = 0.2
-        return rows(detect_loop.loop)(tick)
+        sensor_update.note_lateness(tick)
+        return rows(detectors.loop)(tick)
 
     return judge
 

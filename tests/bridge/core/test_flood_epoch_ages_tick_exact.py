@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import ArrivedAt, Inbox
-from bridge.core.authority.epoch import shelved, turn
+from bridge.core.authority.epoch import new_epoch
 from bridge.core.authority.rate_limit import thinned
 from bridge.core.geometry.message_age import remembered, sensor_age_s, sent_at
 from bridge.core.state_orders import Grants, MissionLeft, Stick
@@ -91,7 +91,7 @@ def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: boo
     s.stick = stick = replace(reached("teleop").state.stick, seq=5)
     leg, epoch_no, owner = s.leg, s.epoch_no, s.ownership
     assert None not in (s.external, leg.horizon, leg.path)
-    turn(tick, "test", keep_stick=keep_stick)
+    new_epoch(tick, "test", keep_stick=keep_stick)
     assert s.epoch_no == epoch_no + 1
     assert s.ownership == replace(owner, waypoints_seq=None, external_seq=None)
     assert s.leg == replace(leg, horizon=None, path=None, refusal=None)
@@ -103,12 +103,12 @@ def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: boo
 
 def test_what_a_mission_may_still_use_goes_into_the_book_and_nothing_stays_granted() -> None:
     book = tuple(MissionLeft(f"m{i}", 1.0, 2.0) for i in range(64))
-    after = shelved(Grants("m3", 5.0, 6.0, book, 7.0, 8.0, True))
+    after = Grants("m3", 5.0, 6.0, book, 7.0, 8.0, True).return_budget()
     rest = (*book[:3], *book[4:], MissionLeft("m3", 5.0, 6.0))
     assert after == Grants(None, 0.0, 0.0, rest, 7.0, 8.0, True)
-    full = shelved(Grants("new", 5.0, 6.0, book))
+    full = Grants("new", 5.0, 6.0, book).return_budget()
     assert full.book == (*book[1:], MissionLeft("new", 5.0, 6.0))
-    assert shelved(after) is after
+    assert after.return_budget() is after
 
 
 def test_256_statuses_are_remembered_and_no_more() -> None:

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
+from bridge.core.authority import external_velocity
 from bridge.core.authority.leg_tracking import hear_waypoints, judge_arrival, residual
-from bridge.core.modes import external_velocity
 from bridge.core.state_motion import NEW, FollowState
 from bridge.core.state_orders import External
 from bridge.core.tick_context import Tick

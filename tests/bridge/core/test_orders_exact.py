@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.authority import grants, message_score, ownership
-from bridge.core.faults.detect_brain import brain, commands
+from bridge.core.authority import grants, hello, message_score, ownership
+from bridge.core.faults.detectors import brain, commands
 from bridge.core.state_orders import External, Grants, MissionLeft
 from bridge.core.tick_context import Tick
 from tests.bridge.core.reached import reached
@@ -29,7 +29,7 @@ def test_an_owner_lives_for_300_ms(age_s: float, lives: bool) -> None:
     tick.s.ownership = replace(tick.s.ownership, echo_s=tick.now_s - age_s)
     assert ownership.alive(tick) is lives
     epoch = tick.s.epoch_no
-    ownership.free_the_lost(tick)
+    hello.free_lost_owner(tick)
     assert (tick.s.ownership.owner is not None) is lives
     assert tick.s.epoch_no == epoch + (not lives)
     assert (("owner_lost", "p1") in tick.events) is not lives
@@ -38,7 +38,7 @@ def test_an_owner_lives_for_300_ms(age_s: float, lives: bool) -> None:
         assert not ownership.alive(tick)
     tick.s.ownership = replace(tick.s.ownership, owner=None, echo_s=None)
     tick.events.clear()
-    ownership.free_the_lost(tick)
+    hello.free_lost_owner(tick)
     assert tick.events == []
 
 

@@ -7,7 +7,7 @@ from math import radians
 from typing import Any
 
 from bridge.core import Inbox
-from bridge.core.authority.epoch import shelved
+from bridge.core.authority.epoch import revoke
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.sensing import sensor_update
 from bridge.core.state_senses import LidarMemory
@@ -333,8 +333,9 @@ def test_a_jump_takes_the_grant_and_the_way_and_is_told(
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=here)
     granted, leg = tick.s.grants, tick.s.leg
     assert None not in (granted.mission, leg.horizon, leg.path)
-    sensor_update._hear_localization(tick, placed(odom_in_map=new, quality=quality))
+    if sensor_update._hear_localization(tick, placed(odom_in_map=new, quality=quality)):
+        revoke(tick)
     assert tick.s.pose.jumped_s == (NOW_S if jumps else 1.0)
-    assert tick.s.grants == (shelved(granted) if jumps else granted)
+    assert tick.s.grants == (granted.return_budget() if jumps else granted)
     assert tick.s.leg == (replace(leg, horizon=None, path=None) if jumps else leg)
     assert [code for code, _ in tick.events] == (["pose_jump"] if jumps else [])

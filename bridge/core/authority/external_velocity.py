@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.message_score import bad, good
-from bridge.core.authority.ownership import of_owner
+from bridge.core.authority.ownership import note_external, of_owner
 from bridge.core.state_orders import External
 from wire import STILL, Twist2
 
@@ -34,10 +33,15 @@ def hear_external(tick: Tick, new: Velocity) -> None:
         else:
             tick.drop("repeated")
         return
-    s.ownership = replace(s.ownership, external_seq=new.seq)
+    note_external(tick, new.seq)
     good(tick)
     held = new.dead_man
     s.external = External(new.v_mps if held else 0.0, new.w_radps if held else 0.0, held, sent_s)
+
+
+def forget(tick: Tick) -> None:
+    """Follow no velocity until another one comes."""
+    tick.s.external = None
 
 
 def calls(tick: Tick) -> bool:
