@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-from bridge.core.inbox import ArrivedAt, FenceArrived, Inbox, LoopFacts, OpArrived, RejectedAt
+from bridge.core.inbox import ArrivedAt, FenceArrival, Inbox, LoopFacts, OperatorArrival, RejectedAt
 from wire import DriveState, OpRequest, Rejected, Stop, authentic, authentic_fence, decode
 from wire.base import Record
 from wire.keys import (
@@ -152,21 +152,21 @@ class Link:
             took.rejected.append(RejectedAt(STOP.path, refused))
         return tuple(reversed(found))
 
-    def _operator(self, took: _Took) -> tuple[OpArrived, ...]:
+    def _operator(self, took: _Took) -> tuple[OperatorArrival, ...]:
         return tuple(
-            OpArrived(kind, request, self._authentic(kind, request))
+            OperatorArrival(kind, request, self._authentic(kind, request))
             for kind, key, subscriber in self._ops
             for request in took.all(key, subscriber)
         )
 
-    def _fences(self, took: _Took) -> tuple[FenceArrived, ...]:
+    def _fences(self, took: _Took) -> tuple[FenceArrival, ...]:
         """Take requests for another fence; the text of one that nobody proved goes no further."""
         arrived = []
         for request in took.all(FENCE, self._fence):
             fits = authentic_fence(self._operator_key, self._robot_id, request)
             nonce = request.proof.nonce if request.proof is not None else None
             text = request.fence if fits else ""
-            arrived.append(FenceArrived(request.id, request.source, nonce, fits, text))
+            arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
         return tuple(arrived)
 
     def _authentic(self, kind: OpKind, request: OpRequest) -> bool:

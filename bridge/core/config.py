@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bridge.core.geometry.fence import Fence
+from bridge.core.geometry.fence import FenceGrid
 from bridge.core.state_motion import UNLEARNT, Learnt
 from wire import RobotDescription
 
@@ -15,7 +15,7 @@ class CoreConfig:
 
     robot: RobotDescription
     robot_hash: str
-    fence: Fence | None
+    fence: FenceGrid | None
     """None: nothing is fenced, which SELFTEST refuses."""
     fence_hash: str
     map_id: str

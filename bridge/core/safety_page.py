@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bridge.core.faults.fault_table import ALL, ROWS, Stage
+from bridge.core.faults.fault_table import ALL, ROWS, FaultStage
 from bridge.core.faults.hazards import HAZARDS, LAWS
 from bridge.core.modes.mode_table import TRANSITIONS
 from bridge.core.motion.brake_learning import ALIKE, BEGIN_MPS, BETTER_STOPS
@@ -158,11 +158,11 @@ def _rows() -> Iterator[str]:
             )
 
 
-def _binds(stage: Stage) -> str:
+def _binds(stage: FaultStage) -> str:
     return "all" if stage.binds == ALL else ", ".join(_SOURCES[letter] for letter in stage.binds)
 
 
-def _does(stage: Stage) -> str:
+def _does(stage: FaultStage) -> str:
     if stage.cap_factor is not None:
         return f"`{stage.action.value}` {stage.cap_factor:g} of the limits"
     if stage.cap_mps is not None:
@@ -172,7 +172,7 @@ def _does(stage: Stage) -> str:
     return f"`{stage.action.value}`"
 
 
-def _clears(stage: Stage) -> str:
+def _clears(stage: FaultStage) -> str:
     if stage.clears.value != "AUTO":
         return f"`{stage.clears.value}`"
     return f"`AUTO`, clean for {stage.clean_s:g} s" if stage.clean_s > 0.0 else "`AUTO`, at once"

@@ -18,15 +18,23 @@ from bridge.core.state_motion import (
     Ramp,
     Stopping,
 )
-from bridge.core.state_orders import External, FenceAsked, Grants, Leg, Operator, Ownership, Stick
+from bridge.core.state_orders import (
+    External,
+    Grants,
+    LegMemory,
+    Operator,
+    Ownership,
+    PendingFence,
+    Stick,
+)
 from bridge.core.state_senses import (
     ButtonMemory,
+    DetectorMemory,
     DriveMemory,
     Flood,
     LidarMemory,
     LoopMemory,
     PoseMemory,
-    Watch,
 )
 from wire import Held, Mode, Pose2
 from wire.value import value
@@ -97,7 +105,7 @@ class BridgeState:
     ownership: Ownership = field(default_factory=Ownership)
     grants: Grants = field(default_factory=Grants)
     operator: Operator = field(default_factory=Operator)
-    leg: Leg = field(default_factory=Leg)
+    leg: LegMemory = field(default_factory=LegMemory)
     stick: Stick = field(default_factory=Stick)
     external: External | None = None
     stopping: Stopping | None = None
@@ -106,12 +114,12 @@ class BridgeState:
     selftest: SelfTest = field(default_factory=SelfTest)
     gate: Gate = field(default_factory=Gate)
     motion: Motion = field(default_factory=Motion)
-    watch: Watch = field(default_factory=Watch)
+    watch: DetectorMemory = field(default_factory=DetectorMemory)
     flood: Flood = field(default_factory=Flood)
     voice: Voice = field(default_factory=Voice)
     learnt: Learnt = UNLEARNT
     """How much worse than robot.toml this robot brakes; a run begins with what others learnt."""
-    fence_asked: FenceAsked | None = None
+    fence_asked: PendingFence | None = None
     braking_trouble: str | None = None
     """Why what others learnt could not be read."""
     ramp: Ramp | None = None
@@ -128,7 +136,7 @@ class BridgeState:
 _copy_state = copier(BridgeState)
 _copy_drive = copier(DriveMemory)
 _copy_motion = copier(Motion)
-_copy_watch = copier(Watch)
+_copy_watch = copier(DetectorMemory)
 
 
 def draft(state: BridgeState) -> BridgeState:

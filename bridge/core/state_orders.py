@@ -81,7 +81,7 @@ class Grants:
 
 
 @dataclass(frozen=True, slots=True)
-class Answered:
+class TimedAnswer:
     """Keep one verdict for as long as its request may be repeated."""
 
     at_s: float
@@ -100,16 +100,16 @@ class Operator:
     old_nonce_no: int | None = None
     old_tag: str = ""
     old_until_s: float = 0.0
-    answers: tuple[Answered, ...] = ()
+    answers: tuple[TimedAnswer, ...] = ()
     """Verdicts on requests by id: one id, one verdict."""
     accepted: tuple[str, ...] = ()
     """Ids taken under the nonces that still count: no proof works twice, whatever is forgotten."""
-    refusals: tuple[Answered, ...] = ()
+    refusals: tuple[TimedAnswer, ...] = ()
     """Newest refusal per sender of hello and per mission of grant; overwritten and let go."""
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
+class LegMemory:
     """Remember the newest leg and the horizon that is followed."""
 
     mission: str | None = None
@@ -166,7 +166,7 @@ class Stick:
 
 
 @value
-class FenceAsked:
+class PendingFence:
     """Remember a request whose proof held while nothing had torque."""
 
     id: str

@@ -104,7 +104,7 @@ class LoopMemory:
 
 
 @value
-class Sent:
+class SentBounds:
     """Bound what was sent to both wheels [m/s at the rim] since a time."""
 
     since_s: float
@@ -115,13 +115,13 @@ class Sent:
 
 
 @dataclass(slots=True)
-class Watch:
+class DetectorMemory:
     """Remember how long each trouble has been seen."""
 
     blind_s: float = 0.0
     yaw_s: float = 0.0
     runaway_s: float = 0.0
-    sent: tuple[Sent, ...] = ()
+    sent: tuple[SentBounds, ...] = ()
     """Oldest first; together they reach as far back as a drive may still follow."""
     stuck_s: float = 0.0
     progress_at: Pose2 | None = None

@@ -30,7 +30,7 @@ from bridge.core.reporting.report import events_of, odometry_of, status_of
 from bridge.core.sensing import sensor_update, stop_inputs
 from bridge.core.state import BridgeState, draft
 from bridge.core.state_orders import Operator
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
@@ -66,7 +66,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     if not now_s >= state.now_s:
         now_s = state.now_s
     s = draft(state)
-    tick = Tick(config, s, inbox, now_s, now_s - state.now_s)
+    tick = TickContext(config, s, inbox, now_s, now_s - state.now_s)
     s.now_s = now_s
     s.tick += 1
     wheel_command.forget_after_gap(tick)
@@ -90,9 +90,9 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     )
 
 
-def _listen(tick: Tick) -> None:
+def _listen(tick: TickContext) -> None:
     """Hear everybody in the order of rank; a stop voids what came with it."""
-    inbox = tick.inbox = rate_limit.thinned(tick)
+    inbox = tick.inbox = rate_limit.rate_limited(tick)
     message_score.drain(tick)
     requests.renew_nonce(tick)
     hello.free_lost_owner(tick)
@@ -113,7 +113,7 @@ def _listen(tick: Tick) -> None:
     teleop.watch(tick)
 
 
-def _obey(tick: Tick) -> None:
+def _obey(tick: TickContext) -> None:
     """Hear the owner, the stick and the external brain, each after what it builds on.
 
     Who owns comes before what is granted, the pose before waypoints that start at it, and the hand
@@ -139,13 +139,13 @@ def _obey(tick: Tick) -> None:
         wheel_command.take_horizon(tick, before)
 
 
-def _locate(tick: Tick) -> None:
+def _locate(tick: TickContext) -> None:
     """Find the robot in ``map``; where it was displaced, what was granted before is void."""
     if sensor_update.locate(tick):
         revoke(tick)
 
 
-def _void(tick: Tick) -> None:
+def _void(tick: TickContext) -> None:
     """Count what came with a stop and is not obeyed."""
     inbox = tick.inbox
     came = (inbox.hellos, inbox.grants, inbox.heartbeats, inbox.teleop, inbox.external)

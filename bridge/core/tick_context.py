@@ -26,7 +26,7 @@ STANDING_RADPS = 0.05
 
 
 @dataclass(slots=True)
-class Tick:
+class TickContext:
     """Hold one tick in the making."""
 
     config: CoreConfig
@@ -53,12 +53,12 @@ class Tick:
         return f"{self.config.boot}-{self.s.epoch_no}"
 
     @property
-    def powered(self) -> bool:
+    def is_powered(self) -> bool:
         """Tell whether the mode keeps the drive powered."""
         return self.s.mode in POWERED
 
     @property
-    def moving(self) -> bool:
+    def is_moving(self) -> bool:
         """Tell whether the mode follows anybody."""
         return self.s.mode in MOVING
 

@@ -15,10 +15,10 @@ from bridge.core.authority.ownership import restart_numbers
 from wire import Held, HeldReason
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 
-def new_epoch(tick: Tick, why: str, *, keep_stick: bool = False) -> None:
+def new_epoch(tick: TickContext, why: str, *, keep_stick: bool = False) -> None:
     """Mint the next epoch: sequence numbers restart, grant, horizon and stick are void.
 
     Args:
@@ -35,18 +35,18 @@ def new_epoch(tick: Tick, why: str, *, keep_stick: bool = False) -> None:
     tick.say("epoch", why)
 
 
-def hold(tick: Tick, reason: HeldReason, held_id: str) -> None:
+def hold(tick: TickContext, reason: HeldReason, held_id: str) -> None:
     """Refuse every grant from now on, until arm or resume."""
     tick.s.held = Held(reason=reason, id=held_id)
     tick.say("held", f"{reason.value} {held_id}")
 
 
-def revoke(tick: Tick) -> None:
+def revoke(tick: TickContext) -> None:
     """End what is granted and followed now; its remainder stays in the book for another grant."""
     end_grant(tick)
     forget_horizon(tick)
 
 
-def release(tick: Tick) -> None:
+def release(tick: TickContext) -> None:
     """Let grants count again: a person has armed or resumed."""
     tick.s.held = None

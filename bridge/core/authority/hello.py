@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from bridge.core.authority.epoch import hold, new_epoch
 from bridge.core.authority.ownership import (
     LIVE_S,
-    alive,
     begin_ownership,
     end_ownership,
+    is_alive,
     note_echo,
     sent_when,
 )
@@ -19,24 +19,24 @@ from wire import PROTOCOL, HeldReason, Owner
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Hello
 
 
 _ANEW = "its {0} is not this bridge's; start the bridge and its owner anew with the same {0}"
 
 
-def free_lost_owner(tick: Tick) -> None:
+def free_lost_owner(tick: TickContext) -> None:
     """Take the robot from an owner who fell silent, in a new epoch."""
     ownership = tick.s.ownership
-    if ownership.owner is not None and not alive(tick):
+    if ownership.owner is not None and not is_alive(tick):
         lost = ownership.owner.planner_id
         end_ownership(tick)
         new_epoch(tick, "brain_lost")
         tick.say("owner_lost", lost)
 
 
-def hear_hello(tick: Tick, hello: Hello) -> None:
+def hear_hello(tick: TickContext, hello: Hello) -> None:
     """Answer one hello: owner now, owner already, or refused with the reason."""
     ownership = tick.s.ownership
     sent_s = sent_when(tick, hello.seen)
@@ -54,7 +54,7 @@ def hear_hello(tick: Tick, hello: Hello) -> None:
     _own(tick, hello, sent_s)
 
 
-def _against(tick: Tick, hello: Hello) -> Iterator[tuple[str, str]]:
+def _against(tick: TickContext, hello: Hello) -> Iterator[tuple[str, str]]:
     """Yield code and detail of everything that speaks against this owner-to-be."""
     config = tick.config
     for code, came, expected, to_do in (
@@ -65,14 +65,14 @@ def _against(tick: Tick, hello: Hello) -> Iterator[tuple[str, str]]:
     ):
         if came != expected:
             yield code, f"came {came}, expected {expected}: {to_do}"
-    if alive(tick):
+    if is_alive(tick):
         owner = tick.s.ownership.owner
         yield "owner_alive", f"owner is {owner.planner_id if owner else 'nobody'}"
     if not tick.still_for(0.0):
         yield "not_standing", "ownership changes only while the robot stands"
 
 
-def _own(tick: Tick, hello: Hello, sent_s: float) -> None:
+def _own(tick: TickContext, hello: Hello, sent_s: float) -> None:
     before = tick.s.ownership
     if before.last_owner_id not in {None, hello.planner_id}:
         new_epoch(tick, "owner_changed")

@@ -12,13 +12,13 @@ from bridge.core.geometry.message_age import sent_at
 from wire import Owner
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Heartbeat
 
 LIVE_S = 0.3
 
 
-def alive(tick: Tick) -> bool:
+def is_alive(tick: TickContext) -> bool:
     """Tell whether there is an owner who has shown to live."""
     ownership = tick.s.ownership
     return (
@@ -28,9 +28,9 @@ def alive(tick: Tick) -> bool:
     )
 
 
-def hear_heartbeat(tick: Tick, heartbeat: Heartbeat) -> None:
+def hear_heartbeat(tick: TickContext, heartbeat: Heartbeat) -> None:
     """Note that the owner lives and which status its mission loop last used."""
-    if of_owner(tick, heartbeat.planner_id, heartbeat.epoch, heartbeat.seen) is None:
+    if sent_at_if_owner(tick, heartbeat.planner_id, heartbeat.epoch, heartbeat.seen) is None:
         return
     used_s = sent_when(tick, heartbeat.used)
     ownership = tick.s.ownership
@@ -38,7 +38,7 @@ def hear_heartbeat(tick: Tick, heartbeat: Heartbeat) -> None:
         tick.s.ownership = replace(ownership, used_s=used_s)
 
 
-def of_owner(tick: Tick, sender: str, epoch: str, seen: int) -> float | None:
+def sent_at_if_owner(tick: TickContext, sender: str, epoch: str, seen: int) -> float | None:
     """Return when the status this message has seen was sent; None where it must not be obeyed.
 
     An old epoch, another sender or a status nobody remembers: dropped and counted, never scored.
@@ -58,20 +58,20 @@ def of_owner(tick: Tick, sender: str, epoch: str, seen: int) -> float | None:
     return sent_s
 
 
-def sent_when(tick: Tick, seen: int) -> float | None:
+def sent_when(tick: TickContext, seen: int) -> float | None:
     """Return when the status that a message has seen was sent; None where that is unknown."""
     voice = tick.s.voice
     return sent_at(voice.ring, voice.status_seq, seen)
 
 
-def note_echo(tick: Tick, sent_s: float) -> None:
+def note_echo(tick: TickContext, sent_s: float) -> None:
     """Remember the newest status that the owner has shown to have seen."""
     ownership = tick.s.ownership
     if ownership.echo_s is None or sent_s > ownership.echo_s:
         tick.s.ownership = replace(ownership, echo_s=sent_s)
 
 
-def begin_ownership(tick: Tick, owner: Owner, sent_s: float) -> None:
+def begin_ownership(tick: TickContext, owner: Owner, sent_s: float) -> None:
     """Give the robot to an owner whose hello has seen the status sent at that time."""
     tick.s.ownership = replace(
         tick.s.ownership,
@@ -84,21 +84,21 @@ def begin_ownership(tick: Tick, owner: Owner, sent_s: float) -> None:
     )
 
 
-def end_ownership(tick: Tick) -> None:
+def end_ownership(tick: TickContext) -> None:
     """Take the robot from its owner; what it has shown to have seen stays known."""
     tick.s.ownership = replace(tick.s.ownership, owner=None)
 
 
-def note_waypoints(tick: Tick, seq: int) -> None:
+def note_waypoints(tick: TickContext, seq: int) -> None:
     """Remember the number of the owner's newest waypoints."""
     tick.s.ownership = replace(tick.s.ownership, waypoints_seq=seq)
 
 
-def note_external(tick: Tick, seq: int) -> None:
+def note_external(tick: TickContext, seq: int) -> None:
     """Remember the number of the owner's newest velocity."""
     tick.s.ownership = replace(tick.s.ownership, external_seq=seq)
 
 
-def restart_numbers(tick: Tick) -> None:
+def restart_numbers(tick: TickContext) -> None:
     """Let the owner's messages count from any number once more: a new epoch begins."""
     tick.s.ownership = replace(tick.s.ownership, waypoints_seq=None, external_seq=None)

@@ -13,13 +13,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.state_orders import Answered
+from bridge.core.state_orders import TimedAnswer
 from wire import Answer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 KEPT = 64
 SHOWN = 16
@@ -31,7 +31,7 @@ _REFUSALS = 8
 _DETAIL = 400
 
 
-def verdict_on(tick: Tick, kind: str, request_id: str) -> Answer | None:
+def verdict_on(tick: TickContext, kind: str, request_id: str) -> Answer | None:
     """Return the verdict that this id already got for this kind of request."""
     for answered in tick.s.operator.answers:
         if answered.answer.id == request_id and answered.answer.kind == kind:
@@ -39,37 +39,37 @@ def verdict_on(tick: Tick, kind: str, request_id: str) -> Answer | None:
     return None
 
 
-def settle(tick: Tick, kind: str, request_id: str, code: str, detail: str = "") -> None:
+def settle(tick: TickContext, kind: str, request_id: str, code: str, detail: str = "") -> None:
     """Give the verdict: ``ok``, or the reason why not."""
     answer = _answer(kind, request_id, code, detail)
     operator = tick.s.operator
-    answers = (*operator.answers[-(KEPT - 1) :], Answered(tick.now_s, answer))
+    answers = (*operator.answers[-(KEPT - 1) :], TimedAnswer(tick.now_s, answer))
     tick.s.operator = replace(operator, answers=answers)
     tick.say("answered", f"{kind} {request_id} {code}")
 
 
-def refuse_openly(tick: Tick, kind: str, sender: str, code: str, detail: str) -> None:
+def refuse_openly(tick: TickContext, kind: str, sender: str, code: str, detail: str) -> None:
     """Show why a hello or a grant is not taken, as long as it keeps being asked."""
     tick.drop(f"{kind}_{code}")
     operator = tick.s.operator
     answer = _answer(kind, sender, code, detail)
-    others = tuple(item for item in operator.refusals if not _same(item, kind, sender))
+    others = tuple(item for item in operator.refusals if not _is_from(item, kind, sender))
     known = any(item.answer == answer for item in operator.refusals)
-    refusals = (*others[-(_REFUSALS - 1) :], Answered(tick.now_s, answer))
+    refusals = (*others[-(_REFUSALS - 1) :], TimedAnswer(tick.now_s, answer))
     tick.s.operator = replace(operator, refusals=refusals)
     if not known:
         tick.say(f"{kind}_refused", f"{sender} {code} {detail}".strip())
 
 
-def settle_openly(tick: Tick, kind: str, sender: str) -> None:
+def settle_openly(tick: TickContext, kind: str, sender: str) -> None:
     """Forget the refusals of one sender: it is taken now."""
     operator = tick.s.operator
     if operator.refusals:
-        left = tuple(item for item in operator.refusals if not _same(item, kind, sender))
+        left = tuple(item for item in operator.refusals if not _is_from(item, kind, sender))
         tick.s.operator = replace(operator, refusals=left)
 
 
-def shown(tick: Tick) -> tuple[Answer, ...]:
+def answers_to_echo(tick: TickContext) -> tuple[Answer, ...]:
     """Return what the next status echoes, oldest first."""
     operator = tick.s.operator
     settled = [
@@ -79,7 +79,7 @@ def shown(tick: Tick) -> tuple[Answer, ...]:
     return (*settled, *refused)
 
 
-def _same(item: Answered, kind: str, sender: str) -> bool:
+def _is_from(item: TimedAnswer, kind: str, sender: str) -> bool:
     return item.answer.id == sender and item.answer.kind == kind
 
 
@@ -98,13 +98,13 @@ OLD_NONCE_S = 10.0
 _ACCEPTED = 16
 
 
-def nonce_text(tick: Tick) -> str:
+def nonce_text(tick: TickContext) -> str:
     """Return the nonce that counts now, as it is on the wire: boot, number and chance."""
     operator = tick.s.operator
     return f"{tick.config.boot}.{operator.nonce_no}.{operator.nonce_tag}"
 
 
-def old_nonce_text(tick: Tick) -> str | None:
+def old_nonce_text(tick: TickContext) -> str | None:
     """Return the nonce before, while what was signed under it may still arrive."""
     operator = tick.s.operator
     if operator.old_nonce_no is None or not tick.now_s <= operator.old_until_s:
@@ -112,7 +112,7 @@ def old_nonce_text(tick: Tick) -> str | None:
     return f"{tick.config.boot}.{operator.old_nonce_no}.{operator.old_tag}"
 
 
-def renew_nonce(tick: Tick) -> None:
+def renew_nonce(tick: TickContext) -> None:
     """Change the nonce every 60 s, so that a proof once made does not lie about for long."""
     operator = tick.s.operator
     if operator.nonce_no == 0:
@@ -122,7 +122,7 @@ def renew_nonce(tick: Tick) -> None:
 
 
 def bad_proof(
-    tick: Tick, kind: str, request_id: str, nonce: str | None, *, authentic: bool
+    tick: TickContext, kind: str, request_id: str, nonce: str | None, *, authentic: bool
 ) -> Iterator[tuple[str, str]]:
     """Yield code and detail of what is wrong with a proof: its HMAC, its nonce, or a second use."""
     if nonce is None or not authentic:
@@ -140,7 +140,7 @@ def bad_proof(
         yield "repeated", "this proof was already used"
 
 
-def use_nonce(tick: Tick, kind: str, request_id: str) -> None:
+def use_nonce(tick: TickContext, kind: str, request_id: str) -> None:
     """Spend the nonce: the one now shown stays valid for a moment, for what is already signed."""
     operator = tick.s.operator
     used = tuple(
@@ -152,7 +152,7 @@ def use_nonce(tick: Tick, kind: str, request_id: str) -> None:
     _next_nonce(tick)
 
 
-def void_nonces(tick: Tick) -> None:
+def void_nonces(tick: TickContext) -> None:
     """Let no proof from before a stop end what the stop began, however late it arrives.
 
     A request is repeated until it is echoed, so one that was signed before may come after.
@@ -161,7 +161,7 @@ def void_nonces(tick: Tick) -> None:
     tick.s.operator = replace(tick.s.operator, old_nonce_no=None, old_tag="")
 
 
-def _next_nonce(tick: Tick) -> None:
+def _next_nonce(tick: TickContext) -> None:
     operator = tick.s.operator
     tick.s.operator = replace(
         operator,

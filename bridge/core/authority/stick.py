@@ -12,26 +12,26 @@ from typing import TYPE_CHECKING
 from bridge.core.state_orders import Stick
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Velocity
 
 NEUTRAL_MPS, NEUTRAL_RADPS = 0.02, 0.05
 _SOURCES = 8
 
 
-def note_pressed(tick: Tick) -> None:
+def note_pressed(tick: TickContext) -> None:
     """Remember that somebody's dead-man is pressed now, whoever's it is."""
     tick.s.stick = replace(tick.s.stick, pressed_s=tick.now_s)
 
 
-def note_released(tick: Tick, source_id: str) -> None:
+def note_released(tick: TickContext, source_id: str) -> None:
     """Remember a source that was seen with its dead-man released."""
     stick = tick.s.stick
     if source_id not in stick.released:
         tick.s.stick = replace(stick, released=(*stick.released, source_id)[-_SOURCES:])
 
 
-def note_neutral(tick: Tick, new: Velocity) -> None:
+def note_neutral(tick: TickContext, new: Velocity) -> None:
     """Remember a source that is neutral after it was seen released: it may take over."""
     stick = tick.s.stick
     neutral = abs(new.v_mps) <= NEUTRAL_MPS and abs(new.w_radps) <= NEUTRAL_RADPS
@@ -39,7 +39,7 @@ def note_neutral(tick: Tick, new: Velocity) -> None:
         tick.s.stick = replace(stick, ready=(*stick.ready, new.source_id)[-_SOURCES:])
 
 
-def give(tick: Tick, new: Velocity, sent_s: float) -> None:
+def give(tick: TickContext, new: Velocity, sent_s: float) -> None:
     """Let this source steer from now on."""
     tick.s.stick = replace(
         tick.s.stick,
@@ -51,7 +51,7 @@ def give(tick: Tick, new: Velocity, sent_s: float) -> None:
     )
 
 
-def steer(tick: Tick, new: Velocity, sent_s: float) -> None:
+def steer(tick: TickContext, new: Velocity, sent_s: float) -> None:
     """Take the newest velocity of the source that steers; an older origin makes nothing younger."""
     stick = tick.s.stick
     tick.s.stick = replace(
@@ -64,11 +64,11 @@ def steer(tick: Tick, new: Velocity, sent_s: float) -> None:
     )
 
 
-def let_go(tick: Tick) -> None:
+def let_go(tick: TickContext) -> None:
     """Forget the hand: it must show itself released and neutral once more."""
     tick.s.stick = Stick(pressed_s=tick.s.stick.pressed_s)
 
 
-def restart(tick: Tick, *, keeps_hand: bool) -> None:
+def restart(tick: TickContext, *, keeps_hand: bool) -> None:
     """Begin a new epoch: numbers restart; only a hand that takes over now stays."""
     tick.s.stick = replace(tick.s.stick, seq=-1) if keeps_hand else Stick()

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from bridge.core.authority.rate_limit import FULL_S
 from bridge.core.faults import detect_motion
 from bridge.core.faults.detect_motion import ENC_S
-from bridge.core.geometry.debounce import LONGEST_S, filled
+from bridge.core.geometry.debounce import LONGEST_S, fill
 from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.sensing.sensor_update import (
     GAP_S,
@@ -24,13 +24,13 @@ from bridge.core.sensing.sensor_update import (
     LATES,
     pose_trouble,
 )
-from bridge.core.sensing.stop_inputs import pressed
+from bridge.core.sensing.stop_inputs import pressed_input
 from bridge.core.tick_context import POWERED
 from wire import Mode
 
 if TYPE_CHECKING:
     from bridge.core.faults.fault_latch import Dirty
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 
 BRAIN_LATE_S = 0.15
@@ -67,7 +67,7 @@ MISSED = 2
 GAPS_WITHIN_S = 10.0
 
 
-def brain(tick: Tick, dirty: Dirty) -> None:
+def brain(tick: TickContext, dirty: Dirty) -> None:
     """Judge the owner by the newest status it has shown to have seen."""
     s = tick.s
     echo_s = s.ownership.echo_s
@@ -89,7 +89,7 @@ def brain(tick: Tick, dirty: Dirty) -> None:
         dirty.append(("BRAIN_STALE.0", f"uses a status {tick.now_s - used_s:.2f} s old"))
 
 
-def commands(tick: Tick, dirty: Dirty) -> None:
+def commands(tick: TickContext, dirty: Dirty) -> None:
     """Judge what is being followed, the owner's manners, and what may still be driven."""
     s = tick.s
     horizon = s.leg.horizon
@@ -109,7 +109,7 @@ def commands(tick: Tick, dirty: Dirty) -> None:
             dirty.append(("BUDGET.0", f"{what} are spent"))
 
 
-def hand(tick: Tick, dirty: Dirty) -> None:
+def hand(tick: TickContext, dirty: Dirty) -> None:
     """Judge what a hand on the stick may still drive, while it drives or asks to."""
     s = tick.s
     pressed_s = s.stick.pressed_s
@@ -120,14 +120,14 @@ def hand(tick: Tick, dirty: Dirty) -> None:
             dirty.append(("HAND_BUDGET.0", f"{what} are spent"))
 
 
-def flood(tick: Tick, dirty: Dirty) -> None:
+def flood(tick: TickContext, dirty: Dirty) -> None:
     """Call it a flood once it has lasted for four windows."""
     counted = tick.s.flood
     if not counted.level_s < FULL_S:
         dirty.append(("CMD_FLOOD.0", f"more than allowed on {counted.key}"))
 
 
-def lidar(tick: Tick, dirty: Dirty) -> None:
+def lidar(tick: TickContext, dirty: Dirty) -> None:
     """Judge the newest scan's age, and whether scans still change while the robot moves."""
     s = tick.s
     scan, received_s = s.lidar.newest, s.lidar.received_s
@@ -149,7 +149,7 @@ def lidar(tick: Tick, dirty: Dirty) -> None:
             dirty.append(("LIDAR_STALE.1", evidence))
 
 
-def pose(tick: Tick, dirty: Dirty) -> None:
+def pose(tick: TickContext, dirty: Dirty) -> None:
     """Judge localization."""
     if tick.robot_in_map is None:
         evidence = pose_trouble(tick) or "no pose"
@@ -163,7 +163,7 @@ def pose(tick: Tick, dirty: Dirty) -> None:
         dirty.append(("POSE_JUMP.1", f"{JUMPS} times within {JUMPS_WITHIN_S:.0f} s"))
 
 
-def drive(tick: Tick, dirty: Dirty) -> None:
+def drive(tick: TickContext, dirty: Dirty) -> None:
     """Judge whether the drive reports, and whether it hears."""
     memory = tick.s.drive
     newest, received_s = memory.newest, memory.received_s
@@ -187,16 +187,16 @@ def drive(tick: Tick, dirty: Dirty) -> None:
         dirty.append(("DRIVE_REBOOT.0", f"now {newest.boot_id}"))
 
 
-def buttons(tick: Tick, dirty: Dirty) -> None:
+def buttons(tick: TickContext, dirty: Dirty) -> None:
     """Judge the protective-stop inputs."""
-    evidence = pressed(tick)
+    evidence = pressed_input(tick)
     if evidence is None and tick.s.buttons.ordered:
         evidence = "asked for by message"
     if evidence is not None:
         dirty.append(("ESTOP.0", evidence))
 
 
-def blind(tick: Tick, dirty: Dirty) -> None:
+def blind(tick: TickContext, dirty: Dirty) -> None:
     """Judge how many beams come back, beside what is normal here; none at all is never normal."""
     lidar, watch = tick.s.lidar, tick.s.watch
     if lidar.picture is None:
@@ -205,7 +205,7 @@ def blind(tick: Tick, dirty: Dirty) -> None:
     sees = lidar.picture.returns >= max(1.0, BLIND_SHARE * normal)
     if sees and watch.blind_s == 0.0:
         return
-    watch.blind_s = filled(watch.blind_s, tick.dt_s, BLIND_LONG_S, dirty=not sees)
+    watch.blind_s = fill(watch.blind_s, tick.dt_s, BLIND_LONG_S, dirty=not sees)
     if watch.blind_s >= BLIND_S and not sees:
         evidence = f"{lidar.picture.returns} of {lidar.picture.beams} beams, normally {normal:.0f}"
         dirty.append(("LIDAR_BLIND.0", evidence))
@@ -213,7 +213,7 @@ def blind(tick: Tick, dirty: Dirty) -> None:
             dirty.append(("LIDAR_BLIND.1", evidence))
 
 
-def no_range(tick: Tick, dirty: Dirty) -> None:
+def no_range(tick: TickContext, dirty: Dirty) -> None:
     """Judge whether anything watches for obstacles: a lidar that has spoken, and still does."""
     if tick.s.mode in {Mode.BOOT, Mode.SELFTEST}:
         return  # which wait for the first scan
@@ -222,7 +222,7 @@ def no_range(tick: Tick, dirty: Dirty) -> None:
             dirty.append((stage, "the lidar says nothing"))
 
 
-def zone(tick: Tick, dirty: Dirty) -> None:
+def zone(tick: TickContext, dirty: Dirty) -> None:
     """Find the slowest zone that the robot is in; ``cap`` takes its value."""
     fence, here, watch = tick.config.fence, tick.robot_in_map, tick.s.watch
     watch.zone_mps = None
@@ -233,7 +233,7 @@ def zone(tick: Tick, dirty: Dirty) -> None:
         dirty.append(("SPEED_ZONE.0", f"at most {watch.zone_mps:.2f} m/s here"))
 
 
-def loop(tick: Tick, dirty: Dirty) -> None:
+def loop(tick: TickContext, dirty: Dirty) -> None:
     """Judge this tick's lateness."""
     facts, s = tick.inbox.loop, tick.s
     late_at_s, gaps_at_s = s.loop.late_at_s, s.loop.gaps_at_s
@@ -248,19 +248,19 @@ def loop(tick: Tick, dirty: Dirty) -> None:
             dirty.append(("LOOP_LATE.2", f"{GAPS} gaps within {GAPS_WITHIN_S} s"))
 
 
-def rights(tick: Tick, dirty: Dirty) -> None:
+def rights(tick: TickContext, dirty: Dirty) -> None:
     """Judge whether the system granted real time. On a virtual drive it is only shown."""
     if not (tick.s.loop.real_time or tick.config.robot.drive.virtual):
         dirty.append(("NOT_RT.0", "scheduling or memory rights refused"))
 
 
-def current(tick: Tick, dirty: Dirty) -> None:
+def current(tick: TickContext, dirty: Dirty) -> None:
     """Judge the motors' current: its peak, and the heat that I^2 t leaves (IEC 60034-11)."""
     state, watch, drive = tick.s.drive.newest, tick.s.watch, tick.config.robot.drive
     if state is None or state.current_a is None:
         return
     drawn, peak = abs(state.current_a), drive.peak_current_a
-    watch.peak_s = filled(watch.peak_s, tick.dt_s, PEAK_S, dirty=not drawn <= peak)
+    watch.peak_s = fill(watch.peak_s, tick.dt_s, PEAK_S, dirty=not drawn <= peak)
     bearable = drive.continuous_current_a * drive.continuous_current_a
     full = HEAT_S * (peak * peak - bearable)
     heat = watch.heat_a2s + (drawn * drawn - bearable) * min(tick.dt_s, LONGEST_S)
@@ -271,7 +271,7 @@ def current(tick: Tick, dirty: Dirty) -> None:
         dirty.append(("OVERCURRENT.0", f"{drawn:.1f} A for too long"))
 
 
-def battery(tick: Tick, dirty: Dirty) -> None:
+def battery(tick: TickContext, dirty: Dirty) -> None:
     """Judge the charge; a row that is up stays until the charge is well above its limit again."""
     state, watch, rows = tick.s.drive.newest, tick.s.watch, tick.s.rows
     if state is None:
@@ -282,8 +282,8 @@ def battery(tick: Tick, dirty: Dirty) -> None:
     charge, dt_s = state.battery, tick.dt_s
     if charge >= CHARGE_LOW + CHARGE_UP and watch.low_s == watch.empty_s == 0.0:
         return
-    watch.low_s = filled(watch.low_s, dt_s, CHARGE_S, dirty=not charge >= CHARGE_LOW)
-    watch.empty_s = filled(watch.empty_s, dt_s, CHARGE_S, dirty=not charge >= CHARGE_EMPTY)
+    watch.low_s = fill(watch.low_s, dt_s, CHARGE_S, dirty=not charge >= CHARGE_LOW)
+    watch.empty_s = fill(watch.empty_s, dt_s, CHARGE_S, dirty=not charge >= CHARGE_EMPTY)
     if watch.low_s >= CHARGE_S or ("BATTERY.0" in rows and not charge >= CHARGE_LOW + CHARGE_UP):
         dirty.append(("BATTERY.0", f"{100 * charge:.0f} %"))
     if watch.empty_s >= CHARGE_S or (
@@ -304,7 +304,7 @@ DETECTORS = (
     zone,
     drive,
     detect_motion.runaway,
-    detect_motion.stuck,
+    detect_motion.progress,
     detect_motion.yaw,
     current,
     battery,

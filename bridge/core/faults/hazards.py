@@ -75,7 +75,7 @@ HAZARDS: tuple[Hazard, ...] = (
            ("test_story.py::test_a_jump_of_the_pose_needs_a_grant_that_knows_of_it",
             "test_false_senses.py::test_a_pose_that_drifts_on_and_on_disarms")),
     Hazard("The robot pushes against something that the lidar does not see", "STUCK",
-           "faults.detect_motion.stuck",
+           "faults.detect_motion.progress",
            (f"{_MOTION}::TestStuck::test_wheels_that_do_not_turn_end_the_grant_after_1_s",
             f"{_MOTION}::TestStuck::test_the_third_time_in_five_minutes_disarms")),
     Hazard("A wheel turns faster than told, or the other way", "RUNAWAY", "faults.detect_motion.runaway",

@@ -52,7 +52,7 @@ class Path:
         return self.along_m[-1] if self.along_m else 0.0
 
 
-def regulated(speed_mps: float, curve_per_m: float, radius_m: float, slowest_mps: float) -> float:
+def regulate(speed_mps: float, curve_per_m: float, radius_m: float, slowest_mps: float) -> float:
     """Slow down on a curve tighter than ``radius_m``, in proportion, never below ``slowest_mps``.
 
     Source: regulated pure pursuit (Macenski and others, 2023).
@@ -76,7 +76,7 @@ def prepare(points: Sequence[Waypoint], limits: Limits) -> Path:
     exits = list(speeds)
     if not sum(turns) * TURN_RADIUS_M <= (1.0 - _ROUNDING) * 2 * _CORNER_M:  # or no curve is tight
         exits = [
-            regulated(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
+            regulate(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
             for speed, curve in zip(speeds, _curves(turns, along), strict=True)
         ]
     _brake(exits, gaps, PLANNED_DECEL * limits.max_decel_mps2)

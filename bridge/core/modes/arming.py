@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from bridge.core.faults.fault_table import ALL, STAGES, Clears
 from bridge.core.modes.mode_table import LATCHED
 from bridge.core.sensing.sensor_update import recorder_lack
-from bridge.core.sensing.stop_inputs import pressed
+from bridge.core.sensing.stop_inputs import pressed_input
 from wire import SEVERITY, Action, Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 STANDING_S = 0.5
 CLEAN_S = 2.0
@@ -21,7 +21,7 @@ STICK_S = 0.25
 _OF_THE_BRAIN = "BRAIN_GONE"
 
 
-def arm_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
+def arm_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
     """Yield code and detail of each thing that keeps the robot disarmed."""
     if tick.s.mode is not Mode.DISARMED:
         yield "not_disarmed", f"mode is {tick.s.mode.value}; arming starts from DISARMED"
@@ -29,7 +29,7 @@ def arm_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
     yield from ready_lacks(tick)
 
 
-def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
+def ready_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
     """Yield the conditions of arming that do not depend on the mode."""
     s = tick.s
     if s.fence_asked is not None:
@@ -57,7 +57,7 @@ def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
         yield recorder_lack(tick.inbox)
 
 
-def strayed(tick: Tick) -> bool:
+def is_outside_fence(tick: TickContext) -> bool:
     """Tell whether the robot is known to stand where its fence allows nobody.
 
     It is said, and keeps nobody from arming: a stick that is to bring it back needs torque.
@@ -66,14 +66,14 @@ def strayed(tick: Tick) -> bool:
     return fence is not None and here is not None and not fence.allows(here.x_m, here.y_m)
 
 
-def reset_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
+def reset_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
     """Yield code and detail of each thing that keeps a latched mode latched."""
     s = tick.s
     if s.mode not in LATCHED:
         yield "not_latched", f"mode is {s.mode.value}; only ESTOPPED and FAULT are reset"
         return
-    if pressed(tick) is not None:
-        yield "estop_pressed", pressed(tick) or ""
+    if pressed_input(tick) is not None:
+        yield "estop_pressed", pressed_input(tick) or ""
     pressed_s = s.buttons.pressed_s
     if pressed_s is not None and not tick.now_s - pressed_s >= CLEAN_S:
         yield "estop_just_released", f"the input must have been free for {CLEAN_S} s"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from bridge.core.authority import external_velocity
 from bridge.core.authority.epoch import hold, revoke
 from bridge.core.authority.grants import end_grant
-from bridge.core.authority.leg_tracking import forget_horizon, judge_arrival
+from bridge.core.authority.leg_tracking import forget_horizon, has_arrived
 from bridge.core.faults import (
     fault_latch,
 )
@@ -23,7 +23,7 @@ from bridge.core.modes.transition import escalate, go
 from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 
 REVOKED_S = 30.0
@@ -34,7 +34,7 @@ _FOLLOWS = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.TELEOP})
 _HOLD2 = SEVERITY[Action.HOLD2]
 
 
-def detect(tick: Tick) -> None:
+def detect(tick: TickContext) -> None:
     """Run every detector and keep what it saw as long as its row says."""
     dirty: fault_latch.Dirty = []
     for detector in DETECTORS:
@@ -48,7 +48,7 @@ def detect(tick: Tick) -> None:
             revoke(tick)  # whatever pushes on would go on for the next grant, too
 
 
-def decide(tick: Tick) -> None:
+def decide(tick: TickContext) -> None:
     """Bring the mode up to date."""
     s = tick.s
     if s.mode is Mode.BOOT:
@@ -61,14 +61,14 @@ def decide(tick: Tick) -> None:
     if must_stop and s.mode in _FOLLOWS:
         go(tick, action, why, reset_needed=reset_needed)
     elif must_stop and s.mode is Mode.STOPPING:
-        _worsen(tick, action, why, reset_needed=reset_needed)
+        escalate_stop(tick, action, why, reset_needed=reset_needed)
     stop_monitor.judge(tick)
-    _tire(tick, must_stop=must_stop)
+    expire_holding(tick, must_stop=must_stop)
     if not must_stop:
-        _call(tick)
+        activate(tick)
 
 
-def _tire(tick: Tick, *, must_stop: bool) -> None:
+def expire_holding(tick: TickContext, *, must_stop: bool) -> None:
     """While holding: forget a horizon grown old, and revoke a mission that waits for too long.
 
     A stale horizon matters while it moves the robot; a standing one just needs another.
@@ -94,26 +94,27 @@ def _tire(tick: Tick, *, must_stop: bool) -> None:
         forget_horizon(tick)
 
 
-def _worsen(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> None:
+def escalate_stop(tick: TickContext, action: Action, why: str, *, reset_needed: bool) -> None:
+    """Answer a row that is worse than the stop in progress: cut the torque, or brake harder."""
     if action is Action.CUT0:
         go(tick, action, why)
     else:
         escalate(tick, action, why, reset_needed=reset_needed)
 
 
-def arrive(tick: Tick, *, at_end: bool) -> None:
+def arrive(tick: TickContext, *, at_end: bool) -> None:
     """Leave ACTIVE when what was asked is done and the robot stands."""
     s = tick.s
     if s.mode is not Mode.ACTIVE:
         return
     if s.source == "X":
-        if not external_velocity.calls(tick) and tick.still_for(0.0):
+        if not external_velocity.asks_to_move(tick) and tick.still_for(0.0):
             go(tick, Fact.ARRIVED, "released")
-    elif judge_arrival(tick, at_end=at_end):
+    elif has_arrived(tick, at_end=at_end):
         go(tick, Fact.ARRIVED, "reached" if s.leg.reached else "no_points")
 
 
-def _call(tick: Tick) -> None:
+def activate(tick: TickContext) -> None:
     """Go to ACTIVE where somebody with a grant asks for motion and nothing forbids it."""
     s = tick.s
     if s.mode is Mode.STOPPING and s.stopping is not None and s.stopping.resumes:
@@ -126,7 +127,7 @@ def _call(tick: Tick) -> None:
         return
     if tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s):
         source = "W"
-    elif external_velocity.calls(tick):
+    elif external_velocity.asks_to_move(tick):
         source = "X"
     else:
         return

@@ -15,7 +15,7 @@ from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict
 from bridge.core.faults.fault_latch import clear_on_arm, clear_on_reset
 from bridge.core.modes import selftest
 from bridge.core.modes.arming import arm_lacks, reset_lacks
-from bridge.core.modes.mode_table import Fact, Request
+from bridge.core.modes.mode_table import Fact, RequestCause
 from bridge.core.modes.transition import go
 from bridge.core.sensing.stop_inputs import latch_order
 from wire import HeldReason, Mode
@@ -23,13 +23,13 @@ from wire import HeldReason, Mode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.inbox import OpArrived
-    from bridge.core.tick_context import Tick
+    from bridge.core.inbox import OperatorArrival
+    from bridge.core.tick_context import TickContext
 
 _PROVEN = frozenset({"arm", "reset", "resume"})
 
 
-def hear_stops(tick: Tick) -> None:
+def hear_stops(tick: TickContext) -> None:
     """Obey every stop that is new; many at once are one change of epoch."""
     for stop in tick.inbox.stops:
         if verdict_on(tick, "stop", stop.id) is None:
@@ -40,10 +40,10 @@ def hear_stops(tick: Tick) -> None:
             hold(tick, HeldReason.STOP, stop.id)
     if tick.stopped:
         void_nonces(tick)
-        go(tick, Request.STOP, "stop")
+        go(tick, RequestCause.STOP, "stop")
 
 
-def hear_op(tick: Tick, op: OpArrived) -> None:
+def hear_op(tick: TickContext, op: OperatorArrival) -> None:
     """Give one request its verdict, and obey it if that is ok."""
     if verdict_on(tick, op.kind, op.request.id) is not None:
         return
@@ -55,14 +55,14 @@ def hear_op(tick: Tick, op: OpArrived) -> None:
         settle(tick, op.kind, op.request.id, *refusal)
 
 
-def estop(tick: Tick, why: str) -> None:
+def estop(tick: TickContext, why: str) -> None:
     """Latch the protective stop, in a new epoch; said again, it changes nothing."""
-    if go(tick, Request.ESTOP, why):
+    if go(tick, RequestCause.ESTOP, why):
         void_nonces(tick)
         new_epoch(tick, "estop")
 
 
-def _against(tick: Tick, op: OpArrived) -> Iterator[tuple[str, str]]:
+def _against(tick: TickContext, op: OperatorArrival) -> Iterator[tuple[str, str]]:
     """Yield code and detail of what speaks against a request, the first one decides."""
     if op.kind in _PROVEN:
         if tick.stopped:
@@ -76,39 +76,39 @@ def _against(tick: Tick, op: OpArrived) -> Iterator[tuple[str, str]]:
         yield from reset_lacks(tick)
 
 
-def _arm(tick: Tick, request_id: str) -> None:
+def _arm(tick: TickContext, request_id: str) -> None:
     use_nonce(tick, "arm", request_id)
     release(tick)
     clear_on_arm(tick)
     new_epoch(tick, "armed")
     renew_budgets(tick)
     forget_arming(tick)
-    go(tick, Request.ARM, "arm")
+    go(tick, RequestCause.ARM, "arm")
 
 
-def _disarm(tick: Tick, _request_id: str) -> None:
+def _disarm(tick: TickContext, _request_id: str) -> None:
     void_nonces(tick)
-    go(tick, Request.DISARM, Request.DISARM)
+    go(tick, RequestCause.DISARM, RequestCause.DISARM)
 
 
-def _estop(tick: Tick, _request_id: str) -> None:
+def _estop(tick: TickContext, _request_id: str) -> None:
     latch_order(tick, ordered=True)
     if tick.s.mode is Mode.ESTOPPED:
         void_nonces(tick)  # latched already: what is said again ends a reset signed before it
     estop(tick, "estop")
 
 
-def _reset(tick: Tick, request_id: str) -> None:
+def _reset(tick: TickContext, request_id: str) -> None:
     use_nonce(tick, "reset", request_id)
     latch_order(tick, ordered=False)
     clear_on_reset(tick)
     if tick.s.selftest.passed:
-        go(tick, Request.RESET, "reset")
+        go(tick, RequestCause.RESET, "reset")
     else:
         selftest.enter(tick, Fact.UNPROVEN_RESET, "reset")
 
 
-def _resume(tick: Tick, request_id: str) -> None:
+def _resume(tick: TickContext, request_id: str) -> None:
     use_nonce(tick, "resume", request_id)
     release(tick)
     renew_budgets(tick)

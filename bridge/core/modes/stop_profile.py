@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.kinematics import fastest_rim, scaled
+from bridge.core.geometry.kinematics import fastest_rim, scale_twist
 from bridge.core.state_motion import NO_STOP, LimiterState, Profile, StopPlan
 from wire.geometry import STILL, Twist2
 
@@ -52,11 +52,11 @@ def _against(speed: float, accel: float) -> float:
     return -accel if speed > 0.0 else accel if speed < 0.0 else 0.0
 
 
-def planned(plan: StopPlan, elapsed_s: float) -> Twist2:
+def planned_twist(plan: StopPlan, elapsed_s: float) -> Twist2:
     """Return what is to be sent ``elapsed_s`` after the stop began; before it, the start."""
     if not plan.rim_mps > 0.0:
         return STILL
-    return scaled(plan.start, planned_rim_mps(plan, elapsed_s) / plan.rim_mps)
+    return scale_twist(plan.start, planned_rim_mps(plan, elapsed_s) / plan.rim_mps)
 
 
 def planned_rim_mps(plan: StopPlan, elapsed_s: float) -> float:

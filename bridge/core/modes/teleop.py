@@ -13,19 +13,19 @@ from bridge.core.authority.epoch import hold, new_epoch
 from bridge.core.authority.grants import forget_arming
 from bridge.core.authority.message_score import bad, good
 from bridge.core.geometry.message_age import sent_at
-from bridge.core.modes.mode_table import Fact, Request
+from bridge.core.modes.mode_table import Fact, RequestCause
 from bridge.core.modes.transition import go
 from wire import HeldReason, Mode, Twist2
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Velocity
 
 CAUSAL_S = 0.4
 RECEIPT_S = 0.25
 
 
-def hear_teleop(tick: Tick, new: Velocity) -> None:
+def hear_teleop(tick: TickContext, new: Velocity) -> None:
     """Take in one message of a stick; it may take over, steer or let go."""
     s = tick.s
     if new.dead_man:
@@ -48,7 +48,7 @@ def hear_teleop(tick: Tick, new: Velocity) -> None:
         _steer(tick, new, sent_s)
 
 
-def watch(tick: Tick) -> None:
+def watch(tick: TickContext) -> None:
     """Let a silent or stale stick go."""
     hand = tick.s.stick
     if hand.source_id is None:
@@ -58,28 +58,28 @@ def watch(tick: Tick) -> None:
         _release(tick, "teleop_stale")
 
 
-def wanted(tick: Tick) -> Twist2:
+def requested_twist(tick: TickContext) -> Twist2:
     """Return what the stick asks for."""
     return Twist2(tick.s.stick.v_mps, tick.s.stick.w_radps)
 
 
-def _let_go(tick: Tick, new: Velocity) -> None:
+def _let_go(tick: TickContext, new: Velocity) -> None:
     if tick.s.stick.source_id is not None:
         _release(tick, "teleop_released")
     stick.note_released(tick, new.source_id)
     stick.note_neutral(tick, new)
 
 
-def _take_over(tick: Tick, new: Velocity, sent_s: float) -> None:
+def _take_over(tick: TickContext, new: Velocity, sent_s: float) -> None:
     stick.note_neutral(tick, new)
     s = tick.s
     if new.source_id not in s.stick.ready or tick.stopped:
         tick.drop("stick_not_ready")
         return
-    if tick.powered and s.grants.spent_hand_part() is not None:
+    if tick.is_powered and s.grants.spent_hand_part() is not None:
         tick.drop("hand_spent")
         return
-    if not go(tick, Request.TELEOP, f"teleop {new.source_id}", source="T"):
+    if not go(tick, RequestCause.TELEOP, f"teleop {new.source_id}", source="T"):
         tick.drop("teleop_not_now")
         return
     stick.give(tick, new, sent_s)
@@ -88,7 +88,7 @@ def _take_over(tick: Tick, new: Velocity, sent_s: float) -> None:
     forget_arming(tick)
 
 
-def _steer(tick: Tick, new: Velocity, sent_s: float) -> None:
+def _steer(tick: TickContext, new: Velocity, sent_s: float) -> None:
     s = tick.s
     if not new.seq > s.stick.seq:
         if new.seq < s.stick.seq:
@@ -100,7 +100,7 @@ def _steer(tick: Tick, new: Velocity, sent_s: float) -> None:
     stick.steer(tick, new, sent_s)
 
 
-def _release(tick: Tick, why: str) -> None:
+def _release(tick: TickContext, why: str) -> None:
     """End teleop: HOLD, held, and the same hand must show itself released and neutral anew."""
     s = tick.s
     source_id = s.stick.source_id or ""

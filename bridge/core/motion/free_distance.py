@@ -82,7 +82,7 @@ def free_length(
     if not abs(curve) <= _TIGHTEST_PER_M:
         return NOTHING_KNOWN
     start = robot if v > 0.0 else Pose2(robot.x_m, robot.y_m, robot.yaw_rad + pi)
-    known, covered = _seen(picture, start, curve, disc, moved)
+    known, covered = _sector_state(picture, start, curve, disc, moved)
     if not covered:
         return FreeLength(0.0, known, False, False)
     # No place on the arc is further from its start than the path, or than the circle is wide.
@@ -101,7 +101,7 @@ def free_length(
     return FreeLength(s, known, True, touching)
 
 
-def _seen(
+def _sector_state(
     picture: ScanPicture, start: Pose2, curve: float, disc: float, moved: float
 ) -> tuple[bool, bool]:
     """Tell whether the sector that the arc sweeps came back, and whether the lidar covers it.
@@ -121,7 +121,7 @@ def _seen(
         half = asin(disc / away) if away > disc else pi / 2
         low, high = min(low, toward - half), max(high, toward + half)
     sector = picture.sector(start.yaw_rad + (low + high) / 2, (high - low) / 2)
-    return sector.known, sector.covered
+    return sector.is_known, sector.covered
 
 
 def _few_missing(picture: ScanPicture, disc: float, moved: float) -> bool:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
-from bridge.core.geometry.kinematics import scaled
+from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.motion.braking import (
     CREEP_RADPS,
     STANDING_MPS,
@@ -152,7 +152,7 @@ def _carried_on(
 
 def _passes(asked: Twist2, scale: float) -> Twist2:
     if scale > 0.0:
-        return scaled(asked, scale)
+        return scale_twist(asked, scale)
     if abs(asked.w_radps) <= CREEP_RADPS:
         return Twist2(0.0, asked.w_radps)
     if asked.w_radps > 0.0:

@@ -17,7 +17,7 @@ from bridge.core.geometry.path_profile import (
     SLOWEST_MPS,
     TURN_RADIUS_M,
     Path,
-    regulated,
+    regulate,
     residuals,
 )
 from bridge.core.motion.braking import speed_within
@@ -44,7 +44,7 @@ _STOP_FIRST_MPS = 0.1
 
 
 @value
-class Follow:
+class PursuitCommand:
     """Answer one tick of following."""
 
     state: FollowState
@@ -57,12 +57,12 @@ class Follow:
     """Within what counts as reached. Whether the robot stands is for the caller to see."""
 
 
-def carried(state: FollowState) -> FollowState:
+def carry_over(state: FollowState) -> FollowState:
     """Return the state for the next horizon of the same leg: progress anew, the rest goes on."""
     return FollowState(0.0, state.turning, state.settled, state.heading_done, state.tries)
 
 
-def reached(residual_m: float, residual_rad: float) -> bool:
+def is_reached(residual_m: float, residual_rad: float) -> bool:
     """Tell whether residuals count as reached; what is not a number does not."""
     return residual_m <= REACHED_M and residual_rad <= REACHED_RAD
 
@@ -83,7 +83,7 @@ def follow(
     base: Base,
     limits: Limits,
     lag_s: float,
-) -> Follow:
+) -> PursuitCommand:
     """Return what velocity the path asks for, within robot.toml's limits.
 
     Args:
@@ -97,7 +97,7 @@ def follow(
     """
     here = abs(robot_in_map.x_m) + abs(robot_in_map.y_m) + abs(robot_in_map.yaw_rad)
     if not (path.xs_m and here <= 3 * MAX_COORDINATE_M):
-        return Follow(state, STILL, 0.0, 0.0, False)
+        return PursuitCommand(state, STILL, 0.0, 0.0, False)
     along = max(state.along_m, _progress(path, state.along_m, robot_in_map))
     away, residual_rad = residuals(path.xs_m[-1], path.ys_m[-1], path.heading_rad, robot_in_map)
     residual_m = max(away, path.length_m - along)
@@ -113,12 +113,12 @@ def follow(
         target = _turn(view.aside_rad, sent, base, limits, reaction)
     else:
         target = _drive(path, view, along, limits, reaction)
-    return Follow(
+    return PursuitCommand(
         moved,
         saturate(target, base, limits),
         residual_m,
         residual_rad,
-        reached(residual_m, residual_rad),
+        is_reached(residual_m, residual_rad),
     )
 
 
@@ -174,7 +174,7 @@ def _drive(path: Path, view: _View, along: float, limits: Limits, reaction: floa
     curve = 2 * sin(view.aside_rad) / max(view.aim_m, LOOK_MIN_M)
     speed = _speed(path, along, limits)
     slowest = min(speed, SLOWEST_MPS)
-    speed = regulated(speed, curve, TURN_RADIUS_M, slowest) * max(0.25, cos(view.aside_rad))
+    speed = regulate(speed, curve, TURN_RADIUS_M, slowest) * max(0.25, cos(view.aside_rad))
     speed = min(speed, speed_within(view.rest_m, PLANNED_DECEL * limits.max_decel_mps2, reaction))
     return Twist2(-speed if path.backwards else speed, speed * curve)
 

@@ -22,7 +22,7 @@ from wire.geometry import MAX_COORDINATE_M
 if TYPE_CHECKING:
     from bridge.core.geometry.odometry import OdometryState
     from bridge.core.inbox import Inbox
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import DriveState, Localization, Pose2, Scan
 
 POOR_QUALITY = 0.5
@@ -52,7 +52,7 @@ _TRAIL = 24
 """Readings kept to place a scan: 0.24 s, as old as a scan may be."""
 
 
-def sense(tick: Tick) -> None:
+def sense(tick: TickContext) -> None:
     """Take in all readings of this tick."""
     inbox, s = tick.inbox, tick.s
     for state in inbox.drive:
@@ -81,7 +81,7 @@ def sense(tick: Tick) -> None:
     note_lateness(tick)
 
 
-def note_lateness(tick: Tick) -> None:
+def note_lateness(tick: TickContext) -> None:
     """Remember ticks that began late, ticks missed, and gaps, as the shell measured them."""
     facts, s = tick.inbox.loop, tick.s
     if facts.missed_ticks:
@@ -92,7 +92,7 @@ def note_lateness(tick: Tick) -> None:
         s.loop = replace(s.loop, gaps_at_s=(*s.loop.gaps_at_s[-(GAPS - 1) :], tick.now_s))
 
 
-def locate(tick: Tick) -> bool:
+def locate(tick: TickContext) -> bool:
     """Take in localization, and say where the robot is in ``map`` if that may be trusted.
 
     Returns:
@@ -109,7 +109,7 @@ def locate(tick: Tick) -> bool:
     return displaced
 
 
-def pose_trouble(tick: Tick) -> str | None:
+def pose_trouble(tick: TickContext) -> str | None:
     """Say why the pose in ``map`` is not to be trusted; None if it is."""
     pose = tick.s.pose
     if pose.localization is None or pose.received_s is None:
@@ -124,7 +124,7 @@ def pose_trouble(tick: Tick) -> str | None:
     return None
 
 
-def _hear_drive(tick: Tick, state: DriveState) -> None:
+def _hear_drive(tick: TickContext, state: DriveState) -> None:
     s = tick.s
     drive = s.drive
     last = drive.newest
@@ -158,7 +158,7 @@ def _hear_drive(tick: Tick, state: DriveState) -> None:
     s.trail = (*s.trail[-(_TRAIL - 1) :], (stamp_s, s.odometry.base_in_odom))
 
 
-def _hear_scan(tick: Tick, scan: Scan) -> None:
+def _hear_scan(tick: TickContext, scan: Scan) -> None:
     s = tick.s
     lidar = s.lidar
     last = lidar.newest
@@ -171,7 +171,7 @@ def _hear_scan(tick: Tick, scan: Scan) -> None:
     taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
     robot = tick.config.robot
     seen_m = sight_m(robot, s.learnt.in_force())
-    picture = ScanPicture.from_scan(scan, _where(tick, taken_s), robot.lidar, seen_m)
+    picture = ScanPicture.from_scan(scan, _place_at(tick, taken_s), robot.lidar, seen_m)
     learns = lidar.baseline_scans < BASELINE_SCANS and sees(picture)
     scans = lidar.baseline_scans + 1 if learns else lidar.baseline_scans
     mean = lidar.baseline_returns
@@ -207,7 +207,7 @@ def sees(picture: ScanPicture) -> bool:
     return picture.beams > 0 and picture.returns >= SEES_SHARE * picture.beams
 
 
-def _where(tick: Tick, at_s: float) -> Pose2:
+def _place_at(tick: TickContext, at_s: float) -> Pose2:
     """Return where odometry says the robot was; the oldest known place for anything older."""
     trail = tick.s.trail
     for stamp_s, base_in_odom in reversed(trail):
@@ -216,7 +216,7 @@ def _where(tick: Tick, at_s: float) -> Pose2:
     return trail[0][1] if trail else tick.s.odometry.base_in_odom
 
 
-def _hear_localization(tick: Tick, new: Localization) -> bool:
+def _hear_localization(tick: TickContext, new: Localization) -> bool:
     s = tick.s
     if new.odom_id != tick.config.boot or new.map_id != tick.config.map_id:
         tick.drop("localization_foreign")
@@ -229,7 +229,7 @@ def _hear_localization(tick: Tick, new: Localization) -> bool:
     return last is not None and _is_jump(tick, last, new)
 
 
-def _is_jump(tick: Tick, last: Localization, new: Localization) -> bool:
+def _is_jump(tick: TickContext, last: Localization, new: Localization) -> bool:
     """Tell whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p.
 
     By one message, or by many that add up to more than odometry may have been wrong.
@@ -239,7 +239,7 @@ def _is_jump(tick: Tick, last: Localization, new: Localization) -> bool:
     before, after = compose(last.odom_in_map, here), compose(new.odom_in_map, here)
     x_m, y_m = after.x_m - before.x_m, after.y_m - before.y_m
     yaw_rad = wrap(after.yaw_rad - before.yaw_rad)
-    drift = _drifted(s.pose.drift, x_m, y_m, yaw_rad, s.odometry)
+    drift = _add_drift(s.pose.drift, x_m, y_m, yaw_rad, s.odometry)
     jump_m, drift_m = hypot(x_m, y_m), hypot(drift.x_m, drift.y_m)
     small = jump_m <= JUMP_M and abs(yaw_rad) <= JUMP_RAD
     if small and drift_m <= DRIFT_M and abs(drift.yaw_rad) <= DRIFT_RAD:
@@ -257,7 +257,9 @@ def _is_jump(tick: Tick, last: Localization, new: Localization) -> bool:
     return True
 
 
-def _drifted(had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState) -> Drift:
+def _add_drift(
+    had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState
+) -> Drift:
     """Add one correction, and forgive what odometry may have been wrong since the last."""
     moved_m = odometry.travelled_m - had.travelled_m
     turned_rad = odometry.turned_rad - had.turned_rad

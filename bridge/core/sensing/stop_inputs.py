@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from wire import Mode
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import EstopLink
 
 
@@ -16,24 +16,24 @@ LINK_SILENT_S = 0.5
 _UNPROVEN = frozenset({Mode.BOOT, Mode.SELFTEST})
 
 
-def hear_link(tick: Tick, link: EstopLink) -> None:
+def hear_link(tick: TickContext, link: EstopLink) -> None:
     """Take in what the stop button's link says."""
     buttons = tick.s.buttons
     tick.s.buttons = replace(buttons, link_pressed=link.pressed, link_received_s=tick.now_s)
 
 
-def note_pressed(tick: Tick) -> None:
+def note_pressed(tick: TickContext) -> None:
     """Remember when an input was last seen pressed, in the mode that this tick's orders left."""
-    if pressed(tick) is not None:
+    if pressed_input(tick) is not None:
         tick.s.buttons = replace(tick.s.buttons, pressed_s=tick.now_s)
 
 
-def latch_order(tick: Tick, *, ordered: bool) -> None:
+def latch_order(tick: TickContext, *, ordered: bool) -> None:
     """Remember that a protective stop was asked for by message, until a reset."""
     tick.s.buttons = replace(tick.s.buttons, ordered=ordered)
 
 
-def pressed(tick: Tick) -> str | None:
+def pressed_input(tick: TickContext) -> str | None:
     """Name the protective-stop input that is pressed now; None if none is."""
     drive, buttons = tick.s.drive.newest, tick.s.buttons
     if drive is not None and drive.estop_pressed is not False:

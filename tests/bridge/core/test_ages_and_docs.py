@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.faults.fault_messages import WORDS
-from bridge.core.faults.fault_table import ROWS, Row
-from bridge.core.geometry.message_age import remembered, sensor_age_s, sent_at
+from bridge.core.faults.fault_table import ROWS, FaultRow
+from bridge.core.geometry.message_age import append_sent, sensor_age_s, sent_at
 from bridge.core.modes.mode_table import TRANSITIONS
 from bridge.core.safety_page import PATH, safety_md
 
@@ -17,7 +17,7 @@ from bridge.core.safety_page import PATH, safety_md
 def test_the_ring_knows_the_last_256_statuses_and_no_other(newest: int, seen: int) -> None:
     ring: tuple[float, ...] = ()
     for seq in range(1, newest + 1):
-        ring = remembered(ring, float(seq))
+        ring = append_sent(ring, float(seq))
     sent_s = sent_at(ring, newest, seen)
     if max(1, newest - 255) <= seen <= newest:
         assert sent_s == float(seen)
@@ -34,7 +34,7 @@ def test_no_stamp_makes_a_reading_younger(
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
-def test_every_row_has_words_and_is_documented(row: Row) -> None:
+def test_every_row_has_words_and_is_documented(row: FaultRow) -> None:
     page = PATH.read_text("utf-8")
     assert f"`{row.id}`" in page
     en, zh = WORDS[row.id]

@@ -10,11 +10,11 @@ import pytest
 from bridge.core import ArrivedAt, LoopFacts
 from bridge.core.authority import rate_limit
 from bridge.core.faults import detectors
-from bridge.core.geometry.debounce import filled
+from bridge.core.geometry.debounce import fill
 from bridge.core.sensing import sensor_update
 from bridge.core.state import RowUp
 from bridge.core.state_senses import Flood
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -23,7 +23,7 @@ EPS = 1e-6
 Dirty = list[tuple[str, str]]
 
 
-def at(start: str = "active") -> Tick:
+def at(start: str = "active") -> TickContext:
     return tick_of(reached(start))
 
 
@@ -42,7 +42,7 @@ def at(start: str = "active") -> Tick:
 def test_a_window_fills_four_times_as_fast_as_it_drains(
     level_s: float, dt_s: float, top_s: float, dirty: bool, after_s: float
 ) -> None:
-    assert filled(level_s, dt_s, top_s, dirty=dirty) == pytest.approx(after_s)
+    assert fill(level_s, dt_s, top_s, dirty=dirty) == pytest.approx(after_s)
 
 
 @table(
@@ -113,7 +113,9 @@ def test_rights_refused_matter_on_a_real_drive(granted: bool, virtual: bool, see
     assert len(dirty) == seen
 
 
-def drawing(amps: float | None, *, peak_s: float = 0.0, heat: float = 0.0) -> tuple[Tick, Dirty]:
+def drawing(
+    amps: float | None, *, peak_s: float = 0.0, heat: float = 0.0
+) -> tuple[TickContext, Dirty]:
     tick = at()
     state = tick.s.drive.newest
     assert state is not None
@@ -260,7 +262,7 @@ def test_each_key_has_its_limit_in_two_halves(key: str, limit: int, before: bool
         tick.s.flood = Flood(tick.now_s - 0.1, (0,) * 6, counts)
         arrived = ArrivedAt(key, count - 2 * before)
         tick.inbox = replace(tick.inbox, arrived=(arrived,))
-        rate_limit.thinned(tick)
+        rate_limit.rate_limited(tick)
         assert (tick.s.flood.level_s > 0.0) is over
         assert tick.s.flood.key == (key if over else "")
 
@@ -278,7 +280,7 @@ def test_halves_follow_each_other(
     passed_s: float, half_began: bool, counts: int, before: int
 ) -> None:
     had, older = (3, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0)
-    turned = rate_limit._turned(Flood(100.0, had, older), 100.0 + passed_s)
+    turned = rate_limit._half_windows(Flood(100.0, had, older), 100.0 + passed_s)
     assert turned[0][0] == counts
     assert turned[1][0] == before
     assert turned[2] == (100.0 + passed_s if half_began else 100.0)

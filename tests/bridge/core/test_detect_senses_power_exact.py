@@ -8,10 +8,11 @@ import pytest
 
 from bridge.core.faults import detectors
 from bridge.core.motion import wheel_command
-from bridge.core.motion.wheel_command import shaped
+from bridge.core.motion.wheel_command import limit
+from bridge.core.sensing.stop_inputs import note_pressed
 from bridge.core.state import RowUp
 from bridge.core.state_motion import AT_REST, LimiterState
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -21,13 +22,13 @@ EPS = 1e-6
 NOW_S = 100.0
 
 
-def at(start: str = "active") -> Tick:
+def at(start: str = "active") -> TickContext:
     tick = tick_of(reached(start))
     tick.now_s = NOW_S
     return tick
 
 
-def seen(detector: str, tick: Tick) -> list[str]:
+def seen(detector: str, tick: TickContext) -> list[str]:
     dirty: list[tuple[str, str]] = []
     getattr(detectors, detector)(tick, dirty)
     return [name for name, _ in dirty]
@@ -115,6 +116,8 @@ def test_a_pressed_button_is_remembered_and_an_order_is_one_too() -> None:
     tick.s.drive.newest = state.model_copy(update={"estop_pressed": True})
     tick.s.buttons = replace(tick.s.buttons, ordered=False)
     assert seen("buttons", tick) == ["ESTOP.0"]
+    assert tick.s.buttons.pressed_s is None
+    note_pressed(tick)
     pressed_s: float | None = tick.s.buttons.pressed_s
     assert pressed_s == NOW_S
 
@@ -168,7 +171,7 @@ def test_torque_is_on_where_it_may_move_or_has_to_stop(start: str, powered: bool
     tick = at(start)
     tick.s.motion.free_m, tick.s.motion.cap = 9.0, 0.5
     tick.s.motion.bound_by = "robot"
-    after = shaped(tick, Twist2(0.3, 0.0))
+    after = limit(tick, Twist2(0.3, 0.0))
     assert tick.s.motion.powered is powered
     if not powered:
         assert after == LimiterState()
@@ -178,24 +181,24 @@ def test_torque_is_on_where_it_may_move_or_has_to_stop(start: str, powered: bool
 
 @table("start", ["hold", "disarmed", "estopped", "fault", "stopping_by_row"])
 def test_who_follows_nobody_wants_to_stand_and_is_at_no_end(start: str) -> None:
-    assert wheel_command.wanted(at(start)) == (STILL, False)
+    assert wheel_command.requested_twist(at(start)) == (STILL, False)
 
 
 def test_without_a_path_or_a_place_nothing_is_followed() -> None:
     tick = at()
-    assert wheel_command.followed(tick) is None  # no place in this tick yet
+    assert wheel_command.follow_horizon(tick) is None  # no place in this tick yet
     tick.robot_in_map = tick.s.odometry.base_in_odom
-    answer = wheel_command.followed(tick)
+    answer = wheel_command.follow_horizon(tick)
     assert answer is not None
     assert answer.target != STILL
     tick.s.leg = replace(tick.s.leg, path=None)
-    assert wheel_command.followed(tick) is None
+    assert wheel_command.follow_horizon(tick) is None
 
 
 @table(("start", "arrives"), [("teleop", False), ("active_external", False)])
 def test_a_hand_and_another_brain_have_no_end(start: str, arrives: bool) -> None:
-    assert wheel_command.wanted(at(start))[1] is arrives
-    assert wheel_command.wanted(at(start))[0] != STILL
+    assert wheel_command.requested_twist(at(start))[1] is arrives
+    assert wheel_command.requested_twist(at(start))[0] != STILL
 
 
 @table(

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bridge.core.geometry.fence import build_fence
-from bridge.core.geometry.kinematics import saturate, scaled
+from bridge.core.geometry.kinematics import saturate, scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import reaction_s
@@ -239,7 +239,7 @@ def fenced(start: Pose2, asked: Twist2, seconds: float) -> tuple[float, Pose2]:
     least = FENCE.margin_m(pose.x_m, pose.y_m)
     for _ in range(round(seconds / 0.01)):
         scale = fence_scale(FENCE, pose, asked, BASE, LIMITS, REACTION)
-        memory = shape(scaled(asked, scale), memory, BASE, LIMITS, 0.01)
+        memory = shape(scale_twist(asked, scale), memory, BASE, LIMITS, 0.01)
         pipe.append(memory.sent)
         moving = pipe.popleft()
         pose = along_arc(pose, moving.v_mps * 0.01, moving.w_radps * 0.01)

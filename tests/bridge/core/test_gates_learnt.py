@@ -8,7 +8,7 @@ from math import pi, tau
 import pytest
 
 from bridge.core.geometry.fence import build_fence
-from bridge.core.geometry.kinematics import scaled
+from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
@@ -88,7 +88,7 @@ def test_what_was_learnt_keeps_it_inside_the_fence(metal: Braking, yaw: float) -
     asked = Twist2(0.5, 0.0)
     for _ in range(800):
         scale = fence_scale(FENCE, pose, asked, BASE, LIMITS, reaction, metal.decel_share)
-        memory = shape(scaled(asked, scale), memory, BASE, LIMITS, 0.01)
+        memory = shape(scale_twist(asked, scale), memory, BASE, LIMITS, 0.01)
         moving = real.turn(memory.sent)
         pose = along_arc(pose, moving.v_mps * 0.01, moving.w_radps * 0.01)
         # The gate judges what is asked; 0.31 s late the robot is still faster than that: 2 cm.

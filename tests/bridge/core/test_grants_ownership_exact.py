@@ -8,18 +8,18 @@ from bridge.core.authority import grants, ownership
 from bridge.core.authority import hello as hearing
 from bridge.core.authority.requests import refuse_openly
 from bridge.core.state_orders import Grants, MissionLeft, Ownership
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import PROTOCOL, Grant, Heartbeat, Held, HeldReason, Hello, Owner
 
 
-def at(start: str) -> Tick:
+def at(start: str) -> TickContext:
     return tick_of(reached(start))
 
 
-def grant(tick: Tick, mission: str = "new", metres: float = 5.0) -> Grant:
+def grant(tick: TickContext, mission: str = "new", metres: float = 5.0) -> Grant:
     seen = tick.s.voice.status_seq
     return Grant(planner_id="p1", epoch=tick.epoch, seen=seen, mission=mission, metres=metres,
                  seconds=9.0)  # fmt: skip
@@ -60,7 +60,7 @@ def test_a_grant_knows_of_the_jump_or_is_dropped(after_s: float, granted: bool) 
     assert tick.s.grants.metres == (5.0 if granted else 0.0)
 
 
-def hello(tick: Tick, **more: object) -> Hello:
+def hello(tick: TickContext, **more: object) -> Hello:
     config = tick.config
     said = {"planner_id": "p2", "kind": "planner", "seen": tick.s.voice.status_seq,
             "protocol": PROTOCOL, "robot_hash": config.robot_hash,

@@ -252,5 +252,5 @@ def test_when_a_mark_was_crossed_is_told_between_two_ticks(
     at_s: float | None, before: float, after: float, crossed_s: float | None
 ) -> None:
     expected = {9.99: 10.0}.get(crossed_s or 0.0, crossed_s)
-    found = module._crossed(at_s, before, after, 0.3, 10.0, 0.01)
+    found = module._crossing_s(at_s, before, after, 0.3, 10.0, 0.01)
     assert found == (None if expected is None else pytest.approx(expected))

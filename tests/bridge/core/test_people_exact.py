@@ -10,7 +10,7 @@ from bridge.core.faults.fault_table import STAGES
 from bridge.core.modes import operator, teleop
 from bridge.core.modes.arming import ready_lacks, reset_lacks
 from bridge.core.state import RowUp
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -20,7 +20,7 @@ EPS = 1e-6
 HELD = Held(reason=HeldReason.STOP, id="s1")
 
 
-def at(start: str) -> Tick:
+def at(start: str) -> TickContext:
     return tick_of(reached(start))
 
 
@@ -161,7 +161,9 @@ def test_a_reset_waits_for_one_thing_each(change: str, code: str | None) -> None
         assert lacks == ([code] if code and age_s < 2.0 else [])
 
 
-def velocity(tick: Tick, v_mps: float = 0.0, w_radps: float = 0.0, **more: object) -> Velocity:
+def velocity(
+    tick: TickContext, v_mps: float = 0.0, w_radps: float = 0.0, **more: object
+) -> Velocity:
     said = {"source_id": "s", "epoch": tick.epoch, "seq": 9, "seen": tick.s.voice.status_seq,
             "dead_man": True} | more  # fmt: skip
     return Velocity.model_validate(said | {"v_mps": v_mps, "w_radps": w_radps})
@@ -308,7 +310,7 @@ def test_letting_go_holds_and_the_hand_must_begin_anew() -> None:
     assert (tick.s.stick.source_id, tick.s.stick.ready, tick.s.stick.pressed_s) == (None, (), 1.0)
     assert tick.s.stick.released == (source,)
     teleop.hear_teleop(tick, velocity(tick, 0.0, source_id=source))
-    assert tick.moving, "released, then neutral, in the taking itself"
+    assert tick.is_moving, "released, then neutral, in the taking itself"
     assert tick.s.epoch_no == epoch + 1
     assert not tick.s.grants.since_arm
 

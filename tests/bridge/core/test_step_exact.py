@@ -8,7 +8,7 @@ import pytest
 
 from bridge.core import Inbox, initial
 from bridge.core.modes.teleop import CAUSAL_S
-from bridge.core.motion.wheel_command import _reconsider, followed
+from bridge.core.motion.wheel_command import _reconsider, follow_horizon
 from bridge.core.state_motion import Gate
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.reached import reached
@@ -142,7 +142,7 @@ def test_to_ask_what_would_be_asked_follows_nothing() -> None:
     tick.s.gate = Gate(blocked=True)
     tick.robot_in_map = IDENTITY
     before = tick.s.motion.follow
-    answer = followed(tick)
+    answer = follow_horizon(tick)
     assert answer is not None
     assert answer.target != STILL
     assert answer.state != before, "in ACTIVE it would turn from now on"

@@ -11,8 +11,8 @@ from bridge.core.inbox import RejectedAt
 from bridge.core.reporting import report
 from bridge.core.state import BridgeState, Voice, draft
 from bridge.core.state_motion import Gate
-from bridge.core.state_orders import Answered
-from bridge.core.tick_context import Tick
+from bridge.core.state_orders import TimedAnswer
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -22,7 +22,7 @@ from wire import Answer, Held, HeldReason, Imu, Mode, Rejected
 EPS = 1e-9
 
 
-def quiet() -> Tick:
+def quiet() -> TickContext:
     """Return a tick in which nobody has been answered or refused anything yet."""
     tick = tick_of(reached("active"))
     tick.s.operator = replace(tick.s.operator, answers=(), refusals=())
@@ -39,7 +39,7 @@ def test_64_verdicts_are_remembered_and_the_newest_16_shown() -> None:
     kept = [item.answer for item in tick.s.operator.answers]
     assert [answer.id for answer in kept] == [f"a{number}" for number in range(6, 70)]
     assert [answer.accepted for answer in kept[:2]] == [False, True]
-    assert requests.shown(tick) == tuple(kept[-16:])
+    assert requests.answers_to_echo(tick) == tuple(kept[-16:])
     assert kept[0].detail == "d" * 400
     assert tick.events[-1] == ("answered", "arm a69 ok")
     assert requests.verdict_on(tick, "arm", "a6") is kept[0]
@@ -53,10 +53,10 @@ def test_a_verdict_is_shown_for_10_s_and_a_refusal_for_1(
 ) -> None:
     tick = quiet()
     answer = Answer(id="a", kind="arm", accepted=True, code="ok", detail="")
-    both = (Answered(tick.now_s, answer),)
+    both = (TimedAnswer(tick.now_s, answer),)
     tick.s.operator = replace(tick.s.operator, answers=both, refusals=both)
     tick.now_s += age_s
-    assert len(requests.shown(tick)) == settled + refused
+    assert len(requests.answers_to_echo(tick)) == settled + refused
 
 
 def test_of_refusals_the_newest_of_each_sender_counts_and_eight_in_all() -> None:
@@ -144,7 +144,7 @@ def test_what_others_wait_for_is_told_at_once(change: dict[str, Any], told: bool
     for name, value in change.items():
         made = replace(getattr(old, name), **value) if isinstance(value, dict) else value
         setattr(new, name, made)
-    assert report._changed(old, new) is told
+    assert report._has_news(old, new) is told
 
 
 # Odometry and events ----------------------------------------------------------------------------

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.motion.wheel_control import CORRECTION_MPS, CREEP_RADPS, DOUBT_S, turned
+from bridge.core.motion.wheel_control import CORRECTION_MPS, CREEP_RADPS, DOUBT_S, control_wheel
 from bridge.core.state_motion import AT_REST, Wheel
 from wire import RobotDescription
 from wire.robot import DriveConfig, Limits
@@ -49,7 +49,7 @@ def step(
     trusted: bool = True,
     stopping: bool = False,
 ) -> Wheel:
-    return turned(wheel, meant, by, reading, DT_S, robot, trusted=trusted, stopping=stopping)
+    return control_wheel(wheel, meant, by, reading, DT_S, robot, trusted=trusted, stopping=stopping)
 
 
 def bound_of(meant: float, robot: RobotDescription) -> float:
