@@ -67,7 +67,7 @@ coverage: $(DEV) ## branch coverage of wire and bridge/core; fails under 100 % a
 	  tests/bridge/test_message_orders.py $(BRANCHES) $(ARGS)
 
 mutants: $(DEV) ## change bridge/core one thing at a time: do tests notice? hours; resumable; ARGS="--sample 20"
-	@exec nice -n 10 $(BIN)/python scripts/mutants.py $(ARGS)
+	@exec nice -n 10 $(BIN)/python -m tools.mutants $(ARGS)
 
 laws: $(DEV) ## every law with 2 000 fresh examples, where `make test` tries 50; minutes
 	@HYPOTHESIS_PROFILE=laws $(BIN)/python -m pytest -q -n logical -m "hypothesis and not e2e" --timeout 600 $(ARGS)

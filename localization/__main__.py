@@ -17,7 +17,7 @@ from pathlib import Path
 from localization.node import Shell
 from localization.site_map import read_map_id
 from localization.standin import StandIn
-from rank import fifo
+from processes.priority import set_fifo
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -47,7 +47,7 @@ def _serve(options: argparse.Namespace) -> None:
     robot_id = (load_robot(options.robot) if options.robot else RobotDescription()).id
     stand_in = StandIn(read_map_id(options.site), seed=options.seed)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    fifo(PRIORITY)  # before the session, whose threads inherit it
+    set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.LOCALIZATION, robot_id, home) as session:
         shell = Shell(stand_in, session)
         gc.collect()
@@ -57,13 +57,13 @@ def _serve(options: argparse.Namespace) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Return 0 after a clean end, 2 when refused."""
+    """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     try:
         _serve(_options(arguments))
     except Misconfigured as error:
         print(f"localization: {error}", file=sys.stderr)
-        return 2
+        return error.exit_status
     return 0
 
 

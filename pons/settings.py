@@ -34,14 +34,14 @@ class Settings:
     """The certificate to judge the planner's by, in place of ``$PONS_HOME/tls/ca.crt``."""
 
     @property
-    def dialled(self) -> str:
+    def host_to_dial(self) -> str:
         """Return the host to ask: a planner that listens everywhere is asked here."""
         return _HERE.get(self.host, self.host)
 
     @property
     def url(self) -> str:
         """Return the base URL of page and API."""
-        host = f"[{self.dialled}]" if ":" in self.dialled else self.dialled
+        host = f"[{self.host_to_dial}]" if ":" in self.host_to_dial else self.host_to_dial
         return f"{'https' if self.tls else 'http'}://{host}:{self.port}"
 
 

@@ -19,7 +19,7 @@ import time
 from typing import TYPE_CHECKING
 
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.settings import allowed_hosts
 from pons.supervisor import REFUSED_TO_START, Child
@@ -30,15 +30,15 @@ from wire.sockets import Endpoints
 if TYPE_CHECKING:
     from types import FrameType
 
-    from pons.authority import Issued
+    from pons.authority import IssuedCertificate
     from pons.settings import Settings
 
 POLL_S = 0.05
 PATIENCE_S = 4.0
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
-SOCKETS_S = 0.5
-"""How long a socket whose name was removed stays unreachable at most."""
+LOOK_S = 0.5
+"""The longest that a removed socket stays unreachable, or a log longer than its bound."""
 PRIVATE = 0o077
 """What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 MIN_FREE_BYTES = 200 * 1024 * 1024
@@ -57,9 +57,9 @@ class Supervisor:
         robot: RobotDescription,
         *,
         planner: bool,
-        issued: Issued | None = None,
+        issued: IssuedCertificate | None = None,
     ) -> None:
-        self._trust = issued.told() if issued else ()
+        self._trust = issued.trust_lines() if issued else ()
         self._settings = settings
         self._robot = robot
         self._planner = planner
@@ -90,9 +90,8 @@ class Supervisor:
 
     def _tend(self, now_s: float) -> None:
         for child in self._children:
-            child.bound_log()
             status = child.died(now_s)
-            if status == REFUSED_TO_START and not (self._said_ready and _may_pass(child)):
+            if status == REFUSED_TO_START:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
             if status is not None:
                 self._sockets.forget(child.name)
@@ -102,11 +101,12 @@ class Supervisor:
             if child.due(now_s) and (self._said_ready or not child.waits_for_ready):
                 child.start(now_s)
         if now_s >= self._next_look_s:
-            self._next_look_s = now_s + SOCKETS_S
-            self._look_after_sockets()
+            self._next_look_s = now_s + LOOK_S
+            self._look_after_files()
 
-    def _look_after_sockets(self) -> None:
+    def _look_after_files(self) -> None:
         for child in self._children:
+            child.bound_log()
             if child.process is not None:
                 for path in self._sockets.look_after(child.name):
                     say(f"{path} was removed, and is there again")
@@ -142,7 +142,7 @@ class Supervisor:
             return True  # arming asks the bridge itself
         try:
             call(self._settings, "GET", "/readyz", timeout_s=1.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         return True
 
@@ -154,7 +154,7 @@ class Supervisor:
             return self._armed
         try:
             answer = call(self._settings, "POST", "/v1/arm", {}, timeout_s=3.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         self._armed = bool(answer.get("accepted"))
         return self._armed
@@ -163,12 +163,6 @@ class Supervisor:
         """End the planner first, so that the bridge still brakes; the drive last."""
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
-
-
-def _may_pass(child: Child) -> bool:
-    """Tell whether a refusal may end by itself: a home that can't be written, its log included."""
-    words = child.last_words()
-    return not words or "home_unwritable" in words
 
 
 def arm_direct(settings: Settings) -> bool:
@@ -186,7 +180,7 @@ def children(
     robot: RobotDescription,
     *,
     planner: bool = True,
-    issued: Issued | None = None,
+    issued: IssuedCertificate | None = None,
 ) -> list[Child]:
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
@@ -282,7 +276,7 @@ def run(settings: Settings, *, planner: bool = True) -> int:
         return REFUSED_TO_START
 
 
-def _certify(settings: Settings) -> Issued:
+def _certify(settings: Settings) -> IssuedCertificate:
     """Return this robot's certificate; the library that makes it is loaded for this alone."""
     from pons.tls import prepare
 
@@ -290,7 +284,7 @@ def _certify(settings: Settings) -> Issued:
 
 
 def _supervise(
-    settings: Settings, robot: RobotDescription, *, planner: bool, issued: Issued | None
+    settings: Settings, robot: RobotDescription, *, planner: bool, issued: IssuedCertificate | None
 ) -> int:
     supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

@@ -81,24 +81,24 @@ def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
         yield from _words("fault", stop.fault)
     held = f", held: {stop.held.reason.value} {stop.held.id}" if stop.held is not None else ""
     yield "then", f"{stop.ended.value}{held}"
-    yield from _both("to do", _to_do(stop))
+    yield from _both_languages("to do", _to_do(stop))
     for passed_s, code, detail in stop.events[:_SHOWN]:
         yield f"+{passed_s:.2f} s", f"{code} {detail}"
     if len(stop.events) > _SHOWN:
         yield "", f"and {len(stop.events) - _SHOWN} more"
     yield "record", str(stop.path)
     if not stop.whole:
-        yield from _both("", _GROWING if stop.growing else _CUT)
+        yield from _both_languages("", _GROWING if stop.growing else _CUT)
 
 
 def _words(name: str, code: str) -> Iterator[tuple[str, str]]:
     """Yield the sentence of a row, an order, a gate or a fault."""
     words = sentence(code)
     if words is not None:
-        yield from _both(name, words)
+        yield from _both_languages(name, words)
 
 
-def _both(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:
+def _both_languages(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:
     """Yield English, and Chinese below it."""
     yield name, words[0]
     yield "", words[1]

@@ -15,7 +15,7 @@ import sys
 import threading
 from pathlib import Path
 
-from rank import fifo
+from processes.priority import set_fifo
 from sim.node import Shell
 from sim.robot import SimRobot
 from sim.site import check_fresh
@@ -63,7 +63,7 @@ def _serve(options: argparse.Namespace) -> None:
         boot_id=boot_id,
     )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    fifo(PRIORITY)  # before the session, whose threads inherit it
+    set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:
         shell = Shell(robot, session)
         gc.collect()
@@ -75,13 +75,13 @@ def _serve(options: argparse.Namespace) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Return 0 after a clean end, 2 when refused."""
+    """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     try:
         _serve(_options(arguments))
     except Misconfigured as error:
         print(f"sim: {error}", file=sys.stderr)
-        return 2
+        return error.exit_status
     return 0
 
 

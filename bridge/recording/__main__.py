@@ -18,7 +18,7 @@ from pathlib import Path
 from bridge.recording.foxglove_messages import Clock
 from bridge.recording.pipe_frames import BadFrame, Splitter
 from bridge.recording.writer import Writer
-from rank import nice
+from processes.priority import add_nice
 
 BEAT_S = 0.5
 SYNC_S = 2.0
@@ -63,11 +63,11 @@ def _say(words_fd: int, word: bytes) -> None:
 
 
 def be_humble() -> None:
-    """Leave the loop's CPU and rank to the loop, and death to the end of the pipe."""
+    """Leave the loop's CPU and priority to the loop, and death to the end of the pipe."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    nice(NICE, apart=True)
+    add_nice(NICE, own_session=True)
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, range(os.cpu_count() or 1))
 

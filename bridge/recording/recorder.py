@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 from bridge.recording.encode import schema_frame, segment_frames, tick_frames
 from bridge.recording.format import core_of, schemas
 from bridge.recording.health import DOWN, Health
-from bridge.recording.pipe import WANTED_BYTES, Pipe
 from bridge.recording.writer_process import Sizes, WriterProcess
+from processes.pipe import WANTED_BYTES, Pipe
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -92,7 +92,7 @@ class WriterProcess:
         while self.alive() and time.monotonic() < end_s:
             time.sleep(0.01)
         self.forget()
-        if self._alive:  # who ends our group would not: it is a session of its own (rank)
+        if self._alive:  # ending our group would not: the writer leads a session of its own
             os.kill(self.pid, signal.SIGKILL)
         return not self._alive
 

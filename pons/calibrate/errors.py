@@ -86,7 +86,7 @@ WORDS: dict[str, tuple[str, str]] = {
 }  # fmt: skip
 
 
-class CalibrationRefused(Exception):
+class CalibrationRefusal(Exception):
     """End a calibration; the robot stands and nothing was written."""
 
     def __init__(self, code: str, detail: str = "") -> None:

@@ -22,6 +22,7 @@ from typing import Any
 
 import psutil
 
+from processes.parent_death import child_command, module_in
 from tests.e2e.polling import until
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -99,15 +100,7 @@ class System:
         self.log.unlink(missing_ok=True)
         with self.log.open("ab") as log:
             self.up = subprocess.Popen(
-                [
-                    sys.executable,
-                    "-m",
-                    "pons.pdeathsig_exec",
-                    str(os.getpid()),
-                    "pons",
-                    "up",
-                    *self.arguments,
-                ],  # dies with us
+                child_command("pons", "up", *self.arguments),  # dies with us
                 cwd=ROOT,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
@@ -158,7 +151,7 @@ class System:
         assert self.up is not None
         for process in psutil.Process(self.up.pid).children():
             with contextlib.suppress(psutil.NoSuchProcess, IndexError):
-                if process.cmdline()[2:5:2] == ["pons.pdeathsig_exec", name]:
+                if module_in(process.cmdline()) == name:
                     return process
         return None
 

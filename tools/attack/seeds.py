@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 SITES = CHECKOUT / "sites"
-MODEL = CHECKOUT / "planner" / "vision" / "models" / "pons_home.onnx"
+MODEL = CHECKOUT / "planner" / "perception" / "models" / "pons_home.onnx"
 
 SETTINGS = (
     b'[model]\nurl = "http://127.0.0.1:11434/v1"\nname = "small"\nkey = "k"\ntimeout_s = 20.0\n',
@@ -160,7 +160,7 @@ def places() -> list[bytes]:
     return _of_sites("places.yaml")
 
 
-def kept() -> list[bytes]:
+def kept_seeds() -> list[bytes]:
     """Return the small JSON files of a home folder."""
     name = {"en": "charger", "zh": "充电桩"}
     pose = {"x_m": 1.0, "y_m": 1.0, "yaw_rad": 0.0}

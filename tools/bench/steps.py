@@ -22,7 +22,7 @@ WARM_TICKS = 200
 MOST_TICKS = 4_000
 
 
-class Timed:
+class TimedStep:
     """Be the core's step and note what each call costs while the robot drives."""
 
     def __init__(self, step: Callable[[CoreConfig, BridgeState, Inbox, float], Decision]) -> None:
@@ -54,7 +54,7 @@ def _drive(index: int) -> dict[str, Any]:
     from bridge.core import step
     from tools.lockstep import Together
 
-    timed = Timed(step)
+    timed = TimedStep(step)
     world = Together(site="home", seed=index + 1, step=timed)
     gc.collect()
     gc.freeze()

@@ -50,7 +50,7 @@ class Tap:
         self.ears: Any = None
         """Kept here: a subscriber is undeclared with its last reference."""
 
-    def arrived(self, sample: Any) -> None:
+    def note_arrival(self, sample: Any) -> None:
         """Note a horizon's arrival, from the transport's own thread."""
         self.arrivals.append((time.monotonic(), sample.payload.to_bytes()))
 
@@ -130,7 +130,7 @@ def tapped_session(party: Party, robot_id: str, home: Path) -> Session:
     """Open the bridge's session and listen to its waypoints a second time, with a callback."""
     session = open_session(party, robot_id, home)
     (inner,) = session.links_inward(WAYPOINTS)  # the loop's own ring can't be stamped at arrival
-    TAP.ears = inner.declare_subscriber(WAYPOINTS.expression(robot_id), TAP.arrived)
+    TAP.ears = inner.declare_subscriber(WAYPOINTS.expression(robot_id), TAP.note_arrival)
     return session
 
 

@@ -58,7 +58,7 @@ def on_furniture(
         class_id = random.choice(ON_TOP)
         if furniture[name]["class"] == "none" and random.random() < 0.08:
             class_id = "tv"
-        thing = _laid(random, class_id, name, furniture[name], taken.setdefault(name, []))
+        thing = _lay(random, class_id, name, furniture[name], taken.setdefault(name, []))
         if thing is not None:
             laid.append(thing)
     return laid
@@ -68,7 +68,7 @@ def _is_top(item: Mapping[str, Any]) -> bool:
     return item["class"] in {"table", "none", "sofa", "bed"} and item["height_m"] <= TOP_M
 
 
-def _laid(
+def _lay(
     random: Random, class_id: str, name: str, under: Mapping[str, Any], taken: list[Rect]
 ) -> dict[str, Any] | None:
     sides = size(random, class_id)

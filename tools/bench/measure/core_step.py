@@ -13,11 +13,11 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from bridge.compiled import find
-from tools.bench.context import Missed
-from tools.bench.report import Row, row_of
+from tools.bench.context import MeasurementFailure
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "core_step"
 TITLE = "bridge core: CPU time of one step"
@@ -27,22 +27,24 @@ ROUNDS = 5
 LIMIT_S = 120.0
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive between rooms and time each step, on each core that there is."""
     compiled = find()
     kinds = ["compiled", "plain"] if compiled.compiled else ["plain"]
     taken: dict[str, list[dict[str, Any]]] = {kind: [] for kind in kinds}
     named = f"both.{compiled.folder.name}" if compiled.folder is not None else "plain"
-    for slice_ in lab.slices(named, lab.count(ROUNDS, 4 * ROUNDS), lambda i: _both(i, kinds)):
+    for slice_ in lab.slices(named, lab.count(ROUNDS, 4 * ROUNDS), lambda i: _drive_both(i, kinds)):
         for kind in kinds:
             taken[kind].append(slice_[kind])
     rows = [row for kind in kinds for row in _rows(kind, taken[kind])]
     if not compiled.compiled:
-        rows.append(Row("core step, compiled", "", GOAL, value="not measured", note=compiled.text))
+        rows.append(
+            ReportRow("core step, compiled", "", GOAL, value="not measured", note=compiled.text)
+        )
     return rows
 
 
-def _rows(kind: str, slices: list[dict[str, Any]]) -> list[Row]:
+def _rows(kind: str, slices: list[dict[str, Any]]) -> list[ReportRow]:
     scan_us = [us for one in slices for us in one["scan_us"]]
     other_us = [us for one in slices for us in one["other_us"]]
     said = slices[0]["core"] if slices else kind
@@ -52,7 +54,7 @@ def _rows(kind: str, slices: list[dict[str, Any]]) -> list[Row]:
     ]
 
 
-def _both(index: int, kinds: list[str]) -> dict[str, Any]:
+def _drive_both(index: int, kinds: list[str]) -> dict[str, Any]:
     """Take one drive on each core, the order changing from drive to drive."""
     order = kinds if index % 2 == 0 else kinds[::-1]
     return {kind: _drive(index, kind) for kind in order}
@@ -69,8 +71,10 @@ def _drive(index: int, kind: str) -> dict[str, Any]:
         check=False,
     )
     if done.returncode != 0:
-        raise Missed(f"tools.bench.steps: {(done.stderr.strip().splitlines() or ['no word'])[-1]}")
+        raise MeasurementFailure(
+            f"tools.bench.steps: {(done.stderr.strip().splitlines() or ['no word'])[-1]}"
+        )
     found: dict[str, Any] = json.loads(done.stdout)
     if found["core"].startswith("compiled") is not (kind == "compiled"):
-        raise Missed(f"wanted the {kind} core, ran: {found['core']}")
+        raise MeasurementFailure(f"wanted the {kind} core, ran: {found['core']}")
     return found
