@@ -75,7 +75,8 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     stop_inputs.note_pressed(tick)
     detect(tick)
     decide(tick)
-    motion_gates.forget_block(tick)
+    if s.gate.blocked:
+        motion_gates.forget_block(tick)
     wheel_command.move(tick)
     brake_learning.watch(tick, state)
     meter(tick, state)

@@ -78,7 +78,9 @@ def sense(tick: TickContext) -> None:
         tick.say(code, detail)
     if changed or s.loop.real_time != inbox.real_time:
         s.loop = replace(s.loop, real_time=inbox.real_time, recorder_ok=inbox.recorder_ok)
-    note_lateness(tick)
+    facts = inbox.loop
+    if facts.missed_ticks or facts.late_s > LATE_S or not tick.dt_s <= GAP_S:
+        note_lateness(tick)
 
 
 def note_lateness(tick: TickContext) -> None:
