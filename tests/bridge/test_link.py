@@ -136,7 +136,7 @@ def arrived(inbox: Inbox, key: Key[Any]) -> int:
 def test_every_key_is_heard(ends: Ends, key: Key[Record]) -> None:
     message = EXAMPLES[key.message]
     mouth = ends.mouth(key)
-    handed_on = "FenceArrived(id='fence-1'" if key is FENCE else repr(message)
+    handed_on = "FenceArrival(id='fence-1'" if key is FENCE else repr(message)
 
     def there() -> bool:
         mouth.put(message)
