@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import ValidationError
 
-from bridge.core.state_braking import UNLEARNT, Learnt
+from bridge.core.state_motion import UNLEARNT, Learnt
 from bridge.files import replace_file
 from wire.base import Record
 from wire.bounded_types import Fingerprint

@@ -16,7 +16,8 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.polygon import permits
-from bridge.core.state_fence import FenceAsked, FenceDone
+from bridge.core.inbox import FenceDone
+from bridge.core.state_orders import PendingFence
 from bridge.fence_file import NAME, read_record
 from bridge.files import replace_file
 from wire.errors import Misconfigured
@@ -50,9 +51,9 @@ class FenceDesk:
     def __init__(self, ground: Ground) -> None:
         """Start the thread. Before the loop takes its rank, which threads would inherit."""
         self._ground = ground
-        self._noted: FenceAsked | None = None
+        self._noted: PendingFence | None = None
         self._written_s: float | None = None
-        self._queue: SimpleQueue[FenceAsked | None] = SimpleQueue()
+        self._queue: SimpleQueue[PendingFence | None] = SimpleQueue()
         self._done: SimpleQueue[FenceDone] = SimpleQueue()
         self._thread = threading.Thread(target=self._run, name="fence", daemon=True)
         self._thread.start()
@@ -66,7 +67,7 @@ class FenceDesk:
         except Empty:
             return None
 
-    def note(self, asked: FenceAsked | None, now_s: float) -> None:
+    def note(self, asked: PendingFence | None, now_s: float) -> None:
         """Queue the fence that the core asks to be written."""
         if asked is self._noted:
             return
@@ -93,7 +94,7 @@ class FenceDesk:
             self._done.put(put_in_force(self._ground, asked))
 
 
-def put_in_force(ground: Ground, asked: FenceAsked) -> FenceDone:
+def put_in_force(ground: Ground, asked: PendingFence) -> FenceDone:
     """Write a fence that is well formed, of this map, and has the robot inside."""
     data = asked.text.encode()
     try:
@@ -136,7 +137,7 @@ def check(ground: Ground, data: bytes, x_m: float, y_m: float) -> None:
         raise Misconfigured("fence_excludes_robot", text)
 
 
-def _audit(ground: Ground, asked: FenceAsked, new_hash: str) -> None:
+def _audit(ground: Ground, asked: PendingFence, new_hash: str) -> None:
     """Add source, time and hash to ``$PONS_HOME/fence/accepted.jsonl``."""
     line = {
         "at": datetime.now(UTC).isoformat(timespec="seconds"),

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-from bridge.core.inbox import ArrivedAt, Inbox, LoopFacts, OpArrived, RejectedAt
-from bridge.core.state_fence import FenceArrived
+from bridge.core.inbox import ArrivedAt, FenceArrival, Inbox, LoopFacts, OperatorArrival, RejectedAt
 from wire import DriveState, OpRequest, Rejected, Stop, authentic, authentic_fence, decode
 from wire.base import Record
 from wire.keys import (
@@ -41,7 +40,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bridge.core.decision import Decision
-    from bridge.core.state_fence import FenceDone
+    from bridge.core.inbox import FenceDone
     from wire import OpKind
     from wire.keys import Key
     from wire.session import Session, Subscriber
@@ -153,21 +152,21 @@ class BridgeLink:
             took.rejected.append(RejectedAt(STOP.path, refused))
         return tuple(reversed(found))
 
-    def _operator(self, took: _TickDrain) -> tuple[OpArrived, ...]:
+    def _operator(self, took: _TickDrain) -> tuple[OperatorArrival, ...]:
         return tuple(
-            OpArrived(kind, request, self._authentic(kind, request))
+            OperatorArrival(kind, request, self._authentic(kind, request))
             for kind, key, subscriber in self._ops
             for request in took.take_all(key, subscriber)
         )
 
-    def _fences(self, took: _TickDrain) -> tuple[FenceArrived, ...]:
+    def _fences(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
         """Take requests for another fence; an unproven one's text goes no further."""
         arrived = []
         for request in took.take_all(FENCE, self._fence):
             fits = authentic_fence(self._operator_key, self._robot_id, request)
             nonce = request.proof.nonce if request.proof is not None else None
             text = request.fence if fits else ""
-            arrived.append(FenceArrived(request.id, request.source, nonce, fits, text))
+            arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
         return tuple(arrived)
 
     def _authentic(self, kind: OpKind, request: OpRequest) -> bool:

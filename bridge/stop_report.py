@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from bridge.core import BridgeState, CoreConfig
-    from bridge.core.faults.fault_table import Stage
+    from bridge.core.faults.fault_table import FaultStage
     from bridge.recording.recording_reader import Frame, Raw
 
 __all__ = ["BadRecording", "StopReport", "last_stop"]
@@ -64,7 +64,7 @@ class StopReport:
     """The row in lower case, or the order or gate, as the bridge's event named it."""
     ordered_by: str | None
     """Who said stop, where somebody did."""
-    rows: tuple[tuple[Stage, str], ...]
+    rows: tuple[tuple[FaultStage, str], ...]
     """What was up at that tick, with its evidence, worst first as the bridge found it."""
     speed_mps: float
     """Measured when it began."""

@@ -13,12 +13,12 @@ from bridge.core import (
     ArrivedAt,
     Inbox,
     LoopFacts,
-    OpArrived,
+    OperatorArrival,
     RejectedAt,
     initial,
     step,
 )
-from bridge.core.state_fence import FenceArrived, FenceDone
+from bridge.core.inbox import FenceArrival, FenceDone
 from bridge.recording.encode import warm_frames
 from wire import (
     IDENTITY,
@@ -123,7 +123,7 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
     return replace(
         _orders(config, count),
         stops=(_through_codec(STOP, Stop(id=_NAME, source=_NAME)),) if count % 50 == 0 else (),
-        ops=(OpArrived("arm", arm, fits),),
+        ops=(OperatorArrival("arm", arm, fits),),
         localization=_through_codec(
             LOCALIZATION,
             Localization(
@@ -151,13 +151,13 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
     )  # fmt: skip
 
 
-def _fence(config: CoreConfig) -> FenceArrived:
+def _fence(config: CoreConfig) -> FenceArrival:
     """Return an operator's fence as the link hands it over; nothing is asked to write it."""
     robot = config.robot.id
     proof = sign_fence(VIRTUAL_KEY, robot, _NAME, _NAME, "{}")
     request = _through_codec(FENCE, FenceRequest(id=_NAME, source=_NAME, fence="{}", proof=proof))
     fits = authentic_fence(VIRTUAL_KEY, robot, request)
-    return FenceArrived(_NAME, _NAME, _NAME, fits, request.fence)
+    return FenceArrival(_NAME, _NAME, _NAME, fits, request.fence)
 
 
 def _orders(config: CoreConfig, count: int) -> Inbox:

@@ -19,8 +19,8 @@ from typing import Any, ClassVar, Literal
 from pydantic import ConfigDict, TypeAdapter
 
 from bridge.core import BridgeState, CoreConfig, Inbox
+from bridge.core.geometry.fence import FenceGrid, Zone, build_fence
 from bridge.core.geometry.polygon import Polygon
-from bridge.core.sensing.fence import Fence, Zone, build_fence
 from wire import DriveCommand, Event, Mode, Odometry, Status, Twist2
 from wire.fingerprint import fingerprint
 from wire.value import value
@@ -165,13 +165,13 @@ def config_of(header: Header) -> CoreConfig:
     return header.config if fence is None else replace(header.config, fence=_fence(fence))
 
 
-def _outlines(fence: Fence) -> Outlines:
+def _outlines(fence: FenceGrid) -> Outlines:
     return Outlines(
         map_id=fence.map_id, allowed=fence.allowed, keep_outs=fence.keep_outs, zones=fence.zones
     )
 
 
 @lru_cache(maxsize=4)
-def _fence(kept: Outlines) -> Fence:
+def _fence(kept: Outlines) -> FenceGrid:
     """Prepare a fence's cells; every segment of a run says the same one again."""
     return build_fence(kept.map_id, kept.allowed, kept.keep_outs, kept.zones)

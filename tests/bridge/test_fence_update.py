@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 
-from bridge.core.state_fence import FenceAsked, FenceDone
+from bridge.core.inbox import FenceDone
+from bridge.core.state_orders import PendingFence
 from bridge.fence_file import load_fence
 from bridge.fence_update import LINGER_S, FenceDesk, Ground, put_in_force
 from wire import Pose2, fingerprint
@@ -24,8 +25,8 @@ def text(allowed: Any = None, **more: Any) -> str:
     return json.dumps({"version": 1, "map_id": MAP, "allowed": allowed or [SQUARE], **more})
 
 
-def asked(content: str, x_m: float = 1.0, y_m: float = 1.0) -> FenceAsked:
-    return FenceAsked("f1", "cli", content, Pose2(x_m, y_m, 0.0))
+def asked(content: str, x_m: float = 1.0, y_m: float = 1.0) -> PendingFence:
+    return PendingFence("f1", "cli", content, Pose2(x_m, y_m, 0.0))
 
 
 @pytest.fixture

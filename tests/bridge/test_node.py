@@ -10,7 +10,7 @@ import pytest
 
 from bridge import node as shell_file
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, LoopFacts
-from bridge.core.state_braking import Learnt
+from bridge.core.state_motion import Learnt
 from bridge.node import EXIT_BROKEN, EXIT_LEFT, BridgeNode, Parts
 from bridge.realtime import Pacer, PacerTick
 from tests.bridge.ground import FakeClock, core_config

@@ -12,7 +12,7 @@ from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import rim_speeds
-from bridge.core.geometry.odometry import rolled
+from bridge.core.geometry.odometry import roll
 from sim import Hardware
 from tools.bench.report import ReportRow, row_of
 from tools.lockstep import TICK_S, Together
@@ -70,7 +70,7 @@ def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START)
         world.tick()
         sent = world.bridge.state.motion.limiter.sent
         left, right = rim_speeds(sent, base.wheel_separation_m)
-        meant_to = rolled(meant_to, left * TICK_S, right * TICK_S, base.wheel_separation_m)
+        meant_to = roll(meant_to, left * TICK_S, right * TICK_S, base.wheel_separation_m)
         metres += abs(world.twist.v_mps) * TICK_S
         real = rim_speeds(world.twist, base.wheel_separation_m)
         if world.bridge.state.mode is Mode.ACTIVE:

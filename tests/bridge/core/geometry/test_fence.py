@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.sensing.fence import SIGHT_M, Zone, build_fence
+from bridge.core.geometry.fence import SIGHT_M, Zone, build_fence
 from bridge.fence_file import load_fence, parse_fence
 from wire.errors import Misconfigured
 from wire.fingerprint import fingerprint

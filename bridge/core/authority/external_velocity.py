@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.message_score import bad, good
-from bridge.core.authority.ownership import of_owner
+from bridge.core.authority.ownership import note_external, sent_at_if_owner
 from bridge.core.state_orders import External
 from wire import STILL, Twist2
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Velocity
 
 TTL_S = 0.25
 
 
-def hear_external(tick: Tick, new: Velocity) -> None:
+def hear_external(tick: TickContext, new: Velocity) -> None:
     """Follow this velocity from now on, or drop it."""
-    sent_s = of_owner(tick, new.source_id, new.epoch, new.seen)
+    sent_s = sent_at_if_owner(tick, new.source_id, new.epoch, new.seen)
     if sent_s is None:
         return
     s = tick.s
@@ -34,19 +33,24 @@ def hear_external(tick: Tick, new: Velocity) -> None:
         else:
             tick.drop("repeated")
         return
-    s.ownership = replace(s.ownership, external_seq=new.seq)
+    note_external(tick, new.seq)
     good(tick)
     held = new.dead_man
     s.external = External(new.v_mps if held else 0.0, new.w_radps if held else 0.0, held, sent_s)
 
 
-def calls(tick: Tick) -> bool:
+def forget(tick: TickContext) -> None:
+    """Follow no velocity until another one comes."""
+    tick.s.external = None
+
+
+def asks_to_move(tick: TickContext) -> bool:
     """Tell whether a fresh velocity asks the robot to move."""
     external = tick.s.external
     return external is not None and external.dead_man and tick.now_s - external.sent_s <= TTL_S
 
 
-def wanted(tick: Tick) -> Twist2:
+def requested_twist(tick: TickContext) -> Twist2:
     """Return what the other brain asks for."""
     external = tick.s.external
     return STILL if external is None else Twist2(external.v_mps, external.w_radps)

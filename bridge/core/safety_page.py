@@ -1,6 +1,6 @@
 """Write docs/safety.md from the tables, so that it cannot say what the code does not do.
 
-``python -m bridge.core.faults.docs`` writes it; with ``--check`` it fails if that file
+``python -m bridge.core.safety_page`` writes it; with ``--check`` it fails if that file
 differs, with
 ``--print`` it prints it. Knows no tick.
 """
@@ -10,10 +10,11 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from bridge.core.faults.fault_table import ALL, ROWS, Stage
+from bridge.core.faults.fault_table import ALL, ROWS, FaultStage
 from bridge.core.faults.hazards import HAZARDS, LAWS
 from bridge.core.modes.mode_table import TRANSITIONS
-from bridge.core.motion.brake_learning import ALIKE, BEGIN_MPS, BETTER_STOPS, WEAK_SHARE
+from bridge.core.motion.brake_learning import ALIKE, BEGIN_MPS, BETTER_STOPS
+from bridge.core.state_motion import WEAK_SHARE
 from pons_assets import ROOT, checkout
 from wire import Action
 
@@ -27,7 +28,7 @@ _SOURCES = {"W": "waypoints", "T": "teleop", "X": "external"}
 _HEAD = """\
 # What the bridge watches, and what it does about it
 
-This page is printed from the bridge's tables by `python -m bridge.core.faults.docs`; edit those.
+This page is printed from the bridge's tables by `python -m bridge.core.safety_page`; edit those.
 
 The bridge wakes every 10 ms, looks at everything below, and sends the drive exactly one command.
 It is protective software with measured behaviour, not a safety device: a planar lidar sees neither
@@ -157,11 +158,11 @@ def _rows() -> Iterator[str]:
             )
 
 
-def _binds(stage: Stage) -> str:
+def _binds(stage: FaultStage) -> str:
     return "all" if stage.binds == ALL else ", ".join(_SOURCES[letter] for letter in stage.binds)
 
 
-def _does(stage: Stage) -> str:
+def _does(stage: FaultStage) -> str:
     if stage.cap_factor is not None:
         return f"`{stage.action.value}` {stage.cap_factor:g} of the limits"
     if stage.cap_mps is not None:
@@ -171,7 +172,7 @@ def _does(stage: Stage) -> str:
     return f"`{stage.action.value}`"
 
 
-def _clears(stage: Stage) -> str:
+def _clears(stage: FaultStage) -> str:
     if stage.clears.value != "AUTO":
         return f"`{stage.clears.value}`"
     return f"`AUTO`, clean for {stage.clean_s:g} s" if stage.clean_s > 0.0 else "`AUTO`, at once"
@@ -199,7 +200,7 @@ def main(arguments: list[str]) -> int:
         PATH.write_text(page, "utf-8")
     elif arguments == ["--check"]:
         if not (PATH.exists() and PATH.read_text("utf-8") == page):
-            print(f"{PATH} is not what the tables say; run python -m bridge.core.faults.docs")
+            print(f"{PATH} is not what the tables say; run python -m bridge.core.safety_page")
             return 1
     else:
         print(page, end="")

@@ -36,7 +36,7 @@ class Zone:
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class FenceCell:
     """Hold what is near one square of the floor."""
 
     edges: tuple[Edge, ...]
@@ -46,7 +46,7 @@ class Cell:
 
 
 @dataclass(frozen=True, slots=True)
-class Fence:
+class FenceGrid:
     """Hold the outlines and their common boundary. Make it with :func:`build_fence`."""
 
     map_id: str
@@ -56,7 +56,7 @@ class Fence:
     boundary: tuple[Edge, ...]
     """The lines that part inside from outside: no line between two overlapping outlines is one."""
     cell_m: float
-    cells: dict[tuple[int, int], Cell]
+    cells: dict[tuple[int, int], FenceCell]
     """Every square from which the boundary, or its inside, can be seen."""
 
     def allows(self, x_m: float, y_m: float) -> bool:
@@ -97,7 +97,7 @@ class Fence:
         speeds = [z.max_speed_mps for z in self.zones if contains(z.polygon, x_m, y_m)]
         return min(speeds, default=None)
 
-    def _cell(self, x_m: float, y_m: float) -> Cell | None:
+    def _cell(self, x_m: float, y_m: float) -> FenceCell | None:
         if abs(x_m) < 1e6 and abs(y_m) < 1e6:
             return self.cells.get((floor(x_m / self.cell_m), floor(y_m / self.cell_m)))
         return None
@@ -108,7 +108,7 @@ def build_fence(
     allowed: tuple[Polygon, ...],
     keep_outs: tuple[Polygon, ...] = (),
     zones: tuple[Zone, ...] = (),
-) -> Fence:
+) -> FenceGrid:
     """Prepare a fence: cut every outline where others cross it and keep the parts that bound."""
     edges = [edge for outline in (*allowed, *keep_outs) for edge in edges_of(outline)]
     boundary = tuple(
@@ -127,7 +127,7 @@ def build_fence(
         for i in _range(xs, cell_m)
         for j in _range(ys, cell_m)
     }
-    return Fence(map_id, allowed, keep_outs, zones, boundary, cell_m, cells)
+    return FenceGrid(map_id, allowed, keep_outs, zones, boundary, cell_m, cells)
 
 
 def _range(values: list[float], cell_m: float) -> range:
@@ -145,11 +145,11 @@ def _cell_at(
     boundary: tuple[Edge, ...],
     allowed: tuple[Polygon, ...],
     keep_outs: tuple[Polygon, ...],
-) -> Cell:
+) -> FenceCell:
     """Gather what is near the square around a point."""
     half = cell_m / sqrt(2) + 1e-6
     near = tuple(e for e in boundary if nearest_m((e,), x_m, y_m) <= SIGHT_M + half)
     inside = None
     if min((nearest_m((e,), x_m, y_m) for e in near), default=inf) > half:
         inside = permits(allowed, keep_outs, x_m, y_m)
-    return Cell(near, inside)
+    return FenceCell(near, inside)
