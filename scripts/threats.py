@@ -142,6 +142,9 @@ THREATS = (
            "By hand 50 m and 600 s after a signed act; a metre outside counts ten (`HAND_BUDGET`)",
            ("bridge/core/authority/test_grants.py::test_a_hand_stands_when_its_metres_are_spent_and_a_signed_act_renews_them",
             "bridge/core/authority/test_grants.py::test_a_metre_outside_the_fence_counts_ten_of_the_hands")),
+    Threat("A stick gripped anew after a person's stop, by a client without a proof",
+           "A stop takes what a hand may drive; only a signed act (resume, arm) gives it anew",
+           ("bridge/core/authority/test_grants.py::test_after_a_stop_no_stick_moves_the_robot_before_a_signed_act",)),
     Threat("A person's proof is collected for later",
            "Nonces hold 64 bits of chance drawn for the tick, and none outlives a stop, a protective stop "
            "or a disarm; a proof binds kind, robot, run, request and nonce, a fence's also its text",
