@@ -59,7 +59,9 @@ ASKERS = (
           "reach the wheels or the lidar"),
     ThreatAsker("the bridge's and the drive's users, and root",
           "everything", "be guarded against by this software"),
-    ThreatAsker("a user of the machine in none of the groups", "nothing", "connect anywhere"),
+    ThreatAsker("a user of the machine in none of the groups",
+          "ask at the planner's HTTP port: without tokens that is all that an operator's token may",
+          "connect to any door of the robot"),
 )  # fmt: skip
 
 _CONNECTIONS = "planner/api/test_connections.py"
