@@ -34,7 +34,7 @@ def test_each_is_taken_once_and_troubles_are_told() -> None:
     told = sorted(take_in_parallel(squared, range(4), 2), key=lambda done: done.index)
     assert told == [
         SliceResult(0, 0),
-        SliceResult(1, trouble="Missed: the robot did not come\nand did not say why"),
+        SliceResult(1, trouble="MeasurementFailure: the robot did not come\nand did not say why"),
         SliceResult(2, trouble="its process ended with -9"),
         SliceResult(3, 9),
     ]
@@ -60,7 +60,7 @@ def test_a_lost_slice_is_named_and_a_resumed_run_takes_it_again(tmp_path: Path) 
     bench = lab(tmp_path)
     assert sorted(bench.side_by_side("square", 4, squared)) == [0, 9]
     assert sorted(bench.lost) == [
-        "square 2: Missed: the robot did not come | and did not say why",
+        "square 2: MeasurementFailure: the robot did not come | and did not say why",
         "square 3: its process ended with -9",
     ]
     again = lab(tmp_path)
