@@ -45,6 +45,11 @@ def refusal(book: Book, command: Command) -> MissionError | None:
 
 
 def _bad(mission: Mission, command: Command, allowed: frozenset[GoalState]) -> BadState:
-    name = type(command).__name__.lower()
     states = tuple(sorted(state.value for state in allowed))
-    return BadState(mission.id, {"reply": "answer"}.get(name, name), mission.state, states)
+    return BadState(mission.id, api_name(type(command)), mission.state, states)
+
+
+def api_name(command: type[Command]) -> str:
+    """Return what a command is called in the API."""
+    name = command.__name__.lower()
+    return {"reply": "answer"}.get(name, name)

@@ -12,6 +12,7 @@ from planner.mission.open_questions import WAITS, asks, confirms
 from planner.mission.outcomes import ended
 from planner.mission.queue import finish
 from planner.mission.state import MAX_OPEN, Book, Mission
+from planner.mission.transitions import Fact
 from planner.plan import Bilingual, Code, GoalState, Outcome, message, same
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def end_unanswered(turn: Turn) -> None:
         since_s = turn.book.asked_s.get(mission.id, turn.now_s)
         if turn.now_s - since_s > limit_s:
             said = message(Code.NO_ANSWER, text=_asked(mission), seconds=f"{limit_s:.0f}")
-            _end(turn, mission, said, GoalState.FAILED, Code.NO_ANSWER.value)
+            _end(turn, mission, said, Fact.UNANSWERED, Code.NO_ANSWER.value)
         else:
             asked_s[mission.id] = since_s
     if asked_s != turn.book.asked_s:
@@ -89,15 +90,15 @@ def _make_way(turn: Turn, mission: Mission, newer: str) -> None:
         en=f"Nobody answered “{asked.en}” before the next order came (“{newer}”).",
         zh=f"在收到下一条指令（“{newer}”）之前，“{asked.zh}”没有得到回答。",
     )
-    _end(turn, mission, said, GoalState.CANCELLED, SUPERSEDED)
+    _end(turn, mission, said, Fact.SUPERSEDED, SUPERSEDED)
 
 
 def _asked(mission: Mission) -> Bilingual:
     return mission.outcome.message if mission.outcome is not None else same(mission.text[:200])
 
 
-def _end(turn: Turn, mission: Mission, said: Bilingual, state: GoalState, reason: str) -> None:
+def _end(turn: Turn, mission: Mission, said: Bilingual, cause: Fact, reason: str) -> None:
     now_unix_s = turn.now_s + turn.book.wall_offset_s
     outcome: Outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
                              code=Code.NO_ANSWER, said=said)  # fmt: skip
-    finish(turn, mission, state, outcome, reason)
+    finish(turn, mission, cause, outcome, reason)

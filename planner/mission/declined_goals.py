@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from planner.mission.outcomes import ended
 from planner.mission.queue import finish, note_step, settle_walk
-from planner.plan import Bilingual, Code, GoalState, StepState
+from planner.mission.transitions import Person
+from planner.plan import Bilingual, Code, StepState
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission
@@ -22,4 +23,4 @@ def decline(turn: Turn, mission: Mission, said: Bilingual) -> None:
     now_unix_s = turn.now_s + turn.book.wall_offset_s
     outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
                     code=Code.DECLINED, said=said)  # fmt: skip
-    finish(turn, mission, GoalState.CANCELLED, outcome, Code.DECLINED.value)
+    finish(turn, mission, Person.DECLINES, outcome, Code.DECLINED.value)

@@ -36,6 +36,7 @@ from planner.mission.skills import NOTHING
 from planner.mission.spoken_status import go_on_told, stop_told
 from planner.mission.state import Book, Mission
 from planner.mission.transaction import Turn
+from planner.mission.transitions import FIRST, Cause, Fact, Person, Thought
 from planner.plan import (
     Answer,
     Bilingual,
@@ -88,7 +89,7 @@ def submit(turn: Turn, event: Submitted) -> None:
         order=order,
         text=event.text,
         language=event.language,
-        state=GoalState.PLANNING,
+        state=FIRST,
         confirm=event.confirm,
         replace=event.replace,
         first=event.first,
@@ -108,20 +109,24 @@ def submit(turn: Turn, event: Submitted) -> None:
         if asking is not None:
             reply(turn, asking, event.text)
         return
-    _think(turn, mission)
+    _think(turn, turn.put(mission))
 
 
 def _stopped(turn: Turn, mission: Mission, echoed: bool) -> None:
     if echoed:
         said = Outcome(code=Code.STOPPED, message=stop_told(turn.book))
-        finish(turn, mission, GoalState.SUCCEEDED, said)
+        finish(turn, mission, Person.ORDERS_STOP, said)
         return
     said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
-    turn.put(mission, state=GoalState.FAILED, reason="bridge_silent", outcome=said)
+    turn.move_to(mission, Person.STOP_UNHEARD, reason="bridge_silent", outcome=said)
+
+
+def _think_anew(turn: Turn, mission: Mission, cause: Cause) -> None:
+    """Have a brain think about an order again that waited for a person until now."""
+    _think(turn, turn.move_to(mission, cause, reason=None, outcome=None, plan=None))
 
 
 def _think(turn: Turn, mission: Mission) -> None:
-    turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None, plan=None)
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
     said = exchanges_of(mission)
@@ -144,9 +149,10 @@ def planned(turn: Turn, event: Planned) -> None:
         return
     if plan is None:
         outcome = event.failure or _bad_plan("no answer")
-        state = GoalState.FAILED if outcome.code is Code.MODEL_UNAVAILABLE else GoalState.REFUSED
-        turn.put(mission, brain=event.brain)
-        finish(turn, turn.book.missions[mission.id], state, outcome, outcome.code.value)
+        unavailable = outcome.code is Code.MODEL_UNAVAILABLE
+        mission = turn.put(mission, brain=event.brain)
+        cause = Thought.FAILS if unavailable else Thought.REFUSES
+        finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
     if isinstance(plan, StepPlan | Clarify):  # surely an order
@@ -154,18 +160,16 @@ def planned(turn: Turn, event: Planned) -> None:
     match plan:
         case Answer():
             words = message(Code.ANSWERED, text=plan.text)
-            _done(turn, mission, GoalState.SUCCEEDED, Code.ANSWERED, Outcome(
-                code=Code.ANSWERED, message=words))  # fmt: skip
+            outcome = Outcome(code=Code.ANSWERED, message=words)
+            finish(turn, mission, Thought.ANSWERS, outcome)
         case Refuse():
             told = go_on_told(turn.book, plan.reason, turn.now_s)
             outcome = Outcome(code=plan.code, message=told)
-            _done(turn, mission, GoalState.REFUSED, plan.code, outcome)
+            finish(turn, mission, Thought.REFUSES, outcome, plan.code.value)
         case Clarify():
             told = go_on_told(turn.book, plan.question, turn.now_s)
             said = Outcome(code=plan.code, message=told)
-            turn.put(
-                mission, state=GoalState.NEEDS_CLARIFICATION, reason=plan.code.value, outcome=said
-            )
+            turn.move_to(mission, Thought.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
             _walkable(turn, mission)
 
@@ -179,11 +183,6 @@ def _ask_what_was_meant(book: Book, mission: Mission) -> Bilingual:
     )
 
 
-def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: Outcome) -> None:
-    reason = code.value if state is GoalState.REFUSED else None
-    finish(turn, mission, state, outcome, reason)
-
-
 def _walkable(turn: Turn, mission: Mission) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
@@ -191,34 +190,32 @@ def _walkable(turn: Turn, mission: Mission) -> None:
         _stopped(turn, mission, echoed=True)
         return
     if outcome is not None:
-        finish(turn, mission, GoalState.REFUSED, outcome, outcome.code.value)
+        finish(turn, mission, Thought.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
     if mission.doubtful_stop:
         said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
-        turn.put(
-            mission, state=GoalState.AWAITING_CONFIRMATION, reason="doubtful_stop", outcome=said
-        )
+        turn.move_to(mission, Thought.NEEDS_YES, reason="doubtful_stop", outcome=said)
     elif mission.confirm:
-        turn.put(mission, state=GoalState.AWAITING_CONFIRMATION)
+        turn.move_to(mission, Thought.NEEDS_YES)
     else:
-        ready(turn, mission)
+        ready(turn, mission, Thought.PLANS)
 
 
 def _bad_plan(why: str) -> Outcome:
     return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
 
 
-def ready(turn: Turn, mission: Mission) -> None:
+def ready(turn: Turn, mission: Mission, cause: Cause) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
     clear_hold(turn, mission)
     if mission.begun:  # it was asked under way, and goes on where it stood
         release_answered(turn)
-        enqueue(turn, mission, first=True)
+        enqueue(turn, mission, cause, first=True)
         return
     if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
         cancel(turn, replaced)
-    enqueue(turn, mission, first=mission.replace or mission.first)
+    enqueue(turn, mission, cause, first=mission.replace or mission.first)
 
 
 def _in_hand(turn: Turn, new: Mission) -> Mission | None:
@@ -234,7 +231,7 @@ def _in_hand(turn: Turn, new: Mission) -> Mission | None:
 
 def confirm(turn: Turn, mission: Mission) -> None:
     """Take a person's yes."""
-    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)))
+    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)), Person.AGREES)
 
 
 def reply(turn: Turn, mission: Mission, text: str) -> None:
@@ -247,7 +244,7 @@ def reply(turn: Turn, mission: Mission, text: str) -> None:
     elif agreed is False and (order is not None or confirms(mission)):
         take_no(turn, mission)
     elif confirms(mission) and agreed:
-        ready(turn, mission)
+        ready(turn, mission, Person.AGREES)
     elif confirms(mission):
         ask_plainly(turn, mission)
     else:
@@ -260,14 +257,15 @@ def _reply_about_order(turn: Turn, mission: Mission, text: str) -> None:
     unknown = ("" for _ in mission.replies[len(mission.questions) :])
     questions = (*mission.questions, *unknown, said)
     replies = (*mission.replies, text)
-    _think(turn, turn.put(mission, replies=replies, questions=questions))
+    mission = turn.put(mission, replies=replies, questions=questions)
+    _think_anew(turn, mission, Person.EXPLAINS)
 
 
 def pause(turn: Turn, mission: Mission) -> None:
     """Pause a goal; if it was running, those who wait are kept waiting."""
     reason = PauseReason.OPERATOR.value
     if mission.state is GoalState.RUNNING:
-        pause_running(turn, reason)
+        pause_running(turn, reason, Person.PAUSES)
     elif mission.state is GoalState.PLANNING:
         pause_planning(turn, mission, reason)
     else:
@@ -282,16 +280,15 @@ def resume(turn: Turn, mission: Mission) -> None:
         return
     release_queue(turn)
     if mission.plan is None or not mission.steps:
-        _think(turn, mission)
+        _think_anew(turn, mission, Person.RESUMES_UNPLANNED)
     else:
-        turn.put(mission, outcome=None)
-        enqueue(turn, turn.book.missions[mission.id], first=True)
+        enqueue(turn, turn.put(mission, outcome=None), Person.RESUMES, first=True)
 
 
 def stop(turn: Turn) -> None:
     """Stand. Running and thinking goals pause; those who wait are kept waiting."""
     reason = PauseReason.STOP.value
-    pause_running(turn, reason)
+    pause_running(turn, reason, Person.PAUSES)
     for mission in tuple(turn.book.missions.values()):
         if mission.state is GoalState.PLANNING:
             pause_planning(turn, mission, reason)
@@ -315,7 +312,7 @@ def restart(turn: Turn, event: Restarted) -> None:
         if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
             reason = PauseReason.PLANNER_RESTARTED.value
             leg = mission.leg + LEGS_UNWRITTEN
-            turn.put(mission, state=GoalState.PAUSED, reason=reason, leg=leg)
+            turn.move_to(mission, Fact.RESTARTED, reason=reason, leg=leg)
         if not mission.ended and mission.map_id != turn.book.facts.map_id:
             _forget_poses(turn, turn.book.missions[mission.id])
     hold_queue(turn)
@@ -325,7 +322,7 @@ def _forget_poses(turn: Turn, mission: Mission) -> None:
     """Drop where a goal began on another map: a point of that map is nowhere on this one."""
     if mission.map_id and mission.began_at is not None:  # better unfinished than done twice
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
-        finish(turn, mission, GoalState.FAILED, said, "map_changed")
+        finish(turn, mission, Fact.PROGRESS_UNKNOWN, said, "map_changed")
     elif mission.map_id:
         mission = turn.put(mission, accepted_at=None, notes=NOTHING)
         if mission.state is GoalState.PAUSED:

@@ -15,7 +15,8 @@ from planner.mission.skills.move import along
 from planner.mission.skills.turn import turned_rad
 from planner.mission.state import Mission
 from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason
+from planner.mission.transitions import Fact
+from planner.plan import Bilingual, Code, Outcome, PauseReason
 from wire import Mode, Pose2, Status
 
 BY_AMOUNT = frozenset({"turn", "move"})
@@ -73,6 +74,6 @@ def forget_beginnings(turn: Turn) -> None:
             continue
         if mission.reason == PauseReason.PLANNER_RESTARTED.value:
             said = Outcome(code=Code.NOT_REACHED, message=STEERED)
-            finish(turn, mission, GoalState.FAILED, said, "steered_meanwhile")
+            finish(turn, mission, Fact.PROGRESS_UNKNOWN, said, "steered_meanwhile")
         else:
             turn.put(mission, began_at=None)

@@ -18,6 +18,7 @@ from planner.mission.skills.ask import ask, declined
 from planner.mission.state import Mission
 from planner.mission.step_execution import scene_of
 from planner.mission.transaction import Turn
+from planner.mission.transitions import Person
 from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message
 
 MAX_ANSWER = 2000
@@ -75,11 +76,11 @@ def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> Miss
             zh=f"有不止一个任务在等待您：{zh}。这句话没有用于其中任何一个。",
         )
         outcome = Outcome(code=Code.AMBIGUOUS, message=said)
-        turn.put(mission, state=GoalState.REFUSED, reason=Code.AMBIGUOUS.value, outcome=outcome)
+        turn.move_to(mission, Person.MAY_MEAN_SEVERAL, reason=Code.AMBIGUOUS.value, outcome=outcome)
         return None
     said = Bilingual(en=f"Taken as the answer for {en}.", zh=f"已作为{zh}的回答。")
     outcome = Outcome(code=Code.ANSWERED, message=said)
-    turn.put(mission, state=GoalState.SUCCEEDED, outcome=outcome)
+    turn.move_to(mission, Person.ANSWERS_ANOTHER, outcome=outcome)
     return turn.book.missions[asking[0]]
 
 
@@ -98,7 +99,7 @@ def take_answer(turn: Turn, mission: Mission, text: str) -> None:
         if isinstance(act, Cannot) and act.said is not None:
             decline(turn, mission, act.said)
             return
-    enqueue(turn, turn.put(mission, outcome=None), first=True)
+    enqueue(turn, turn.put(mission, outcome=None), Person.AGREES, first=True)
 
 
 def take_no(turn: Turn, mission: Mission) -> None:

@@ -10,7 +10,8 @@ from planner.mission.queue import end_running, finish, settle_walk
 from planner.mission.state import Facts, Mission
 from planner.mission.step_execution import begin_step
 from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepRecord, StepState, message
+from planner.mission.transitions import Fact
+from planner.plan import Bilingual, Code, Outcome, StepRecord, StepState, message
 
 GONE = "place_gone"
 _AHEAD = (StepState.PENDING, StepState.RUNNING)
@@ -47,10 +48,10 @@ def _end(turn: Turn, mission: Mission, name: Bilingual, facts: Facts) -> None:
     )
     said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
     if turn.book.running == mission.id:
-        end_running(turn, GoalState.FAILED, Code.UNKNOWN_PLACE, GONE, said=said)
+        end_running(turn, Fact.PLACE_GONE, Code.UNKNOWN_PLACE, GONE, said=said)
         return
     outcome = Outcome(code=Code.UNKNOWN_PLACE, message=said)
-    finish(turn, mission, GoalState.FAILED, outcome, GONE)
+    finish(turn, mission, Fact.PLACE_GONE, outcome, GONE)
 
 
 def _lay_anew(turn: Turn, before: Facts) -> None:

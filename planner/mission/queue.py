@@ -11,16 +11,17 @@ from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended, failure
 from planner.mission.state import Book, Mission, Walk
 from planner.mission.transaction import Turn
+from planner.mission.transitions import Cause, Fact, Person, next_state
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""
 
 
-def enqueue(turn: Turn, mission: Mission, *, first: bool = False) -> None:
-    """Let a planned mission wait for the robot."""
+def enqueue(turn: Turn, mission: Mission, cause: Cause, *, first: bool = False) -> None:
+    """Let a planned mission wait for the robot; ``cause`` is why it may."""
     waiting = tuple(i for i in turn.book.queue if i != mission.id)
-    turn.put(mission, state=GoalState.QUEUED, reason=None, held=False, kept=False)
+    turn.move_to(mission, cause, reason=None, held=False, kept=False)
     turn.set(queue=(mission.id, *waiting) if first else (*waiting, mission.id))
 
 
@@ -113,23 +114,23 @@ def _settle_step(turn: Turn, mission: Mission, walk: Walk) -> Mission:
     )
 
 
-def pause_running(turn: Turn, reason: str) -> None:
+def pause_running(turn: Turn, reason: str, cause: Cause = Fact.INTERRUPTED) -> None:
     """Stand still and keep the running mission's place; those who wait are kept waiting."""
     mission = settle_walk(turn)
     if mission is not None:
         if reason == PauseReason.TELEOP.value:  # from now on another hand moves the robot
             mission = turn.put(mission, began_at=None)
-        turn.put(mission, state=GoalState.PAUSED, reason=reason, outcome=_hint(reason))
+        turn.move_to(mission, cause, reason=reason, outcome=_hint(reason))
         turn.set(running=None)
     hold_queue(turn)
 
 
 def step_aside(
-    turn: Turn, mission: Mission, state: GoalState, reason: str | None, said: Outcome | None
+    turn: Turn, mission: Mission, cause: Cause, reason: str | None, said: Outcome | None
 ) -> None:
     """Leave the robot standing and free while a person is asked; who waits is kept waiting."""
     turn.set(running=None, walk=None)
-    turn.put(mission, state=state, reason=reason, outcome=said)
+    turn.move_to(mission, cause, reason=reason, outcome=said)
     for mission_id in turn.book.queue:
         if not turn.book.missions[mission_id].held:
             turn.put(turn.book.missions[mission_id], held=True)
@@ -145,12 +146,12 @@ def _hint(reason: str) -> Outcome | None:
 def pause_planning(turn: Turn, mission: Mission, reason: str) -> None:
     """Stop thinking about a goal; a resume thinks anew."""
     turn.emit(DropBrain(mission.id))
-    turn.put(mission, state=GoalState.PAUSED, reason=reason)
+    turn.move_to(mission, Person.PAUSES, reason=reason)
 
 
 def end_running(
     turn: Turn,
-    state: GoalState,
+    cause: Cause,
     code: Code,
     reason: str | None = None,
     row: str = "",
@@ -161,20 +162,20 @@ def end_running(
     if mission is None:
         return
     said = said or failure(turn.book.facts, mission, mission.now, code, row)
-    finish(turn, mission, state, ended(
+    finish(turn, mission, cause, ended(
         turn.book.facts, mission, None, turn.book.status, turn.now_s + turn.book.wall_offset_s,
         code=code, said=said,
     ), reason)  # fmt: skip
 
 
 def finish(
-    turn: Turn, mission: Mission, state: GoalState, outcome: Outcome, reason: str | None = None
+    turn: Turn, mission: Mission, cause: Cause, outcome: Outcome, reason: str | None = None
 ) -> None:
     """Write the end of a mission, wherever it stood, and free what it had."""
     plan = mission.plan
     if plan is not None and plan.steps:
         after = {StepState.RUNNING: StepState.FAILED, StepState.PENDING: StepState.SKIPPED}
-        cancelled = state is GoalState.CANCELLED
+        cancelled = next_state(mission.state, cause) is GoalState.CANCELLED
         steps = tuple(
             s.model_copy(
                 update={
@@ -186,9 +187,7 @@ def finish(
             for s in plan.steps
         )  # fmt: skip
         plan = plan.model_copy(update={"steps": steps})
-    turn.put(
-        mission, state=state, outcome=outcome, reason=reason, plan=plan, held=False, kept=False
-    )
+    turn.move_to(mission, cause, outcome=outcome, reason=reason, plan=plan, held=False, kept=False)
     dequeue(turn, mission.id)
     if turn.book.running == mission.id:
         turn.set(running=None, walk=None)
@@ -199,7 +198,7 @@ def cancel(turn: Turn, mission: Mission) -> None:
     if mission.state is GoalState.PLANNING:
         turn.emit(DropBrain(mission.id))
     if turn.book.running == mission.id:
-        end_running(turn, GoalState.CANCELLED, Code.CANCELLED)
+        end_running(turn, Person.CANCELS, Code.CANCELLED)
         return
     outcome = Outcome(code=Code.CANCELLED, message=message(Code.CANCELLED))
     if mission.metres > 0.0:
@@ -207,7 +206,7 @@ def cancel(turn: Turn, mission: Mission) -> None:
             turn.book.facts, mission, None, turn.book.status,
             turn.now_s + turn.book.wall_offset_s, code=Code.CANCELLED, said=outcome.message,
         )  # fmt: skip
-    finish(turn, mission, GoalState.CANCELLED, outcome)
+    finish(turn, mission, Person.CANCELS, outcome)
 
 
 def reorder(turn: Turn, mission_id: str, before: str | None) -> None:

@@ -18,12 +18,12 @@ from planner.mission.state import Mission
 from planner.mission.step_execution import begin_step, carry_out, next_step, scene_of
 from planner.mission.step_failure import give_up
 from planner.mission.transaction import Turn
+from planner.mission.transitions import Cause, Fact, Thought
 from planner.plan import (
     Answer,
     Bilingual,
     Clarify,
     Code,
-    GoalState,
     Outcome,
     Plan,
     PlanRecord,
@@ -60,7 +60,7 @@ def rethought(turn: Turn, mission: Mission, event: Planned) -> None:
         return
     refused = unwalkable(turn.book, mission, steps) or _same_again(mission, steps)
     if refused is not None:
-        _end(turn, mission, GoalState.FAILED, refused)
+        _end(turn, mission, Fact.STEP_FAILS, refused)
         return
     _adopt(turn, mission, steps)
 
@@ -106,22 +106,22 @@ def _no_steps(turn: Turn, mission: Mission, plan: Plan | None, failure: Outcome 
     if isinstance(plan, Answer) and decides:
         note_step(turn, mission, state=StepState.SUCCEEDED)
         said = message(Code.ANSWERED, text=plan.text)
-        end_running(turn, GoalState.SUCCEEDED, Code.ANSWERED, said=said)
+        end_running(turn, Thought.ANSWERS, Code.ANSWERED, said=said)
         return
     if isinstance(plan, Refuse):
-        _end(turn, mission, GoalState.REFUSED, Outcome(code=plan.code, message=plan.reason))
+        _end(turn, mission, Thought.REFUSES, Outcome(code=plan.code, message=plan.reason))
         return
     why = message(Code.BAD_PLAN, why=NO_STEPS)
-    _end(turn, mission, GoalState.FAILED, failure or Outcome(code=Code.BAD_PLAN, message=why))
+    _end(turn, mission, Fact.STEP_FAILS, failure or Outcome(code=Code.BAD_PLAN, message=why))
 
 
-def _end(turn: Turn, mission: Mission, state: GoalState, why: Outcome) -> None:
+def _end(turn: Turn, mission: Mission, cause: Cause, why: Outcome) -> None:
     """End the goal; where a step had failed, that failure is what is told."""
     if mission.failure is not None:
         give_up(turn, mission)
         return
     note_step(turn, mission, state=StepState.FAILED, reason=why.code.value)
-    end_running(turn, state, why.code, why.code.value, said=why.message)
+    end_running(turn, cause, why.code, why.code.value, said=why.message)
 
 
 def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
@@ -138,7 +138,7 @@ def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
     mission = next_step(turn, mission)
     if mission.confirm or question is not None:
         reason = None if question is None else "new_plan" if heard else "new_place"
-        step_aside(turn, mission, GoalState.AWAITING_CONFIRMATION, reason, question)
+        step_aside(turn, mission, Thought.NEEDS_YES, reason, question)
     else:
         clear_hold(turn, mission)
         begin_step(turn)

@@ -28,7 +28,8 @@ from planner.mission.state import Walk
 from planner.mission.step_execution import begin_step, end_wait_if_due, on_arrival
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Turn
-from planner.plan import Code, GoalState, PauseReason, fault
+from planner.mission.transitions import Fact
+from planner.plan import Code, PauseReason, fault
 from wire import Mode, Status
 
 SILENCE_S = 5.0
@@ -140,10 +141,10 @@ def _spent(turn: Turn, status: Status) -> bool:
             pause_running(turn, PauseReason.BUDGET.value)  # goes on once a person has acted
             return True
     elif code == "budget" or (ours and shows(status, "BUDGET")):
-        end_running(turn, GoalState.FAILED, Code.OUT_OF_BUDGET, "budget")
+        end_running(turn, Fact.STEP_FAILS, Code.OUT_OF_BUDGET, "budget")
         return True
     if ours and shows(status, "STUCK"):
-        end_running(turn, GoalState.FAILED, Code.FAULT, "stuck", row="STUCK")
+        end_running(turn, Fact.STEP_FAILS, Code.FAULT, "stuck", row="STUCK")
         return True
     return False
 

@@ -41,7 +41,8 @@ from planner.mission.skills import (
 from planner.mission.state import Mission, Walk
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Turn
-from planner.plan import Code, GoalState, Outcome, StepState, message
+from planner.mission.transitions import Fact
+from planner.plan import Code, Outcome, StepState, message
 from planner.site.polygon import contains
 from wire import Pose2
 
@@ -52,7 +53,7 @@ def start_next(turn: Turn) -> None:
         settle_amounts(turn, _pose(turn))
         mission = turn.book.missions[mission.id]
         turn.set(queue=tuple(i for i in turn.book.queue if i != mission.id), running=mission.id)
-        turn.put(mission, state=GoalState.RUNNING, reason=None, outcome=None)
+        turn.move_to(mission, Fact.TURN, reason=None, outcome=None)
         begin_step(turn)
 
 
@@ -327,7 +328,7 @@ def speak_if_safe(turn: Turn) -> None:
             turn.emit(SayAloud(mission.id, walk.question.of(mission.language)))
         turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
         said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=walk.question))
-        step_aside(turn, mission, GoalState.NEEDS_CLARIFICATION, "asked", said)
+        step_aside(turn, mission, Fact.STEP_ASKS, "asked", said)
 
 
 def end_wait_if_due(turn: Turn) -> None:
@@ -346,4 +347,4 @@ def _succeed(turn: Turn, mission: Mission) -> None:
     outcome = ended(
         turn.book.facts, mission, None, turn.book.status, now_unix_s, code=code, said=None
     )
-    finish(turn, mission, GoalState.SUCCEEDED, outcome)
+    finish(turn, mission, Fact.STEPS_OVER, outcome)

@@ -16,7 +16,8 @@ from planner.mission.queue import end_running, note_step, settle_walk
 from planner.mission.skills import NOTHING, Cannot, Notes
 from planner.mission.state import Mission, Walk
 from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepState
+from planner.mission.transitions import Fact
+from planner.plan import Bilingual, Code, Outcome, StepState
 
 MENDABLE = frozenset(
     {Code.NO_ROUTE, Code.BLOCKED, Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE}
@@ -85,7 +86,7 @@ def end_failed(turn: Turn, mission: Mission, said: Bilingual | None) -> None:
     looked = [s for s in failed if s.kind not in BACK] or failed
     reason = looked[-1].reason if looked else None
     own = failed[-1].said if failed else None  # a step that failed tells why by itself
-    end_running(turn, GoalState.FAILED, code, reason, said=own or said)
+    end_running(turn, Fact.STEP_FAILS, code, reason, said=own or said)
 
 
 def _go_back(turn: Turn, mission: Mission) -> bool:

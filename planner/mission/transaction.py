@@ -10,6 +10,7 @@ from typing import Any
 
 from planner.mission.effects import Changed, Effect, Journal
 from planner.mission.state import MAX_ENDED, Book, Mission, Walk
+from planner.mission.transitions import Cause, ForbiddenTransition, next_state
 
 
 class Turn:
@@ -39,7 +40,24 @@ class Turn:
         return self.mission(self.book.running)
 
     def put(self, mission: Mission, **changes: Any) -> Mission:
-        """Keep a mission with changes, stamped."""
+        """Keep a mission with changes, stamped. Its state is changed by ``move_to`` alone.
+
+        Raises:
+            ForbiddenTransition: ``changes`` name another state.
+        """
+        if changes.get("state", mission.state) is not mission.state:
+            raise ForbiddenTransition("the state is changed by move_to, with its cause")
+        return self._keep(mission, changes)
+
+    def move_to(self, mission: Mission, cause: Cause, **changes: Any) -> Mission:
+        """Bring a mission into the state that the table gives for a cause, with changes.
+
+        Raises:
+            ForbiddenTransition: the table gives none.
+        """
+        return self._keep(mission, {**changes, "state": next_state(mission.state, cause)})
+
+    def _keep(self, mission: Mission, changes: dict[str, Any]) -> Mission:
         stamp = self.now_s + self.book.wall_offset_s
         # Wall clocks step back; a record's times never do.
         changes["updated_unix_s"] = max(stamp, mission.updated_unix_s)
