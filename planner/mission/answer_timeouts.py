@@ -99,6 +99,6 @@ def _asked(mission: Mission) -> Bilingual:
 
 def _end(turn: Turn, mission: Mission, said: Bilingual, cause: Fact, reason: str) -> None:
     now_unix_s = turn.now_s + turn.book.wall_offset_s
-    outcome: Outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
+    outcome: Outcome = ended(turn.book.facts, mission, turn.book.status, now_unix_s,
                              code=Code.NO_ANSWER, said=said)  # fmt: skip
     finish(turn, mission, cause, outcome, reason)

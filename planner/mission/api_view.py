@@ -5,6 +5,7 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from math import isfinite
 
+from planner.mission.activity import Driving, Retrying, Waiting
 from planner.mission.state import Book, Mission
 from planner.plan import Goal, PlanRecord
 
@@ -33,18 +34,18 @@ def goal_of(book: Book, mission: Mission) -> Goal:
 
 def progress_of(book: Book) -> Progress | None:
     """Return what is left of the running step: metres, radians or seconds; None of no motion."""
-    mission, walk = book.missions.get(book.running or ""), book.walk
-    if mission is None or walk is None or mission.now is None:
+    mission, activity = book.missions.get(book.running or ""), book.activity
+    if mission is None or activity is None or mission.now is None:
         return None
     step, left = mission.now, dict[str, float]()
-    if walk.until_s is not None:
+    if isinstance(activity, Waiting):
         left["left_s"] = (
-            round(max(0.0, walk.until_s - book.status_s)) if isfinite(book.status_s) else 0
+            round(max(0.0, activity.until_s - book.status_s)) if isfinite(book.status_s) else 0
         )
-    elif walk.kind == "drive" and step.kind == "turn":
-        left["left_rad"] = round((step.angle_rad or 0.0) - mission.done - walk.amount, 2)
-    elif walk.kind == "drive" and walk.left_m is not None:
-        left["left_m"] = round(walk.left_m, 2)
+    elif isinstance(activity, (Driving, Retrying)) and step.kind == "turn":
+        left["left_rad"] = round((step.angle_rad or 0.0) - mission.done - activity.amount, 2)
+    elif isinstance(activity, Driving) and activity.left_m is not None:
+        left["left_m"] = round(activity.left_m, 2)
     return {"goal": mission.id, "step": mission.step, **left} if left else None
 
 

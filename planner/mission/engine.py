@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
+from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute, Effect, Journal, Wish
 from planner.mission.events import Event, Journalled, Routed, Seen
 from planner.mission.reducer import advance, wish
@@ -146,12 +147,13 @@ class Engine:
 
     def _adopt(self) -> None:
         """Make the path that just came the one of the new leg, if the reducer took it."""
-        walk, running = self.book.walk, self.book.running
-        if walk is None or running is None or walk.leg is None or self._path is None:
+        activity, running = self.book.activity, self.book.running
+        leg = activity.leg if isinstance(activity, Driving) else None
+        if running is None or leg is None or self._path is None:
             return
         now = self._following
-        if now is None or (now.mission, now.leg) != (running, walk.leg):
-            self._following = Following(running, walk.leg, self._path)
+        if now is None or (now.mission, now.leg) != (running, leg):
+            self._following = Following(running, leg, self._path)
 
     def _cut(self, status: Status) -> Horizon | None:
         """Cut the horizon of the leg that is wanted, on the pose of this status."""

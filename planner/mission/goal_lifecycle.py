@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from planner.language.yes_no import consents
+from planner.mission.activity import Thinking
 from planner.mission.answer_timeouts import ask_anew, close_older, make_room, waiting_since
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
@@ -137,8 +138,8 @@ def _think(turn: Turn, mission: Mission) -> None:
 def planned(turn: Turn, event: Planned) -> None:
     """Take the brain's answer, if somebody still waits for it."""
     mission = turn.mission(event.id)
-    walk = turn.book.walk
-    if mission is not None and mission is turn.running and walk and walk.kind == "think":
+    thinks = isinstance(turn.book.activity, Thinking)
+    if mission is not None and mission is turn.running and thinks:
         rethought(turn, mission, event)
         return
     if mission is None or mission.state is not GoalState.PLANNING:
@@ -303,7 +304,7 @@ def restart(turn: Turn, event: Restarted) -> None:
         missions=missions,
         queue=_queue(event, missions),
         running=None,
-        walk=None,
+        activity=None,
         order=order,
         wall_offset_s=event.wall_offset_s,
         asked_s=waiting_since(missions, turn.now_s),

@@ -13,10 +13,10 @@ from planner.language.yes_no import consents
 from planner.mission.declined_goals import decline
 from planner.mission.motion_on_yes import DO_THAT, first_deed, upon_yes
 from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
+from planner.mission.scene import scene_of
 from planner.mission.skills import Cannot
 from planner.mission.skills.ask import ask, declined
 from planner.mission.state import Mission
-from planner.mission.step_execution import scene_of
 from planner.mission.transaction import Turn
 from planner.mission.transitions import Person
 from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message

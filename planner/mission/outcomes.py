@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from planner.mission.account import MOTION, account, place_name
 from planner.mission.skills.look import looks_round
-from planner.mission.state import Facts, Mission, Walk
+from planner.mission.state import Facts, Mission
 from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message
 from planner.site.polygon import area_m2, contains
 from wire import Pose2, Status
@@ -59,11 +59,9 @@ def accepted_at(mission: Mission) -> Pose2 | None:
     return Pose2(*mission.accepted_at) if mission.accepted_at is not None else None
 
 
-def limits(mission: Mission, walk: Walk | None) -> tuple[str, ...]:
+def limits(mission: Mission) -> tuple[str, ...]:
     """Return the bridge's names for what held the speed down, the longest first."""
-    counts = dict(mission.limited)
-    for name, count in (walk.limited if walk is not None else {}).items():
-        counts[name] = counts.get(name, 0) + count
+    counts = mission.limited
     total = sum(counts.values())
     named = sorted((-n, name) for name, n in counts.items() if n >= MIN_LIMIT_SHARE * total)
     return tuple(name for _, name in named[:MAX_LIMITS_NAMED])
@@ -72,7 +70,6 @@ def limits(mission: Mission, walk: Walk | None) -> tuple[str, ...]:
 def ended(
     facts: Facts,
     mission: Mission,
-    walk: Walk | None,
     status: Status | None,
     now_unix_s: float,
     *,
@@ -93,9 +90,9 @@ def ended(
         asked=asked_spot(facts, mission, last) if last is not None else None,
         reached=(last.reached if last is not None and last.reached else None)
         or (spot_at(facts, pose) if tried else None),
-        metres=round(mission.metres + (walk.metres if walk is not None else 0.0), 3),
+        metres=round(mission.metres, 3),
         seconds=round(max(0.0, now_unix_s - mission.created_unix_s), 3),
-        limited_by=limits(mission, walk),
+        limited_by=limits(mission),
     )
 
 

@@ -6,7 +6,7 @@ place that was moved is laid anew.
 
 from __future__ import annotations
 
-from planner.mission.queue import end_running, finish, settle_walk
+from planner.mission.queue import end_running, finish, settle_activity
 from planner.mission.state import Facts, Mission
 from planner.mission.step_execution import begin_step
 from planner.mission.transaction import Turn
@@ -56,10 +56,10 @@ def _end(turn: Turn, mission: Mission, name: Bilingual, facts: Facts) -> None:
 
 def _lay_anew(turn: Turn, before: Facts) -> None:
     """Begin the running step again where its place is another point now."""
-    walk = turn.book.walk
-    if turn.running is None or walk is None or walk.target is None:
+    leg = turn.driving
+    if turn.running is None or leg is None or leg.target is None:
         return
-    old, new = before.targets.get(walk.target), turn.book.facts.targets.get(walk.target)
+    old, new = before.targets.get(leg.target), turn.book.facts.targets.get(leg.target)
     if old is not None and new is not None and old.pose != new.pose:
-        settle_walk(turn)
+        settle_activity(turn)
         begin_step(turn)

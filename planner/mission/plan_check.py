@@ -1,4 +1,9 @@
-"""Be the last gate before a plan is walked: it trusts no brain and no validation before it."""
+"""Be the last gate before a plan is carried out: first plans, new ones under way, resumed by a yes.
+
+It trusts no brain and no validation before it, and knows what those do not: the detector's classes
+as they are now, and whether a model can point. Eyes that fail later end their own step
+(``planner.mission.skills.act_of``).
+"""
 
 from __future__ import annotations
 
@@ -24,7 +29,7 @@ UP_TO = frozenset({"go_to_object", "follow"})
 
 
 def unwalkable(book: Book, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
-    """Return why these steps can't all be walked, or None. Nothing has moved yet."""
+    """Return why these steps can't all be carried out, or None. Nothing has moved yet."""
     if not steps:
         return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=NO_STEPS))
     for step in steps:

@@ -7,9 +7,18 @@ with the answer, too.
 
 from __future__ import annotations
 
+from planner.mission.activity import (
+    TIMED,
+    Activity,
+    AskingImage,
+    Driving,
+    Observing,
+    Thinking,
+)
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended, failure
-from planner.mission.state import Book, Mission, Walk
+from planner.mission.skills.skill_state import Notes
+from planner.mission.state import Book, Mission
 from planner.mission.transaction import Turn
 from planner.mission.transitions import Cause, Fact, Person, next_state
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
@@ -85,38 +94,44 @@ def standing_hold(turn: Turn) -> str | None:
     return None if pardoned else status.held.reason.value
 
 
-def settle_walk(turn: Turn) -> Mission | None:
+def settle_activity(turn: Turn) -> Mission | None:
     """Write what the running step measured into its mission; the robot is free afterwards."""
-    mission, walk = turn.running, turn.book.walk
-    if mission is not None and walk is not None:
+    mission, activity = turn.running, turn.book.activity
+    if mission is not None and activity is not None:
         limited = dict(mission.limited)
-        for name, count in walk.limited.items():
+        counted = activity.limited if isinstance(activity, Driving) else {}
+        for name, count in counted.items():
             limited[name] = limited.get(name, 0) + count
-        metres = round(mission.metres + walk.metres, 4)
-        done = round(mission.done + walk.amount, 5)
+        metres = round(mission.metres + activity.metres, 4)
+        done = round(mission.done + activity.amount, 5)
         mission = turn.put(mission, metres=metres, limited=limited, done=done)
-        if walk.since_s is not None:
-            mission = _settle_step(turn, mission, walk)
-        if walk.kind == "think":  # nobody waits for this thought any more
+        if isinstance(activity, TIMED) and activity.since_s is not None:
+            mission = _settle_step(turn, mission, activity, activity.since_s)
+        if isinstance(activity, Thinking):  # nobody waits for this thought any more
             turn.emit(DropBrain(mission.id))
-    turn.set(walk=None)
+    turn.set(activity=None)
     return mission
 
 
-def _settle_step(turn: Turn, mission: Mission, walk: Walk) -> Mission:
+def _settle_step(turn: Turn, mission: Mission, activity: Activity, since_s: float) -> Mission:
     """Write what a step that looks has spent, and what its skill remembers."""
-    since_s = walk.since_s if walk.since_s is not None else turn.now_s
     return turn.put(
         mission,
         step_s=round(mission.step_s + max(0.0, turn.now_s - since_s), 3),
-        step_m=round(mission.step_m + walk.metres, 4),
-        notes=walk.notes if walk.notes is not None else mission.notes,
+        step_m=round(mission.step_m + activity.metres, 4),
+        notes=notes_now(mission, activity),
     )
+
+
+def notes_now(mission: Mission, activity: Activity | None) -> Notes:
+    """Return what the skill of the running step remembers now."""
+    kept = activity.notes if isinstance(activity, (Driving, Observing, AskingImage)) else None
+    return kept if kept is not None else mission.notes
 
 
 def pause_running(turn: Turn, reason: str, cause: Cause = Fact.INTERRUPTED) -> None:
     """Stand still and keep the running mission's place; those who wait are kept waiting."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is not None:
         if reason == PauseReason.TELEOP.value:  # from now on another hand moves the robot
             mission = turn.put(mission, began_at=None)
@@ -129,7 +144,7 @@ def step_aside(
     turn: Turn, mission: Mission, cause: Cause, reason: str | None, said: Outcome | None
 ) -> None:
     """Leave the robot standing and free while a person is asked; who waits is kept waiting."""
-    turn.set(running=None, walk=None)
+    turn.set(running=None, activity=None)
     turn.move_to(mission, cause, reason=reason, outcome=said)
     for mission_id in turn.book.queue:
         if not turn.book.missions[mission_id].held:
@@ -158,12 +173,12 @@ def end_running(
     said: Bilingual | None = None,
 ) -> None:
     """End the running mission with its figures; steps never begun are skipped."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     said = said or failure(turn.book.facts, mission, mission.now, code, row)
     finish(turn, mission, cause, ended(
-        turn.book.facts, mission, None, turn.book.status, turn.now_s + turn.book.wall_offset_s,
+        turn.book.facts, mission, turn.book.status, turn.now_s + turn.book.wall_offset_s,
         code=code, said=said,
     ), reason)  # fmt: skip
 
@@ -190,7 +205,7 @@ def finish(
     turn.move_to(mission, cause, outcome=outcome, reason=reason, plan=plan, held=False, kept=False)
     dequeue(turn, mission.id)
     if turn.book.running == mission.id:
-        turn.set(running=None, walk=None)
+        turn.set(running=None, activity=None)
 
 
 def cancel(turn: Turn, mission: Mission) -> None:
@@ -203,7 +218,7 @@ def cancel(turn: Turn, mission: Mission) -> None:
     outcome = Outcome(code=Code.CANCELLED, message=message(Code.CANCELLED))
     if mission.metres > 0.0:
         outcome = ended(
-            turn.book.facts, mission, None, turn.book.status,
+            turn.book.facts, mission, turn.book.status,
             turn.now_s + turn.book.wall_offset_s, code=Code.CANCELLED, said=outcome.message,
         )  # fmt: skip
     finish(turn, mission, Person.CANCELS, outcome)

@@ -7,6 +7,7 @@ What the bridge should be asked for is a level, read from the book by ``wish``.
 
 from __future__ import annotations
 
+from planner.mission.activity import AskingImage, Driving
 from planner.mission.allowed_commands import refusal
 from planner.mission.effects import STAND, AskBrain, Effect, Wish
 from planner.mission.events import (
@@ -59,7 +60,7 @@ __all__ = ["AskBrain", "advance", "wish"]
 def advance(book: Book, event: Event, now_s: float) -> tuple[Book, tuple[Effect, ...]]:
     """Return the next book and what to ask of the world. Same arguments, same answer.
 
-    A command that the state doesn't allow changes nothing; ask ``table.refusal`` why.
+    A command that the state doesn't allow changes nothing; ask ``allowed_commands.refusal`` why.
     """
     turn = Turn(book, now_s)
     if isinstance(event, (Cancel, Pause, Resume, Confirm, Reply, Move, ChangeSpeed)):
@@ -80,15 +81,15 @@ def wish(book: Book) -> Wish:
     mission = book.missions.get(book.running) if book.running is not None else None
     if mission is None or not any(map(moves, mission.steps[mission.step :])):
         return STAND
-    walk = book.walk
-    driven = walk is not None and walk.kind == "drive" and book.safe >= walk.record
-    return Wish(mission.id, walk.leg if walk is not None and driven else None)
+    activity = book.activity
+    driven = isinstance(activity, Driving) and book.safe >= activity.record
+    return Wish(mission.id, activity.leg if isinstance(activity, Driving) and driven else None)
 
 
 def asked_about_picture(book: Book) -> int | None:
     """Return the ticket of the question about the picture whose answer is waited for, if one is."""
-    walk = book.walk
-    return walk.ticket if walk is not None and walk.kind == "inquire" else None
+    activity = book.activity
+    return activity.ticket if isinstance(activity, AskingImage) else None
 
 
 def looks(book: Book) -> bool:

@@ -13,9 +13,10 @@ from planner.mission.confirmation import needs_yes
 from planner.mission.events import Planned
 from planner.mission.plan_check import NO_STEPS, unwalkable
 from planner.mission.queue import clear_hold, end_running, note_step, step_aside
+from planner.mission.scene import scene_of
 from planner.mission.skills.ask import ask_again
 from planner.mission.state import Mission
-from planner.mission.step_execution import begin_step, carry_out, next_step, scene_of
+from planner.mission.step_execution import begin_step, carry_out, next_step
 from planner.mission.step_failure import give_up
 from planner.mission.transaction import Turn
 from planner.mission.transitions import Cause, Fact, Thought
@@ -47,7 +48,7 @@ def fingerprint(steps: tuple[StepRecord, ...]) -> str:
 
 def rethought(turn: Turn, mission: Mission, event: Planned) -> None:
     """Take the answer of a brain that was asked again while the goal runs."""
-    turn.set(walk=None)
+    turn.set(activity=None)
     if event.brain is not None:
         mission = turn.put(mission, brain=event.brain)
     plan = event.plan

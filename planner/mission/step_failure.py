@@ -8,13 +8,14 @@ look and to come back comes back with nothing, too: that way alone is still driv
 from __future__ import annotations
 
 from planner.mission.account import BACK
+from planner.mission.activity import Retrying, Thinking
 from planner.mission.declined_goals import decline
 from planner.mission.effects import AskBrain
 from planner.mission.observations import exchanges_of, observed
 from planner.mission.outcomes import failure, spot_at
-from planner.mission.queue import end_running, note_step, settle_walk
+from planner.mission.queue import end_running, note_step, settle_activity
 from planner.mission.skills import NOTHING, Cannot, Notes
-from planner.mission.state import Mission, Walk
+from planner.mission.state import Mission
 from planner.mission.transaction import Turn
 from planner.mission.transitions import Fact
 from planner.plan import Bilingual, Code, Outcome, StepState
@@ -37,11 +38,11 @@ def fail_step(turn: Turn, cannot: Cannot) -> None:
     A leg whose skill knows what to do without it ends alone, and the step goes on. What a person
     declined ends at once: no other plan is thought about.
     """
-    walk = turn.book.walk
-    if walk is not None and walk.otherwise is not None and cannot.code in SHUT:
-        _without(turn, walk.otherwise)
+    leg = turn.driving
+    if leg is not None and leg.otherwise is not None and cannot.code in SHUT:
+        _without(turn, leg.otherwise)
         return
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     if cannot.code is Code.DECLINED and cannot.said is not None:
@@ -63,12 +64,13 @@ def fail_step(turn: Turn, cannot: Cannot) -> None:
 
 def _without(turn: Turn, notes: Notes) -> None:
     """Go on in the step without this leg: its skill is asked soon, standing."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     turn.put(mission, notes=notes)
     retry_s = turn.now_s + AGAIN_S
-    turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s, since_s=turn.now_s))
+    again = Retrying(record=turn.next_entry, retry_s=retry_s, since_s=turn.now_s)
+    turn.set(activity=again)
 
 
 def give_up(turn: Turn, mission: Mission) -> None:
@@ -103,7 +105,7 @@ def _go_back(turn: Turn, mission: Mission) -> bool:
     )
     mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": steps}))
     to_step(turn, mission, back)
-    turn.set(walk=Walk("drive", turn.next_entry, retry_s=turn.now_s))
+    turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
     return True
 
 
@@ -132,7 +134,7 @@ def think(turn: Turn, mission: Mission) -> None:
     """Have the brain think again, standing, with all that came of the goal so far."""
     facts, status = turn.book.facts, turn.book.status
     room = spot_at(facts, status.base_in_map if status is not None else None).room
-    turn.set(walk=Walk("think", turn.next_entry))
+    turn.set(activity=Thinking(record=turn.next_entry))
     turn.emit(
         AskBrain(
             mission.id,

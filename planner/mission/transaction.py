@@ -8,8 +8,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from planner.mission.activity import Driving
 from planner.mission.effects import Changed, Effect, Journal
-from planner.mission.state import MAX_ENDED, Book, Mission, Walk
+from planner.mission.state import MAX_ENDED, Book, Mission
 from planner.mission.transitions import Cause, ForbiddenTransition, next_state
 
 
@@ -65,12 +66,19 @@ class Turn:
         self.set(missions={**self.book.missions, mission.id: changed})
         return changed
 
-    def walk(self, **changes: Any) -> Walk | None:
-        """Change the running step's memory, if a step runs."""
-        walk = self.book.walk
-        if walk is not None and any(getattr(walk, k) != v for k, v in changes.items()):
-            self.set(walk=replace(walk, **changes))
-        return self.book.walk
+    @property
+    def driving(self) -> Driving | None:
+        """Return the leg that the running step drives, or None where it does something else."""
+        activity = self.book.activity
+        return activity if isinstance(activity, Driving) else None
+
+    def change(self, **changes: Any) -> None:
+        """Change fields of what the running step does, if it does anything."""
+        activity = self.book.activity
+        if activity is None:
+            return
+        if any(getattr(activity, name) != value for name, value in changes.items()):
+            self.set(activity=replace(activity, **changes))
 
     @property
     def next_entry(self) -> int:

@@ -1,7 +1,7 @@
 """Do each kind of step: one pure function a kind, in a file with its law and its budget.
 
-``act_of(scene)`` returns what is to be done next for a step. What the robot lacks the means for is
-refused before anything moves.
+``act_of(scene)`` returns what is to be done next for a step. A plan was accepted whole before
+(``planner.mission.plan_check``); here a step ends whose camera or detector is gone since then.
 """
 
 from collections.abc import Callable
@@ -66,7 +66,7 @@ SKILLS: MappingProxyType[str, Callable[[Scene], Act]] = MappingProxyType(
 
 
 def act_of(scene: Scene) -> Act:
-    """Return what a step asks for now; one that the robot lacks the means for can't be done."""
+    """Return what a step asks for now; it fails where its camera or detector is gone by now."""
     code = scene.eyes.means(scene.sight.blind).lacks(scene.step.kind)
     skill = SKILLS.get(scene.step.kind)
     if skill is not None and code is None:
