@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from planner.language.commands import Resume, intent_of
 from planner.language.yes_no import consents
+from planner.mission.goal_reference import goal_to_resume
 from planner.mission.open_questions import WAITS, asks_freely, takes_yes
-from planner.mission.queue import to_resume
 from planner.mission.state import Book
 
 
@@ -19,7 +19,7 @@ def meant(book: Book, text: str) -> tuple[str, ...]:
     if consents(text) is None:
         return ()
     intent = intent_of(text)
-    if not (intent is None or (isinstance(intent, Resume) and to_resume(book) is None)):
+    if not (intent is None or (isinstance(intent, Resume) and goal_to_resume(book) is None)):
         return ()  # "go on" is a yes where there is nothing else to go on with
     waiting = [m for m in book.missions.values() if m.state in WAITS]
     taking = {m.id: m.updated_unix_s for m in waiting if takes_yes(m)}

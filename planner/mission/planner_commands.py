@@ -26,10 +26,10 @@ from planner.language.commands import (
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
+from planner.mission.goal_reference import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.known_places import Lesson
-from planner.mission.queue import to_resume
 from planner.mission.spoken_status import doing, where
-from planner.plan import Answer, Bilingual, Code, GoalState, Refuse, message
+from planner.plan import Answer, Bilingual, Code, Refuse, message
 from planner.site import PlaceRefused
 
 if TYPE_CHECKING:
@@ -85,13 +85,13 @@ class Local:
             case Forget(name):
                 return await self._forget(name)
             case Pause():
-                return self._each("pause", events.Pause, to_pause(self._book(), mission.id))
+                return self._each("pause", events.Pause, goal_to_pause(self._book(), mission.id))
             case Cancel():
                 own = mission.id if mission.replies else None
-                found = current(self._book(), mission.id)
+                found = goal_to_end(self._book(), mission.id)
                 return self._each("cancel", events.Cancel, found or own)
             case Resume():
-                return self._each("resume", events.Resume, to_resume(self._book(), mission.id))
+                return self._each("resume", events.Resume, goal_to_resume(self._book(), mission.id))
             case Doing():
                 return Answer(text=doing(self._book(), self._age_s(), mission.id))
             case Slower() | Faster():
@@ -187,34 +187,3 @@ def not_kept(refused: PlaceRefused) -> Refuse:
 def _by_person(mission: Mission, ask: AskBrain) -> bool:
     """Tell whether the words are the person's own newest ones, not a model's question."""
     return ask.text == mission.words
-
-
-_OPEN = (
-    GoalState.PLANNING,
-    GoalState.NEEDS_CLARIFICATION,
-    GoalState.AWAITING_CONFIRMATION,
-    GoalState.PAUSED,
-    GoalState.QUEUED,
-)
-
-
-def current(book: Book, asking: str | None = None) -> str | None:
-    """Return the goal that a person means by "that": the running one, else the newest open one."""
-    if book.running is not None:
-        return book.running
-    others = [m for m in book.missions.values() if not m.ended and m.id != asking]
-    for state in _OPEN:
-        found = [m for m in others if m.state is state]
-        if found:
-            return max(found, key=lambda m: m.order).id
-    return None
-
-
-def to_pause(book: Book, asking: str | None = None) -> str | None:
-    """Return the goal that a person wants paused."""
-    if book.running is not None:
-        return book.running
-    thinking = [
-        m for m in book.missions.values() if m.state is GoalState.PLANNING and m.id != asking
-    ]
-    return max(thinking, key=lambda m: m.order).id if thinking else None

@@ -18,7 +18,7 @@ from planner.mission.activity import (
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended, failure
 from planner.mission.skills.skill_state import Notes
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission
 from planner.mission.transaction import Turn
 from planner.mission.transitions import Cause, Fact, Person, next_state
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
@@ -250,11 +250,3 @@ def note_step(turn: Turn, mission: Mission, **changes: object) -> Mission:
     steps = list(mission.plan.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
     return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
-
-
-def to_resume(book: Book, asking: str | None = None) -> str | None:
-    """Return the goal that was paused last, else the first that is kept waiting."""
-    paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
-    if paused:
-        return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
-    return next((i for i in book.queue if book.missions[i].held), None)

@@ -9,16 +9,14 @@ from __future__ import annotations
 import asyncio
 import dataclasses
 import uuid
+from typing import TYPE_CHECKING, Any
 
 from planner.brain.image_questions import Looker
 from planner.brain.interface import Brain
 from planner.bridge_client import Identity, Link, StopResult
-from planner.language.commands import Cancel as TakeBack
-from planner.language.commands import Replace
-from planner.language.commands import Resume as GoOn
 from planner.language.identification import language_of
-from planner.language.yes_no import consents
 from planner.mission.allowed_commands import refusal
+from planner.mission.api_view import goal_of
 from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
@@ -27,6 +25,7 @@ from planner.mission.errors import (
     MissionError,
     NothingToResume,
     QueueFull,
+    UnknownGoal,
 )
 from planner.mission.events import (
     Cancel,
@@ -41,17 +40,21 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
+from planner.mission.goal_reference import goal_to_resume
 from planner.mission.idempotency import Repeats, body_of
 from planner.mission.journal import MissionJournal
 from planner.mission.known_places import Memory
 from planner.mission.loop import Clocks, Loop
-from planner.mission.open_questions import takes_yes
 from planner.mission.plan_request import thinker
 from planner.mission.planner_commands import Local
-from planner.mission.queue import to_resume
-from planner.mission.reception import Reception, is_active, read_utterance, receive
+from planner.mission.reception import (
+    awaits_answer,
+    hears_stop,
+    read_utterance,
+    receive,
+    receive_answer,
+)
 from planner.mission.route_prefetch import RouteAhead
-from planner.mission.service_view import Shown
 from planner.mission.state import Book, Rules
 from planner.mission.tasks import Router
 from planner.perception.interfaces import Eyes
@@ -59,8 +62,12 @@ from planner.plan import Goal, Language
 from planner.site import Site
 from wire import OpRequest, RobotDescription
 
+if TYPE_CHECKING:
+    from planner.mission.engine import Leg
+    from planner.mission.event_hub import Subscription
 
-class Missions(Shown):
+
+class Missions:
     """Take goals, drive them, answer for them. See the package's door for the API."""
 
     def __init__(
@@ -83,7 +90,7 @@ class Missions(Shown):
         identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(Book(self.memory.facts), identity)
         self._clocks, self._robot = clocks or Clocks(), robot
-        super().__init__(Loop(engine, link, journal, self._clocks), planner_id)
+        self._loop, self.planner_id = Loop(engine, link, journal, self._clocks), planner_id
         self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
         self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
         self._think = Local(
@@ -152,7 +159,8 @@ class Missions(Shown):
         """
         spoken, goal_id = language or language_of(text), self._clocks.new_id()
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
-        heard = self._receive(given, answers=answers)
+        said, now_s = read_utterance(text), self._clocks.monotonic()
+        heard = receive(self._book, said, given, now_s, answers=answers)
         if heard.stops:
             return await self._stop_goal(heard.given, source)
         body = body_of(text, spoken, confirm, replace)
@@ -175,17 +183,11 @@ class Missions(Shown):
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, whatever else they may mean."""
-        said = read_utterance(text)
-        active = is_active(self._book, self._clocks.monotonic())
-        return said.orders_stop or (said.may_mean_stop and active)
+        return hears_stop(self._book, read_utterance(text), self._clocks.monotonic())
 
     def awaits_answer(self) -> bool:
         """Return whether a question waits for a yes or no."""
-        return any(takes_yes(mission) for mission in self._book.missions.values())
-
-    def _receive(self, given: Submitted, *, answers: bool = True) -> Reception:
-        said, now_s = read_utterance(given.text), self._clocks.monotonic()
-        return receive(self._book, said, given, now_s, answers=answers)
+        return awaits_answer(self._book)
 
     async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
         """Wait until a goal is written down; what can't be is taken back."""
@@ -220,32 +222,25 @@ class Missions(Shown):
     async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; an order to stop always stops.
 
-        What is said to the planner itself ("where are you", "hold on") is done beside the question,
-        which stays open: no sentence that needs no proof is ever taken as the answer.
+        ``reception.receive_answer`` says what the words do.
 
         Raises:
             UnknownGoal, BadState: as named.
         """
-        said = read_utterance(text)
-        intent = said.intent
-        if said.orders_stop or (consents(text) is None and self.hears_stop(text)):
+        now_s = self._clocks.monotonic()
+        heard = receive_answer(self._book, read_utterance(text), goal_id, now_s)
+        if heard.refused is not None:
+            raise heard.refused
+        if heard.stops:
             await self.stop("answer")
-            if isinstance(intent, Replace):
-                self._obey(Cancel(goal_id))
+            if heard.command is not None:
+                self._obey(heard.command)
             return self.goal(goal_id)
-        if (error := refusal(self._book, Reply(goal_id, text))) is not None:
-            raise error
-        if isinstance(intent, TakeBack):
-            return await self.cancel(goal_id)
-        own_question = takes_yes(self._book.missions[goal_id])  # "go on" may be its answer
-        if said.stays_put or (isinstance(intent, GoOn) and not own_question):
-            await self.submit(text, act=act)
-            return self.goal(goal_id)
-        if isinstance(intent, Replace):
-            taken_back = await self.cancel(goal_id)
-            await self.submit(intent.rest, act=act, answers=False)
-            return taken_back
-        return await self._command(Reply(goal_id, text), act)
+        if heard.command is not None:
+            await self._command(heard.command, act if isinstance(heard.command, Reply) else None)
+        if heard.sentence is not None:
+            await self.submit(heard.sentence, act=act, answers=heard.answers)
+        return self.goal(goal_id)
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal:
         """Put a queued goal before another, or last. Raises UnknownGoal, BadState."""
@@ -258,7 +253,64 @@ class Missions(Shown):
         self._loop.event(Stopped(source))
         return await saying
 
+    # What is told --------------------------------------------------------------------------------
+
+    @property
+    def failed(self) -> BaseException | None:
+        """Return what ended the mission loop, if something did: the process should end then."""
+        return self._loop.failed
+
+    @property
+    def journal_trouble(self) -> str | None:
+        """Return why the journal can't be written, or None."""
+        return self._loop.trouble
+
+    @property
+    def first_waypoint_s(self) -> tuple[float, ...]:
+        """Return the newest times from a goal's acceptance to its first waypoint [s]."""
+        return tuple(self._loop.accepted.seconds)
+
+    def goal(self, goal_id: str) -> Goal:
+        """Return a goal.
+
+        Raises:
+            UnknownGoal: there is none of that id at hand.
+        """
+        mission = self._book.missions.get(goal_id)
+        if mission is None:
+            raise UnknownGoal(goal_id, tuple(self._book.missions))
+        return goal_of(self._book, mission)
+
+    def goals(self, limit: int = 50) -> tuple[Goal, ...]:
+        """Return goals: first all that are open, then those that ended, each newest first."""
+        by_age = sorted(self._book.missions.values(), key=lambda m: (m.ended, -m.order))
+        return tuple(goal_of(self._book, mission) for mission in by_age[: max(0, limit)])
+
+    def path(self) -> Leg | None:
+        """Return the leg that is driven now, with its whole path."""
+        return self._loop.leg
+
+    def subscribe(self) -> Subscription:
+        """Iterate over (seq, event) from now on; take a ``snapshot`` after, and drop older seqs."""
+        return self._loop.hub.subscribe()
+
+    def snapshot(self) -> dict[str, Any]:
+        """Return where everything stands, with the seq of the newest event it contains."""
+        status = self._book.status
+        return {
+            "seq": self._loop.hub.seq,
+            "planner_id": self.planner_id,
+            "running": self._book.running,
+            "queue": list(self._book.queue),
+            "goals": [goal.model_dump(mode="json") for goal in self.goals()],
+            "status": status.model_dump(mode="json") if status is not None else None,
+        }
+
     # Inside -------------------------------------------------------------------------------------
+
+    @property
+    def _book(self) -> Book:
+        return self._loop.book
 
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
@@ -266,7 +318,7 @@ class Missions(Shown):
         return self.goal(given.id)
 
     def _newest_paused(self) -> str:
-        if (goal_id := to_resume(self._book)) is None:
+        if (goal_id := goal_to_resume(self._book)) is None:
             raise NothingToResume
         return goal_id
 
