@@ -6,10 +6,10 @@ from planner.language.commands import Resume, intent_of
 from planner.language.yes_no import consents
 from planner.mission.goal_reference import goal_to_resume
 from planner.mission.open_questions import WAITS, asks_freely, takes_yes
-from planner.mission.state import Book
+from planner.mission.state import MissionState
 
 
-def meant(book: Book, text: str) -> tuple[str, ...]:
+def meant(book: MissionState, text: str) -> tuple[str, ...]:
     """Return the goals whose question a sentence may answer; one alone is beyond doubt.
 
     None unless it is a plain yes or no and one of them takes it. A question that takes neither (a

@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from math import isfinite
 
 from planner.mission.activity import Driving, Retrying, Waiting
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission, MissionState
 from planner.plan import Goal, PlanRecord
 
 Progress = dict[str, float | int | str]
@@ -14,7 +14,7 @@ Progress = dict[str, float | int | str]
 """
 
 
-def goal_of(book: Book, mission: Mission) -> Goal:
+def goal_of(book: MissionState, mission: Mission) -> Goal:
     """Return a mission as a goal, with its place in the queue."""
     position = book.queue.index(mission.id) if mission.id in book.queue else None
     return Goal(
@@ -32,7 +32,7 @@ def goal_of(book: Book, mission: Mission) -> Goal:
     )
 
 
-def progress_of(book: Book) -> Progress | None:
+def progress_of(book: MissionState) -> Progress | None:
     """Return what is left of the running step: metres, radians or seconds; None of no motion."""
     mission, activity = book.missions.get(book.running or ""), book.activity
     if mission is None or activity is None or mission.now is None:
@@ -49,7 +49,7 @@ def progress_of(book: Book) -> Progress | None:
     return {"goal": mission.id, "step": mission.step, **left} if left else None
 
 
-def _plan_now(book: Book, mission: Mission) -> PlanRecord | None:
+def _plan_now(book: MissionState, mission: Mission) -> PlanRecord | None:
     """Return the plan with what is left of the step that runs now."""
     plan = mission.plan
     progress = progress_of(book) if mission.id == book.running else None

@@ -20,13 +20,13 @@ from planner.mission.open_questions import (
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import unwalkable
 from planner.mission.queue import (
+    acknowledge_hold,
     cancel,
     clear_hold,
     enqueue,
     finish,
     hold_now,
     hold_queue,
-    pardon,
     pause_planning,
     pause_running,
     release_answered,
@@ -35,9 +35,9 @@ from planner.mission.queue import (
 from planner.mission.replan import fingerprint, rethought
 from planner.mission.skills import NOTHING
 from planner.mission.spoken_status import go_on_told, stop_told
-from planner.mission.state import Book, Mission
-from planner.mission.transaction import Turn
-from planner.mission.transitions import FIRST, Cause, Fact, Person, Thought
+from planner.mission.state import Mission, MissionState
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (
     Answer,
     Bilingual,
@@ -72,14 +72,14 @@ UNCONFIRMED = Bilingual(
 )
 
 
-def submit(turn: Turn, event: Submitted) -> None:
+def submit(turn: Transaction, event: Submitted) -> None:
     """Take a goal in. One id is one goal: a repeated id changes nothing."""
     if event.id in turn.book.missions:
         return
     if event.stop or event.doubtful_stop:
         stop(turn)
     elif event.resumes:
-        pardon(turn)
+        acknowledge_hold(turn)
     if not (event.stop or event.local):
         make_room(turn, event.text)
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
@@ -113,21 +113,21 @@ def submit(turn: Turn, event: Submitted) -> None:
     _think(turn, turn.put(mission))
 
 
-def _stopped(turn: Turn, mission: Mission, echoed: bool) -> None:
+def _stopped(turn: Transaction, mission: Mission, echoed: bool) -> None:
     if echoed:
         said = Outcome(code=Code.STOPPED, message=stop_told(turn.book))
-        finish(turn, mission, Person.ORDERS_STOP, said)
+        finish(turn, mission, PersonCause.ORDERS_STOP, said)
         return
     said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
-    turn.move_to(mission, Person.STOP_UNHEARD, reason="bridge_silent", outcome=said)
+    turn.move_to(mission, PersonCause.STOP_UNHEARD, reason="bridge_silent", outcome=said)
 
 
-def _think_anew(turn: Turn, mission: Mission, cause: Cause) -> None:
+def _think_anew(turn: Transaction, mission: Mission, cause: Cause) -> None:
     """Have a brain think about an order again that waited for a person until now."""
     _think(turn, turn.move_to(mission, cause, reason=None, outcome=None, plan=None))
 
 
-def _think(turn: Turn, mission: Mission) -> None:
+def _think(turn: Transaction, mission: Mission) -> None:
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
     said = exchanges_of(mission)
@@ -135,7 +135,7 @@ def _think(turn: Turn, mission: Mission) -> None:
                        order=mission.text, exchanges=said))  # fmt: skip
 
 
-def planned(turn: Turn, event: Planned) -> None:
+def planned(turn: Transaction, event: Planned) -> None:
     """Take the brain's answer, if somebody still waits for it."""
     mission = turn.mission(event.id)
     thinks = isinstance(turn.book.activity, Thinking)
@@ -152,7 +152,7 @@ def planned(turn: Turn, event: Planned) -> None:
         outcome = event.failure or _bad_plan("no answer")
         unavailable = outcome.code is Code.MODEL_UNAVAILABLE
         mission = turn.put(mission, brain=event.brain)
-        cause = Thought.FAILS if unavailable else Thought.REFUSES
+        cause = BrainCause.FAILS if unavailable else BrainCause.REFUSES
         finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
@@ -162,20 +162,20 @@ def planned(turn: Turn, event: Planned) -> None:
         case Answer():
             words = message(Code.ANSWERED, text=plan.text)
             outcome = Outcome(code=Code.ANSWERED, message=words)
-            finish(turn, mission, Thought.ANSWERS, outcome)
+            finish(turn, mission, BrainCause.ANSWERS, outcome)
         case Refuse():
             told = go_on_told(turn.book, plan.reason, turn.now_s)
             outcome = Outcome(code=plan.code, message=told)
-            finish(turn, mission, Thought.REFUSES, outcome, plan.code.value)
+            finish(turn, mission, BrainCause.REFUSES, outcome, plan.code.value)
         case Clarify():
             told = go_on_told(turn.book, plan.question, turn.now_s)
             said = Outcome(code=plan.code, message=told)
-            turn.move_to(mission, Thought.ASKS, reason=plan.code.value, outcome=said)
+            turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
             _walkable(turn, mission)
 
 
-def _ask_what_was_meant(book: Book, mission: Mission) -> Bilingual:
+def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
     """Ask whether a sentence with a stop word in it was an order to do something."""
     told, text = stop_told(book), mission.text[:60]
     return Bilingual(
@@ -184,30 +184,30 @@ def _ask_what_was_meant(book: Book, mission: Mission) -> Bilingual:
     )
 
 
-def _walkable(turn: Turn, mission: Mission) -> None:
+def _walkable(turn: Transaction, mission: Mission) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
         _stopped(turn, mission, echoed=True)
         return
     if outcome is not None:
-        finish(turn, mission, Thought.REFUSES, outcome, outcome.code.value)
+        finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
     if mission.doubtful_stop:
         said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
-        turn.move_to(mission, Thought.NEEDS_YES, reason="doubtful_stop", outcome=said)
+        turn.move_to(mission, BrainCause.NEEDS_YES, reason="doubtful_stop", outcome=said)
     elif mission.confirm:
-        turn.move_to(mission, Thought.NEEDS_YES)
+        turn.move_to(mission, BrainCause.NEEDS_YES)
     else:
-        ready(turn, mission, Thought.PLANS)
+        ready(turn, mission, BrainCause.PLANS)
 
 
 def _bad_plan(why: str) -> Outcome:
     return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
 
 
-def ready(turn: Turn, mission: Mission, cause: Cause) -> None:
+def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
     clear_hold(turn, mission)
     if mission.begun:  # it was asked under way, and goes on where it stood
@@ -219,7 +219,7 @@ def ready(turn: Turn, mission: Mission, cause: Cause) -> None:
     enqueue(turn, mission, cause, first=mission.replace or mission.first)
 
 
-def _in_hand(turn: Turn, new: Mission) -> Mission | None:
+def _in_hand(turn: Transaction, new: Mission) -> Mission | None:
     """Return what "forget that" means: the running goal, else the newest that thinks or asks.
 
     A goal that a person paused keeps its place, and so do those that wait.
@@ -230,12 +230,12 @@ def _in_hand(turn: Turn, new: Mission) -> Mission | None:
     return max(open_, key=lambda m: m.order, default=None)
 
 
-def confirm(turn: Turn, mission: Mission) -> None:
+def confirm(turn: Transaction, mission: Mission) -> None:
     """Take a person's yes."""
-    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)), Person.AGREES)
+    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)), PersonCause.AGREES)
 
 
-def reply(turn: Turn, mission: Mission, text: str) -> None:
+def reply(turn: Transaction, mission: Mission, text: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = turn.put(mission, given_under_hold=hold_now(turn))
     ask_anew(turn, mission)
@@ -245,58 +245,58 @@ def reply(turn: Turn, mission: Mission, text: str) -> None:
     elif agreed is False and (order is not None or confirms(mission)):
         take_no(turn, mission)
     elif confirms(mission) and agreed:
-        ready(turn, mission, Person.AGREES)
+        ready(turn, mission, PersonCause.AGREES)
     elif confirms(mission):
         ask_plainly(turn, mission)
     else:
         _reply_about_order(turn, mission, order if agreed and order is not None else text)
 
 
-def _reply_about_order(turn: Turn, mission: Mission, text: str) -> None:
+def _reply_about_order(turn: Transaction, mission: Mission, text: str) -> None:
     """Think about the order again, with the brain's own question and this answer to it."""
     said = mission.outcome.message.of(mission.language) if mission.outcome is not None else ""
     unknown = ("" for _ in mission.replies[len(mission.questions) :])
     questions = (*mission.questions, *unknown, said)
     replies = (*mission.replies, text)
     mission = turn.put(mission, replies=replies, questions=questions)
-    _think_anew(turn, mission, Person.EXPLAINS)
+    _think_anew(turn, mission, PersonCause.EXPLAINS)
 
 
-def pause(turn: Turn, mission: Mission) -> None:
+def pause(turn: Transaction, mission: Mission) -> None:
     """Pause a goal; if it was running, those who wait are kept waiting."""
     reason = PauseReason.OPERATOR.value
     if mission.state is GoalState.RUNNING:
-        pause_running(turn, reason, Person.PAUSES)
+        pause_running(turn, reason, PersonCause.PAUSES)
     elif mission.state is GoalState.PLANNING:
         pause_planning(turn, mission, reason)
     else:
         turn.put(mission, held=True, kept=True)
 
 
-def resume(turn: Turn, mission: Mission) -> None:
+def resume(turn: Transaction, mission: Mission) -> None:
     """Go on with a paused goal and let the queue go on; or let one that is kept waiting go."""
-    pardon(turn)
+    acknowledge_hold(turn)
     if mission.state is GoalState.QUEUED:
         turn.put(mission, held=False, kept=False)
         return
     release_queue(turn)
     if mission.plan is None or not mission.steps:
-        _think_anew(turn, mission, Person.RESUMES_UNPLANNED)
+        _think_anew(turn, mission, PersonCause.RESUMES_UNPLANNED)
     else:
-        enqueue(turn, turn.put(mission, outcome=None), Person.RESUMES, first=True)
+        enqueue(turn, turn.put(mission, outcome=None), PersonCause.RESUMES, first=True)
 
 
-def stop(turn: Turn) -> None:
+def stop(turn: Transaction) -> None:
     """Stand. Running and thinking goals pause; those who wait are kept waiting."""
     reason = PauseReason.STOP.value
-    pause_running(turn, reason, Person.PAUSES)
+    pause_running(turn, reason, PersonCause.PAUSES)
     for mission in tuple(turn.book.missions.values()):
         if mission.state is GoalState.PLANNING:
             pause_planning(turn, mission, reason)
     turn.set(pardoned=None, pardon_until_s=float("-inf"))
 
 
-def restart(turn: Turn, event: Restarted) -> None:
+def restart(turn: Transaction, event: Restarted) -> None:
     """Take up the journal of a process that is gone: nothing of it goes on by itself."""
     missions = {m.id: m for m in sorted(event.missions, key=lambda m: m.order)}
     order = max((m.order for m in missions.values()), default=0)
@@ -313,17 +313,17 @@ def restart(turn: Turn, event: Restarted) -> None:
         if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
             reason = PauseReason.PLANNER_RESTARTED.value
             leg = mission.leg + LEGS_UNWRITTEN
-            turn.move_to(mission, Fact.RESTARTED, reason=reason, leg=leg)
+            turn.move_to(mission, GoalFact.RESTARTED, reason=reason, leg=leg)
         if not mission.ended and mission.map_id != turn.book.facts.map_id:
             _forget_poses(turn, turn.book.missions[mission.id])
     hold_queue(turn)
 
 
-def _forget_poses(turn: Turn, mission: Mission) -> None:
+def _forget_poses(turn: Transaction, mission: Mission) -> None:
     """Drop where a goal began on another map: a point of that map is nowhere on this one."""
     if mission.map_id and mission.began_at is not None:  # better unfinished than done twice
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
-        finish(turn, mission, Fact.PROGRESS_UNKNOWN, said, "map_changed")
+        finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "map_changed")
     elif mission.map_id:
         mission = turn.put(mission, accepted_at=None, notes=NOTHING)
         if mission.state is GoalState.PAUSED:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
-    from planner.mission.state import Book
+    from planner.mission.state import MissionState
 
 _OPEN = (
     GoalState.PLANNING,
@@ -18,7 +18,7 @@ _OPEN = (
 )
 
 
-def goal_to_end(book: Book, asking: str | None = None) -> str | None:
+def goal_to_end(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that a person means by "that": the running one, else the newest open one."""
     if book.running is not None:
         return book.running
@@ -30,7 +30,7 @@ def goal_to_end(book: Book, asking: str | None = None) -> str | None:
     return None
 
 
-def goal_to_pause(book: Book, asking: str | None = None) -> str | None:
+def goal_to_pause(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that a person wants paused."""
     if book.running is not None:
         return book.running
@@ -40,7 +40,7 @@ def goal_to_pause(book: Book, asking: str | None = None) -> str | None:
     return max(thinking, key=lambda m: m.order).id if thinking else None
 
 
-def goal_to_resume(book: Book, asking: str | None = None) -> str | None:
+def goal_to_resume(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that was paused last, else the first that is kept waiting."""
     paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
     if paused:

@@ -1,17 +1,17 @@
 """Ask for the ways of the running step's legs, number the legs, and give up what leads nowhere.
 
 A leg is one way to one goal. A route may lead round what stands in it; a straight way and a spin go
-on or end. Nothing is streamed before the journal holds the beginning: see ``wish``.
+on or end. Nothing is streamed before the journal holds the beginning: see ``motion_request``.
 """
 
 from __future__ import annotations
 
 from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute
-from planner.mission.skills import Cannot, Way, no_room
+from planner.mission.skills import Fail, Way, no_room
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
-from planner.mission.transaction import Turn
+from planner.mission.transaction import Transaction
 from planner.plan import Code
 from wire import Pose2
 
@@ -26,7 +26,7 @@ SHORT_M = 0.05
 TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
 
 
-def ask_route(turn: Turn, *, detour: bool) -> None:
+def ask_route(turn: Transaction, *, detour: bool) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
     mission, leg, status = turn.running, turn.driving, turn.book.status
     if mission is None or leg is None:
@@ -45,7 +45,7 @@ def ask_route(turn: Turn, *, detour: bool) -> None:
 
 
 def on_routed(
-    turn: Turn, mission_id: str, ticket: int, failure: str | None, short_m: float
+    turn: Transaction, mission_id: str, ticket: int, failure: str | None, short_m: float
 ) -> None:
     """Take the route that was asked for; any other is forgotten."""
     mission, leg = turn.running, turn.driving
@@ -61,10 +61,10 @@ def on_routed(
     elif failure in TRANSIENT and leg.routes < MAX_ROUTES:
         turn.change(routes=leg.routes + 1, retry_s=turn.now_s + RETRY_S)
     else:
-        fail_step(turn, Cannot(Code.NO_ROUTE, "no_route"))
+        fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
 
 
-def _short(turn: Turn, leg: Driving, short_m: float) -> None:
+def _short(turn: Transaction, leg: Driving, short_m: float) -> None:
     """Judge a straight way that ends early: under way something may leave again, at first not."""
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     if leg.leg is not None or leg.ticket_detour or pose is None:
@@ -73,7 +73,7 @@ def _short(turn: Turn, leg: Driving, short_m: float) -> None:
         fail_step(turn, no_room(leg.goal, pose, short_m))
 
 
-def _new_leg(turn: Turn, mission: Mission) -> None:
+def _new_leg(turn: Transaction, mission: Mission) -> None:
     """Number the leg above every one that bridge or journal know: reached is latched by leg."""
     status = turn.book.status
     known = status.leg if status is not None else None
@@ -83,9 +83,9 @@ def _new_leg(turn: Turn, mission: Mission) -> None:
     turn.change(leg=leg, refused_since_s=None, idle_since_s=None, jumped=False)
 
 
-def _detour_failed(turn: Turn, leg: Driving) -> None:
+def _detour_failed(turn: Transaction, leg: Driving) -> None:
     if leg.detours_failed + 1 >= MAX_DETOURS_FAILED:
-        fail_step(turn, Cannot(Code.BLOCKED, "blocked"))
+        fail_step(turn, Fail(Code.BLOCKED, "blocked"))
         return
     turn.change(
         detours_failed=leg.detours_failed + 1,
@@ -98,25 +98,25 @@ def detour_pause_s(tried: int) -> float:
     return min(DETOUR_MOST_S, DETOUR_AFTER_S * 2.0**tried)
 
 
-def detour_if_due(turn: Turn, leg: Driving, blocked_since_s: float) -> None:
+def detour_if_due(turn: Transaction, leg: Driving, blocked_since_s: float) -> None:
     """Ask for a way round; the old horizon streams on until there is one."""
     due_s = detour_pause_s(leg.detours) if leg.detours else DETOUR_AFTER_S
     if turn.now_s - blocked_since_s < due_s:
         return
     if leg.way is not Way.ROUTE and leg.detours >= MAX_DETOURS_FAILED:
-        fail_step(turn, Cannot(Code.BLOCKED, "blocked"))
+        fail_step(turn, Fail(Code.BLOCKED, "blocked"))
         return
     # The wait for the next try begins now, and grows: the world may just need time.
     turn.change(detours=leg.detours + 1, blocked_since_s=turn.now_s)
     ask_route(turn, detour=True)
 
 
-def lost_route(turn: Turn) -> None:
+def abandon_route(turn: Transaction) -> None:
     """Stand, and route again once standing; give up after so many."""
     leg = turn.driving
     if leg is None:
         return
     if leg.routes >= MAX_ROUTES:
-        fail_step(turn, Cannot(Code.NO_ROUTE, "no_route"))
+        fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
         return
     turn.change(leg=None, ticket=None, routes=leg.routes + 1, route_when_standing=True)

@@ -16,7 +16,7 @@ from planner.plan import Bilingual, StepRecord, same
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.state import Facts, Mission, Rules
+    from planner.mission.state import Mission, Rules, SiteView
 
 DO_THAT = Bilingual(en="do that", zh="这样做")
 _UNTIL = frozenset({"ask", "decide"})
@@ -34,7 +34,7 @@ _DEEDS = {
 }
 
 
-def upon_yes(facts: Facts, mission: Mission) -> Bilingual | None:
+def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
     """Return what the robot does next upon a yes to the question of the current step.
 
     None where nothing moves before the next question or thought.
@@ -49,7 +49,7 @@ def upon_yes(facts: Facts, mission: Mission) -> Bilingual | None:
     return first_deed(facts, gated)
 
 
-def first_deed(facts: Facts, steps: Iterable[StepRecord]) -> Bilingual | None:
+def first_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual | None:
     """Say what the first of these steps that may move the robot does; None where none moves."""
     step = next(filter(moves, steps), None)
     if step is None:

@@ -14,11 +14,11 @@ from planner.mission.declined_goals import decline
 from planner.mission.motion_on_yes import DO_THAT, first_deed, upon_yes
 from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
 from planner.mission.scene import scene_of
-from planner.mission.skills import Cannot
+from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, declined
 from planner.mission.state import Mission
-from planner.mission.transaction import Turn
-from planner.mission.transitions import Person
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import PersonCause
 from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message
 
 MAX_ANSWER = 2000
@@ -66,7 +66,7 @@ def takes_yes(mission: Mission) -> bool:
     return asks(mission) or confirms(mission) or offered(mission) is not None
 
 
-def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
+def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
     """End a goal whose words answer another; return whose they answer, None of several."""
     names = [f"“{turn.book.missions[asked].text[:60]}”" for asked in asking]
     en, zh = ", ".join(names), "、".join(names)
@@ -76,15 +76,17 @@ def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> Miss
             zh=f"有不止一个任务在等待您：{zh}。这句话没有用于其中任何一个。",
         )
         outcome = Outcome(code=Code.AMBIGUOUS, message=said)
-        turn.move_to(mission, Person.MAY_MEAN_SEVERAL, reason=Code.AMBIGUOUS.value, outcome=outcome)
+        turn.move_to(
+            mission, PersonCause.MAY_MEAN_SEVERAL, reason=Code.AMBIGUOUS.value, outcome=outcome
+        )
         return None
     said = Bilingual(en=f"Taken as the answer for {en}.", zh=f"已作为{zh}的回答。")
     outcome = Outcome(code=Code.ANSWERED, message=said)
-    turn.move_to(mission, Person.ANSWERS_ANOTHER, outcome=outcome)
+    turn.move_to(mission, PersonCause.ANSWERS_ANOTHER, outcome=outcome)
     return turn.book.missions[asking[0]]
 
 
-def take_answer(turn: Turn, mission: Mission, text: str) -> None:
+def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
     """Write the answer into its step, and go on in it first of all who wait.
 
     What ends the goal ends it now, whatever else runs or holds the robot.
@@ -96,13 +98,13 @@ def take_answer(turn: Turn, mission: Mission, text: str) -> None:
     release_answered(turn)
     if mission.now is not None and mission.now.kind == "ask":
         act = ask(scene_of(turn, mission).but(mission.notes))
-        if isinstance(act, Cannot) and act.said is not None:
+        if isinstance(act, Fail) and act.said is not None:
             decline(turn, mission, act.said)
             return
-    enqueue(turn, turn.put(mission, outcome=None), Person.AGREES, first=True)
+    enqueue(turn, turn.put(mission, outcome=None), PersonCause.AGREES, first=True)
 
 
-def take_no(turn: Turn, mission: Mission) -> None:
+def take_no(turn: Transaction, mission: Mission) -> None:
     """End a goal whose plan or only offer a person said no to."""
     if mission.begun:
         release_answered(turn)
@@ -110,7 +112,7 @@ def take_no(turn: Turn, mission: Mission) -> None:
     decline(turn, mission, declined(deed))
 
 
-def ask_plainly(turn: Turn, mission: Mission) -> None:
+def ask_plainly(turn: Transaction, mission: Mission) -> None:
     """Ask for a yes or no to a plan, after an answer that is neither."""
     asked = mission.outcome.message if mission.outcome is not None else _shall_i(mission.text)
     if not asked.en.startswith(_YES_OR_NO.en):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from planner.mission.account import MOTION, account, place_name
 from planner.mission.skills.look import looks_round
-from planner.mission.state import Facts, Mission
+from planner.mission.state import Mission, SiteView
 from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message
 from planner.site.polygon import area_m2, contains
 from wire import Pose2, Status
@@ -26,7 +26,7 @@ def moves(step: StepRecord) -> bool:
     return step.kind in MOTION or step.kind in SEEKS
 
 
-def spot_at(facts: Facts, pose: Pose2 | None, place: str | None = None) -> Spot:
+def spot_at(facts: SiteView, pose: Pose2 | None, place: str | None = None) -> Spot:
     """Name where a pose is: its room and the point itself."""
     if pose is None:
         return Spot(place=place)
@@ -44,7 +44,7 @@ def spot_at(facts: Facts, pose: Pose2 | None, place: str | None = None) -> Spot:
     )
 
 
-def asked_spot(facts: Facts, mission: Mission, step: StepRecord) -> Spot | None:
+def asked_spot(facts: SiteView, mission: Mission, step: StepRecord) -> Spot | None:
     """Name where a step was to go, or None where it goes nowhere."""
     if step.kind == "come_back":
         return spot_at(facts, accepted_at(mission))
@@ -67,8 +67,8 @@ def limits(mission: Mission) -> tuple[str, ...]:
     return tuple(name for _, name in named[:MAX_LIMITS_NAMED])
 
 
-def ended(
-    facts: Facts,
+def ended_outcome(
+    facts: SiteView,
     mission: Mission,
     status: Status | None,
     now_unix_s: float,
@@ -102,7 +102,7 @@ def thoughts(count: int) -> Bilingual:
 
 
 def failure(
-    facts: Facts, mission: Mission, step: StepRecord | None, code: Code, row: str
+    facts: SiteView, mission: Mission, step: StepRecord | None, code: Code, row: str
 ) -> Bilingual:
     """Return the sentence of a mission that failed on its way."""
     if code in (Code.BLOCKED, Code.NO_ROUTE):

@@ -17,11 +17,11 @@ from planner.mission.effects import KeepPicture
 from planner.mission.legs import ask_route
 from planner.mission.queue import settle_activity
 from planner.mission.scene import scene_of
-from planner.mission.skills import Act, Answer, Cannot, Drive, Gaze, Way, act_of
+from planner.mission.skills import Answer, Drive, Fail, Observe, SkillAction, Way, act_of
 from planner.mission.skills.object_matching import confirmed, fresh
 from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
-from planner.mission.transaction import Turn
+from planner.mission.transaction import Transaction
 from planner.perception.snapshot import Sight
 from planner.plan import Code, message, same
 from wire import wrap
@@ -39,7 +39,7 @@ MORE = 2
 """Where something was seen and is not sure, a gaze takes so many times its looks."""
 
 
-def on_sight(turn: Turn, sight: Sight, classes: tuple[str, ...]) -> None:
+def on_sight(turn: Transaction, sight: Sight, classes: tuple[str, ...]) -> None:
     """Take the newest word of the eyes."""
     eyes = turn.book.eyes
     if classes and classes != eyes.classes:
@@ -59,7 +59,7 @@ def on_sight(turn: Turn, sight: Sight, classes: tuple[str, ...]) -> None:
         _ask_skill_again(turn, activity)
 
 
-def stand_while_blind(turn: Turn) -> bool:
+def stand_while_blind(turn: Transaction) -> bool:
     """Give up a leg for the eyes' sake while they see nothing, and wait for them; say if so."""
     mission, leg = turn.running, turn.driving
     if turn.book.sight.blind is None or mission is None or mission.now is None or leg is None:
@@ -68,11 +68,11 @@ def stand_while_blind(turn: Turn) -> bool:
         return False
     settled = settle_activity(turn)
     if settled is not None:
-        carry_out(turn, settled, Gaze(1, notes=leg.notes, then=leg.notes, watch=leg.watch))
+        carry_out(turn, settled, Observe(1, notes=leg.notes, then=leg.notes, watch=leg.watch))
     return True
 
 
-def on_told(turn: Turn, mission_id: str, ticket: int, answer: Answer) -> None:
+def on_told(turn: Transaction, mission_id: str, ticket: int, answer: Answer) -> None:
     """Take the answer about the picture, if somebody still waits for it."""
     mission, activity = turn.running, turn.book.activity
     if mission is None or mission.id != mission_id or not isinstance(activity, AskingImage):
@@ -81,7 +81,7 @@ def on_told(turn: Turn, mission_id: str, ticket: int, answer: Answer) -> None:
         go_on(turn, activity.then, answer=answer)
 
 
-def on_standing(turn: Turn) -> None:
+def on_standing(turn: Transaction) -> None:
     """Let pictures count once the robot stands; end a gaze whose time is over."""
     activity, status = turn.book.activity, turn.book.status
     waits = isinstance(activity, Observing) and activity.standing_s is None
@@ -90,7 +90,7 @@ def on_standing(turn: Turn) -> None:
     end_gaze_if_due(turn)
 
 
-def end_gaze_if_due(turn: Turn) -> None:
+def end_gaze_if_due(turn: Transaction) -> None:
     """End a gaze, or the wait for an answer, whose time is over; without any picture it fails."""
     activity = turn.book.activity
     if not isinstance(activity, (Observing, AskingImage)) or turn.now_s < activity.until_s:
@@ -102,10 +102,10 @@ def end_gaze_if_due(turn: Turn) -> None:
     else:
         why = turn.book.sight.blind or "camera_silent"
         said = message(Code.BLIND, why=same(why))
-        fail_step(turn, Cannot(Code.BLIND, why, said))
+        fail_step(turn, Fail(Code.BLIND, why, said))
 
 
-def _end_gaze(turn: Turn, gaze: Observing) -> None:
+def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     """Go on after a gaze; the picture of a look's direction is kept for a model to be shown."""
     mission, then = turn.running, gaze.then
     looks = mission is not None and mission.now is not None and mission.now.kind == "look"
@@ -121,7 +121,7 @@ def _counts(gaze: Observing, sight: Sight) -> bool:
     return gaze.standing_s is not None and look.taken_s >= gaze.standing_s
 
 
-def _has_enough(turn: Turn, gaze: Observing, sight: Sight) -> bool:
+def _has_enough(turn: Transaction, gaze: Observing, sight: Sight) -> bool:
     """Tell whether a gaze has seen enough: what is wanted, or as many pictures as it was to."""
     since_s = gaze.standing_s if gaze.standing_s is not None else turn.now_s
     if gaze.wanted is None:
@@ -132,7 +132,7 @@ def _has_enough(turn: Turn, gaze: Observing, sight: Sight) -> bool:
     return gaze.looked >= gaze.looks * (MORE if unsure else 1)
 
 
-def _is_due(turn: Turn, activity: Driving | Observing, sight: Sight) -> bool:
+def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> bool:
     """Tell whether the skill is to be asked because of what is seen now."""
     if turn.now_s - activity.asked_s < ASK_S:
         return False
@@ -146,7 +146,7 @@ def _is_due(turn: Turn, activity: Driving | Observing, sight: Sight) -> bool:
     return bool(confirmed(sight, activity.wanted, turn.now_s - SEEN_S))
 
 
-def _ask_skill_again(turn: Turn, activity: Driving | Observing) -> None:
+def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     """Ask the skill in the middle of its act, and do what is new in its answer."""
     mission = turn.running
     if mission is None:
@@ -154,7 +154,7 @@ def _ask_skill_again(turn: Turn, activity: Driving | Observing) -> None:
     turn.change(asked_s=turn.now_s)
     act = act_of(scene_of(turn, mission))
     if _is_under_way(activity, act):
-        if isinstance(act, (Drive, Gaze)) and activity.watch:
+        if isinstance(act, (Drive, Observe)) and activity.watch:
             turn.change(notes=act.notes, then=act.then)
     elif isinstance(act, Drive) and isinstance(activity, Driving) and _is_one_way(activity, act):
         _lay_anew(turn, activity, act)
@@ -164,10 +164,10 @@ def _ask_skill_again(turn: Turn, activity: Driving | Observing) -> None:
             carry_out(turn, settled, act)
 
 
-def _is_under_way(activity: Driving | Observing, act: Act) -> bool:
+def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
     """Tell whether what is asked for is what is being done."""
     if isinstance(activity, Observing):
-        return isinstance(act, Gaze)
+        return isinstance(act, Observe)
     if not isinstance(act, Drive) or act.way is not activity.way:
         return False
     goal = activity.goal
@@ -182,7 +182,7 @@ def _is_one_way(leg: Driving, act: Drive) -> bool:
     return leg.watch and leg.way is Way.ROUTE and act.way is Way.ROUTE
 
 
-def _lay_anew(turn: Turn, leg: Driving, act: Drive) -> None:
+def _lay_anew(turn: Transaction, leg: Driving, act: Drive) -> None:
     """Aim the leg at a goal that has moved; the old horizon streams until the new way is there."""
     turn.change(
         goal=act.goal,

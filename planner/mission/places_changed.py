@@ -7,17 +7,17 @@ place that was moved is laid anew.
 from __future__ import annotations
 
 from planner.mission.queue import end_running, finish, settle_activity
-from planner.mission.state import Facts, Mission
+from planner.mission.state import Mission, SiteView
 from planner.mission.step_execution import begin_step
-from planner.mission.transaction import Turn
-from planner.mission.transitions import Fact
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, Outcome, StepRecord, StepState, message
 
 GONE = "place_gone"
 _AHEAD = (StepState.PENDING, StepState.RUNNING)
 
 
-def on_known(turn: Turn, facts: Facts) -> None:
+def on_known(turn: Transaction, facts: SiteView) -> None:
     """Let the book know these places from now on."""
     before = turn.book.facts
     turn.set(facts=facts)
@@ -28,7 +28,7 @@ def on_known(turn: Turn, facts: Facts) -> None:
     _lay_anew(turn, before)
 
 
-def _gone(mission: Mission, before: Facts, now: Facts) -> str | None:
+def _gone(mission: Mission, before: SiteView, now: SiteView) -> str | None:
     """Return a place that a goal still has to visit and that is no more, or None."""
     if mission.ended:
         return None
@@ -41,20 +41,20 @@ def _named(step: StepRecord) -> tuple[str, ...]:
     return (step.place,) if step.place else step.places
 
 
-def _end(turn: Turn, mission: Mission, name: Bilingual, facts: Facts) -> None:
+def _end(turn: Transaction, mission: Mission, name: Bilingual, facts: SiteView) -> None:
     known = Bilingual(
         en=", ".join(t.name.en for t in facts.targets.values()),
         zh="、".join(t.name.zh for t in facts.targets.values()),
     )
     said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
     if turn.book.running == mission.id:
-        end_running(turn, Fact.PLACE_GONE, Code.UNKNOWN_PLACE, GONE, said=said)
+        end_running(turn, GoalFact.PLACE_GONE, Code.UNKNOWN_PLACE, GONE, said=said)
         return
     outcome = Outcome(code=Code.UNKNOWN_PLACE, message=said)
-    finish(turn, mission, Fact.PLACE_GONE, outcome, GONE)
+    finish(turn, mission, GoalFact.PLACE_GONE, outcome, GONE)
 
 
-def _lay_anew(turn: Turn, before: Facts) -> None:
+def _lay_anew(turn: Transaction, before: SiteView) -> None:
     """Begin the running step again where its place is another point now."""
     leg = turn.driving
     if turn.running is None or leg is None or leg.target is None:

@@ -37,21 +37,21 @@ if TYPE_CHECKING:
 
     from planner.mission.errors import MissionError
     from planner.mission.events import Command
-    from planner.mission.known_places import Memory
-    from planner.mission.state import Book, Mission
+    from planner.mission.known_places import KnownPlaces
+    from planner.mission.state import Mission, MissionState
     from planner.mission.tasks import Think
 
 SPOKEN_BY = "sentence"
 
 
-class Local:
+class PlannerCommands:
     """Think about what the planner itself is told; hand everything else to the brain."""
 
     def __init__(
         self,
         think: Think,
-        memory: Memory,
-        book: Callable[[], Book],
+        memory: KnownPlaces,
+        book: Callable[[], MissionState],
         command: Callable[[Command], MissionError | None],
         age_s: Callable[[], float],
     ) -> None:

@@ -27,7 +27,7 @@ from planner.plan import GoalState
 if TYPE_CHECKING:
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
-    from planner.mission.state import Book
+    from planner.mission.state import MissionState
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""
@@ -81,7 +81,7 @@ class Reception:
 
 
 def receive(
-    book: Book, said: Utterance, given: Submitted, now_s: float, *, answers: bool = True
+    book: MissionState, said: Utterance, given: Submitted, now_s: float, *, answers: bool = True
 ) -> Reception:
     """Return what is to be done with a sentence that came now.
 
@@ -131,7 +131,9 @@ class AnswerReception:
     """That goal may answer a question."""
 
 
-def receive_answer(book: Book, said: Utterance, goal_id: str, now_s: float) -> AnswerReception:
+def receive_answer(
+    book: MissionState, said: Utterance, goal_id: str, now_s: float
+) -> AnswerReception:
     """Return what is to be done with words that came as the answer to a goal.
 
     What is said to the planner itself ("where are you", "hold on") is done beside the question,
@@ -153,17 +155,17 @@ def receive_answer(book: Book, said: Utterance, goal_id: str, now_s: float) -> A
     return AnswerReception(command=Reply(goal_id, said.text))
 
 
-def hears_stop(book: Book, said: Utterance, now_s: float) -> bool:
+def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
     """Return whether these words would stop the robot now, whatever else they may mean."""
     return said.orders_stop or (said.may_mean_stop and is_active(book, now_s))
 
 
-def awaits_answer(book: Book) -> bool:
+def awaits_answer(book: MissionState) -> bool:
     """Return whether a question waits for a yes or no."""
     return any(takes_yes(mission) for mission in book.missions.values())
 
 
-def is_active(book: Book, now_s: float) -> bool:
+def is_active(book: MissionState, now_s: float) -> bool:
     """Return whether anything moves, is about to move, or waits; in doubt it does."""
     thinking = any(m.state is GoalState.PLANNING for m in book.missions.values())
     if book.running is not None or book.queue or thinking:

@@ -8,12 +8,12 @@ from planner.mission.outcomes import accepted_at
 from planner.mission.queue import notes_now
 from planner.mission.skills import Answer, Scene
 from planner.mission.state import Mission
-from planner.mission.transaction import Turn
+from planner.mission.transaction import Transaction
 from wire import Pose2
 
 
 def scene_of(
-    turn: Turn, mission: Mission, gazed_s: float | None = None, answer: Answer | None = None
+    turn: Transaction, mission: Mission, gazed_s: float | None = None, answer: Answer | None = None
 ) -> Scene:
     """Return what the skill of the current step is told; ``gazed_s``: a gaze has just ended."""
     activity = turn.book.activity
@@ -41,6 +41,6 @@ def scene_of(
     )
 
 
-def pose_now(turn: Turn) -> Pose2 | None:
+def pose_now(turn: Transaction) -> Pose2 | None:
     """Return where the robot is, as the newest status says."""
     return turn.book.status.base_in_map if turn.book.status is not None else None

@@ -43,10 +43,10 @@ from planner.mission.events import (
 from planner.mission.goal_reference import goal_to_resume
 from planner.mission.idempotency import Repeats, body_of
 from planner.mission.journal import MissionJournal
-from planner.mission.known_places import Memory
+from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
 from planner.mission.plan_request import thinker
-from planner.mission.planner_commands import Local
+from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
     awaits_answer,
     hears_stop,
@@ -55,7 +55,7 @@ from planner.mission.reception import (
     receive_answer,
 )
 from planner.mission.route_prefetch import RouteAhead
-from planner.mission.state import Book, Rules
+from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import Router
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, Language
@@ -73,7 +73,7 @@ class Missions:
     def __init__(
         self,
         *,
-        site: Site | Memory,
+        site: Site | KnownPlaces,
         robot: RobotDescription,
         link: Link,
         router: Router,
@@ -83,17 +83,17 @@ class Missions:
         clocks: Clocks | None = None,
     ) -> None:
         """Put the parts together; ``site`` is a site, or the memory of its places."""
-        self.link, self.memory = link, site if isinstance(site, Memory) else Memory(site)
+        self.link, self.memory = link, site if isinstance(site, KnownPlaces) else KnownPlaces(site)
         self.memory.use(link, router)
         site = self.memory.site
         planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
-        engine = Engine(Book(self.memory.facts), identity)
+        engine = Engine(MissionState(self.memory.facts), identity)
         self._clocks, self._robot = clocks or Clocks(), robot
         self._loop, self.planner_id = Loop(engine, link, journal, self._clocks), planner_id
         self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
         self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
-        self._think = Local(
+        self._think = PlannerCommands(
             self._ask_brain, self.memory, lambda: self._book, self._obey, self._age_s
         ).think
         self._repeats = Repeats()
@@ -309,7 +309,7 @@ class Missions:
     # Inside -------------------------------------------------------------------------------------
 
     @property
-    def _book(self) -> Book:
+    def _book(self) -> MissionState:
         return self._loop.book
 
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:

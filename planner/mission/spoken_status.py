@@ -7,7 +7,7 @@ from math import hypot
 from planner.mission.account import place_name
 from planner.mission.bridge_status import standing, worst_row
 from planner.mission.outcomes import spot_at
-from planner.mission.state import Book, Facts, Mission
+from planner.mission.state import Mission, MissionState, SiteView
 from planner.plan import Bilingual, Code, GoalState, message
 from wire import Pose2, Status
 
@@ -30,13 +30,13 @@ STOPPED = message(Code.STOPPED)
 STOPPING = Bilingual(en="Stopping: the bridge has confirmed it.", zh="正在停下：安全桥已确认。")
 
 
-def stop_told(book: Book) -> Bilingual:
+def stop_told(book: MissionState) -> Bilingual:
     """Say that a stop was confirmed; that the robot stands only where it does."""
     status = book.status
     return STOPPED if status is not None and standing(status) else STOPPING
 
 
-def go_on_told(book: Book, said: Bilingual, now_s: float) -> Bilingual:
+def go_on_told(book: MissionState, said: Bilingual, now_s: float) -> Bilingual:
     """Say beside a refusal or a question that the robot is still on another goal, where it is."""
     running = book.missions.get(book.running or "")
     if running is None:
@@ -49,7 +49,7 @@ def go_on_told(book: Book, said: Bilingual, now_s: float) -> Bilingual:
     return Bilingual(en=f"{said.en} {en} “{text}”.", zh=f"{said.zh}{zh}“{text}”。")
 
 
-def where(book: Book, age_s: float) -> Bilingual:
+def where(book: MissionState, age_s: float) -> Bilingual:
     """Say where the robot is, or that nobody knows."""
     status = book.status
     if status is None:
@@ -72,7 +72,7 @@ def where(book: Book, age_s: float) -> Bilingual:
     return Bilingual(en=f"I am {spot.en}.", zh=f"我在{spot.zh}。")
 
 
-def _spot(facts: Facts, pose: Pose2) -> Bilingual:
+def _spot(facts: SiteView, pose: Pose2) -> Bilingual:
     room = spot_at(facts, pose).room
     near = min(
         (t for t in facts.targets.values() if not t.room),
@@ -91,7 +91,7 @@ def _spot(facts: Facts, pose: Pose2) -> Bilingual:
     return Bilingual(en=en or "in no room that I know", zh=zh or "已知房间之外的地方")
 
 
-def doing(book: Book, age_s: float, asking: str = "") -> Bilingual:
+def doing(book: MissionState, age_s: float, asking: str = "") -> Bilingual:
     """Say what the robot does now; the goal that asks (``asking``) is not counted."""
     motion = _motion(book.status, age_s)
     task = _task(book, asking)
@@ -119,7 +119,7 @@ def _motion(status: Status | None, age_s: float) -> Bilingual:
     return Bilingual(en=f"I move at {speed:.2f} m/s.", zh=f"我正以 {speed:.2f} 米/秒移动。")
 
 
-def _task(book: Book, asking: str) -> Bilingual:
+def _task(book: MissionState, asking: str) -> Bilingual:
     running = book.missions.get(book.running or "")
     if running is not None:
         return _running(book, running)
@@ -136,7 +136,7 @@ def _task(book: Book, asking: str) -> Bilingual:
     return Bilingual(en="I have nothing to do.", zh="我现在没有任务。")
 
 
-def _running(book: Book, mission: Mission) -> Bilingual:
+def _running(book: MissionState, mission: Mission) -> Bilingual:
     at, count = mission.step + 1, len(mission.steps)
     step = mission.steps[mission.step] if mission.step < count else None
     name = place_name(book.facts, mission, step) if step is not None else None

@@ -1,4 +1,4 @@
-"""Own what is remembered of missions: one record each, and the book of one robot.
+"""Own what is remembered of missions: one record each, and the state of one robot.
 
 A ``Mission`` is what the journal keeps; it changes only at transitions. What the running step needs
 between two statuses is its ``Activity``. Data only, no clock: ``*_s`` are on the caller's monotonic
@@ -149,7 +149,7 @@ class Target:
 
 
 @dataclass(frozen=True, slots=True)
-class Facts:
+class SiteView:
     """Hold what the reducer knows of the site. No map: routes are somebody else's."""
 
     targets: dict[str, Target]
@@ -170,10 +170,10 @@ class Rules:
 
 
 @dataclass(frozen=True, slots=True)
-class Book:
+class MissionState:
     """Hold all missions of one robot. Frozen; dictionaries in it are replaced, never changed."""
 
-    facts: Facts
+    facts: SiteView
     rules: Rules = Rules()
     wall_offset_s: float = 0.0
     """Unix time less the monotonic clock that ``now_s`` is on."""

@@ -18,17 +18,17 @@ from planner.mission.bridge_status import (
     shows,
     standing,
 )
-from planner.mission.legs import ask_route, detour_if_due, lost_route
+from planner.mission.legs import abandon_route, ask_route, detour_if_due
 from planner.mission.motion_progress import forget_beginnings, hand_steers, settle_amounts
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import end_gaze_if_due, on_standing, stand_while_blind
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
-from planner.mission.skills import Cannot
+from planner.mission.skills import Fail
 from planner.mission.skills.drive_to_place import place_gone
 from planner.mission.step_execution import begin_step, end_wait_if_due, on_arrival
 from planner.mission.step_failure import fail_step
-from planner.mission.transaction import Turn
-from planner.mission.transitions import Fact
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
 from planner.plan import Code, PauseReason, fault
 from wire import Mode, Status
 
@@ -43,7 +43,7 @@ IDLE_S = 30.0
 REFUSED_S = 0.5
 
 
-def on_status(turn: Turn, status: Status, off_path: bool, left_m: float | None) -> None:
+def on_status(turn: Transaction, status: Status, off_path: bool, left_m: float | None) -> None:
     """Judge one status; ``left_m`` is the way left on the path that is streamed."""
     before = turn.book.status
     if before is not None and before.boot == status.boot and status.seq <= before.seq:
@@ -63,7 +63,7 @@ def on_status(turn: Turn, status: Status, off_path: bool, left_m: float | None) 
         _progress(turn, status, off_path)
 
 
-def on_tick(turn: Turn) -> None:
+def on_tick(turn: Transaction) -> None:
     """Let time pass: waits end, silence is noticed, a question is not waited on for ever."""
     end_unanswered(turn)
     if turn.running is None:
@@ -77,7 +77,7 @@ def on_tick(turn: Turn) -> None:
 
 
 def _measure(
-    turn: Turn, before: Status | None, status: Status, since_s: float, left_m: float | None
+    turn: Transaction, before: Status | None, status: Status, since_s: float, left_m: float | None
 ) -> None:
     """Add up what odometry says, for how long the leg was followed, and what limited it."""
     activity, mission = turn.book.activity, turn.running
@@ -98,7 +98,7 @@ def _measure(
     turn.change(limited=limited, moving_s=moving_s, left_m=left_m)
 
 
-def _interrupted(turn: Turn, status: Status, silent_s: float) -> bool:
+def _interrupted(turn: Transaction, status: Status, silent_s: float) -> bool:
     """Pause or fail the running mission where something stronger than its plan says so."""
     hold = standing_hold(turn)
     if hold is not None:
@@ -124,13 +124,13 @@ def _fault_reason(status: Status) -> str:
     return fault(max(rows, key=lambda r: r.for_s).row if rows else "HELD")
 
 
-def _drives_on(turn: Turn) -> bool:
+def _drives_on(turn: Transaction) -> bool:
     """Tell whether the running mission drives now or will."""
     mission = turn.running
     return mission is not None and any(map(moves, mission.steps[mission.step :]))
 
 
-def _spent(turn: Turn, status: Status) -> bool:
+def _spent(turn: Transaction, status: Status) -> bool:
     mission = turn.running
     if mission is None:
         return False
@@ -142,15 +142,15 @@ def _spent(turn: Turn, status: Status) -> bool:
             pause_running(turn, PauseReason.BUDGET.value)  # goes on once a person has acted
             return True
     elif code == "budget" or (ours and shows(status, "BUDGET")):
-        end_running(turn, Fact.STEP_FAILS, Code.OUT_OF_BUDGET, "budget")
+        end_running(turn, GoalFact.STEP_FAILS, Code.OUT_OF_BUDGET, "budget")
         return True
     if ours and shows(status, "STUCK"):
-        end_running(turn, Fact.STEP_FAILS, Code.FAULT, "stuck", row="STUCK")
+        end_running(turn, GoalFact.STEP_FAILS, Code.FAULT, "stuck", row="STUCK")
         return True
     return False
 
 
-def _held_too_long(turn: Turn, status: Status) -> bool:
+def _held_too_long(turn: Transaction, status: Status) -> bool:
     activity = turn.book.activity
     if not isinstance(activity, (Driving, Retrying)):
         return False
@@ -163,7 +163,7 @@ def _held_too_long(turn: Turn, status: Status) -> bool:
     others = [r for r in rows if r.row not in GATES]
     spare = isinstance(activity, Driving) and activity.otherwise is not None
     if spare and not others and turn.now_s - since_s > PATIENCE_S:
-        fail_step(turn, Cannot(Code.BLOCKED, "blocked"))  # the step goes on without this leg
+        fail_step(turn, Fail(Code.BLOCKED, "blocked"))  # the step goes on without this leg
         return True
     if turn.now_s - since_s <= (ROW_S if others else OBSTACLE_S):
         return False
@@ -172,7 +172,7 @@ def _held_too_long(turn: Turn, status: Status) -> bool:
     return True
 
 
-def _progress(turn: Turn, status: Status, off_path: bool) -> None:
+def _progress(turn: Transaction, status: Status, off_path: bool) -> None:
     end_wait_if_due(turn)
     match turn.book.activity:
         case Observing() | AskingImage():
@@ -183,7 +183,7 @@ def _progress(turn: Turn, status: Status, off_path: bool) -> None:
             _drive_on(turn, leg, status, off_path)
 
 
-def _drive_on(turn: Turn, leg: Driving, status: Status, off_path: bool) -> None:
+def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -> None:
     """Arrive, or see that the way is still one: searched, streamed, followed, within its limits."""
     if stand_while_blind(turn) or on_arrival(turn) or _off_limits(turn, leg):
         return
@@ -192,7 +192,7 @@ def _drive_on(turn: Turn, leg: Driving, status: Status, off_path: bool) -> None:
             turn.change(jumped=True, leg=None, ticket=None, route_when_standing=True)
         leg = turn.driving or leg
     if off_path and leg.leg is not None:
-        lost_route(turn)
+        abandon_route(turn)
     elif leg.route_when_standing:
         _route_standing(turn, status)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
@@ -201,25 +201,25 @@ def _drive_on(turn: Turn, leg: Driving, status: Status, off_path: bool) -> None:
         _watch_leg(turn, status, leg)
 
 
-def _off_limits(turn: Turn, leg: Driving) -> bool:
+def _off_limits(turn: Transaction, leg: Driving) -> bool:
     """End a leg whose place is gone, or that spends more than its skill's budget."""
     if leg.target is not None and leg.target not in turn.book.facts.targets:
         fail_step(turn, place_gone(turn.book.facts, leg.target))
     elif leg.limit_s is not None and not leg.moving_s <= leg.limit_s:
-        fail_step(turn, Cannot(Code.BLOCKED, "too_slow"))
+        fail_step(turn, Fail(Code.BLOCKED, "too_slow"))
     elif leg.limit_m is not None and not leg.metres <= leg.limit_m:
-        fail_step(turn, Cannot(Code.BLOCKED, "too_far"))
+        fail_step(turn, Fail(Code.BLOCKED, "too_far"))
     else:
         return False
     return True
 
 
-def _route_standing(turn: Turn, status: Status) -> None:
+def _route_standing(turn: Transaction, status: Status) -> None:
     if standing(status) and not shows(status, "POSE_JUMP"):
         ask_route(turn, detour=False)
 
 
-def _watch_leg(turn: Turn, status: Status, driving: Driving) -> None:
+def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     """Follow the leg that is streamed: blocked, refused, or forgotten by the bridge."""
     mission, leg = turn.running, status.leg
     ours = leg is not None and mission is not None and leg.mission == mission.id
@@ -233,7 +233,7 @@ def _watch_leg(turn: Turn, status: Status, driving: Driving) -> None:
     turn.change(blocked_since_s=blocked_s, refused_since_s=refused_s, idle_since_s=idle_s)
     if refused_s is not None and turn.now_s - refused_s > REFUSED_S:
         turn.change(refused_since_s=None)
-        lost_route(turn)
+        abandon_route(turn)
     elif idle_s is not None and turn.now_s - idle_s > IDLE_S:
         pause_running(turn, PauseReason.BLOCKED.value)
     elif blocked_s is not None and driving.ticket is None:

@@ -18,10 +18,10 @@ from planner.mission.activity import (
 )
 from planner.mission.bridge_status import cannot_move, standing
 from planner.mission.effects import AskEyes, SayAloud
-from planner.mission.legs import RETRY_S, ask_route, lost_route
+from planner.mission.legs import RETRY_S, abandon_route, ask_route
 from planner.mission.motion_progress import measure_from, settle_amounts
 from planner.mission.outcomes import (
-    ended,
+    ended_outcome,
     moves,
     spot_at,
     thoughts,
@@ -32,20 +32,20 @@ from planner.mission.queue import (
     note_step,
     pause_running,
     settle_activity,
-    step_aside,
+    yield_robot,
 )
 from planner.mission.scene import pose_now, scene_of
 from planner.mission.skills import (
-    Act,
     Answer,
-    Cannot,
-    Done,
+    AskImage,
     Drive,
-    Gaze,
-    Inquire,
-    Later,
+    Fail,
+    Finish,
     Notes,
+    Observe,
     Question,
+    Retry,
+    SkillAction,
     Skip,
     Speak,
     Stand,
@@ -54,24 +54,24 @@ from planner.mission.skills import (
 )
 from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
-from planner.mission.transaction import Turn
-from planner.mission.transitions import Fact
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
 from planner.plan import Code, Outcome, StepState, message
 from planner.site.polygon import contains
 from wire import Pose2
 
 
-def start_next(turn: Turn) -> None:
+def start_next(turn: Transaction) -> None:
     """Give the robot to the next in the queue, as long as it is free."""
     while (mission := next_up(turn)) is not None:
         settle_amounts(turn, pose_now(turn))
         mission = turn.book.missions[mission.id]
         turn.set(queue=tuple(i for i in turn.book.queue if i != mission.id), running=mission.id)
-        turn.move_to(mission, Fact.TURN, reason=None, outcome=None)
+        turn.move_to(mission, GoalFact.TURN, reason=None, outcome=None)
         begin_step(turn)
 
 
-def begin_step(turn: Turn) -> None:
+def begin_step(turn: Transaction) -> None:
     """Begin the current step of the running mission, or end a mission that has no more."""
     mission = turn.running
     if mission is None:
@@ -92,16 +92,16 @@ def begin_step(turn: Turn) -> None:
     carry_out(turn, mission, act_of(scene_of(turn, mission)))
 
 
-def carry_out(turn: Turn, mission: Mission, act: Act) -> None:
+def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
     """Do what a skill asked for."""
     match act:
         case Drive():
             _drive(turn, mission, act)
-        case Gaze():
+        case Observe():
             _gaze(turn, mission, act)
-        case Inquire():
+        case AskImage():
             _inquire(turn, mission, act)
-        case Later():
+        case Retry():
             _later(turn, mission)
         case Stand():
             note_step(turn, mission, state=StepState.RUNNING, reason=None)
@@ -114,15 +114,15 @@ def carry_out(turn: Turn, mission: Mission, act: Act) -> None:
             _ask(turn, mission, act)
         case Think():
             _decide(turn, mission, act)
-        case Done():
+        case Finish():
             finish_step(turn, StepState.SUCCEEDED, **act.figures, **_result(act))
         case Skip():
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
-        case Cannot():
+        case Fail():
             fail_step(turn, act)
 
 
-def _drive(turn: Turn, mission: Mission, act: Drive) -> None:
+def _drive(turn: Transaction, mission: Mission, act: Drive) -> None:
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
     leg = Driving(
         record=turn.next_entry,
@@ -144,7 +144,7 @@ def _drive(turn: Turn, mission: Mission, act: Drive) -> None:
     ask_route(turn, detour=False)
 
 
-def _gaze(turn: Turn, mission: Mission, act: Gaze) -> None:
+def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
     observing = Observing(
         record=turn.next_entry,
@@ -160,7 +160,7 @@ def _gaze(turn: Turn, mission: Mission, act: Gaze) -> None:
     turn.set(activity=observing)
 
 
-def _inquire(turn: Turn, mission: Mission, act: Inquire) -> None:
+def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     """Ask about the picture, standing; the answer comes with the ticket."""
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
     ticket = turn.book.tickets + 1
@@ -181,13 +181,13 @@ def _inquire(turn: Turn, mission: Mission, act: Inquire) -> None:
     turn.emit(ask)
 
 
-def _result(act: Done) -> dict[str, object]:
+def _result(act: Finish) -> dict[str, object]:
     """Return what a step that looks came to, for its record."""
     return {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
 
 
 def go_on(
-    turn: Turn,
+    turn: Transaction,
     then: Notes | None,
     *,
     gazed_s: float | None = None,
@@ -201,7 +201,7 @@ def go_on(
     carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
 
 
-def _later(turn: Turn, mission: Mission) -> None:
+def _later(turn: Transaction, mission: Mission) -> None:
     """Try again soon; how long what holds has stood runs on, so that no wait lasts for ever."""
     retry_s = turn.now_s + RETRY_S
     if isinstance(turn.book.activity, Retrying):
@@ -211,7 +211,7 @@ def _later(turn: Turn, mission: Mission) -> None:
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=retry_s))
 
 
-def _ask(turn: Turn, mission: Mission, act: Question) -> None:
+def _ask(turn: Transaction, mission: Mission, act: Question) -> None:
     """Ask a person. What was answered before was about another question: it is forgotten."""
     notes = act.notes if act.notes is not None else mission.notes
     begun = mission.steps[mission.step].state is StepState.RUNNING
@@ -222,7 +222,7 @@ def _ask(turn: Turn, mission: Mission, act: Question) -> None:
     turn.set(activity=asking)
 
 
-def _decide(turn: Turn, mission: Mission, act: Think) -> None:
+def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
     notes = act.notes if act.notes is not None else mission.notes
     begun = mission.steps[mission.step].state is StepState.RUNNING
     if begun and notes == mission.notes:  # paused meanwhile: it was counted
@@ -230,13 +230,13 @@ def _decide(turn: Turn, mission: Mission, act: Think) -> None:
         return
     if mission.decides >= turn.book.rules.decides:
         said = message(Code.OUT_OF_BUDGET, budget=thoughts(turn.book.rules.decides))
-        fail_step(turn, Cannot(Code.OUT_OF_BUDGET, "thoughts", said))
+        fail_step(turn, Fail(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
     think(turn, turn.put(mission, decides=mission.decides + 1, notes=notes))
 
 
-def on_arrival(turn: Turn) -> bool:
+def on_arrival(turn: Transaction) -> bool:
     """Go on in the step if the bridge says that its leg is done; say whether that happened."""
     mission, driving, status = turn.running, turn.driving, turn.book.status
     if mission is None or driving is None or status is None or driving.leg is None:
@@ -247,7 +247,7 @@ def on_arrival(turn: Turn) -> bool:
     if not (leg.reached and standing(status)) or pose is None:
         return False
     if _outside(turn, driving, pose):
-        lost_route(turn)
+        abandon_route(turn)
         return True
     settled = settle_activity(turn)
     if settled is None:
@@ -265,7 +265,7 @@ def on_arrival(turn: Turn) -> bool:
     return True
 
 
-def _outside(turn: Turn, driving: Driving, pose: Pose2) -> bool:
+def _outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
     """Tell whether the leg ended short of the room that it was to."""
     target = turn.book.facts.targets.get(driving.target or "")
     if target is None or not target.room or target.polygon is None:
@@ -273,7 +273,7 @@ def _outside(turn: Turn, driving: Driving, pose: Pose2) -> bool:
     return not contains(target.polygon, pose.x_m, pose.y_m)
 
 
-def finish_step(turn: Turn, state: StepState, **record: object) -> None:
+def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
     """Write the end of a step and begin the next."""
     mission = settle_activity(turn)
     if mission is None:
@@ -282,12 +282,12 @@ def finish_step(turn: Turn, state: StepState, **record: object) -> None:
     begin_step(turn)
 
 
-def next_step(turn: Turn, mission: Mission) -> Mission:
+def next_step(turn: Transaction, mission: Mission) -> Mission:
     """Point at the next step."""
     return to_step(turn, mission, mission.step + 1)
 
 
-def speak_if_safe(turn: Turn) -> None:
+def speak_if_safe(turn: Transaction) -> None:
     """Say the words of a step whose beginning is on disk; a question then waits for its answer."""
     mission, activity = turn.running, turn.book.activity
     if mission is None or activity is None or turn.book.safe < activity.record:
@@ -301,21 +301,23 @@ def speak_if_safe(turn: Turn) -> None:
             turn.emit(SayAloud(mission.id, activity.question.of(mission.language)))
         turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
         said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=activity.question))
-        step_aside(turn, mission, Fact.STEP_ASKS, "asked", said)
+        yield_robot(turn, mission, GoalFact.STEP_ASKS, "asked", said)
 
 
-def end_wait_if_due(turn: Turn) -> None:
+def end_wait_if_due(turn: Transaction) -> None:
     """End a wait whose time is over."""
     activity = turn.book.activity
     if isinstance(activity, Waiting) and turn.now_s >= activity.until_s:
         finish_step(turn, StepState.SUCCEEDED)
 
 
-def _succeed(turn: Turn, mission: Mission) -> None:
+def _succeed(turn: Transaction, mission: Mission) -> None:
     if mission.failure is not None:
         end_failed(turn, mission, mission.failure.message)
         return
     now_unix_s = turn.now_s + turn.book.wall_offset_s
     code = outcome_code(mission)
-    outcome = ended(turn.book.facts, mission, turn.book.status, now_unix_s, code=code, said=None)
-    finish(turn, mission, Fact.STEPS_OVER, outcome)
+    outcome = ended_outcome(
+        turn.book.facts, mission, turn.book.status, now_unix_s, code=code, said=None
+    )
+    finish(turn, mission, GoalFact.STEPS_OVER, outcome)

@@ -10,14 +10,14 @@ from typing import Any
 
 from planner.mission.activity import Driving
 from planner.mission.effects import Changed, Effect, Journal
-from planner.mission.state import MAX_ENDED, Book, Mission
+from planner.mission.state import MAX_ENDED, Mission, MissionState
 from planner.mission.transitions import Cause, ForbiddenTransition, next_state
 
 
-class Turn:
+class Transaction:
     """Work on one event."""
 
-    def __init__(self, book: Book, now_s: float) -> None:
+    def __init__(self, book: MissionState, now_s: float) -> None:
         self._before = book
         self.book = book
         self.now_s = now_s
@@ -85,7 +85,7 @@ class Turn:
         """Return the journal entry that will hold what this turn changes."""
         return self.book.written + 1
 
-    def close(self) -> tuple[Book, tuple[Effect, ...]]:
+    def close(self) -> tuple[MissionState, tuple[Effect, ...]]:
         """Journal what changed, before anything else is asked; forget the oldest ended goals."""
         before = self._before.missions
         changed = tuple(m for i, m in self.book.missions.items() if before.get(i) is not m)

@@ -14,7 +14,7 @@ FIRST = GoalState.PLANNING
 """The state in which every goal is taken in."""
 
 
-class Person(StrEnum):
+class PersonCause(StrEnum):
     """Name what a person does to a goal."""
 
     ORDERS_STOP = "its own words were an order to stop, and the bridge has stopped"
@@ -30,7 +30,7 @@ class Person(StrEnum):
     CANCELS = "a person cancelled it"
 
 
-class Thought(StrEnum):
+class BrainCause(StrEnum):
     """Name what a brain answers, and what is found in the plan that it made."""
 
     ANSWERS = "a brain answered in words"
@@ -41,7 +41,7 @@ class Thought(StrEnum):
     NEEDS_YES = "there is a plan that a person must say yes to"
 
 
-class Fact(StrEnum):
+class GoalFact(StrEnum):
     """Name what becomes of a goal by itself."""
 
     TURN = "the robot is free, and it is this goal's turn"
@@ -56,55 +56,55 @@ class Fact(StrEnum):
     SUPERSEDED = "a newer order came before its answer"
 
 
-Cause = Person | Thought | Fact
+Cause = PersonCause | BrainCause | GoalFact
 
 _S = GoalState
 OPEN = tuple(state for state in GoalState if state not in ENDED)
 
 TRANSITIONS: dict[tuple[GoalState, Cause], GoalState] = {
     # What its own words were, before any brain is asked. A doubtful stop is judged after it.
-    (_S.PLANNING, Person.ORDERS_STOP): _S.SUCCEEDED,
-    (_S.PLANNING, Person.STOP_UNHEARD): _S.FAILED,
-    (_S.PLANNING, Person.ANSWERS_ANOTHER): _S.SUCCEEDED,
-    (_S.PLANNING, Person.MAY_MEAN_SEVERAL): _S.REFUSED,
+    (_S.PLANNING, PersonCause.ORDERS_STOP): _S.SUCCEEDED,
+    (_S.PLANNING, PersonCause.STOP_UNHEARD): _S.FAILED,
+    (_S.PLANNING, PersonCause.ANSWERS_ANOTHER): _S.SUCCEEDED,
+    (_S.PLANNING, PersonCause.MAY_MEAN_SEVERAL): _S.REFUSED,
     # What the first thought comes to.
-    (_S.PLANNING, Thought.ANSWERS): _S.SUCCEEDED,
-    (_S.PLANNING, Thought.REFUSES): _S.REFUSED,
-    (_S.PLANNING, Thought.FAILS): _S.FAILED,
-    (_S.PLANNING, Thought.ASKS): _S.NEEDS_CLARIFICATION,
-    (_S.PLANNING, Thought.NEEDS_YES): _S.AWAITING_CONFIRMATION,
-    (_S.PLANNING, Thought.PLANS): _S.QUEUED,
+    (_S.PLANNING, BrainCause.ANSWERS): _S.SUCCEEDED,
+    (_S.PLANNING, BrainCause.REFUSES): _S.REFUSED,
+    (_S.PLANNING, BrainCause.FAILS): _S.FAILED,
+    (_S.PLANNING, BrainCause.ASKS): _S.NEEDS_CLARIFICATION,
+    (_S.PLANNING, BrainCause.NEEDS_YES): _S.AWAITING_CONFIRMATION,
+    (_S.PLANNING, BrainCause.PLANS): _S.QUEUED,
     # What a person says while it waits.
-    (_S.NEEDS_CLARIFICATION, Person.EXPLAINS): _S.PLANNING,
-    (_S.NEEDS_CLARIFICATION, Person.AGREES): _S.QUEUED,
-    (_S.NEEDS_CLARIFICATION, Person.DECLINES): _S.CANCELLED,
-    (_S.AWAITING_CONFIRMATION, Person.AGREES): _S.QUEUED,
-    (_S.AWAITING_CONFIRMATION, Person.DECLINES): _S.CANCELLED,
-    (_S.NEEDS_CLARIFICATION, Fact.UNANSWERED): _S.FAILED,
-    (_S.AWAITING_CONFIRMATION, Fact.UNANSWERED): _S.FAILED,
-    (_S.NEEDS_CLARIFICATION, Fact.SUPERSEDED): _S.CANCELLED,
-    (_S.AWAITING_CONFIRMATION, Fact.SUPERSEDED): _S.CANCELLED,
+    (_S.NEEDS_CLARIFICATION, PersonCause.EXPLAINS): _S.PLANNING,
+    (_S.NEEDS_CLARIFICATION, PersonCause.AGREES): _S.QUEUED,
+    (_S.NEEDS_CLARIFICATION, PersonCause.DECLINES): _S.CANCELLED,
+    (_S.AWAITING_CONFIRMATION, PersonCause.AGREES): _S.QUEUED,
+    (_S.AWAITING_CONFIRMATION, PersonCause.DECLINES): _S.CANCELLED,
+    (_S.NEEDS_CLARIFICATION, GoalFact.UNANSWERED): _S.FAILED,
+    (_S.AWAITING_CONFIRMATION, GoalFact.UNANSWERED): _S.FAILED,
+    (_S.NEEDS_CLARIFICATION, GoalFact.SUPERSEDED): _S.CANCELLED,
+    (_S.AWAITING_CONFIRMATION, GoalFact.SUPERSEDED): _S.CANCELLED,
     # The robot is its own.
-    (_S.QUEUED, Fact.TURN): _S.RUNNING,
-    (_S.RUNNING, Fact.STEP_ASKS): _S.NEEDS_CLARIFICATION,
-    (_S.RUNNING, Thought.NEEDS_YES): _S.AWAITING_CONFIRMATION,
-    (_S.RUNNING, Thought.ANSWERS): _S.SUCCEEDED,
-    (_S.RUNNING, Thought.REFUSES): _S.REFUSED,
-    (_S.RUNNING, Fact.STEPS_OVER): _S.SUCCEEDED,
-    (_S.RUNNING, Fact.STEP_FAILS): _S.FAILED,
-    (_S.RUNNING, Person.DECLINES): _S.CANCELLED,
+    (_S.QUEUED, GoalFact.TURN): _S.RUNNING,
+    (_S.RUNNING, GoalFact.STEP_ASKS): _S.NEEDS_CLARIFICATION,
+    (_S.RUNNING, BrainCause.NEEDS_YES): _S.AWAITING_CONFIRMATION,
+    (_S.RUNNING, BrainCause.ANSWERS): _S.SUCCEEDED,
+    (_S.RUNNING, BrainCause.REFUSES): _S.REFUSED,
+    (_S.RUNNING, GoalFact.STEPS_OVER): _S.SUCCEEDED,
+    (_S.RUNNING, GoalFact.STEP_FAILS): _S.FAILED,
+    (_S.RUNNING, PersonCause.DECLINES): _S.CANCELLED,
     # A pause keeps its place; one that waits in the queue is held there and changes no state.
-    (_S.RUNNING, Person.PAUSES): _S.PAUSED,
-    (_S.PLANNING, Person.PAUSES): _S.PAUSED,
-    (_S.RUNNING, Fact.INTERRUPTED): _S.PAUSED,
-    (_S.RUNNING, Fact.RESTARTED): _S.PAUSED,
-    (_S.PLANNING, Fact.RESTARTED): _S.PAUSED,
-    (_S.PAUSED, Person.RESUMES): _S.QUEUED,
-    (_S.PAUSED, Person.RESUMES_UNPLANNED): _S.PLANNING,
+    (_S.RUNNING, PersonCause.PAUSES): _S.PAUSED,
+    (_S.PLANNING, PersonCause.PAUSES): _S.PAUSED,
+    (_S.RUNNING, GoalFact.INTERRUPTED): _S.PAUSED,
+    (_S.RUNNING, GoalFact.RESTARTED): _S.PAUSED,
+    (_S.PLANNING, GoalFact.RESTARTED): _S.PAUSED,
+    (_S.PAUSED, PersonCause.RESUMES): _S.QUEUED,
+    (_S.PAUSED, PersonCause.RESUMES_UNPLANNED): _S.PLANNING,
     # Whatever is open can be cancelled, and ends where its places or its beginning are gone.
-    **{(state, Person.CANCELS): _S.CANCELLED for state in OPEN},
-    **{(state, Fact.PLACE_GONE): _S.FAILED for state in OPEN},
-    **{(state, Fact.PROGRESS_UNKNOWN): _S.FAILED for state in OPEN},
+    **{(state, PersonCause.CANCELS): _S.CANCELLED for state in OPEN},
+    **{(state, GoalFact.PLACE_GONE): _S.FAILED for state in OPEN},
+    **{(state, GoalFact.PROGRESS_UNKNOWN): _S.FAILED for state in OPEN},
 }
 
 

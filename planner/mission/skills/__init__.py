@@ -8,15 +8,15 @@ from collections.abc import Callable
 from types import MappingProxyType
 
 from planner.mission.skills.actions import (
-    Act,
-    Cannot,
-    Done,
+    AskImage,
     Drive,
-    Gaze,
-    Inquire,
-    Later,
+    Fail,
+    Finish,
+    Observe,
     Question,
+    Retry,
     Scene,
+    SkillAction,
     Skip,
     Speak,
     Stand,
@@ -43,7 +43,7 @@ from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
 from planner.plan import Code, message, same
 
-SKILLS: MappingProxyType[str, Callable[[Scene], Act]] = MappingProxyType(
+SKILLS: MappingProxyType[str, Callable[[Scene], SkillAction]] = MappingProxyType(
     {
         "go_to": go_to,
         "come_back": come_back,
@@ -65,32 +65,32 @@ SKILLS: MappingProxyType[str, Callable[[Scene], Act]] = MappingProxyType(
 )
 
 
-def act_of(scene: Scene) -> Act:
+def act_of(scene: Scene) -> SkillAction:
     """Return what a step asks for now; it fails where its camera or detector is gone by now."""
     code = scene.eyes.means(scene.sight.blind).lacks(scene.step.kind)
     skill = SKILLS.get(scene.step.kind)
     if skill is not None and code is None:
         return skill(scene)
     code = code or Code.NO_CAPABILITY
-    return Cannot(code, code.value, message(code, part=same(scene.step.kind)))
+    return Fail(code, code.value, message(code, part=same(scene.step.kind)))
 
 
 __all__ = [
     "NOTHING",
     "NO_EYES",
     "SKILLS",
-    "Act",
     "Answer",
-    "Cannot",
-    "Done",
+    "AskImage",
     "Drive",
     "Eyesight",
-    "Gaze",
-    "Inquire",
-    "Later",
+    "Fail",
+    "Finish",
     "Notes",
+    "Observe",
     "Question",
+    "Retry",
     "Scene",
+    "SkillAction",
     "Skip",
     "Speak",
     "Stand",

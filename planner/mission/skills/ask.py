@@ -12,7 +12,7 @@ where it is.
 from __future__ import annotations
 
 from planner.language.yes_no import consents
-from planner.mission.skills.actions import Act, Cannot, Done, Question, Scene, Think
+from planner.mission.skills.actions import Fail, Finish, Question, Scene, SkillAction, Think
 from planner.plan import Bilingual, Code, message, same
 
 THOUGHT, AGAIN = 1, 2
@@ -22,20 +22,20 @@ _NO = Bilingual(en="no", zh="说了不")
 _UNCLEAR = Bilingual(en="neither yes nor no", zh="没有说“是”")
 
 
-def ask(scene: Scene) -> Act:
+def ask(scene: Scene) -> SkillAction:
     """Return the question, until it is answered; then whether that lets the goal go on."""
     answer, notes = scene.step.answer, scene.notes
     if answer is None:
         again = notes.stage == AGAIN
         return Question(_shall_i(scene), notes) if again else Question(same(scene.step.text or ""))
     if scene.upon is None:
-        return Done()
+        return Finish()
     yes = consents(answer)
     if yes is True:
-        return Done({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
+        return Finish({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
     if yes is False or notes.stage == AGAIN:
         said = declined(scene.upon, plainly=yes is False)
-        return Cannot(Code.DECLINED, Code.DECLINED.value, said)
+        return Fail(Code.DECLINED, Code.DECLINED.value, said)
     if scene.thinks or notes.stage == THOUGHT:
         return Think(notes.but(stage=THOUGHT))
     return ask_again(scene)

@@ -15,8 +15,8 @@ from planner.mission.events import Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
 from planner.mission.skills.perception import Answer
-from planner.mission.state import Book
-from planner.mission.tasks import Answers, Helpers, Router, Think
+from planner.mission.state import MissionState
+from planner.mission.tasks import Answers, MissionTasks, Router, Think
 from planner.plan import Language, same
 from tests.planner.mission.fakes import FACTS
 from tests.planner.perception.watching import World
@@ -41,7 +41,7 @@ class Asking:
         )
         eyes = EyeDoor(None)
         eyes.ask = door  # type: ignore[method-assign,assignment]  # another way to see
-        self.helpers = Helpers(*nobody, answers, eyes)
+        self.helpers = MissionTasks(*nobody, answers, eyes)
 
     async def ask(self, ticket: int) -> None:
         """Ask, and let it begin."""
@@ -117,7 +117,7 @@ def test_an_answer_is_told_and_a_fault_of_the_eyes_is_one() -> None:
 def test_the_activity_tells_which_question_waits(
     activity: Activity | None, ticket: int | None
 ) -> None:
-    assert asked_about_picture(Book(FACTS, activity=activity)) == ticket
+    assert asked_about_picture(MissionState(FACTS, activity=activity)) == ticket
 
 
 def test_a_pixel_counts_in_the_picture_that_was_wanted_for_it() -> None:

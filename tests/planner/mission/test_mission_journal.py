@@ -27,7 +27,7 @@ from planner.mission.journal import (
     _keys,
     _upsert_of,
 )
-from planner.mission.journal_thread import JournalWriter, Wanted
+from planner.mission.journal_thread import JournalWriter, PendingEntry
 from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import Code, GoalState, Language, Outcome, message
 from wire import Misconfigured
@@ -203,7 +203,7 @@ def test_the_writer_reports_safe_only_what_is_written(tmp_path: Path) -> None:
 
     writer = JournalWriter(journal, done, lambda why: None)
     for number in range(1, 6):
-        writer.write(Wanted(Journal(number, (mission("a", 1, step=number),), ())))
+        writer.write(PendingEntry(Journal(number, (mission("a", 1, step=number),), ())))
     assert written.wait(10.0)
     writer.close()
     assert safe == sorted(safe)
@@ -225,7 +225,7 @@ def test_a_disk_that_refuses_is_tried_again_and_nothing_is_called_safe(tmp_path:
         done.set()
 
     writer = JournalWriter(journal, on_done, lambda why: failed.set())
-    writer.write(Wanted(Journal(1, (mission("a", 1),), ())))
+    writer.write(PendingEntry(Journal(1, (mission("a", 1),), ())))
     assert failed.wait(10.0)
     assert safe == []
     lock.execute(sa.text("create table facts (name varchar(32) primary key, value text not null)"))

@@ -31,9 +31,9 @@ from planner.mission.events import (
     Tick,
     Told,
 )
-from planner.mission.reducer import advance, wish
+from planner.mission.reducer import advance, motion_request
 from planner.mission.skills import Answer, Eyesight
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Look as LookSeen
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import (
@@ -170,7 +170,7 @@ class World:
     """Feed a history to the reducer and keep what a judge needs."""
 
     def __init__(self) -> None:
-        self.book, self.now_s, self.seq = Book(FACTS, eyes=EYES), 100.0, 0
+        self.book, self.now_s, self.seq = MissionState(FACTS, eyes=EYES), 100.0, 0
         self.disk: dict[str, Mission] = {}
         self.disk_queue: tuple[str, ...] = ()
         self.entries: list[Journal] = []
@@ -202,7 +202,7 @@ class World:
                 self.written.setdefault((mission.id, mission.step), entry.entry)
 
     def judge(self) -> None:
-        book, wanted = self.book, wish(self.book)
+        book, wanted = self.book, motion_request(self.book)
         running = [m for m in book.missions.values() if m.state is GoalState.RUNNING]
         assert len(running) <= 1
         assert [m.id for m in running] == ([book.running] if book.running else [])
@@ -262,7 +262,7 @@ class World:
             case ("stop",):
                 self.acted = False
                 self.event(Stopped("x"))
-                assert wish(self.book) == STAND
+                assert motion_request(self.book) == STAND
                 assert self.book.running is None
             case ("crash",):
                 self.crash()
@@ -288,7 +288,7 @@ class World:
 
     def arrive(self) -> None:
         """Let the bridge say that the leg in hand is reached."""
-        wanted = wish(self.book)
+        wanted = motion_request(self.book)
         driven = self.book.activity
         if wanted.mission is None or wanted.leg is None or not isinstance(driven, Driving):
             return
@@ -315,10 +315,10 @@ class World:
                 self.disk.update({m.id: m for m in entry.missions})
                 self.disk_queue = entry.queue
         self.entries, self.written = [], {}
-        self.book = Book(FACTS, eyes=EYES)
+        self.book = MissionState(FACTS, eyes=EYES)
         self.acted = False
         self.event(Restarted(tuple(self.disk.values()), self.disk_queue, 0.0))
-        assert wish(self.book) == STAND
+        assert motion_request(self.book) == STAND
 
 
 @at_least(150)
@@ -337,9 +337,9 @@ def test_histories_hold_legs_after_somebody_who_walks() -> None:
     assert isinstance(leg := world.book.activity, Driving)
     assert (leg.watch, leg.leg) == (True, 2)
     assert abs(leg.goal.x_m - 3.8) < 0.01, "it was laid anew"
-    assert wish(world.book).leg == 2
+    assert motion_request(world.book).leg == 2
     for order in (("command", Pause, "g1"), ("command", Resume, "g1"), ("stop",)):
         world.play(order)
         world.play(("sight", (), None))
     world.play(("status", {}, False))
-    assert wish(world.book) == STAND
+    assert motion_request(world.book) == STAND

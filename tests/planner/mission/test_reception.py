@@ -20,7 +20,7 @@ from planner.mission.reception import (
     receive_answer,
 )
 from planner.mission.reducer import advance
-from planner.mission.state import MAX_OPEN, Book, Mission
+from planner.mission.state import MAX_OPEN, Mission, MissionState
 from planner.plan import Code, GoalState, Language, Outcome, Vocabulary, message
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.lockstep import Together, go
@@ -64,7 +64,9 @@ def given(text: str, goal_id: str = "g") -> Submitted:
     return Submitted(goal_id, text, language_of(text))
 
 
-def hear(book: Book, text: str, goal_id: str, now_s: float) -> tuple[Book, list[object]]:
+def hear(
+    book: MissionState, text: str, goal_id: str, now_s: float
+) -> tuple[MissionState, list[object]]:
     """Take one sentence as the planner's door does, and think about it with the offline brain."""
     heard = receive(book, read_utterance(text), given(text, goal_id), now_s)
     book, first = advance(book, heard.given, now_s)
@@ -218,10 +220,10 @@ def test_nothing_claims_to_stand_while_the_robot_drives(held: bool) -> None:
     assert "stay where I am" not in outcome.message.en
 
 
-def _book_of(state: GoalState) -> Book:
+def _book_of(state: GoalState) -> MissionState:
     mission = Mission(id="g1", order=1, text="go to the kitchen", language=Language.EN, state=state,
                       created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
-    return Book(FACTS, missions={"g1": mission})
+    return MissionState(FACTS, missions={"g1": mission})
 
 
 @pytest.mark.parametrize(

@@ -6,21 +6,21 @@ import itertools
 
 import pytest
 
-from planner.mission.state import Book, Mission
-from planner.mission.transaction import Turn
+from planner.mission.state import Mission, MissionState
+from planner.mission.transaction import Transaction
 from planner.mission.transitions import (
     FIRST,
     TRANSITIONS,
-    Fact,
+    BrainCause,
     ForbiddenTransition,
-    Person,
-    Thought,
+    GoalFact,
+    PersonCause,
     next_state,
 )
 from planner.plan import ENDED, GoalState, Language
 from tests.planner.mission.fakes import FACTS
 
-CAUSES = (*Person, *Thought, *Fact)
+CAUSES = (*PersonCause, *BrainCause, *GoalFact)
 
 
 def _mission(state: GoalState) -> Mission:
@@ -47,7 +47,7 @@ def test_every_state_is_reached_and_every_open_goal_can_end() -> None:
         reached |= more
     assert reached == set(GoalState)
     for state in set(GoalState) - ENDED:
-        assert next_state(state, Person.CANCELS) is GoalState.CANCELLED
+        assert next_state(state, PersonCause.CANCELS) is GoalState.CANCELLED
 
 
 def test_every_cause_leads_somewhere() -> None:
@@ -56,11 +56,11 @@ def test_every_cause_leads_somewhere() -> None:
 
 def test_a_state_is_written_by_its_cause_alone() -> None:
     mission = _mission(GoalState.RUNNING)
-    turn = Turn(Book(FACTS, missions={"g1": mission}), 1.0)
+    turn = Transaction(MissionState(FACTS, missions={"g1": mission}), 1.0)
     with pytest.raises(ForbiddenTransition):
         turn.put(mission, state=GoalState.SUCCEEDED)
     with pytest.raises(ForbiddenTransition):
-        turn.move_to(mission, Thought.PLANS)
+        turn.move_to(mission, BrainCause.PLANS)
     assert turn.book.missions["g1"] is mission
-    assert turn.move_to(mission, Fact.STEPS_OVER, reason="x").state is GoalState.SUCCEEDED
+    assert turn.move_to(mission, GoalFact.STEPS_OVER, reason="x").state is GoalState.SUCCEEDED
     assert turn.book.missions["g1"].reason == "x"
