@@ -1,8 +1,8 @@
 """Start the bridge: ``python -m bridge --home DIR --robot robot.toml --site sites/home``.
 
 Chooses the concrete classes and the order of the real-time recipe; decides nothing about driving.
-Exit status: 0 left when asked, 2 refused to start, 3 to be started anew with the fence that an
-operator put in force, 70 the loop broke.
+Exit status: 0 left when asked, 1 its home can't be written at present, 2 refused to start, 3 to be
+started anew with the fence that an operator put in force, 70 the loop broke.
 """
 
 from __future__ import annotations
@@ -51,7 +51,6 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("bridge")
 
-EXIT_REFUSED = 2
 EXIT_AGAIN = 3
 
 
@@ -63,7 +62,7 @@ def main(arguments: list[str] | None = None) -> int:
         return _serve(options)
     except Misconfigured as error:
         print(f"bridge: {error}", file=sys.stderr)
-        return EXIT_REFUSED
+        return error.exit_status
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:

@@ -29,12 +29,12 @@ NICE = -10
 """Nine times the weight of others. The loop needs little, but soon: beside sixteen busy processes
 it waited for a processor for 25 to 65 % of the time, and the bridge called it late (docs/adr/0026).
 A real-time rank is not for a loop that may hang; a share keeps nobody else from running."""
-REFUSED = 2
+REFUSED = Misconfigured.exit_status
 MIN_TOKEN_CHARACTERS = 16
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Serve until told to end; 2 when the set-up is refused."""
+    """Serve until told to end; 1 where the home can't be written at present, 2 when refused."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     given = _options(arguments)
     try:
@@ -44,7 +44,7 @@ def main(arguments: list[str] | None = None) -> int:
         planner = Planner(Where(given.home, given.robot, given.site))
     except (Misconfigured, SiteError) as wrong:
         print(f"planner: {wrong}", file=sys.stderr)
-        return REFUSED
+        return wrong.exit_status if isinstance(wrong, Misconfigured) else REFUSED
     server = uvicorn.Server(
         uvicorn.Config(
             application(planner, access, authority),

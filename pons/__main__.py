@@ -234,13 +234,11 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
     return goals.act(settings, said.word, said.goal)
 
 
-_TOOLS = frozenset(
-    {"doctor", "why", "braking", "key", "fence", "places", "calibrate", "fault", "replay"}
-    | {"detect", "tls"}
-)
-
 _BARE_TOOLS = frozenset({"tls", "why", "key"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
+_TOOLS = _BARE_TOOLS | {
+    "doctor", "braking", "fence", "places", "calibrate", "fault", "replay", "detect",
+}  # fmt: skip
 
 
 def _tool(settings: Settings, said: argparse.Namespace) -> int:

@@ -8,7 +8,9 @@ name the right one.
 from __future__ import annotations
 
 import secrets
+import socket
 import time
+from contextlib import closing
 from typing import TYPE_CHECKING
 
 from bridge.operator_key import load_operator_key
@@ -27,7 +29,7 @@ from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, FENCE, OPS, STATUS, STOP, Party
 from wire.operator_hmac import NEEDS_PROOF
 from wire.session import Publisher, Session, Subscriber, open_session
-from wire.sockets import misplaced_listener, unreachable
+from wire.sockets import Endpoints, misplaced_listener, unreachable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -56,6 +58,24 @@ def stop_direct(settings: Settings, request_id: str) -> Answer:
         answer = _until_answered(settings, lambda: mouth.put(stop), ears, request_id, "stop")
         _believe(settings)
         return answer
+
+
+def out_of_reach(settings: Settings) -> str | None:
+    """Say why this user can't ask the bridge of this home; None where it can, or one has died here.
+
+    The robot may be elsewhere, or this user have no right to the bridge's socket. A socket that
+    nobody listens at any more is of a bridge that has died, and can't have confirmed anything.
+    """
+    path = Endpoints(settings.home).socket(BRIDGE_DOOR)
+    try:
+        with closing(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)) as probe:
+            probe.setblocking(False)
+            probe.connect(str(path))
+    except (BlockingIOError, ConnectionRefusedError):
+        return None
+    except OSError as error:
+        return f"{path}: {error.strerror or error}"
+    return None
 
 
 def ask_direct(settings: Settings, kind: OpKind) -> Answer:

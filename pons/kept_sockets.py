@@ -8,13 +8,12 @@ may remove it (docs/adr/0030-doors.md); under ``pons up`` everything is one user
 from __future__ import annotations
 
 import os
-import socket
-from contextlib import closing, suppress
+from contextlib import suppress
 from pathlib import Path
 
 from wire.doors import DOORS
 from wire.keys import Party
-from wire.sockets import Endpoints
+from wire.sockets import Endpoints, is_listening
 
 LISTENING = {
     "bridge": Party.BRIDGE,
@@ -54,25 +53,13 @@ def _is_brought_back(path: Path) -> bool:
         if found is None and kept is not None:
             os.link(second, path)
             return True
-        if found is not None and found != kept and _is_answered(path):
+        # what a dead process left is in the way of the next one, and is not kept
+        if found is not None and found != kept and is_listening(path):
             second.unlink(missing_ok=True)
             os.link(path, second)
     except OSError:
         pass  # a full disk, or a home that is read-only: the next look tries again
     return False
-
-
-def _is_answered(path: Path) -> bool:
-    """Tell whether somebody listens: what a dead process left is in the way of the next one."""
-    with closing(socket.socket(socket.AF_UNIX)) as probe:
-        probe.setblocking(False)
-        try:
-            probe.connect(str(path))
-        except BlockingIOError:
-            return True  # so many wait that it takes no more
-        except OSError:
-            return False
-    return True
 
 
 def _inode(path: Path) -> int | None:

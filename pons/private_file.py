@@ -6,7 +6,7 @@ import os
 import stat
 from typing import TYPE_CHECKING
 
-from wire import Misconfigured
+from wire import Misconfigured, Unwritable
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,7 +24,7 @@ def own_folder(folder: Path) -> None:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         found = folder.lstat()
     except OSError as error:
-        raise Misconfigured("home_unwritable", f"{folder}: {error.strerror}") from None
+        raise Unwritable("home_unwritable", f"{folder}: {error.strerror}") from None
     private = stat.S_ISDIR(found.st_mode) and not found.st_mode & 0o077
     if not (private and found.st_uid == os.geteuid()):
         detail = f"{folder} must be a folder of yours alone (mode 0700); others could change it"
@@ -64,4 +64,4 @@ def write(file: Path, data: bytes, mode: int = 0o600) -> None:
             os.fsync(descriptor)
         new.replace(file)
     except OSError as error:
-        raise Misconfigured("home_unwritable", f"{file}: {error.strerror}") from None
+        raise Unwritable("home_unwritable", f"{file}: {error.strerror}") from None

@@ -1,8 +1,10 @@
 """Stop the robot from a shell, as fast as a process can start: neither numpy nor pydantic loads.
 
-The planner is asked over HTTP. If it has not confirmed within a short time, dead, hung or slow, the
-same stop goes straight to the bridge over the wire, which needs no planner, no disk that can be
-written and no right robot.toml. Whatever breaks one way, the other is still waited for.
+The planner is asked over HTTP. Soon after, or once it has answered, the same stop goes straight to
+the bridge over the wire, which needs no planner, no disk that can be written and no right
+robot.toml. Whatever breaks one way, the other is still waited for. A planner may have been taken
+over: what it says of the bridge is believed only where this user can't ask the bridge itself, and
+then called the planner's word.
 """
 
 from __future__ import annotations
@@ -20,28 +22,46 @@ if TYPE_CHECKING:
 HTTP_HEAD_START_S = 0.15
 HTTP_TIMEOUT_S = 2.5
 CONFIRMED = "stop taken, the robot ramps to a stand / 已收到停止，正在停稳 (bridge confirmed)"
+SAID_BY_PLANNER = (
+    "the planner says that the bridge took the stop / 规划器称 bridge 已收到停止 "
+    "(not asked from here: {why})"
+)
 
 
 def run(settings: Settings) -> int:
-    """Stop; say how; return 0 only when the bridge itself has confirmed."""
+    """Stop; say how; return 0 only when the bridge has confirmed, as far as it can be asked."""
     by_http = _Attempt(settings)
     by_http.start()
     by_http.join(HTTP_HEAD_START_S)
+    out_of_reach = _out_of_reach(settings) if by_http.confirmed else None
+    trouble = out_of_reach or _straight_to_the_bridge(settings)
+    if trouble is None:
+        print(CONFIRMED)
+        return 0
+    by_http.join(HTTP_TIMEOUT_S)
+    if by_http.confirmed and (out_of_reach := out_of_reach or _out_of_reach(settings)):
+        print(SAID_BY_PLANNER.format(why=out_of_reach))
+        return 0
+    planner = by_http.trouble or "no answer yet"
     if by_http.confirmed:
-        print(CONFIRMED)
-        return 0
-    trouble = _straight_to_the_bridge(settings)
-    by_http.join(0.0 if trouble is None else HTTP_TIMEOUT_S)
-    if trouble is None or by_http.confirmed:
-        print(CONFIRMED)
-        return 0
+        planner = "it says that the bridge confirmed, and is not believed"
     print(
-        "no_bridge: neither the planner nor the bridge confirmed the stop / 没有得到确认. "
+        "no_bridge: the bridge itself did not confirm the stop / 没有得到确认. "
         "Without a bridge the drive's own time-out stops the wheels; use the robot's stop button. "
-        f"Planner: {by_http.trouble or 'no answer yet'}. Bridge: {trouble}",
+        f"Planner: {planner}. Bridge: {trouble}",
         file=sys.stderr,
     )
     return 1
+
+
+def _out_of_reach(settings: Settings) -> str | None:
+    """Say why the bridge itself can't be asked from here; None where it can."""
+    try:
+        from pons.bridge_client import out_of_reach
+
+        return out_of_reach(settings)
+    except Exception as trouble:  # noqa: BLE001  # a broken second way is out of reach
+        return in_a_line(trouble)
 
 
 def _straight_to_the_bridge(settings: Settings) -> str | None:

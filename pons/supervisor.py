@@ -15,6 +15,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
 
+from wire.errors import Misconfigured
+
 FIRST_PAUSE_S = 0.5
 LONGEST_PAUSE_S = 10.0
 MAX_LOG_BYTES = 10_000_000
@@ -24,7 +26,7 @@ TOKENS = ("PONS_OPERATOR_TOKEN", "PONS_VIEWER_TOKEN")
 """The planner's alone among the children."""
 STEADY_S = 30.0
 """A child that lived so long starts with the shortest pause again."""
-REFUSED_TO_START = 2
+REFUSED_TO_START = Misconfigured.exit_status
 """Every process of ours says so for a wrong setting: a restart would meet the same one."""
 
 

@@ -37,8 +37,8 @@ POLL_S = 0.05
 PATIENCE_S = 4.0
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
-SOCKETS_S = 0.5
-"""How long a socket whose name was removed stays unreachable at most."""
+LOOK_S = 0.5
+"""The longest that a removed socket stays unreachable, or a log longer than its bound."""
 PRIVATE = 0o077
 """What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 MIN_FREE_BYTES = 200 * 1024 * 1024
@@ -90,9 +90,8 @@ class Supervisor:
 
     def _tend(self, now_s: float) -> None:
         for child in self._children:
-            child.bound_log()
             status = child.died(now_s)
-            if status == REFUSED_TO_START and not (self._said_ready and _may_pass(child)):
+            if status == REFUSED_TO_START:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
             if status is not None:
                 self._sockets.forget(child.name)
@@ -102,11 +101,12 @@ class Supervisor:
             if child.due(now_s) and (self._said_ready or not child.waits_for_ready):
                 child.start(now_s)
         if now_s >= self._next_look_s:
-            self._next_look_s = now_s + SOCKETS_S
-            self._look_after_sockets()
+            self._next_look_s = now_s + LOOK_S
+            self._look_after_files()
 
-    def _look_after_sockets(self) -> None:
+    def _look_after_files(self) -> None:
         for child in self._children:
+            child.bound_log()
             if child.process is not None:
                 for path in self._sockets.look_after(child.name):
                     say(f"{path} was removed, and is there again")
@@ -163,12 +163,6 @@ class Supervisor:
         """End the planner first, so that the bridge still brakes; the drive last."""
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
-
-
-def _may_pass(child: Child) -> bool:
-    """Tell whether a refusal may end by itself: a home that can't be written, its log included."""
-    words = child.last_words()
-    return not words or "home_unwritable" in words
 
 
 def arm_direct(settings: Settings) -> bool:

@@ -48,7 +48,8 @@ ASKERS = (
           "arm or clear a hold of a robot of metal without the operator's key"),
     Asker("the planner's user (a planner that was taken over)",
           "everything that a person may ask for at the bridge's door; show a person something untrue "
-          "in the page; answer the shell's HTTP that a stop was confirmed",
+          "in the page; answer the shell that a stop was confirmed, where that shell can't ask "
+          "the bridge",
           "say what the lidar, the wheels or localization saw; reach the wheels past the bridge; read "
           "the operator's key; foretell a nonce; drive further than a person granted; stand in for "
           "the bridge before the shell's direct way"),
@@ -111,6 +112,13 @@ THREATS = (
            (f"{_STOP}::test_who_took_the_bridges_place_is_told_to_stop_but_not_believed",
             "wire/test_sockets.py::test_a_folder_in_which_others_could_replace_a_socket_is_refused",
             "deploy/test_users.py::test_each_user_says_what_its_groups_let_it_and_takes_nobodys_place")),
+    Threat("A planner that was taken over answers `pons stop` that the bridge confirmed",
+           "The shell asks the bridge itself as well, and says confirmed on its word alone; where it can't be "
+           "asked, from another machine or by a user without the right, the shell says whose word it has",
+           (f"{_STOP}::test_a_planner_that_says_confirmed_is_not_believed_where_the_bridge_is_silent",
+            f"{_STOP}::test_the_bridge_is_asked_even_where_the_planner_has_confirmed",
+            f"{_STOP}::test_where_no_bridge_is_in_reach_the_planners_word_is_called_so",
+            f"{_STOP}::test_who_may_not_ask_the_bridge_is_told_the_planners_word")),
     Threat("The planner's user says a scan, a pose, a drive's state or a drive's command",
            "It is heard nowhere: senses and wheels have doors of their own, and no session relays",
            ("wire/test_doors.py::test_what_the_bridge_drives_by_comes_in_where_neither_planner_nor_operator_knocks",
@@ -211,9 +219,9 @@ that fail without the answer.
 _OPEN = """
 ## What is not promised
 
-- A planner that was taken over can answer `pons stop` by HTTP that the stop was confirmed. Whoever doubts
-  it says `pons estop` at the robot, which asks the bridge itself, or presses the robot's own button.
-- It can show anything in the page. The page signs what it shows, for the nonce of this moment and one kind
+- From another machine, or as a user without the right to the bridge's socket, `pons stop` has the planner's
+  word alone, and says so. Whoever doubts it says `pons stop` at the robot, or presses the robot's own button.
+- A planner that was taken over can show anything in the page. The page signs what it shows, for the nonce of this moment and one kind
   of act; a person who sees an untrue picture may still sign for a true act.
 - A flood of complete requests is not limited by rate, goals excepted; a stop by a new connection took at
   most 0.1 s beside the floods that were tried (ADR 0029).

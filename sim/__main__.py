@@ -75,13 +75,13 @@ def _serve(options: argparse.Namespace) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Return 0 after a clean end, 2 when refused."""
+    """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     try:
         _serve(_options(arguments))
     except Misconfigured as error:
         print(f"sim: {error}", file=sys.stderr)
-        return 2
+        return error.exit_status
     return 0
 
 

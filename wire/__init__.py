@@ -22,7 +22,7 @@ from wire.commands import (
     Waypoint,
     Waypoints,
 )
-from wire.errors import Misconfigured, Rejected
+from wire.errors import Misconfigured, Rejected, Unwritable
 from wire.fence import FenceFile
 from wire.fingerprint import fingerprint, map_id
 from wire.geometry import (
@@ -131,6 +131,7 @@ __all__ = [
     "Stop",
     "TickStats",
     "Twist2",
+    "Unwritable",
     "Velocity",
     "Waypoint",
     "Waypoints",

@@ -19,7 +19,7 @@ import zenoh
 from wire.base import Record
 from wire.codec import Image, decode, encode, image
 from wire.doors import access_control, doors_of
-from wire.errors import Misconfigured
+from wire.errors import Misconfigured, Unwritable
 from wire.keys import ANY_ROBOT, IMAGE, Key, Party
 from wire.sockets import Claim, Endpoints, admit
 
@@ -288,6 +288,7 @@ def open_session(
     Raises:
         Misconfigured: the same process already runs there, a socket path is too long, or others
             could replace its sockets.
+        Unwritable: the folders of ``home`` can't be written at present.
     """
     where = endpoints or Endpoints(home)
     with ExitStack() as undo:
@@ -312,7 +313,8 @@ def _open(party: Party, door: Door, where: Endpoints, claim: Claim | None) -> ze
     try:
         session = zenoh.open(_config(locator, door, listens=listens))
     except zenoh.ZError as error:
-        raise Misconfigured("socket_in_use", f"{door.name}: {error}") from None
+        wrong = Unwritable if ours else Misconfigured  # ours lies free: only the disk refuses it
+        raise wrong("socket_in_use", f"{door.name}: {error}") from None
     if ours:
         admit(path)
     return session

@@ -13,12 +13,12 @@ import os
 import socket
 import stat
 import struct
-from contextlib import ExitStack
+from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wire.errors import Misconfigured
+from wire.errors import Misconfigured, Unwritable
 
 if TYPE_CHECKING:
     from wire.doors import Door
@@ -68,8 +68,9 @@ class Claim:
         """Take the lock.
 
         Raises:
-            Misconfigured: another live process holds it, and nothing of its is touched; or the
-                folder can't be written, or others may write it.
+            Misconfigured: another live process holds it, and nothing of its is touched; or others
+                may write the folder.
+            Unwritable: the folder can't be written.
         """
         self._run = _run(home)
         folder = self._run / party.value
@@ -79,7 +80,7 @@ class Claim:
         try:
             self._file = self._path.open("a+")
         except OSError as error:
-            raise Misconfigured("home_unwritable", f"{self._path}: {error.strerror}") from None
+            raise Unwritable("home_unwritable", f"{self._path}: {error.strerror}") from None
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -91,19 +92,32 @@ class Claim:
                 f"a {party.value} with pid {holder} already serves {self._run}; stop it, or set "
                 "PONS_HOME to another folder",
             ) from None
-        self._file.truncate(0)
-        self._file.write(str(os.getpid()))
-        self._file.flush()
+        self._sign()
+
+    def _sign(self) -> None:
+        """Write our pid into the lock, for the message to the second who comes."""
+        try:
+            self._file.truncate(0)
+            self._file.write(str(os.getpid()))
+            self._file.flush()
+        except OSError as error:
+            with suppress(OSError):  # closing tries to write the same again
+                self._file.close()
+            raise Unwritable("home_unwritable", f"{self._path}: {error.strerror}") from None
 
     def make_way(self, path: Path) -> None:
         """Make the folder of a socket and remove what a dead listener left; ours is the lock.
 
         Raises:
-            Misconfigured: the folder can't be written, or others may write it.
+            Misconfigured: others may write the folder.
+            Unwritable: the folder can't be written.
         """
         _own(path.parent)
-        path.unlink(missing_ok=True)
-        path.with_name(path.name + ".lock").unlink(missing_ok=True)
+        try:
+            path.unlink(missing_ok=True)
+            path.with_name(path.name + ".lock").unlink(missing_ok=True)
+        except OSError as error:
+            raise Unwritable("home_unwritable", f"{path}: {error.strerror}") from None
 
     def close(self) -> None:
         """Give the right back."""
@@ -148,6 +162,22 @@ def unreachable(home: Path, door: Door) -> str | None:
     return None
 
 
+def is_listening(path: Path) -> bool:
+    """Tell at once whether a process listens at a socket; False too to a user who may not connect.
+
+    Nothing is waited for: a full queue of others who connect is a listener too, hung or not.
+    """
+    with closing(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)) as probe:
+        probe.setblocking(False)
+        try:
+            probe.connect(str(path))
+        except BlockingIOError:
+            return True  # so many wait that it takes no more
+        except OSError:
+            return False
+    return True
+
+
 def _listening_uid(path: Path) -> int:
     """Return the user of the process that listens, as the kernel noted it (unix(7))."""
     with _dialled(path) as probe:
@@ -180,7 +210,8 @@ def _own(folder: Path) -> None:
     """Make a folder for this user alone; an existing one must be nobody else's to write.
 
     Raises:
-        Misconfigured: ``home_unwritable``, ``socket_folder_exposed``.
+        Misconfigured: ``socket_folder_exposed``.
+        Unwritable: ``home_unwritable``.
     """
     try:
         folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
@@ -189,7 +220,7 @@ def _own(folder: Path) -> None:
         if ours and _open_to_others(found.st_mode):
             folder.chmod(stat.S_IMODE(found.st_mode) & ~0o022)
     except OSError as error:
-        raise Misconfigured("home_unwritable", f"{folder}: {error.strerror}") from None
+        raise Unwritable("home_unwritable", f"{folder}: {error.strerror}") from None
     if not ours and (found.st_uid != 0 or _open_to_others(found.st_mode)):
         raise Misconfigured(
             "socket_folder_exposed",

@@ -11,6 +11,7 @@ import os
 import re
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from datetime import date, timedelta
 from pathlib import Path
 
@@ -63,7 +64,7 @@ class Ledger:
         try:
             for day in sorted(self._pages):
                 if day < today - timedelta(days=KEPT_DAYS):
-                    self._pages.pop(day).path.unlink(missing_ok=True)
+                    _throw_away(self._pages.pop(day).path)
                 elif day >= today - timedelta(days=LOOK_BACK_DAYS):
                     self.of_day(day)
         except OSError as error:
@@ -155,6 +156,12 @@ def _sync(file: int) -> None:
         os.fdatasync(file)
     except OSError as error:
         log.warning("what was spent is not safe from a power cut: %s", error.strerror)
+
+
+def _throw_away(page: Path) -> None:
+    """Remove a page; where the disk refuses that at present, a later start does it."""
+    with suppress(OSError):
+        page.unlink(missing_ok=True)
 
 
 def _date(text: str) -> date | None:

@@ -171,13 +171,15 @@ def _in_chinese(plain: str) -> bool:
     for pattern, said in zh.SOUNDS:
         compact = pattern.sub(said, compact)
     left = compact = compact.strip(",")
+    if zh.ALONE.search(compact):
+        return True
     if zh.STRONG.search(compact):
-        if zh.LATER.search(compact) and not zh.ALONE.search(compact):
+        if zh.LATER.search(compact):
             return False
         left = zh.ELSE.sub("_", compact)
         if zh.STRONG.search(left):
             return True
-    if zh.REFUSES.fullmatch(left) or zh.ALONE.search(compact):
+    if zh.REFUSES.fullmatch(left):
         return True
     latin = _LATIN.findall(left) if _WORD.search(left) else ()
     return bool(latin and _in_english(" ".join(latin))) or _means_stop_weakly(zh, left)

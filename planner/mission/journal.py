@@ -20,7 +20,7 @@ from sqlalchemy.dialects import postgresql, sqlite
 from planner.mission.effects import Journal
 from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import ENDED
-from wire import Misconfigured
+from wire import Misconfigured, Unwritable
 
 log = logging.getLogger(__name__)
 
@@ -91,7 +91,8 @@ class MissionJournal:
         """Open or make the database.
 
         Raises:
-            Misconfigured: it can't be opened, or another version wrote it.
+            Misconfigured: it is no database, or another version wrote it.
+            Unwritable: it can't be opened or written at present.
         """
         self._engine = sa.create_engine(url)
         self._queue: tuple[str, ...] | None = None  # as it is on disk; None: not known
@@ -105,8 +106,10 @@ class MissionJournal:
             _meta.create_all(self._engine)
             self._check_schema()
         except sa.exc.SQLAlchemyError as error:
-            raise Misconfigured("journal_unavailable", f"{url}: {error.__class__.__name__}: "
-                                f"{str(error).splitlines()[0]}") from None  # fmt: skip
+            # Operational: what the database's surroundings refuse, a damaged file is none of them.
+            wrong = Unwritable if isinstance(error, sa.exc.OperationalError) else Misconfigured
+            detail = f"{url}: {error.__class__.__name__}: {str(error).splitlines()[0]}"
+            raise wrong("journal_unavailable", detail) from None
 
     @classmethod
     def in_home(cls, home: Path) -> MissionJournal:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cached_property
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -90,14 +91,15 @@ class Sphinx:
         samples = prepare(pcm, rate_hz, channels)
         if samples is None:
             return Heard("", 0.0, understood=False)
-        frames = len(samples) / (2 * FRAME)
-        heard, words = self._order_or_stop(samples, frames)
+        recording = _Recording(samples, lambda: self._phones(samples))
+        heard, words = self._order_or_stop(recording)
         if awaits_answer and not heard.understood and words is not None:
-            return self._answer(samples, frames, words) or heard
+            return self._answer(recording, words) or heard
         return heard
 
-    def _order_or_stop(self, samples: bytes, frames: float) -> tuple[Heard, Decoded | None]:
+    def _order_or_stop(self, recording: _Recording) -> tuple[Heard, Decoded | None]:
         """Return what the orders and the stops make of it, and the everyday words found in it."""
+        samples, frames = recording.samples, recording.frames
         with (
             Apart(lambda: _decode(self._free, "words", samples)) as spoken,
             Apart(lambda: self._order(samples)) as bound,
@@ -106,9 +108,9 @@ class Sphinx:
             if order is None or not self.language.is_order(order.text):
                 heard = Heard("" if order is None else order.text, 0.0, understood=False)
                 free = spoken.result()
-                return self._other_stop(samples, frames, free) or heard, free
+                return self._other_stop(recording, free) or heard, free
             stop = is_stop(order.text)
-            phones = self._phones(samples) if stop or not _silent_between(order, samples) else None
+            phones = recording.phones if stop or not _silent_between(order, samples) else None
             free = spoken.result()
             words = None if stop else free
         if phones is not None and stop:
@@ -117,31 +119,33 @@ class Sphinx:
             sure = 0.0 if words is None else confidence(order, phones, words, frames)
         heard = Heard(order.text, round(sure, 3), understood=sure >= _SURE)
         if not heard.understood:
-            heard = self._other_stop(samples, frames, free) or heard
+            heard = self._other_stop(recording, free) or heard
         return heard, free
 
-    def _other_stop(self, samples: bytes, frames: float, words: Decoded | None) -> Heard | None:
+    def _other_stop(self, recording: _Recording, words: Decoded | None) -> Heard | None:
         """Look once more at what was no order for other ways to say stop, or return None.
 
         They are believed only where everyday words don't tell the sound better and where it is as
         short as they are: "bring me a cup of tea" was heard as "freeze" (docs/adr/0013).
         """
+        samples, frames = recording.samples, recording.frames
         with Apart(lambda: _decode(self._decoder, "other_stops", samples)) as bound:
             stop = bound.result()
         if stop is None or words is None or _is_drawn_out(stop):
             return None
-        phones = self._phones(samples)
+        phones = recording.phones
         sure = stop_confidence(stop, phones, frames)
         if confidence(stop, phones, words, frames) < _BEYOND_DOUBT or sure < _SURE:
             return None
         return Heard(stop.text, round(sure, 3), understood=True)
 
-    def _answer(self, samples: bytes, frames: float, words: Decoded) -> Heard | None:
+    def _answer(self, recording: _Recording, words: Decoded) -> Heard | None:
         """Return the yes or no that was said and nothing else, or None.
 
         A yes drives, so it is believed only where it fits as well as any sounds would, everyday
         words are far behind and nothing was said after it (docs/adr/0013).
         """
+        samples, frames = recording.samples, recording.frames
         with Apart(lambda: _decode(self._decoder, "answers", samples)) as bound:
             answer = bound.result()
         if answer is None or not is_answer(answer.text):
@@ -149,7 +153,7 @@ class Sphinx:
         ends = max((end for word, *_, end in answer.words if not word.startswith("<")), default=0)
         if not frames - ends <= _ANSWER_TAIL_FRAMES:
             return None
-        phones = self._phones(samples)
+        phones = recording.phones
         sure = confidence(answer, phones, words, frames)
         if sure < _BEYOND_DOUBT or stop_confidence(answer, phones, frames) < _SURE:
             return None
@@ -165,6 +169,19 @@ class Sphinx:
             # A stop must not drown among the names, nor pay for them in its score.
             order = _decode(self._decoder, "stops", samples) or order
         return order
+
+
+class _Recording:
+    """Hold what is heard once, and the sounds found in it: they are asked for up to three times."""
+
+    def __init__(self, samples: bytes, decode_phones: Callable[[], Decoded]) -> None:
+        self.samples = samples
+        self.frames = len(samples) / (2 * FRAME)
+        self._decode_phones = decode_phones
+
+    @cached_property
+    def phones(self) -> Decoded:
+        return self._decode_phones()
 
 
 def _decoder(sounds: Path, **beams: float) -> pocketsphinx.Decoder:

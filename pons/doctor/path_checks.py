@@ -16,7 +16,7 @@ from pons.doctor.finding import Finding, Words, fail, ok, warn
 from pons.up import MIN_FREE_BYTES
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.doors import DOORS
-from wire.sockets import MAX_SOCKET_PATH, Endpoints
+from wire.sockets import MAX_SOCKET_PATH, Endpoints, is_listening
 
 ROOMY_BYTES = 10 * MIN_FREE_BYTES
 """Recordings of a day."""
@@ -133,20 +133,7 @@ def sockets(path: Path) -> Finding:
 def listening(path: Path) -> list[str]:
     """Return at which doors of a home folder a living process listens."""
     where = Endpoints(path)
-    return [door.name for door in DOORS if _answers(where.socket(door))]
-
-
-def _answers(path: Path) -> bool:
-    """Tell whether a living process listens at a socket; unknown, and so no, to who may not."""
-    with closing(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)) as probe:
-        probe.setblocking(False)
-        try:
-            probe.connect(str(path))
-        except BlockingIOError:
-            return True  # so many wait that it takes no more
-        except OSError:
-            return False
-    return True
+    return [door.name for door in DOORS if is_listening(where.socket(door))]
 
 
 def port(host: str, number: int, *, running: bool) -> Finding:

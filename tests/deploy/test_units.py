@@ -20,6 +20,7 @@ from tests.deploy.installed import (
     unit,
     weight_of,
 )
+from tools.bench.users import folders, members
 from wire import load_robot
 from wire.doors import BRIDGE_DOOR, DOORS
 from wire.keys import Party
@@ -115,23 +116,6 @@ def test_every_door_has_a_folder_that_its_listener_alone_writes_and_who_dials_it
             assert entering == dialling | {owner} or door.name == "sim", door.name
             assert users["planner"] not in entering, door.name
             assert users["camera"] not in entering, door.name
-
-
-def folders() -> dict[str, tuple[str, str, str]]:
-    """Return mode, owner and group of each folder that is made, by its path."""
-    lines = (UNITS / "pons.tmpfiles.conf").read_text().splitlines()
-    words = [line.split() for line in lines if line.startswith("d ")]
-    return {path: (mode, owner, group) for _, path, mode, owner, group, _ in words}
-
-
-def members() -> dict[str, set[str]]:
-    """Return the users of each group."""
-    found: dict[str, set[str]] = {}
-    for line in (UNITS / "pons.sysusers.conf").read_text().splitlines():
-        if line.startswith("m "):
-            _, user, group = line.split()
-            found.setdefault(group, set()).add(user)
-    return found
 
 
 def test_a_site_keeps_its_folders_name(repository: Path) -> None:

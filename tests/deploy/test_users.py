@@ -13,15 +13,13 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pytest
 
 from tests.deploy.installed import ROOT
-from tests.deploy.test_units import folders, members
+from tools.bench.users import BRIDGE, SIM, USERS, folders, groups_of, home_as_deployed, numbers_of
 from wire.doors import BRIDGE_DOOR, DOORS, Door
 from wire.keys import Party
 
@@ -31,15 +29,6 @@ pytestmark = [
     pytest.mark.skipif(os.geteuid() != 0, reason="only root may become the users of a robot"),
 ]
 
-USERS = {
-    "pons-bridge": 61_001,
-    "pons-planner": 61_002,
-    "pons-sim": 61_003,
-    "pons-localization": 61_004,
-    "pons-camera": 61_005,
-    "stranger": 61_009,
-}
-GROUPS = {"pons": 62_000, "pons-senses": 62_001, "pons-drive": 62_002, "stranger": 62_009}
 PARTIES = {
     Party.BRIDGE: "pons-bridge",
     Party.ROBOT: "pons-sim",
@@ -51,29 +40,9 @@ PARTIES = {
 READY_S = 60.0
 
 
-def groups_of(user: str) -> list[str]:
-    """Return a user's groups, its own first."""
-    mine = [group for group, users in members().items() if user in users]
-    return sorted(mine, key=lambda group: group != "pons") or ["stranger"]
-
-
 def as_user(user: str, *words: str) -> list[str]:
-    numbers = ",".join(str(GROUPS[group]) for group in groups_of(user))
-    start = [sys.executable, "-m", "tests.as_user", str(USERS[user]), numbers]
+    start = [sys.executable, "-m", "tests.as_user", *numbers_of(user)]
     return [*start, "tests.deploy.knock", *words]
-
-
-@contextmanager
-def home_as_deployed() -> Iterator[Path]:
-    """Make the folders of tmpfiles.d in a home of this test's."""
-    with TemporaryDirectory(prefix="pu-") as folder:
-        Path(folder).chmod(0o711)
-        for path, (mode, owner, group) in folders().items():
-            made = Path(folder) / Path(path).relative_to("/var/lib")
-            made.mkdir()
-            os.chown(made, 0 if owner == "root" else USERS[owner], GROUPS[group])
-            made.chmod(int(mode, 8))
-        yield Path(folder) / "pons"
 
 
 class Hearer(threading.Thread):
@@ -126,7 +95,7 @@ def test_each_user_says_what_its_groups_let_it_and_takes_nobodys_place(
                 as_user(user, "knock", user, str(home)), stdout=subprocess.PIPE, text=True, cwd=ROOT
             )
             for user in USERS
-            if user not in ("pons-bridge", "pons-sim")  # they own wheels and orders as it is
+            if user not in (BRIDGE, SIM)  # they own wheels and orders as it is
         }
         came = {user: json.loads(process.communicate()[0]) for user, process in knocking.items()}
         time.sleep(0.5)  # what is relayed comes later; nothing tells that it will not

@@ -62,7 +62,7 @@ def test_a_home_that_cannot_be_written_for_a_while_ends_nobody(robot: Robot) -> 
     lock.unlink()
     lock.mkdir()  # nor a lock
     robot.system.kill("localization")
-    refused = "localization ended (exit status 2)"
+    refused = "localization ended (exit status 1)"
     until(lambda: refused in robot.system.said(), 20.0, refused, robot.system.said)
     assert robot.system.up is not None
     assert robot.system.up.poll() is None, robot.system.said()

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from pons.settings import Settings
+from pons.settings import CHECKOUT, Settings
+from pons.supervisor import REFUSED_TO_START
 from pons.up import children
 from wire import RobotDescription
 
@@ -27,3 +30,21 @@ def test_the_simulated_camera_waits_until_the_rest_is_ready(
     assert [child.name for child in found if child.waits_for_ready] == expected[4:]
     assert [child.name for child in found if child.knows_tokens] == ["planner"]
     assert all(child.arguments[0] in (child.name, f"sim.{child.name}") for child in found)
+
+
+@pytest.mark.parametrize("name", [*ROBOT, "camera"])
+def test_no_child_calls_a_home_that_cannot_be_written_a_wrong_setting(
+    tmp_path: Path, free_port: int, name: str
+) -> None:
+    """A wrong setting ends ``pons up``, and no systemd starts that process again."""
+    home = tmp_path / "home"
+    home.write_text("a file where a folder should be")
+    site = CHECKOUT / "sites" / "two_room"
+    settings = Settings(home, CHECKOUT / "robot.toml", site, "127.0.0.1", free_port)
+    (child,) = (one for one in children(settings, RobotDescription()) if one.name == name)
+    done = subprocess.run(
+        [sys.executable, "-m", *child.arguments],
+        cwd=CHECKOUT, capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+    assert done.returncode not in (0, REFUSED_TO_START), done.stderr
+    assert f"{name}: home_unwritable: " in done.stderr

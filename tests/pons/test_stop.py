@@ -19,7 +19,8 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from pons.stop import CONFIRMED
+from pons.stop import CONFIRMED, SAID_BY_PLANNER
+from tests.pons.lying_planner import lying_planner
 from tests.pons.standing_bridge import StandingBridge
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
@@ -239,11 +240,8 @@ def test_whatever_breaks_the_second_way_the_first_is_waited_for(tmp_path: Path) 
     with closing(socket.create_server(("127.0.0.1", 0))) as planner:
         port = int(planner.getsockname()[1])
         command = [sys.executable, "-m", "pons", "stop"]
-        environment = {
-            **os.environ,
-            "PONS_HOME": str(tmp_path / ("x" * 120)),
-            "PONS_PORT": str(port),
-        }
+        long_home = tmp_path / ("x" * 120)
+        environment = {**os.environ, "PONS_HOME": str(long_home), "PONS_PORT": str(port)}
         with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as stop:  # fmt: skip
             accepted, _ = planner.accept()
@@ -257,7 +255,64 @@ def test_whatever_breaks_the_second_way_the_first_is_waited_for(tmp_path: Path) 
                     b"Content-Length: %d\r\n\r\n%s" % (len(body), body)
                 )
             out, err = stop.communicate(timeout=20)
-    assert (stop.returncode, out.strip(), err) == (0, CONFIRMED, "")
+    assert (stop.returncode, err) == (0, "")
+    assert out.strip() == said_by_planner(f"{bridge_socket(long_home)}: AF_UNIX path too long")
+
+
+@pytest.fixture
+def liar() -> Iterator[int]:
+    """Give the port of a planner that says of each stop that the bridge confirmed it."""
+    with lying_planner() as port:
+        yield port
+
+
+def bridge_socket(home: Path) -> Path:
+    return Endpoints(home).socket(BRIDGE_DOOR)
+
+
+def said_by_planner(why: str) -> str:
+    return SAID_BY_PLANNER.format(why=why)
+
+
+@pytest.mark.parametrize("lives", [True, False], ids=["a bridge that hangs", "a dead bridge"])
+def test_a_planner_that_says_confirmed_is_not_believed_where_the_bridge_is_silent(
+    home: Path, liar: int, lives: bool
+) -> None:
+    path = bridge_socket(home)
+    path.parent.mkdir(parents=True)
+    with closing(socket.socket(socket.AF_UNIX)) as bridge:
+        bridge.bind(str(path))
+        if lives:
+            bridge.listen()
+        done = pons(home, "stop", port=liar)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith("no_bridge: the bridge itself did not confirm the stop")
+    assert "Planner: it says that the bridge confirmed, and is not believed. " in done.stderr
+
+
+def test_the_bridge_is_asked_even_where_the_planner_has_confirmed(
+    home: Path, bridge: StandingBridge, liar: int
+) -> None:
+    assert_taken(pons(home, "stop", port=liar), "stop")
+    assert bridge.asked == ["cmd/stop"], "by the shell itself: this planner asks nobody"
+
+
+def test_where_no_bridge_is_in_reach_the_planners_word_is_called_so(home: Path, liar: int) -> None:
+    """As on a laptop that stops a robot elsewhere."""
+    done = pons(home, "stop", port=liar)
+    why = f"{bridge_socket(home)}: No such file or directory"
+    assert (done.returncode, done.stdout.strip()) == (0, said_by_planner(why))
+    assert "confirmed" not in done.stdout
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
+def test_who_may_not_ask_the_bridge_is_told_the_planners_word(
+    home: Path, bridge: StandingBridge, liar: int
+) -> None:
+    done = pons(home, "stop", port=liar, user=STRANGER)
+    why = f"{bridge_socket(home)}: Permission denied"
+    assert (done.returncode, done.stdout.strip()) == (0, said_by_planner(why))
+    assert bridge.asked == []
 
 
 def test_where_both_ways_fail_each_is_told_in_one_line(tmp_path: Path) -> None:

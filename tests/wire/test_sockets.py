@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import socket
 import stat
 import subprocess
@@ -14,11 +15,18 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from wire import Misconfigured
+from wire import Misconfigured, Unwritable
 from wire.doors import BRIDGE_DOOR, DRIVE_DOOR, SENSES_DOOR
 from wire.keys import Party
 from wire.session import open_session
-from wire.sockets import MAX_SOCKET_PATH, Claim, Endpoints, misplaced_listener, unreachable
+from wire.sockets import (
+    MAX_SOCKET_PATH,
+    Claim,
+    Endpoints,
+    is_listening,
+    misplaced_listener,
+    unreachable,
+)
 
 BRIDGE, SIM, OPERATOR = 61_001, 61_003, 61_004
 """Users of nobody's."""
@@ -66,10 +74,38 @@ def test_a_second_claim_names_the_first(tmp_path: Path) -> None:
 def test_a_home_that_cannot_be_written_is_refused_by_its_path(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("a file where a folder should be")
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(Unwritable) as refused:
         Claim(file, Party.BRIDGE)
     assert refused.value.code == "home_unwritable"
     assert str(file) in refused.value.detail
+
+
+def test_a_lock_that_finds_no_room_is_refused_by_its_path(tmp_path: Path) -> None:
+    Claim(tmp_path, Party.BRIDGE).close()
+    most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, most[1]))
+    try:
+        with pytest.raises(Unwritable, match=r"home_unwritable: .*/bridge/bridge\.lock: "):
+            Claim(tmp_path, Party.BRIDGE)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, most)
+    Claim(tmp_path, Party.BRIDGE).close()
+
+
+def test_what_lies_in_a_sockets_way_and_cannot_be_removed_is_named(tmp_path: Path) -> None:
+    path = Endpoints(tmp_path).socket(BRIDGE_DOOR)
+    path.mkdir(parents=True)
+    with closing(Claim(tmp_path, Party.BRIDGE)) as claim:
+        with pytest.raises(Unwritable, match=f"home_unwritable: {path}: "):
+            claim.make_way(path)
+        path.rmdir()
+        claim.make_way(path)
+
+
+def test_only_what_may_pass_ends_a_process_so_that_it_is_started_again() -> None:
+    """2 is what ``RestartPreventExitStatus`` says in each unit of deploy/systemd."""
+    assert Misconfigured("robot_toml_invalid", "a wrong key").exit_status == 2
+    assert Unwritable("home_unwritable", "read-only at present").exit_status == 1
 
 
 def test_different_parties_do_not_disturb_each_other(tmp_path: Path) -> None:
@@ -225,5 +261,38 @@ def test_where_the_kernel_does_not_tell_who_listens_nothing_is_checked(
 def test_a_lock_that_cannot_be_opened_is_named(tmp_path: Path) -> None:
     lock = tmp_path / "run" / "bridge" / "bridge.lock"
     lock.mkdir(parents=True)
-    with pytest.raises(Misconfigured, match=f"home_unwritable.*{lock}"):
+    with pytest.raises(Unwritable, match=f"home_unwritable.*{lock}"):
         Claim(tmp_path, Party.BRIDGE)
+
+
+def test_a_socket_is_listened_at_from_the_listeners_start_to_its_end(tmp_path: Path) -> None:
+    path = tmp_path / "some.sock"
+    assert not is_listening(path)
+    with closing(socket.socket(socket.AF_UNIX)) as listener:
+        listener.bind(str(path))
+        assert not is_listening(path), "bound only"
+        listener.listen(0)
+        with ExitStack() as stack:
+            while fills_the_queue(path, stack):
+                pass
+            assert is_listening(path), "a listener that takes nobody in, its queue full"
+    assert path.is_socket()
+    assert not is_listening(path), "what a dead process left"
+
+
+def fills_the_queue(path: Path, stack: ExitStack) -> bool:
+    waiting = stack.enter_context(socket.socket(socket.AF_UNIX))
+    waiting.setblocking(False)
+    return waiting.connect_ex(str(path)) == 0
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
+def test_a_socket_that_this_user_may_not_enter_counts_as_silent(home: Path) -> None:
+    path = home / "some.sock"
+    with closing(socket.socket(socket.AF_UNIX)) as listener:
+        listener.bind(str(path))
+        path.chmod(0o600)
+        listener.listen()
+        assert is_listening(path)
+        with acting_as(OPERATOR):
+            assert not is_listening(path)

@@ -11,6 +11,7 @@ from tools.attack.lab import side_by_side
 from tools.attack.outcome import Outcome
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from tools.attack.lab import Ended, Lab
@@ -34,18 +35,24 @@ def attack(lab: Lab) -> list[Outcome]:
     return found
 
 
-def _blind(lab: Lab, folder: Path) -> list[Outcome]:
-    seconds = LONG_S if lab.long else QUICK_S
+def _fuzzed(
+    lab: Lab, folder: Path, module: str, seconds: float, judge: Callable[[str, Ended], Outcome]
+) -> list[Outcome]:
+    """Run one fuzzer's module on every decoder, each in a folder of its own."""
     commands = []
     for decoder in DECODERS:
-        own = folder / decoder.name
+        own = folder / f"{decoder.name}-{module}"  # crashes are kept beside it
         own.mkdir()
-        commands.append(lab.child("tools.attack.fuzz", decoder.name, own, seconds, LONG_COUNT))
+        commands.append(lab.child(module, decoder.name, own, seconds, LONG_COUNT))
     found: dict[int, Outcome] = {}
     for at, ended in side_by_side(commands, seconds + GRACE_S):
-        found[at] = told(DECODERS[at].name, ended)
+        found[at] = judge(DECODERS[at].name, ended)
         lab.say(f"{found[at].attack}: {found[at].n} inputs, {found[at].wrong} wrong")
     return [found[at] for at in sorted(found)]
+
+
+def _blind(lab: Lab, folder: Path) -> list[Outcome]:
+    return _fuzzed(lab, folder, "tools.attack.fuzz", LONG_S if lab.long else QUICK_S, told)
 
 
 def told(name: str, ended: Ended) -> Outcome:
@@ -66,17 +73,9 @@ def _guided(lab: Lab, folder: Path) -> list[Outcome]:
     if importlib.util.find_spec("atheris") is None:
         note = "atheris is not installed: make attack installs it where it has a wheel"
         return [Outcome("guided", 0, 0, "0 crashes", note=note, skipped=True)]
-    seconds = LONG_S if lab.long else QUICK_GUIDED_S
-    commands = []
-    for decoder in DECODERS:
-        own = folder / f"{decoder.name}-guided"
-        own.mkdir()
-        commands.append(lab.child("tools.attack.guided", decoder.name, own, seconds, LONG_COUNT))
-    found: dict[int, Outcome] = {}
-    for at, ended in side_by_side(commands, seconds + GRACE_S):
-        found[at] = guided(DECODERS[at].name, ended)
-        lab.say(f"{found[at].attack}: {found[at].n} inputs, {found[at].wrong} wrong")
-    return [found[at] for at in sorted(found)]
+    return _fuzzed(
+        lab, folder, "tools.attack.guided", LONG_S if lab.long else QUICK_GUIDED_S, guided
+    )
 
 
 def guided(name: str, ended: Ended) -> Outcome:

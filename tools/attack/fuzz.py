@@ -36,7 +36,7 @@ MOST_KEPT = 10
 
 
 class Hang(BaseException):
-    """An input took longer than any may."""
+    """An input took more processor time than any may."""
 
 
 @dataclass
@@ -71,7 +71,7 @@ def fuzz(decoder: Decoder, folder: Path, *, seed: int, count: int, seconds: floa
     for given in seeds:
         if not reader.takes(given) and decoder.name not in MIXED:
             raise ValueError(f"{decoder.name}: a seed is refused: {given[:80]!r}")
-    before = signal.signal(signal.SIGALRM, _hang)
+    before = signal.signal(signal.SIGPROF, _hang)
     end_s = time.monotonic() + seconds
     try:
         while told.n < count and time.monotonic() < end_s:
@@ -79,8 +79,8 @@ def fuzz(decoder: Decoder, folder: Path, *, seed: int, count: int, seconds: floa
             if told.n == min(WARM, count // 2):
                 told.before_mb = _rss_mb()
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
     told.after_mb = _rss_mb()
     told.before_mb = told.before_mb or told.after_mb
     return told
@@ -93,7 +93,7 @@ MIXED = frozenset({"toml", "yaml"})
 def _try(reader: Reader, data: bytes, told: Tally, folder: Path) -> None:
     told.n += 1
     began_s = time.perf_counter()
-    signal.setitimer(signal.ITIMER_REAL, HANG_S)
+    signal.setitimer(signal.ITIMER_PROF, HANG_S)
     try:
         told.taken += reader.takes(data)
     except Hang:
@@ -102,7 +102,7 @@ def _try(reader: Reader, data: bytes, told: Tally, folder: Path) -> None:
     except Exception as crash:  # noqa: BLE001  # whatever it is, it is what was looked for
         told.crashes += 1
         _note(place_of(crash), data, told, folder)
-    signal.setitimer(signal.ITIMER_REAL, 0.0)
+    signal.setitimer(signal.ITIMER_PROF, 0.0)
     told.slowest_ms = max(told.slowest_ms, (time.perf_counter() - began_s) * 1e3)
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 SITES = CHECKOUT / "sites"
-MODEL = CHECKOUT / "planner" / "vision" / "models" / "pons_home.onnx"
+MODEL = CHECKOUT / "planner" / "perception" / "models" / "pons_home.onnx"
 
 SETTINGS = (
     b'[model]\nurl = "http://127.0.0.1:11434/v1"\nname = "small"\nkey = "k"\ntimeout_s = 20.0\n',

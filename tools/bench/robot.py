@@ -26,7 +26,7 @@ from wire.keys import OPS, SIM_TRUTH, STATUS, Party
 from wire.session import open_session
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from types import TracebackType
     from typing import Self
 
@@ -51,6 +51,7 @@ class Robot:
         tapped: bool = False,
         only: tuple[str, ...] = EVERYTHING,
         limits: Mapping[str, float] = MappingProxyType({}),
+        before: Mapping[str, Sequence[str]] = MappingProxyType({}),
     ) -> None:
         """Describe it; entering the context starts it.
 
@@ -60,7 +61,9 @@ class Robot:
             tapped: run the bridge with a stopwatch; ``tap`` reads it after the end.
             only: which processes to start.
             limits: keys of robot.toml that are to have other values than the checkout's.
+            before: of each process that is to be another user's, the words that make it so.
         """
+        self._before = before
         self.settings = Settings(
             home, described(home, limits), CHECKOUT / "sites" / site, "127.0.0.1", free_port()
         )
@@ -208,7 +211,8 @@ class Robot:
     def _child(self, module: str, arguments: list[str]) -> Child:
         name = "bridge" if module == TAPPED else module
         log = self.settings.home / "logs" / f"{name}.log"
-        return Child(name, [module, *arguments], log, knows_tokens=name == "planner")
+        words = [*self._before.get(name, ()), module, *arguments]
+        return Child(name, words, log, knows_tokens=name == "planner")
 
     def _answers(self) -> bool:
         self.pid("planner")

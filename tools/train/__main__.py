@@ -17,7 +17,7 @@ from pathlib import Path
 from tools.train.budget import BARE_FRAMES, FRAMES, SPARE_FRAMES, UNSEEN_FRAMES, Schedule
 
 ROOT = Path(__file__).resolve().parents[2]
-MODEL = ROOT / "planner" / "vision" / "models" / "pons_home.onnx"
+MODEL = ROOT / "planner" / "perception" / "models" / "pons_home.onnx"
 REFUSED, INTERRUPTED = 2, 130
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from datetime import UTC, date, datetime
 from pathlib import Path
 
@@ -290,6 +290,12 @@ def test_a_folder_that_cannot_be_read_refuses_to_start(tmp_path: Path) -> None:
     with pytest.raises(Misconfigured) as wrong:
         Ledger(tmp_path)
     assert wrong.value.code == "budget_unreadable"
+
+
+def test_an_old_day_that_cannot_be_thrown_away_at_present_refuses_nothing(tmp_path: Path) -> None:
+    (tmp_path / FOLDER / "2020-01-01.jsonl").mkdir(parents=True)  # even root unlinks no folder
+    with closing(Ledger(tmp_path)) as ledger:
+        ledger.remember(date(2026, 1, 1))
 
 
 def test_old_days_are_thrown_away_and_other_files_are_left_alone(tmp_path: Path) -> None:

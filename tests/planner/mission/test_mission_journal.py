@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -30,7 +31,7 @@ from planner.mission.journal import (
 from planner.mission.journal_thread import JournalWriter, PendingEntry
 from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import Code, GoalState, Language, Outcome, message
-from wire import Misconfigured
+from wire import Misconfigured, Unwritable
 
 
 def mission(
@@ -175,8 +176,32 @@ def test_a_journal_of_another_version_refuses_to_start(tmp_path: Path) -> None:
 
 def test_what_is_no_database_refuses_to_start(tmp_path: Path) -> None:
     (tmp_path / "missions.db").write_bytes(b"not a database at all, far from it" * 100)
-    with pytest.raises(Misconfigured, match="journal_unavailable"):
+    with pytest.raises(Misconfigured, match="journal_unavailable") as wrong:
         MissionJournal.in_home(tmp_path)
+    assert not isinstance(wrong.value, Unwritable), "no restart mends it"
+
+
+def test_what_cannot_be_opened_at_present_may_pass(tmp_path: Path) -> None:
+    (tmp_path / "missions.db").mkdir()
+    with pytest.raises(Unwritable, match=r"journal_unavailable: .*unable to open"):
+        MissionJournal.in_home(tmp_path)
+    (tmp_path / "missions.db").rmdir()
+    MissionJournal.in_home(tmp_path).close()
+
+
+@pytest.mark.parametrize("kept", [True, False], ids=["a journal", "none yet"])
+def test_a_journal_that_cannot_be_written_at_present_may_pass(tmp_path: Path, kept: bool) -> None:
+    """Each write is refused as on a full disk."""
+    if kept:
+        MissionJournal.in_home(tmp_path).close()
+    most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, most[1]))
+    try:
+        with pytest.raises(Unwritable, match="journal_unavailable: "):
+            MissionJournal.in_home(tmp_path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, most)
+    MissionJournal.in_home(tmp_path).close()
 
 
 def test_a_record_that_is_not_ours_is_named(tmp_path: Path) -> None:

@@ -63,6 +63,24 @@ def test_one_sound_never_changes_the_next(ears: Sphinx) -> None:
     assert [hear(fresh, clip) for clip in reversed(clips)] == first[::-1]
 
 
+@needs_espeak
+def test_the_sounds_of_a_recording_are_searched_once_and_none_are_kept(ears: Sphinx) -> None:
+    """Judged three times here: as an order, as another stop, as an answer."""
+
+    class Counting(type(ears)):  # type: ignore[misc]  # imported only where there is a wheel
+        searched = 0
+
+        def _phones(self, samples: bytes) -> object:
+            self.searched += 1
+            return super()._phones(samples)
+
+    counting = Counting(NAMES)
+    clip = speak("no please don't", "en-us")
+    for times in (1, 2):
+        assert hear(counting, clip, awaits_answer=True) == hear(ears, clip, awaits_answer=True)
+        assert counting.searched == times
+
+
 def test_hearing_leaves_no_process_and_no_pipe(ears: Sphinx) -> None:
     us = psutil.Process()
     noise = random.Random(1).randbytes(64_000)

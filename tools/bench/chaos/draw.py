@@ -8,10 +8,19 @@ from math import exp, log
 from random import Random
 from typing import Any
 
+from pons.kept_sockets import LISTENING
+from wire.doors import DOORS, SIM_DOOR
+
 PROCESSES = (
     "bridge", "planner", "sim", "localization", "camera", "recorder", "vision", "route", "voice",
 )  # fmt: skip
-LISTENERS = ("bridge", "senses", "drive", "robot", "localization", "camera")
+OWNER_OF = {
+    door.name: child
+    for child, party in LISTENING.items()
+    for door in DOORS
+    if door.listener is party and door is not SIM_DOOR
+}
+"""Which process listens at each door, but for the tests' own. Their order is part of a draw."""
 LIDAR = ("lidar_off", "lidar_stuck", "lidar_blind", "lidar_intermittent")
 FREEZE_S, STALL_S, OTHER_S = (0.15, 5.0), (0.2, 3.0), (0.5, 7.0)
 TWO_AT_ONCE, STOPPED, GOES_ON = 0.25, 1 / 3, 0.15
@@ -115,7 +124,7 @@ def _fault(chance: Random, at_s: float) -> Breakage:
     if kind is FaultKind.LIDAR:
         target = chance.choice(LIDAR)
     if kind is FaultKind.SOCKET:
-        target = chance.choice(LISTENERS)
+        target = chance.choice(tuple(OWNER_OF))
     if kind in (FaultKind.FREEZE, FaultKind.STALL):
         span_s = FREEZE_S if kind is FaultKind.FREEZE else STALL_S
     for_s = exp(chance.uniform(log(span_s[0]), log(span_s[1])))

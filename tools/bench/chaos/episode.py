@@ -9,8 +9,8 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 from pons.http import PlannerDown, Refused
-from tools.bench.chaos.draw import Episode, FaultKind
-from tools.bench.chaos.faults import NEEDS_MOUNTS, OWNER_OF, broken, found, sockets
+from tools.bench.chaos.draw import OWNER_OF, Episode, FaultKind
+from tools.bench.chaos.faults import NEEDS_MOUNTS, broken, found, sockets
 from tools.bench.chaos.person import Bystander, StopTold, say_stop
 from tools.bench.chaos.verdict import contacts, judge_stop, said_twice, turned
 from tools.bench.context import Missed, line, until

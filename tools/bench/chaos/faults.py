@@ -25,15 +25,6 @@ if TYPE_CHECKING:
 
 NEEDS_MOUNTS = frozenset({FaultKind.DISK_FULL, FaultKind.READ_ONLY})
 CHUNK_BYTES = 32 << 20
-OWNER_OF = {
-    "bridge": "bridge",
-    "senses": "bridge",
-    "drive": "sim",
-    "robot": "sim",
-    "localization": "localization",
-    "camera": "camera",
-}
-"""Which process listens on a listener's socket."""
 
 
 def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
@@ -51,7 +42,7 @@ def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
         case FaultKind.LIDAR:
             return _blind(house, SimFault(fault.target))
         case FaultKind.DISK_FULL:
-            return _full(house.home)
+            return full_disk(house.home)
         case FaultKind.READ_ONLY:
             return _unwritable(house.home)
         case FaultKind.SLOW_DISK:
@@ -126,7 +117,8 @@ def _blind(house: House, fault: SimFault) -> Iterator[str]:
 
 
 @contextmanager
-def _full(home: Path) -> Iterator[str]:
+def full_disk(home: Path) -> Iterator[str]:
+    """Fill the disk of a home to its last byte; empty it again."""
     filler = home / "filler"
     try:
         with suppress(OSError), filler.open("wb") as file:

@@ -26,32 +26,35 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from tools.bench.chaos.house import House
+    from pons.settings import Settings
 
 KEEP = 20_000
 PERIOD_S = 0.01
 FRESH_S = 0.5
 AGAIN_S = 0.05
 STANDING_FOR_S = 0.2
+BridgeState = tuple[float, str, tuple[str, ...]]
+"""From when on the bridge said so, its mode, and the rows in force."""
 
 
 class Witness:
     """Hear one robot."""
 
-    def __init__(self, house: House) -> None:
+    def __init__(self, settings: Settings) -> None:
         """Describe it; entering the context begins to listen."""
-        self._house = house
+        self._settings = settings
         self._ending = threading.Event()
         self._truths: deque[TruthSample] = deque(maxlen=KEEP)
         self._said: deque[tuple[float, str, str]] = deque(maxlen=1000)
+        self._states: deque[BridgeState] = deque(maxlen=KEEP)
         self.listening = threading.Event()
         """Set while the planner's events are heard."""
         self.status: Status | None = None
         self.status_s = float("-inf")
 
     def __enter__(self) -> Self:
-        robot_id = load_robot(self._house.settings.robot).id
-        self._session = open_session(Party.JUDGE, robot_id, self._house.home)
+        robot_id = load_robot(self._settings.robot).id
+        self._session = open_session(Party.JUDGE, robot_id, self._settings.home)
         self._statuses = self._session.subscriber(STATUS)
         self._ears = self._session.subscriber(SIM_TRUTH)
         self._threads = [threading.Thread(target=run) for run in (self._watch, self._listen)]
@@ -75,6 +78,9 @@ class Witness:
             now_s = time.monotonic()
             if isinstance(status := self._statuses.newest(), Status):
                 self.status, self.status_s = status, now_s
+                state = (status.mode.value, tuple(row.row for row in status.rows))
+                if not self._states or self._states[-1][1:] != state:
+                    self._states.append((now_s, *state))
             self._truths.extend(
                 _sample(now_s, truth)
                 for truth in self._ears.drain().items
@@ -82,7 +88,7 @@ class Witness:
             )
 
     def _listen(self) -> None:
-        settings = self._house.settings
+        settings = self._settings
         url = f"ws://{settings.host}:{settings.port}/v1/events"
         while not self._ending.wait(AGAIN_S):
             with (
@@ -108,6 +114,12 @@ class Witness:
     def trace(self, from_s: float) -> list[TruthSample]:
         """Return the truth since a moment."""
         return [sample for sample in tuple(self._truths) if sample.at_s >= from_s]
+
+    def states(self, from_s: float) -> list[BridgeState]:
+        """Return the bridge's states since a moment, and the one that it was in then."""
+        states = list(self._states)
+        first = max((n for n, state in enumerate(states) if state[0] <= from_s), default=0)
+        return states[first:]
 
     def said(self, from_s: float) -> list[tuple[str, str]]:
         """Return goal and words of all that was said since a moment."""

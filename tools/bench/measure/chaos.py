@@ -98,7 +98,7 @@ class RobotSeries:
             beside = stack.enter_context(self._lab.folder())
             home = stack.enter_context(self._lab.folder())
             house = stack.enter_context(House(home, beside / "up.log", mounts=self._mounts))
-            self._witness = witness = stack.enter_context(Witness(house))
+            self._witness = witness = stack.enter_context(Witness(house.settings))
             until(witness.listening.is_set, HEARD_S, "the planner's events")
             self._house, self._lived, self._played = house, 0, []
             self._stack = stack.pop_all()

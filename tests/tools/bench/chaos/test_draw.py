@@ -5,8 +5,8 @@ from __future__ import annotations
 from tools.bench.chaos.draw import (
     FREEZE_S,
     LIDAR,
-    LISTENERS,
     OF_A_PROCESS,
+    OWNER_OF,
     PROCESSES,
     STALL_S,
     Episode,
@@ -23,11 +23,22 @@ def test_a_number_means_one_episode() -> None:
     assert len({episode.mission + str(episode.faults) for episode in ALL}) == len(ALL)
 
 
+def test_sockets_keep_their_order_so_that_old_numbers_mean_what_they_meant() -> None:
+    assert list(OWNER_OF.items()) == [
+        ("bridge", "bridge"),
+        ("senses", "bridge"),
+        ("drive", "sim"),
+        ("robot", "sim"),
+        ("localization", "localization"),
+        ("camera", "camera"),
+    ]
+
+
 def test_every_kind_strikes_every_target() -> None:
     struck = {(fault.kind, fault.target) for episode in ALL for fault in episode.faults}
     wanted = {(kind, name) for kind in OF_A_PROCESS for name in PROCESSES}
     wanted |= {(FaultKind.LIDAR, name) for name in LIDAR}
-    wanted |= {(FaultKind.SOCKET, name) for name in LISTENERS}
+    wanted |= {(FaultKind.SOCKET, name) for name in OWNER_OF}
     wanted |= {(kind, "") for kind in FaultKind if kind not in {kind for kind, _ in wanted}}
     assert struck == wanted
 

@@ -8,8 +8,8 @@ import pytest
 
 from pons.settings import CHECKOUT, Settings
 from pons.up import children
-from tools.bench.chaos.draw import PROCESSES
-from tools.bench.chaos.faults import OWNER_OF, sockets
+from tools.bench.chaos.draw import OWNER_OF, PROCESSES
+from tools.bench.chaos.faults import sockets
 from tools.bench.chaos.house import role
 from wire import load_robot
 

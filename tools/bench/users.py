@@ -1,0 +1,90 @@
+"""Know the users of a deployed robot, make its folders, and start processes as those users.
+
+Users, groups and folders are those of deploy/systemd; numbers are this file's, so nothing need be
+installed. Only root can start processes so.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from pons.settings import CHECKOUT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+UNITS = CHECKOUT / "deploy" / "systemd"
+INSTALLED = "/var/lib"
+BRIDGE, PLANNER, SIM = "pons-bridge", "pons-planner", "pons-sim"
+LOCALIZATION, CAMERA = "pons-localization", "pons-camera"
+MEMBER, STRANGER = "member", "stranger"
+"""A person or program in the group pons, and one in none of the groups."""
+USERS = {
+    BRIDGE: 61_001,
+    PLANNER: 61_002,
+    SIM: 61_003,
+    LOCALIZATION: 61_004,
+    CAMERA: 61_005,
+    MEMBER: 61_008,
+    STRANGER: 61_009,
+}
+GROUPS = {
+    "pons": 62_000, "pons-senses": 62_001, "pons-drive": 62_002, MEMBER: 62_008, STRANGER: 62_009,
+}  # fmt: skip
+OF_PROCESSES = {
+    "bridge": BRIDGE, "planner": PLANNER, "sim": SIM, "localization": LOCALIZATION,
+    "sim.camera": CAMERA,
+}  # fmt: skip
+
+
+def folders() -> dict[str, tuple[str, str, str]]:
+    """Return mode, owner and group of each folder that tmpfiles.d makes, by its path."""
+    lines = (UNITS / "pons.tmpfiles.conf").read_text("utf-8").splitlines()
+    words = [line.split() for line in lines if line.startswith("d ")]
+    return {path: (mode, owner, group) for _, path, mode, owner, group, _ in words}
+
+
+def members() -> dict[str, set[str]]:
+    """Return the users that sysusers.d puts into each group."""
+    found: dict[str, set[str]] = {}
+    for line in (UNITS / "pons.sysusers.conf").read_text("utf-8").splitlines():
+        if line.startswith("m "):
+            _, user, group = line.split()
+            found.setdefault(group, set()).add(user)
+    return found
+
+
+def groups_of(user: str) -> list[str]:
+    """Return a user's groups, its main one first."""
+    if user == MEMBER:
+        return [MEMBER, "pons"]
+    mine = [group for group, users in members().items() if user in users]
+    return sorted(mine, key=lambda group: group != "pons") or [STRANGER]
+
+
+def numbers_of(user: str) -> list[str]:
+    """Return a user's number and those of its groups, as two words of a command."""
+    return [str(USERS[user]), ",".join(str(GROUPS[group]) for group in groups_of(user))]
+
+
+def as_user(user: str, *words: str) -> list[str]:
+    """Return the command that runs a module, with its words, as a user."""
+    return [sys.executable, "-m", "tools.bench.as_program", *numbers_of(user), *words]
+
+
+@contextmanager
+def home_as_deployed() -> Iterator[Path]:
+    """Make the folders of tmpfiles.d in a place of their own; yield the robot's home."""
+    with TemporaryDirectory(prefix="pu-", ignore_cleanup_errors=True) as folder:
+        Path(folder).chmod(0o711)
+        for path, (mode, owner, group) in folders().items():
+            made = Path(folder) / Path(path).relative_to(INSTALLED)
+            made.mkdir()
+            os.chown(made, 0 if owner == "root" else USERS[owner], GROUPS[group])
+            made.chmod(int(mode, 8))
+        yield Path(folder) / "pons"
