@@ -17,7 +17,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev core page run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
+.PHONY: help setup dev page wheel run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -26,12 +26,11 @@ setup: $(RUNTIME) $(PAGE) ## make .venv, install what running needs from the loc
 
 dev: $(DEV) $(PAGE_DEV) ## add what testing and checking need
 
-core: $(DEV) ## compile the bridge's core (minutes; needs a C compiler) and prove it equal
-	@nice -n 10 $(BIN)/python scripts/compile_core.py
-	@$(BIN)/python -m pytest -q tests/bridge/test_compiled.py $(ARGS)
-
 page: $(RUNTIME) ## build the page anew
 	@scripts/page.sh build
+
+wheel: $(DEV) $(PAGE) ## build the wheel into dist/: packages, page, prompts, sites, detector, no tools
+	@$(BIN)/python -m scripts.wheel dist
 
 run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
 	@exec $(BIN)/pons up $(ARGS)
@@ -50,9 +49,9 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 	@scripts/units.sh $(ARGS)
 	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
 
-e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home; try models, calibration, fence, black box, units, and the page in Chromium
+e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py $(OWN) $(ARGS) \
+	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py tests/e2e/test_wheel.py $(OWN) $(ARGS) \
 	  ++ scripts/stories.sh -n 0 -m e2e tests/web $(WHOLE) $(ARGS)
 	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a flood takes what a second robot needs
 
@@ -67,7 +66,7 @@ coverage: $(DEV) ## branch coverage of wire and bridge/core; fails under 100 % a
 	  tests/bridge/test_message_orders.py $(BRANCHES) $(ARGS)
 
 mutants: $(DEV) ## change bridge/core one thing at a time: do tests notice? hours; resumable; ARGS="--sample 20"
-	@exec nice -n 10 $(BIN)/python scripts/mutants.py $(ARGS)
+	@exec nice -n 10 $(BIN)/python -m tools.mutants $(ARGS)
 
 laws: $(DEV) ## every law with 2 000 fresh examples, where `make test` tries 50; minutes
 	@HYPOTHESIS_PROFILE=laws $(BIN)/python -m pytest -q -n logical -m "hypothesis and not e2e" --timeout 600 $(ARGS)

@@ -1,1 +1,1 @@
-"""Dispose: decide, every 10 ms, the one wheel command that leaves. Imports wire only, no numpy."""
+"""Own the wheels: decide one wheel command every 10 ms. Imports wire only, not numpy."""

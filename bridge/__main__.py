@@ -18,18 +18,18 @@ from typing import TYPE_CHECKING
 
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
-from bridge.drive import SimDrive, braked
+from bridge.drive import SimDrive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
-from bridge.link import Link
-from bridge.node import EXIT_LEFT, Parts, Shell
+from bridge.link import BridgeLink
+from bridge.node import EXIT_LEFT, BridgeNode, Parts
 from bridge.operator_key import load_operator_key
 from bridge.realtime import (
-    Collector,
     MonotonicClock,
     Pacer,
     Right,
     Service,
+    SlackCollector,
     all_granted,
     lock_memory,
     pin,
@@ -37,7 +37,6 @@ from bridge.realtime import (
     transport_fifo,
 )
 from bridge.recording.recorder import Recorder
-from bridge.select_core import CORE  # first: it chooses which core the others import
 from bridge.warmup import warm_up
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
@@ -78,7 +77,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
 
 
 def _serve(options: argparse.Namespace) -> int:
-    asked = _Asked()  # first: a signal during the slow part of the start must end it cleanly too
+    asked = (
+        _LeaveRequest()
+    )  # first: a signal during the slow part of the start must end it cleanly too
     robot = _robot(options.robot)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     config = _config(robot, options.site, home)
@@ -87,11 +88,11 @@ def _serve(options: argparse.Namespace) -> int:
         opened = open_session(Party.BRIDGE, robot.id, home)
     with opened as session:
         drive = _drive(session, robot, config.boot)
-        link = Link(session, robot.id, key)
+        link = BridgeLink(session, robot.id, key)
         recorder = Recorder(home.absolute() / "recordings", config)
         keeper = BrakingKeeper(path_of(home, robot), robot, config.learnt)
         desk = FenceDesk(Ground(options.site, home, config.map_id, config.fence_hash))
-        parts = Parts(link, drive, recorder, Collector(), Service(), keeper, desk)
+        parts = Parts(link, drive, recorder, SlackCollector(), Service(), keeper, desk)
         try:
             return _loop(config, parts, asked, carried)
         finally:
@@ -102,7 +103,7 @@ def _serve(options: argparse.Namespace) -> int:
 
 
 def _robot(path: Path | None) -> RobotDescription:
-    """Load the robot and say which: nobody is to drive by defaults unawares."""
+    """Load robot.toml and log which: nobody is to drive by defaults unawares."""
     log.info("robot: %s", path.absolute() if path else "the built-in default: no --robot was given")
     return load_robot(path) if path else RobotDescription()
 
@@ -124,10 +125,10 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
 
 
 def _drive(session: Session, robot: RobotDescription, boot: str) -> Drive:
-    return braked({"sim": SimDrive}[robot.drive.kind](session, boot))
+    return require_brakes({"sim": SimDrive}[robot.drive.kind](session, boot))
 
 
-def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> int:
+def _loop(config: CoreConfig, parts: Parts, asked: _LeaveRequest, carried: Right) -> int:
     clock = MonotonicClock()
     warm_up(config, clock.now_s())
     rights = (carried, *_rights(config.robot.realtime, parts.collector))
@@ -136,12 +137,11 @@ def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> in
         log.log(level, "%s %s: %s", right.name, "granted" if right.granted else "refused",
                 right.detail)  # fmt: skip
     log.info("run %s, %s drive, %s", config.boot, parts.drive.kind, config.robot.id)
-    log.info("core: %s", CORE.text)
-    shell = Shell(config, parts, clock.now_s(), real_time=all_granted(rights))
+    shell = BridgeNode(config, parts, clock.now_s(), real_time=all_granted(rights))
     parts.service.ready()
     desk = parts.desk
     status = shell.run(
-        Pacer(clock, config.period_s), lambda: asked.to_leave() or desk.over(clock.now_s())
+        Pacer(clock, config.period_s), lambda: asked.to_leave() or desk.is_over(clock.now_s())
     )
     if status == EXIT_LEFT and not asked.to_leave():
         log.warning("fence_changed: leaving, so that the next start loads the fence put in force")
@@ -149,15 +149,15 @@ def _loop(config: CoreConfig, parts: Parts, asked: _Asked, carried: Right) -> in
     return status
 
 
-def _rights(wanted: RealTime, collector: Collector) -> tuple[Right, ...]:
-    """Take them in the order that works: memory once all is touched, rank last of all."""
+def _rights(wanted: RealTime, collector: SlackCollector) -> tuple[Right, ...]:
+    """Take real-time rights in the order that works: memory once all is touched, rank last."""
     memory = lock_memory()
     collector.freeze()
     return memory, pin(wanted.cpu), take_fifo(wanted.priority)
 
 
-class _Asked:
-    """Remember that somebody asked us to leave."""
+class _LeaveRequest:
+    """Note SIGTERM and SIGINT, so that the loop ends between two ticks."""
 
     def __init__(self) -> None:
         self._by = 0

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import ValidationError
 
-from bridge.core.state_braking import UNLEARNT, Learnt
+from bridge.core.state_motion import UNLEARNT, Learnt
 from bridge.files import replace_file
 from wire.base import Record
 from wire.bounded_types import Fingerprint
@@ -34,7 +34,7 @@ MAX_BYTES = 10_000
 
 
 class BrakingFile(Record):
-    """Mirror the file. The configured values are there for who reads it."""
+    """Define the braking file's fields. The configured values are there for its readers."""
 
     version: Literal[1] = 1
     robot: RobotId
@@ -45,12 +45,12 @@ class BrakingFile(Record):
 
 
 def path_of(home: Path, robot: RobotDescription) -> Path:
-    """Return where what is learnt of this robot is kept."""
+    """Return the path of a robot's braking file."""
     return home / FOLDER / f"{robot.id}-{robot.hash}.json"
 
 
 def load_learnt(path: Path, robot: RobotDescription) -> tuple[Learnt, str | None]:
-    """Return what earlier runs learnt, and a code where it can't be read: then nothing counts.
+    """Return the braking learnt in earlier runs, and a code where the file can't be read.
 
     What can't be read makes nothing better than robot.toml says, so the robot may drive; it is
     said in the log and in every status.
@@ -60,19 +60,19 @@ def load_learnt(path: Path, robot: RobotDescription) -> tuple[Learnt, str | None
     except FileNotFoundError:
         return UNLEARNT, None
     except OSError as error:
-        return _refused(path, str(error.strerror))
+        return _refuse(path, str(error.strerror))
     if len(data) > MAX_BYTES:
-        return _refused(path, f"{len(data)} bytes, at most {MAX_BYTES}")
+        return _refuse(path, f"{len(data)} bytes, at most {MAX_BYTES}")
     try:
         kept = BrakingFile.model_validate_json(data, strict=True)
     except ValidationError as error:
-        return _refused(path, explain(error, BrakingFile))
+        return _refuse(path, explain(error, BrakingFile))
     if (kept.robot, kept.robot_hash) != (robot.id, robot.hash):
-        return _refused(path, f"it is of robot {kept.robot} with robot.toml {kept.robot_hash}")
+        return _refuse(path, f"it is of robot {kept.robot} with robot.toml {kept.robot_hash}")
     return kept.learnt, None
 
 
-def _refused(path: Path, why: str) -> tuple[Learnt, str]:
+def _refuse(path: Path, why: str) -> tuple[Learnt, str]:
     log.warning(
         "%s: %s: %s; robot.toml's values count until stops teach anew", UNREADABLE, path, why
     )
@@ -80,7 +80,7 @@ def _refused(path: Path, why: str) -> tuple[Learnt, str]:
 
 
 class BrakingKeeper:
-    """Write what is learnt, beside the loop. ``note`` costs the loop a comparison."""
+    """Write learnt braking to disk in a thread. ``note`` costs the loop a comparison."""
 
     def __init__(self, path: Path, robot: RobotDescription, learnt: Learnt) -> None:
         """Start the thread. Before the loop takes its rank, which threads would inherit."""
@@ -92,13 +92,13 @@ class BrakingKeeper:
         self._thread.start()
 
     def note(self, learnt: Learnt) -> None:
-        """Take the newest; it changes when a stop has come to standstill and at no other time."""
+        """Queue newly learnt braking; it changes only when a stop has come to standstill."""
         if learnt is not self._noted:
             self._noted = learnt
             self._queue.put(learnt)
 
     def close(self) -> bool:
-        """Write what is waiting; say whether that is done. After the loop only: it waits."""
+        """Write the rest and return whether the thread has ended. After the loop only: it waits."""
         self._queue.put(None)
         self._thread.join(LAST_WORD_S)
         return not self._thread.is_alive()

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
-from bridge.core.sensing.fence import Fence, Zone, build_fence
+from bridge.core.geometry.fence import FenceGrid, Zone, build_fence
 from wire.errors import Misconfigured
 from wire.fence import FenceFile, flaw
 from wire.fingerprint import fingerprint
@@ -20,7 +20,7 @@ NAME = "fence.json"
 MOST_BYTES = 4_000_000
 
 
-def load_fence(path: Path) -> tuple[Fence, str]:
+def load_fence(path: Path) -> tuple[FenceGrid, str]:
     """Read fence.json; return the fence and the hash that hello must match.
 
     Raises:
@@ -33,7 +33,7 @@ def load_fence(path: Path) -> tuple[Fence, str]:
     return parse_fence(data, str(path)), fingerprint(data)
 
 
-def parse_fence(data: bytes, name: str = NAME) -> Fence:
+def parse_fence(data: bytes, name: str = NAME) -> FenceGrid:
     """Make a fence of the file's bytes.
 
     Raises:
@@ -52,7 +52,7 @@ def parse_fence(data: bytes, name: str = NAME) -> Fence:
 
 
 def read_record(data: bytes, name: str = NAME) -> FenceFile:
-    """Return what the file's bytes say, its outlines checked.
+    """Parse the bytes of fence.json and check its outlines.
 
     Raises:
         Misconfigured: malformed, or with an outline without area or one that crosses itself.

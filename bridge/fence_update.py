@@ -16,7 +16,8 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.polygon import permits
-from bridge.core.state_fence import FenceAsked, FenceDone
+from bridge.core.inbox import FenceDone
+from bridge.core.state_orders import PendingFence
 from bridge.fence_file import NAME, read_record
 from bridge.files import replace_file
 from wire.errors import Misconfigured
@@ -35,7 +36,7 @@ LAST_WORD_S = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """Say where the fence lies and what it must fit."""
+    """Hold the fence's paths and the map and hash that it must fit."""
 
     site: Path
     home: Path
@@ -50,15 +51,15 @@ class FenceDesk:
     def __init__(self, ground: Ground) -> None:
         """Start the thread. Before the loop takes its rank, which threads would inherit."""
         self._ground = ground
-        self._noted: FenceAsked | None = None
+        self._noted: PendingFence | None = None
         self._written_s: float | None = None
-        self._queue: SimpleQueue[FenceAsked | None] = SimpleQueue()
+        self._queue: SimpleQueue[PendingFence | None] = SimpleQueue()
         self._done: SimpleQueue[FenceDone] = SimpleQueue()
         self._thread = threading.Thread(target=self._run, name="fence", daemon=True)
         self._thread.start()
 
     def take(self) -> FenceDone | None:
-        """Return what became of a request since the last call."""
+        """Return the outcome of a fence request since the last call."""
         if self._noted is None:
             return None
         try:
@@ -66,8 +67,8 @@ class FenceDesk:
         except Empty:
             return None
 
-    def note(self, asked: FenceAsked | None, now_s: float) -> None:
-        """Take what the core asks for."""
+    def note(self, asked: PendingFence | None, now_s: float) -> None:
+        """Queue the fence that the core asks to be written."""
         if asked is self._noted:
             return
         self._noted = asked
@@ -78,8 +79,8 @@ class FenceDesk:
         else:
             self._queue.put(asked)
 
-    def over(self, now_s: float) -> bool:
-        """Say whether a new fence is written and its verdict was shown: time to start anew."""
+    def is_over(self, now_s: float) -> bool:
+        """Return whether a new fence is written and its verdict was shown: time to start anew."""
         return self._written_s is not None and now_s - self._written_s >= LINGER_S
 
     def close(self) -> bool:
@@ -93,7 +94,7 @@ class FenceDesk:
             self._done.put(put_in_force(self._ground, asked))
 
 
-def put_in_force(ground: Ground, asked: FenceAsked) -> FenceDone:
+def put_in_force(ground: Ground, asked: PendingFence) -> FenceDone:
     """Write a fence that is well formed, of this map, and has the robot inside."""
     data = asked.text.encode()
     try:
@@ -136,8 +137,8 @@ def check(ground: Ground, data: bytes, x_m: float, y_m: float) -> None:
         raise Misconfigured("fence_excludes_robot", text)
 
 
-def _audit(ground: Ground, asked: FenceAsked, new_hash: str) -> None:
-    """Add who, when and what to ``$PONS_HOME/fence/accepted.jsonl``."""
+def _audit(ground: Ground, asked: PendingFence, new_hash: str) -> None:
+    """Add source, time and hash to ``$PONS_HOME/fence/accepted.jsonl``."""
     line = {
         "at": datetime.now(UTC).isoformat(timespec="seconds"),
         "by": asked.source,

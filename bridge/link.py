@@ -1,4 +1,4 @@
-"""Take what arrived for the bridge and give out what it says. Owns the keys; decides nothing.
+"""Receive the bridge's messages as one inbox a tick and publish its decision. Decides nothing.
 
 Bounded work whatever comes: each key's ring is bounded, at most the 4 newest of a key are parsed,
 and all that came is counted for the flood detector. Stops are the exception: they are searched from
@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-from bridge.core.inbox import ArrivedAt, Inbox, LoopFacts, OpArrived, RejectedAt
-from bridge.core.state_fence import FenceArrived
+from bridge.core.inbox import ArrivedAt, FenceArrival, Inbox, LoopFacts, OperatorArrival, RejectedAt
 from wire import DriveState, OpRequest, Rejected, Stop, authentic, authentic_fence, decode
 from wire.base import Record
 from wire.keys import (
@@ -41,7 +40,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bridge.core.decision import Decision
-    from bridge.core.state_fence import FenceDone
+    from bridge.core.inbox import FenceDone
     from wire import OpKind
     from wire.keys import Key
     from wire.session import Session, Subscriber
@@ -62,8 +61,8 @@ _OPS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (
 )
 
 
-class Link:
-    """Be all the bridge's keys but the drive's."""
+class BridgeLink:
+    """Hold subscribers and publishers of all the bridge's keys but the drive's."""
 
     def __init__(self, session: Session, robot_id: str, operator_key: bytes) -> None:
         self._robot_id = robot_id
@@ -96,24 +95,24 @@ class Link:
         fence_done: FenceDone | None = None,
         recorder_says: str = "",
     ) -> Inbox:
-        """Take one tick's arrivals, in the order in which they count."""
-        took = _Took()
+        """Drain one tick's arrivals into an inbox, stops first."""
+        took = _TickDrain()
         stops = self._stops(took)
         ops = self._operator(took)
         return Inbox(
             stops=stops,
             ops=ops,
-            hellos=took.all(HELLO, self._hello),
-            grants=took.all(GRANT, self._grant),
-            heartbeats=took.all(HEARTBEAT, self._heartbeat),
-            localization=took.newest(LOCALIZATION, self._localization),
-            teleop=took.all(TELEOP, self._teleop),
-            external=took.all(EXTERNAL, self._external),
-            waypoints=took.all(WAYPOINTS, self._waypoints),
-            drive=took.sorted_out(DRIVE_STATE, drive),
-            scan=took.newest(SCAN, self._scan),
-            imu=took.newest(IMU, self._imu),
-            estop_link=took.newest(ESTOP_LINK, self._estop_link),
+            hellos=took.take_all(HELLO, self._hello),
+            grants=took.take_all(GRANT, self._grant),
+            heartbeats=took.take_all(HEARTBEAT, self._heartbeat),
+            localization=took.take_newest(LOCALIZATION, self._localization),
+            teleop=took.take_all(TELEOP, self._teleop),
+            external=took.take_all(EXTERNAL, self._external),
+            waypoints=took.take_all(WAYPOINTS, self._waypoints),
+            drive=took.sort_out(DRIVE_STATE, drive),
+            scan=took.take_newest(SCAN, self._scan),
+            imu=took.take_newest(IMU, self._imu),
+            estop_link=took.take_newest(ESTOP_LINK, self._estop_link),
             fences=self._fences(took),
             fence_done=fence_done,
             rejected=tuple(took.rejected),
@@ -126,7 +125,7 @@ class Link:
         )
 
     def publish(self, decision: Decision) -> None:
-        """Say what was decided."""
+        """Publish status, odometry and events of a decision."""
         if decision.status is not None:
             self._status.put(decision.status)
         if decision.odometry is not None:
@@ -134,7 +133,7 @@ class Link:
         for event in decision.events:
             self._event.put(event)
 
-    def _stops(self, took: _Took) -> tuple[Stop, ...]:
+    def _stops(self, took: _TickDrain) -> tuple[Stop, ...]:
         payloads = self._stop.drain_bytes()
         if not payloads:
             return ()
@@ -153,29 +152,29 @@ class Link:
             took.rejected.append(RejectedAt(STOP.path, refused))
         return tuple(reversed(found))
 
-    def _operator(self, took: _Took) -> tuple[OpArrived, ...]:
+    def _operator(self, took: _TickDrain) -> tuple[OperatorArrival, ...]:
         return tuple(
-            OpArrived(kind, request, self._authentic(kind, request))
+            OperatorArrival(kind, request, self._authentic(kind, request))
             for kind, key, subscriber in self._ops
-            for request in took.all(key, subscriber)
+            for request in took.take_all(key, subscriber)
         )
 
-    def _fences(self, took: _Took) -> tuple[FenceArrived, ...]:
-        """Take requests for another fence; the text of one that nobody proved goes no further."""
+    def _fences(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
+        """Take requests for another fence; an unproven one's text goes no further."""
         arrived = []
-        for request in took.all(FENCE, self._fence):
+        for request in took.take_all(FENCE, self._fence):
             fits = authentic_fence(self._operator_key, self._robot_id, request)
             nonce = request.proof.nonce if request.proof is not None else None
             text = request.fence if fits else ""
-            arrived.append(FenceArrived(request.id, request.source, nonce, fits, text))
+            arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
         return tuple(arrived)
 
     def _authentic(self, kind: OpKind, request: OpRequest) -> bool:
         return authentic(self._operator_key, kind, self._robot_id, request.proof, request.id)
 
 
-class _Took:
-    """Collect what one drain counted and refused.
+class _TickDrain:
+    """Collect the counts and refusals of one tick's drain.
 
     Most keys are silent in most ticks, so each is first asked for bytes alone: 0.5 us, four times
     cheaper than an empty list of messages.
@@ -187,21 +186,21 @@ class _Took:
         self.arrived: list[ArrivedAt] = []
         self.rejected: list[RejectedAt] = []
 
-    def all(self, key: Key[M], subscriber: Subscriber[M]) -> tuple[M, ...]:
-        """Return what came on a command key, at most PARSED of it, and count it all."""
+    def take_all(self, key: Key[M], subscriber: Subscriber[M]) -> tuple[M, ...]:
+        """Return a command key's messages, at most the PARSED newest, and count them all."""
         payloads = subscriber.drain_bytes()
         if not payloads:
             return ()
         self.arrived.append(ArrivedAt(key.path, len(payloads)))
-        return self._parsed(key, payloads[-PARSED:])
+        return self._parse(key, payloads[-PARSED:])
 
-    def newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
-        """Return what came on a state key."""
+    def take_newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
+        """Return a state key's newest message."""
         payloads = subscriber.drain_bytes()
-        good = self._parsed(key, payloads[-1:]) if payloads else ()
+        good = self._parse(key, payloads[-1:]) if payloads else ()
         return good[-1] if good else None
 
-    def sorted_out(self, key: Key[M], items: Iterable[M | Rejected]) -> tuple[M, ...]:
+    def sort_out(self, key: Key[M], items: Iterable[M | Rejected]) -> tuple[M, ...]:
         """Return the messages and note the refusals."""
         good: list[M] = []
         for item in items:
@@ -211,5 +210,5 @@ class _Took:
                 good.append(item)
         return tuple(good)
 
-    def _parsed(self, key: Key[M], payloads: list[bytes]) -> tuple[M, ...]:
-        return self.sorted_out(key, [decode(key, payload) for payload in payloads])
+    def _parse(self, key: Key[M], payloads: list[bytes]) -> tuple[M, ...]:
+        return self.sort_out(key, [decode(key, payload) for payload in payloads])

@@ -1,4 +1,4 @@
-"""Turn the loop: drain, step, drive, tell, record. No `if` about driving lives here.
+"""Run the loop: drain, step, drive, publish, record. No `if` about driving lives here.
 
 Owns the order of a tick and the way out. What may move is the core's word alone; what the shell
 adds is that whatever ends the loop, the drive is halted.
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from bridge.core import CoreConfig, Inbox
     from bridge.drive import Drive
     from bridge.fence_update import FenceDesk
-    from bridge.link import Link
-    from bridge.realtime import Collector, Pacer, Service, Tick
+    from bridge.link import BridgeLink
+    from bridge.realtime import Pacer, PacerTick, Service, SlackCollector
     from bridge.recording.recorder import Recorder
 
 log = logging.getLogger("bridge")
@@ -37,19 +37,19 @@ EXIT_BROKEN = 70
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """Hold what the loop works with."""
+    """Hold the parts that the loop works with."""
 
-    link: Link
+    link: BridgeLink
     drive: Drive
     recorder: Recorder
-    collector: Collector
+    collector: SlackCollector
     service: Service
     keeper: BrakingKeeper
     desk: FenceDesk
 
 
-class Shell:
-    """Be the loop of one run."""
+class BridgeNode:
+    """Run the bridge's loop from the first tick to the halt."""
 
     def __init__(self, config: CoreConfig, parts: Parts, now_s: float, *, real_time: bool) -> None:
         self.state = initial(config, now_s)
@@ -72,8 +72,8 @@ class Shell:
             self._parts.drive.halt()
         return status
 
-    def tick(self, tick: Tick, period_s: float) -> None:
-        """Take one tick."""
+    def tick(self, tick: PacerTick, period_s: float) -> None:
+        """Run one tick: drain, step, drive, publish, record."""
         parts = self._parts
         state, now_s = self.state, tick.now_s
         inbox = self._inbox(tick)
@@ -89,7 +89,7 @@ class Shell:
         self._stats.add(tick.late_s + tick.missed * period_s, step_ns)
         parts.service.feed(now_s)
 
-    def _inbox(self, tick: Tick) -> Inbox:
+    def _inbox(self, tick: PacerTick) -> Inbox:
         """Drain everything that arrived."""
         parts, figures = self._parts, self._stats.summary
         unrecorded = parts.recorder.trouble

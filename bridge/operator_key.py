@@ -1,4 +1,4 @@
-"""Find the key by which the bridge knows its operator. The only reader of operator.key.
+"""Load the operator's key. The only reader of operator.key.
 
 In a sticky home whoever comes first may make a file of that name, or a link to another's. A key
 counts only where it is a regular file, not reached by a link, of this very user or of root, that
@@ -22,7 +22,7 @@ MAX_KEY_BYTES = 4096
 
 
 def load_operator_key(home: Path, *, virtual: bool) -> bytes:
-    """Return the published key for a virtual drive, else what ``$PONS_HOME/operator.key`` holds.
+    """Return the published key for a virtual drive, else that of ``$PONS_HOME/operator.key``.
 
     Raises:
         Misconfigured: metal moves and the key is missing, short, readable by others, another
@@ -44,7 +44,7 @@ def load_operator_key(home: Path, *, virtual: bool) -> bytes:
 
 
 def _read(path: Path) -> bytes:
-    """Open without following a link or waiting for a pipe, look at what was opened, read it.
+    """Read a plain file, neither following a link nor waiting for a pipe.
 
     Raises:
         Misconfigured: it is not ours alone.

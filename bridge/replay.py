@@ -33,7 +33,7 @@ __all__ = ["BadRecording", "ReplayReport", "replay"]
 
 @dataclass(frozen=True, slots=True)
 class ReplayReport:
-    """Say how a replay went."""
+    """Count a replay's ticks, gaps and differences."""
 
     ticks: int
     differing: int
@@ -62,7 +62,7 @@ def replay(paths: Iterable[Path]) -> ReplayReport:
 
 
 class _Replay:
-    """Hold what one frame hands to the next."""
+    """Carry configuration and state from one recorded frame to the next."""
 
     def __init__(self) -> None:
         self._header: Header | None = None
@@ -74,7 +74,7 @@ class _Replay:
         self.other_core: str | None = None
 
     def take(self, frame: Frame) -> None:
-        """Go on by one frame."""
+        """Replay one frame."""
         self.frames += 1
         match frame:
             case Header():
@@ -82,7 +82,7 @@ class _Replay:
             case StateFrame():
                 self._arrive(frame.state)
             case TickFrame():
-                self._again(frame)
+                self._step_again(frame)
 
     def _configure(self, header: Header) -> None:
         if header != self._header:  # another run's: nothing carries over
@@ -98,7 +98,7 @@ class _Replay:
             self._differs(f"tick {recorded.tick}: the state reached is not the recorded one")
         self._state = recorded
 
-    def _again(self, frame: TickFrame) -> None:
+    def _step_again(self, frame: TickFrame) -> None:
         if self._config is None or self._state is None:
             raise BadRecording("recording_stateless", f"tick {frame.tick} comes before any state")
         if self._state.tick != frame.tick:

@@ -1,4 +1,4 @@
-"""Find the last stop in the recordings and say what stopped the robot.
+"""Find the last stop in the recordings and report its cause.
 
 Looks through the newest recordings' events for the last time that ACTIVE, TELEOP or HOLD was left
 for a mode that drives nobody, or that a self test ended in FAULT, runs that segment again through
@@ -18,8 +18,8 @@ from bridge.core import step
 from bridge.core.faults.fault_table import STAGES
 from bridge.recording.recording_reader import (
     BadRecording,
-    BoxReader,
     Header,
+    McapReader,
     StateFrame,
     TickFrame,
     config_of,
@@ -32,10 +32,10 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from bridge.core import BridgeState, CoreConfig
-    from bridge.core.faults.fault_table import Stage
+    from bridge.core.faults.fault_table import FaultStage
     from bridge.recording.recording_reader import Frame, Raw
 
-__all__ = ["BadRecording", "Stop", "last_stop"]
+__all__ = ["BadRecording", "StopReport", "last_stop"]
 
 _READY = {"ACTIVE", "TELEOP", "HOLD"}
 _STOPPED = {"STOPPING", "ESTOPPED", "FAULT", "DISARMED"}
@@ -46,8 +46,8 @@ AFTER_TICKS = 1000
 
 
 @dataclass(frozen=True, slots=True)
-class Stop:
-    """Tell of one stop."""
+class StopReport:
+    """Report one stop: cause, rows, speed, way and time to standstill."""
 
     path: Path
     at_unix_s: float
@@ -64,7 +64,7 @@ class Stop:
     """The row in lower case, or the order or gate, as the bridge's event named it."""
     ordered_by: str | None
     """Who said stop, where somebody did."""
-    rows: tuple[tuple[Stage, str], ...]
+    rows: tuple[tuple[FaultStage, str], ...]
     """What was up at that tick, with its evidence, worst first as the bridge found it."""
     speed_mps: float
     """Measured when it began."""
@@ -80,7 +80,7 @@ class Stop:
     """What the bridge said from then on: seconds after the stop began, code, detail."""
 
 
-def last_stop(folder: Path) -> Stop | None:
+def last_stop(folder: Path) -> StopReport | None:
     """Return the newest stop of all recordings; None where there is none.
 
     Raises:
@@ -89,12 +89,12 @@ def last_stop(folder: Path) -> Stop | None:
     newest_first = sorted(folder.glob("*.mcap"), key=_written_s, reverse=True)
     for index, path in enumerate(newest_first):
         with ExitStack() as open_files:
-            box = open_files.enter_context(BoxReader(path))
+            box = open_files.enter_context(McapReader(path))
             found = _search(box)
             if found is not None:
                 rest = _same_run(path, newest_first[:index])
-                later = [open_files.enter_context(BoxReader(other)) for other in rest]
-                return _again([box, *later], *found)
+                later = [open_files.enter_context(McapReader(other)) for other in rest]
+                return _run_again([box, *later], *found)
     return None
 
 
@@ -111,7 +111,7 @@ def _same_run(path: Path, newer: list[Path]) -> list[Path]:
     return [other for other in reversed(newer) if other.stem.split("-")[1:2] == boot][:1]
 
 
-def _search(box: BoxReader) -> tuple[int, Raw] | None:
+def _search(box: McapReader) -> tuple[int, Raw] | None:
     """Return the chunk and the event of the last stop. Chunks without events are not unpacked."""
     for index in range(len(box.chunks) - 1, -1, -1):
         chunk = box.chunks[index]
@@ -133,7 +133,7 @@ def _is_stop(data: bytes) -> bool:
     return words[0] in _READY and words[1:2] != [] and words[1] in _STOPPED
 
 
-def _again(boxes: list[BoxReader], index: int, stop: Raw) -> Stop:
+def _run_again(boxes: list[McapReader], index: int, stop: Raw) -> StopReport:
     """Run the segment again up to the stop and a little further."""
     story = _Story(stop)
     config: CoreConfig | None = None
@@ -151,14 +151,14 @@ def _again(boxes: list[BoxReader], index: int, stop: Raw) -> Stop:
                 events = [(event.code, event.detail) for event in decision.events]
                 story.take(frame, state, decision.state, events)
                 state = decision.state
-                if story.over:
+                if story.has_ended:
                     break
     box = boxes[0]
     end = next((raw for chunk in reversed(box.chunks) for raw in reversed(box.read(chunk))), stop)
-    return story.told(box, (end.at_ns - stop.at_ns) / 1e9)
+    return story.report(box, (end.at_ns - stop.at_ns) / 1e9)
 
 
-def _frames(boxes: list[BoxReader], index: int, stop: Raw) -> Iterator[Frame]:
+def _frames(boxes: list[McapReader], index: int, stop: Raw) -> Iterator[Frame]:
     """Yield from the boot that begins the stop's segment; on into the next file."""
     box = boxes[0]
     first, start = 0, 0
@@ -185,7 +185,7 @@ def _segment(messages: list[Raw], tick: int) -> int | None:
 
 
 class _Story:
-    """Gather what happened from the stop on."""
+    """Gather the events and the motion from a stop on."""
 
     def __init__(self, stop: Raw) -> None:
         self._number, self._at_unix_s = stop.sequence, stop.at_ns / 1e9
@@ -200,8 +200,8 @@ class _Story:
         self._way_m = 0.0
 
     @property
-    def over(self) -> bool:
-        """Tell whether the robot stands and the bridge has settled."""
+    def has_ended(self) -> bool:
+        """Return whether the robot stands and the bridge has left STOPPING."""
         now = self._now
         return self._stood_s is not None and now is not None and now.mode is not Mode.STOPPING
 
@@ -212,7 +212,7 @@ class _Story:
         after: BridgeState,
         events: list[tuple[str, str]],
     ) -> None:
-        """Go on by one tick."""
+        """Add one tick that was run again."""
         if tick.tick < self._number:
             return
         if tick.tick == self._number:
@@ -227,12 +227,12 @@ class _Story:
         if self._stood_s is None and after.drive.still_since_s is not None:
             self._stood_s = passed_s
 
-    def told(self, box: BoxReader, ago_s: float) -> Stop:
-        """Return the whole."""
+    def report(self, box: McapReader, ago_s: float) -> StopReport:
+        """Return the report."""
         before, after, now = self._from, self._at, self._now
         if before is None or after is None or now is None:
             raise BadRecording("recording_stateless", f"{box.path}: the stop can't be run again")
-        return Stop(
+        return StopReport(
             path=box.path,
             at_unix_s=self._at_unix_s,
             ago_s=ago_s,

@@ -1,4 +1,4 @@
-"""Touch every path of a tick before the first one: imports, validators, serialisers, the step.
+"""Warm up a tick's code before the first one: imports, validators, serialisers, the step.
 
 What is made here goes nowhere: no key is published, no state is kept. Without it the first scan or
 the first stop pays for what Python and pydantic put off, milliseconds late.
@@ -13,12 +13,12 @@ from bridge.core import (
     ArrivedAt,
     Inbox,
     LoopFacts,
-    OpArrived,
+    OperatorArrival,
     RejectedAt,
     initial,
     step,
 )
-from bridge.core.state_fence import FenceArrived, FenceDone
+from bridge.core.inbox import FenceArrival, FenceDone
 from bridge.recording.encode import warm_frames
 from wire import (
     IDENTITY,
@@ -93,7 +93,7 @@ def warm_up(config: CoreConfig, now_s: float) -> int:
 
 
 def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox:
-    """Make what a lively second brings, each message through the codec."""
+    """Make one tick's inbox, each message through the codec."""
     tenth = count % 10 == 0
     drive = DriveState(
         boot_id=_NAME, seq=count, stamp_s=now_s, echo_boot=config.boot, echo_seq=echo_seq,
@@ -105,8 +105,8 @@ def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox
         accel_y_mps2=0.0,
     )  # fmt: skip
     always = Inbox(
-        drive=(_over(DRIVE_STATE, drive),),
-        imu=_over(IMU, imu),
+        drive=(_through_codec(DRIVE_STATE, drive),),
+        imu=_through_codec(IMU, imu),
         loop=LoopFacts(late_s=1e-4),
         recorder_ok=True,
         chance=_CHANCE,
@@ -115,16 +115,16 @@ def _inbox(config: CoreConfig, count: int, now_s: float, echo_seq: int) -> Inbox
 
 
 def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
-    """Return a tick in which everybody speaks."""
+    """Return an inbox with a message of every kind."""
     proof = sign(VIRTUAL_KEY, "arm", config.robot.id, _NAME, _NAME)
-    arm = _over(ARM, OpRequest(id=_NAME, source=_NAME, proof=proof))
+    arm = _through_codec(ARM, OpRequest(id=_NAME, source=_NAME, proof=proof))
     fits = authentic(VIRTUAL_KEY, "arm", config.robot.id, proof, _NAME)
     bad = decode(WAYPOINTS, b'{"points":[')
     return replace(
-        _ordered(config, count),
-        stops=(_over(STOP, Stop(id=_NAME, source=_NAME)),) if count % 50 == 0 else (),
-        ops=(OpArrived("arm", arm, fits),),
-        localization=_over(
+        _orders(config, count),
+        stops=(_through_codec(STOP, Stop(id=_NAME, source=_NAME)),) if count % 50 == 0 else (),
+        ops=(OperatorArrival("arm", arm, fits),),
+        localization=_through_codec(
             LOCALIZATION,
             Localization(
                 odom_id=config.boot, seq=count, stamp_s=now_s, odom_in_map=IDENTITY, quality=1.0,
@@ -133,7 +133,7 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
         ),
         drive=base.drive,
         imu=base.imu,
-        scan=_over(
+        scan=_through_codec(
             SCAN,
             Scan(
                 boot_id=_NAME, seq=count, stamp_s=now_s, angle_min_rad=-3.14,
@@ -141,7 +141,7 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
                 ranges_m=tuple(3.0 + 0.001 * beam for beam in range(_BEAMS)),
             ),
         ),
-        estop_link=_over(ESTOP_LINK, EstopLink(seq=count, pressed=False)),
+        estop_link=_through_codec(ESTOP_LINK, EstopLink(seq=count, pressed=False)),
         rejected=(RejectedAt(WAYPOINTS.path, bad),) if isinstance(bad, Rejected) else (),
         arrived=(ArrivedAt(WAYPOINTS.path, 1),),
         fences=(_fence(config),),
@@ -151,17 +151,17 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
     )  # fmt: skip
 
 
-def _fence(config: CoreConfig) -> FenceArrived:
+def _fence(config: CoreConfig) -> FenceArrival:
     """Return an operator's fence as the link hands it over; nothing is asked to write it."""
     robot = config.robot.id
     proof = sign_fence(VIRTUAL_KEY, robot, _NAME, _NAME, "{}")
-    request = _over(FENCE, FenceRequest(id=_NAME, source=_NAME, fence="{}", proof=proof))
+    request = _through_codec(FENCE, FenceRequest(id=_NAME, source=_NAME, fence="{}", proof=proof))
     fits = authentic_fence(VIRTUAL_KEY, robot, request)
-    return FenceArrived(_NAME, _NAME, _NAME, fits, request.fence)
+    return FenceArrival(_NAME, _NAME, _NAME, fits, request.fence)
 
 
-def _ordered(config: CoreConfig, count: int) -> Inbox:
-    """Return what an owner and a stick say, each message through its bytes."""
+def _orders(config: CoreConfig, count: int) -> Inbox:
+    """Return an inbox of an owner's orders and a teleop command."""
     epoch = f"{config.boot}-1"
     points = tuple(Waypoint(x_m=0.1 * n, y_m=0.0, speed_mps=0.3) for n in range(50))
     hello = Hello(
@@ -180,15 +180,15 @@ def _ordered(config: CoreConfig, count: int) -> Inbox:
     )  # fmt: skip
     beat = Heartbeat(planner_id=_NAME, epoch=epoch, seen=1, used=1)
     return Inbox(
-        hellos=(_over(HELLO, hello),),
-        grants=(_over(GRANT, grant),),
-        heartbeats=(_over(HEARTBEAT, beat),),
-        teleop=(_over(TELEOP, velocity),),
-        waypoints=(_over(WAYPOINTS, waypoints),),
+        hellos=(_through_codec(HELLO, hello),),
+        grants=(_through_codec(GRANT, grant),),
+        heartbeats=(_through_codec(HEARTBEAT, beat),),
+        teleop=(_through_codec(TELEOP, velocity),),
+        waypoints=(_through_codec(WAYPOINTS, waypoints),),
     )
 
 
-def _over(key: Key[M], message: M) -> M:
+def _through_codec(key: Key[M], message: M) -> M:
     """Send a message through the codec, as if it came over the wire."""
     back = decode(key, encode(message))
     if isinstance(back, Rejected):

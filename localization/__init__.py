@@ -1,4 +1,4 @@
-"""Say where the robot is. For now a STAND-IN fed by the simulator's truth. Imports wire only."""
+"""Localize the robot. For now a STAND-IN fed by the simulator's truth. Imports wire only."""
 
 from localization.noise import NoiseParams, PoseNoise
 from localization.site_map import read_map_id

@@ -14,10 +14,10 @@ import sys
 import threading
 from pathlib import Path
 
-from localization.node import Shell
+from localization.node import LocalizationNode
 from localization.site_map import read_map_id
 from localization.standin import StandIn
-from rank import fifo
+from processes.priority import set_fifo
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -47,9 +47,9 @@ def _serve(options: argparse.Namespace) -> None:
     robot_id = (load_robot(options.robot) if options.robot else RobotDescription()).id
     stand_in = StandIn(read_map_id(options.site), seed=options.seed)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    fifo(PRIORITY)  # before the session, whose threads inherit it
+    set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.LOCALIZATION, robot_id, home) as session:
-        shell = Shell(stand_in, session)
+        shell = LocalizationNode(stand_in, session)
         gc.collect()
         gc.freeze()
         log.warning("STAND-IN: simulator truth plus noise, no localization; seed %d", options.seed)

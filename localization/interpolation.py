@@ -1,4 +1,4 @@
-"""Keep stamped poses for a moment and answer where something was in between. Pure.
+"""Keep stamped poses for a moment and interpolate between them. Pure.
 
 Stamps are one host's monotonic clock [s]; they only align two sources, never prove freshness.
 """
@@ -14,7 +14,7 @@ KEPT = 128
 """Poses kept: 2.5 s at 50 Hz, far more than any two sources lie apart."""
 
 
-class Track:
+class PoseTrack:
     """Hold the last poses of one thing, by rising stamp."""
 
     def __init__(self) -> None:
@@ -26,7 +26,7 @@ class Track:
         return self._poses[-1][0] if self._poses else None
 
     def add(self, stamp_s: float, pose: Pose2) -> None:
-        """Append a pose; what does not rise in time is ignored."""
+        """Append a pose; one that is not newer than the last is ignored."""
         if not self._poses or stamp_s > self._poses[-1][0]:
             self._poses.append((stamp_s, pose))
 
@@ -35,7 +35,7 @@ class Track:
         self._poses.clear()
 
     def at(self, stamp_s: float) -> Pose2 | None:
-        """Return the pose at a time, interpolated; None outside what is held."""
+        """Return the interpolated pose at a time; None outside of the poses held."""
         if not self._poses or not self._poses[0][0] <= stamp_s <= self._poses[-1][0]:
             return None
         index = bisect_left(self._poses, stamp_s, key=lambda entry: entry[0])

@@ -1,4 +1,4 @@
-"""Run the localization stand-in as a process: hear truth and odometry, speak at a steady rate.
+"""Run the localization stand-in as a process: read truth and odometry, publish at a steady rate.
 
 Knows the session and the clock. What it says, and when it keeps silent, is standin.py's business.
 """
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 PERIOD_S = 0.05
 
 
-class Shell:
+class LocalizationNode:
     """Connect one stand-in to the wire."""
 
     def __init__(self, stand_in: StandIn, session: Session) -> None:

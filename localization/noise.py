@@ -1,4 +1,4 @@
-"""Wander like a localizer's error does: correlated in time, never jumping. Pure; seeded.
+"""Simulate a localizer's error: correlated in time, never jumping. Pure; seeded.
 
 An Ornstein-Uhlenbeck process, stepped exactly: x' = x e^(-dt/T) + s sqrt(1 - e^(-2 dt/T)) n.
 Its law is continuity: time that passed unseen counts for at most ``LONGEST_STEP_S``, so that a gap
@@ -43,7 +43,7 @@ class PoseNoise:
         self._error = (x * dx, y * dy, yaw * turn)
 
     def advance(self, elapsed_s: float) -> None:
-        """Let time pass; a negative or long time counts for what continuity allows."""
+        """Advance the error by a time, bounded so that the error stays continuous."""
         step_s = min(max(elapsed_s, 0.0), LONGEST_STEP_S)
         kept = exp(-step_s / self._params.time_constant_s)
         fresh = sqrt(1.0 - kept * kept)

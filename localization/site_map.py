@@ -1,4 +1,4 @@
-"""Name the map of a site by its bytes, as every process does."""
+"""Fingerprint a site's map by its bytes, as every process does."""
 
 from wire.site_map import read_map_id
 

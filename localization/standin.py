@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from localization.interpolation import Track
+from localization.interpolation import PoseTrack
 from localization.noise import NoiseParams, PoseNoise
 from wire import Localization, compose, inverse
 
@@ -30,14 +30,14 @@ class StandIn:
     def __init__(self, map_id: str, *, seed: int = 0, noise: NoiseParams | None = None) -> None:
         self._map_id = map_id
         self._noise = PoseNoise(seed, noise)
-        self._truth, self._odom = Track(), Track()
+        self._truth, self._odom = PoseTrack(), PoseTrack()
         self._truth_boot: str | None = None
         self._odom_id: str | None = None
         self._answered_s: float | None = None
         self._seq = 0
 
     def hear_truth(self, truth: SimTruth) -> None:
-        """Take the simulator's word; another boot of it starts a new track."""
+        """Take the simulator's true pose; another boot of it starts a new track."""
         if truth.boot_id != self._truth_boot:
             self._truth_boot = truth.boot_id
             self._truth.clear()
@@ -51,7 +51,7 @@ class StandIn:
         self._odom.add(odometry.stamp_s, odometry.base_in_odom)
 
     def answer(self, now_s: float) -> Localization | None:
-        """Say where ``odom`` is in ``map`` at the newest time known from both; None if too old."""
+        """Return ``odom`` in ``map`` at the newest time known from both; None if too old."""
         at_s = self._common_s()
         if at_s is None or self._odom_id is None or not now_s - at_s <= OLDEST_S:
             return None

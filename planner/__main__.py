@@ -19,7 +19,7 @@ from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
 from planner.app import Planner, Where, application
 from planner.site import SiteError
-from rank import nice
+from processes.priority import add_nice
 from wire import Misconfigured
 
 if TYPE_CHECKING:
@@ -131,5 +131,5 @@ def _listed(name: str) -> set[str]:
 
 
 if __name__ == "__main__":
-    nice(NICE)  # before any thread, so that all have it; never in who only calls main
+    add_nice(NICE)  # before any thread, so that all have it; never in who only calls main
     sys.exit(main())

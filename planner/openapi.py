@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import json
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from planner.api import Access, build
 from planner.site import Site
+from pons_assets import ROOT, SITES, checkout
 
 if TYPE_CHECKING:
     from planner.api import Services
 
-ROOT = Path(__file__).resolve().parents[1]
 TARGET = ROOT / "openapi.json"
 
 
@@ -27,7 +26,7 @@ class _Unserved:
     eyes = None
 
     def __init__(self) -> None:
-        self.site = Site.load(ROOT / "sites" / "two_room")
+        self.site = Site.load(SITES / "two_room")
 
 
 def render() -> str:
@@ -38,6 +37,7 @@ def render() -> str:
 
 def main(arguments: list[str]) -> int:
     """Write the contract, or with ``--check`` say whether the committed one is fresh."""
+    checkout("writing openapi.json")
     text = render()
     if "--check" in arguments:
         fresh = TARGET.is_file() and TARGET.read_text("utf-8") == text

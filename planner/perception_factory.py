@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from planner.brain import FallbackBrain
 from planner.brain.image_question_fallback import FallbackLooker
 from planner.brain.image_questions import Detected, NotSent
+from planner.language.catalogue import list_names, say
 from planner.language.object_names import named
 from planner.perception import VisionFailure, VisionWorker
 from planner.perception.dependencies import Means
@@ -126,6 +127,5 @@ def looker_of(
 def _by_detector(_: str, seen: Sequence[Detected]) -> tuple[Bilingual, bool | None]:
     """Tell what the detector saw; whether that answers the question nobody says."""
     names = [named(one.label, one.color) for one in seen]
-    en = ", ".join(name.en for name in names) or "nothing that I know"
-    zh = "、".join(name.zh for name in names) or "没有认识的物体"
-    return Bilingual(en=f"I see: {en}.", zh=f"我看到：{zh}。"), None
+    known = list_names(names) if names else say("look.nothing_known")
+    return say("look.i_see", names=known), None

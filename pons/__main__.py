@@ -10,6 +10,7 @@ from importlib import import_module
 from pathlib import Path
 
 from pons.settings import BadSetting, Settings, load, port_of
+from pons_assets import IS_INSTALLED, needs_checkout
 
 EXIT_USAGE = 2
 MOCK_LLM = "mock-llm"
@@ -195,6 +196,11 @@ def main(arguments: list[str] | None = None) -> int:
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)
+        return EXIT_USAGE
+    except ModuleNotFoundError as missing:
+        if not IS_INSTALLED or not (missing.name or "").startswith("tools"):
+            raise
+        print(needs_checkout(f"pons {words[0]}"), file=sys.stderr)
         return EXIT_USAGE
 
 

@@ -46,7 +46,7 @@ Name = x509.DNSName | x509.IPAddress
 
 
 @dataclass(frozen=True, slots=True)
-class Issued:
+class IssuedCertificate:
     """Say what the planner serves and what a device must trust."""
 
     authority: Path
@@ -58,7 +58,7 @@ class Issued:
     made: tuple[str, ...]
     """The files that were made or renewed now."""
 
-    def told(self) -> tuple[str, ...]:
+    def trust_lines(self) -> tuple[str, ...]:
         """Return what a person needs in order to trust this robot."""
         made = f"{', '.join(self.made)} made now; " if self.made else ""
         return (
@@ -83,7 +83,7 @@ class Issued:
 
 def issue(
     home: Path, machine: str, asked: Iterable[str], found: Iterable[str], now: datetime
-) -> Issued:
+) -> IssuedCertificate:
     """Return the planner's certificate for these hosts, made or renewed where it must be.
 
     ``machine`` is the machine's own name: an authority that is made now may sign for it and for
@@ -105,7 +105,7 @@ def issue(
     if not authority.not_valid_before_utc <= now:
         detail = f"it is {now:%Y-%m-%d} here, and {authority_file} begins later; set the clock"
         raise Misconfigured("clock_before_authority", detail)
-    names = _permitted(authority, must, {_name(host) for host in found})
+    names = _permitted_names(authority, must, {_name(host) for host in found})
     planner_file = folder / "planner.pem"
     certificate = _read_certificate(planner_file)
     if certificate is None or not _serves(certificate, authority, names, now):
@@ -114,7 +114,7 @@ def issue(
     print_of_it = authority.fingerprint(hashes.SHA256()).hex(":").upper()
     shown = tuple(_text(name) for name in names)
     ends = certificate.not_valid_after_utc
-    return Issued(authority_file, planner_file, print_of_it, shown, ends, tuple(made))
+    return IssuedCertificate(authority_file, planner_file, print_of_it, shown, ends, tuple(made))
 
 
 def _serves(
@@ -258,7 +258,7 @@ def _is_permitted(name: Name, permitted: Iterable[x509.GeneralName]) -> bool:
     return False
 
 
-def _permitted(authority: x509.Certificate, must: set[Name], may: set[Name]) -> list[Name]:
+def _permitted_names(authority: x509.Certificate, must: set[Name], may: set[Name]) -> list[Name]:
     constraints = authority.extensions.get_extension_for_class(x509.NameConstraints).value
     subtrees = constraints.permitted_subtrees or []
     for name in sorted(must, key=_text):

@@ -11,13 +11,13 @@ def sentence(code: str) -> tuple[str, str] | None:
     return WORDS.get(code.upper()) or SENTENCES.get(code)
 
 
-def told(code: str) -> list[str]:
+def code_lines(code: str) -> list[str]:
     """Return what to print below a cause, a fault or a refusal: one line, none without words."""
     words = sentence(code)
     return [] if words is None else [f"  {' / '.join(words)}"]
 
 
-def wanted(code: str) -> list[str]:
+def lack_lines(code: str) -> list[str]:
     """Return what to print below a thing waited for."""
     words = WANTS.get(code)
-    return told(code) if words is None else [f"  {' / '.join(words)}"]
+    return code_lines(code) if words is None else [f"  {' / '.join(words)}"]

@@ -34,7 +34,7 @@ def run(settings: Settings, said: argparse.Namespace) -> int:
     try:
         detector = _detector(settings, said)
     except VisionFailure as failure:
-        _told(failure, as_json=said.json)
+        _print_failure(failure, as_json=said.json)
         return REFUSED
     except Misconfigured as wrong:
         raise BadSetting(str(wrong)) from None
@@ -80,7 +80,7 @@ def _read(path: Path) -> bytes:
     return data
 
 
-def _told(failure: VisionFailure, *, as_json: bool) -> None:
+def _print_failure(failure: VisionFailure, *, as_json: bool) -> None:
     if as_json:
         print(json.dumps({"code": failure.code, "message": failure.message}, ensure_ascii=False))
         return

@@ -17,7 +17,7 @@ from planner.site import SiteError, fence_diff
 from planner.site.fence import load_fence
 from planner.site.places import load_places
 from pons.bridge_client import NoBridge, fence_direct
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from wire import FenceFile, Misconfigured, fingerprint
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def run(settings: Settings, act: str, what: str | None) -> int:
     except NotSaid as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_USAGE
-    except (Refused, SiteError) as refused:
+    except (PlannerProblem, SiteError) as refused:
         print(f"refused: {refused}", file=sys.stderr)
         return EXIT_REFUSED
     except (PlannerDown, NoBridge, Misconfigured) as trouble:
@@ -89,7 +89,7 @@ def _accept(settings: Settings, proposal_id: str) -> int:
     item = _review(settings, proposal_id)
     answer = fence_direct(settings, item["text"])
     if not answer.accepted:
-        raise Refused(409, answer.code, answer.detail)
+        raise PlannerProblem(409, answer.code, answer.detail)
     print(f"accepted: {answer.detail}; bridge and planner start anew with it")
     return EXIT_DONE
 
@@ -110,11 +110,11 @@ def _review(settings: Settings, proposal_id: str) -> dict[str, Any]:
     text = str(item.get("text", ""))
     if fingerprint(text.encode()) != proposal_id:
         detail = f"the planner's text for {proposal_id} is another one; propose it again"
-        raise Refused(409, "fence_proposal_changed", detail)
+        raise PlannerProblem(409, "fence_proposal_changed", detail)
     try:
         after = FenceFile.model_validate_json(text, strict=False)
     except ValidationError as error:
-        raise Refused(422, "fence_invalid", str(error).splitlines()[0]) from None
+        raise PlannerProblem(422, "fence_invalid", str(error).splitlines()[0]) from None
     _print_diff(_diff(settings.site, after))
     return item
 

@@ -6,10 +6,10 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
-from planner.language.folding import has_chinese
+from planner.language.folding import is_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
 from pons import stop
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.terminal_text import (
     FINAL_STATES,
     WAITING_STATES,
@@ -56,7 +56,7 @@ def say(settings: Settings, text: str, *, wait: bool, replace: bool = False) -> 
             goal = call(settings, "POST", "/v1/goals", body)
         else:
             goal = call(settings, "POST", "/v1/goals", body, stop.HTTP_TIMEOUT_S)
-    except (PlannerDown, Refused) as trouble:
+    except (PlannerDown, PlannerProblem) as trouble:
         if reading is not StopReading.NONE:
             return stop.run(settings)
         return _trouble(trouble)
@@ -76,7 +76,7 @@ def say_wav(settings: Settings, path: Path, *, wait: bool, replace: bool = False
     sent = {"Content-Type": "audio/wav"}
     try:
         spoken = call(settings, "POST", address, None, WAV_TIMEOUT_S, sent, sound)
-    except (PlannerDown, Refused) as trouble:
+    except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
     print(f"heard {spoken['transcript']!r} (confidence {spoken['confidence']:.2f})")
     goal = spoken["goal"]
@@ -88,8 +88,8 @@ def say_wav(settings: Settings, path: Path, *, wait: bool, replace: bool = False
 
 
 def language_of(text: str) -> str:
-    """Return zh where any Chinese character stands, else en."""
-    return "zh" if has_chinese(text) else "en"
+    """Return zh where the text is Chinese, else en."""
+    return "zh" if is_chinese(text) else "en"
 
 
 def act(settings: Settings, verb: str, goal_id: str | None) -> int:
@@ -98,12 +98,12 @@ def act(settings: Settings, verb: str, goal_id: str | None) -> int:
     Without a planner there is no goal, but another brain, which a person may let go on.
     """
     try:
-        chosen = goal_id or _meant(settings, verb)
+        chosen = goal_id or _meant_goal(settings, verb)
         if chosen is None:
             print(f"no_goal: there is nothing to {verb}", file=sys.stderr)
             return 1
         goal = call(settings, "POST", f"/v1/goals/{chosen}/{verb}", {})
-    except (PlannerDown, Refused) as trouble:
+    except (PlannerDown, PlannerProblem) as trouble:
         if verb == "resume" and goal_id is None and isinstance(trouble, PlannerDown):
             from pons import operator
 
@@ -127,7 +127,7 @@ _MEANT = {
 }
 
 
-def _meant(settings: Settings, verb: str) -> str | None:
+def _meant_goal(settings: Settings, verb: str) -> str | None:
     goals = _goals(settings)
     for state in _MEANT[verb]:
         for goal in sorted(goals, key=lambda goal: str(goal["created"]), reverse=True):
@@ -151,7 +151,7 @@ def answer(settings: Settings, words: list[str], *, wait: bool) -> int:
             print(f"no_answer: say what to answer: pons answer {words[0]} TEXT", file=sys.stderr)
             return EXIT_NO_ANSWER
         goal = call(settings, "POST", f"/v1/goals/{chosen['id']}/answer", {"text": text})
-    except (PlannerDown, Refused) as trouble:
+    except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
     print(goal_line(goal), flush=True)
     return _follow(settings, goal["id"], language_of(text)) if wait else 0
@@ -165,7 +165,7 @@ def confirm(settings: Settings, goal_id: str | None, *, wait: bool) -> int:
         if chosen is None:
             return 1
         goal = call(settings, "POST", f"/v1/goals/{chosen}/confirm", {})
-    except (PlannerDown, Refused) as trouble:
+    except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
     print(goal_line(goal), flush=True)
     return _follow(settings, goal["id"], language_of(str(goal["text"]))) if wait else 0
@@ -208,7 +208,7 @@ def _follow(settings: Settings, goal_id: str, language: str) -> int:
                     return _trouble(trouble)
                 time.sleep(POLL_S)
                 continue
-            except Refused as trouble:
+            except PlannerProblem as trouble:
                 return _trouble(trouble)
             _print_new(goal, shown)
             if goal["state"] in FINAL_STATES | WAITING_STATES:
@@ -245,7 +245,7 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
 def _trouble(trouble: Exception) -> int:
     hint = " Is `pons up` running?" if isinstance(trouble, PlannerDown) else ""
     print(f"{trouble}{hint}", file=sys.stderr)
-    if isinstance(trouble, Refused):
+    if isinstance(trouble, PlannerProblem):
         for sentence in trouble.told.values():
             print(f"  {sentence}", file=sys.stderr)
     return EXIT_UNREACHED

@@ -22,7 +22,7 @@ class PlannerDown(Exception):
     """The planner did not answer; nothing is known of whether it acted."""
 
 
-class Refused(Exception):
+class PlannerProblem(Exception):
     """The planner answered with a problem."""
 
     def __init__(
@@ -79,7 +79,7 @@ def _connection(settings: Settings, timeout_s: float) -> http.client.HTTPConnect
     Raises:
         PlannerDown: the file named as the authority holds no certificate.
     """
-    host, port = settings.dialled, settings.port
+    host, port = settings.host_to_dial, settings.port
     if not settings.tls:
         return http.client.HTTPConnection(host, port, timeout=timeout_s)
     file = settings.authority or settings.home / AUTHORITY
@@ -102,5 +102,5 @@ def _judge(status: int, raw: bytes) -> Any:
         code = str(problem.get("code", f"http_{status}"))
         told = problem.get("message")
         detail = str(problem.get("detail", problem.get("title", "")))
-        raise Refused(status, code, detail, told if isinstance(told, dict) else None)
+        raise PlannerProblem(status, code, detail, told if isinstance(told, dict) else None)
     return content

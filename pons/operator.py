@@ -9,7 +9,7 @@ import json
 import sys
 from typing import TYPE_CHECKING
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.terminal_text import goal_line, robot_lines
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def status(settings: Settings, *, as_json: bool) -> int:
     try:
         robot = call(settings, "GET", "/v1/robot")
         goals = call(settings, "GET", "/v1/goals")["goals"]
-    except (PlannerDown, Refused) as trouble:
+    except (PlannerDown, PlannerProblem) as trouble:
         print(f"{trouble} Is `pons up` running?", file=sys.stderr)
         return 6
     if as_json:

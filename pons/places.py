@@ -9,7 +9,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 
 if TYPE_CHECKING:
     from pons.settings import Settings
@@ -30,7 +30,7 @@ def run(settings: Settings, act: str, name: str | None, *, chinese: str | None =
             _forget(settings, name or "")
         else:
             _list(settings)
-    except Refused as refused:
+    except PlannerProblem as refused:
         told = " ".join(refused.told.values())
         print(f"refused: {refused}" + (f"\n{told}" if told else ""), file=sys.stderr)
         return EXIT_REFUSED

@@ -1,6 +1,6 @@
 """Run recordings again and say whether every command came out the same: ``pons replay FILE...``.
 
-With a model, run recorded sentences again and say which decisions differ (``pons.evals.journal``).
+With a model it is another name of ``pons eval --journal``.
 """
 
 from __future__ import annotations
@@ -42,5 +42,5 @@ def with_model(settings: Settings, said: argparse.Namespace) -> int:
     """Think recorded sentences again with the model that was named."""
     from pons.evals.journal import command
 
-    options = command.Options(max(0, said.most), max(0, said.drives), said.json, said.yes)
+    options = command.JournalOptions(max(0, said.most), max(0, said.drives), said.json, said.yes)
     return command.run(settings, said.files, said.with_model, options)

@@ -1,4 +1,4 @@
-"""Read where things are, once: environment first, then the checkout's defaults. Stdlib only.
+"""Read where things are, once: environment first, then the defaults. Stdlib only.
 
 ``pons stop`` imports this, so it must stay light.
 """
@@ -9,7 +9,10 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-CHECKOUT = Path(__file__).resolve().parents[1]
+from pons_assets import DEFAULT_SITE, ROBOT_FILE, ROOT
+
+CHECKOUT = ROOT
+"""Where tests and tools find robot.toml and sites."""
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 8420
 PLANNER_MARK = Path("run") / "planner" / "speaks.tls"
@@ -34,14 +37,14 @@ class Settings:
     """The certificate to judge the planner's by, in place of ``$PONS_HOME/tls/ca.crt``."""
 
     @property
-    def dialled(self) -> str:
+    def host_to_dial(self) -> str:
         """Return the host to ask: a planner that listens everywhere is asked here."""
         return _HERE.get(self.host, self.host)
 
     @property
     def url(self) -> str:
         """Return the base URL of page and API."""
-        host = f"[{self.dialled}]" if ":" in self.dialled else self.dialled
+        host = f"[{self.host_to_dial}]" if ":" in self.host_to_dial else self.host_to_dial
         return f"{'https' if self.tls else 'http'}://{host}:{self.port}"
 
 
@@ -62,8 +65,8 @@ def load(*, forgiving: bool = False) -> Settings:
     home = Path(given.get("PONS_HOME", ".pons")).absolute()
     return Settings(
         home=home,
-        robot=Path(given.get("PONS_ROBOT", CHECKOUT / "robot.toml")).absolute(),
-        site=Path(given.get("PONS_SITE", CHECKOUT / "sites" / "home")).absolute(),
+        robot=Path(given.get("PONS_ROBOT", ROBOT_FILE)).absolute(),
+        site=Path(given.get("PONS_SITE", DEFAULT_SITE)).absolute(),
         host=given.get("PONS_HOST", DEFAULT_HOST),
         port=_port(given.get("PONS_PORT", str(DEFAULT_PORT)), forgiving=forgiving),
         metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,

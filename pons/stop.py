@@ -14,7 +14,7 @@ import sys
 import threading
 from typing import TYPE_CHECKING
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 
 if TYPE_CHECKING:
     from pons.settings import Settings
@@ -97,7 +97,7 @@ class _Attempt(threading.Thread):
             )
             self.confirmed = bool(answer.get("confirmed"))
             self.trouble = "" if self.confirmed else "the bridge did not confirm"
-        except (PlannerDown, Refused) as trouble:
+        except (PlannerDown, PlannerProblem) as trouble:
             self.trouble = str(trouble)
         except Exception as trouble:  # noqa: BLE001  # another service may answer on that port
             self.trouble = in_a_line(trouble)

@@ -9,12 +9,13 @@ import contextlib
 import os
 import signal
 import subprocess
-import sys
 from collections import deque
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
 
+from processes.backoff import Backoff
+from processes.parent_death import child_command
 from wire.errors import Misconfigured
 
 FIRST_PAUSE_S = 0.5
@@ -24,24 +25,12 @@ KEPT_LOGS = 2
 """Older files beside each log: NAME.log.1 is the newer."""
 TOKENS = ("PONS_OPERATOR_TOKEN", "PONS_VIEWER_TOKEN")
 """The planner's alone among the children."""
+BEHIND = {"sim.camera": 5}
+"""Modules whose sessions stand so many steps of nice behind others: a late picture is only late."""
 STEADY_S = 30.0
 """A child that lived so long starts with the shortest pause again."""
 REFUSED_TO_START = Misconfigured.exit_status
 """Every process of ours says so for a wrong setting: a restart would meet the same one."""
-
-
-@dataclass(slots=True)
-class Backoff:
-    """Double the pause after each early death."""
-
-    pause_s: float = FIRST_PAUSE_S
-
-    def after(self, lived_s: float) -> float:
-        """Return how long to wait, given how long the child lived."""
-        if lived_s >= STEADY_S:
-            self.pause_s = FIRST_PAUSE_S
-        now, self.pause_s = self.pause_s, min(2.0 * self.pause_s, LONGEST_PAUSE_S)
-        return now
 
 
 @dataclass(slots=True)
@@ -60,7 +49,9 @@ class Child:
     starts: int = 0
     started_s: float = 0.0
     next_start_s: float = 0.0
-    backoff: Backoff = field(default_factory=Backoff)
+    backoff: Backoff = field(
+        default_factory=lambda: Backoff(FIRST_PAUSE_S, LONGEST_PAUSE_S, STEADY_S)
+    )
     log_began: int = 0
 
     def start(self, now_s: float) -> None:
@@ -70,7 +61,8 @@ class Child:
             for name, value in os.environ.items()
             if self.knows_tokens or name not in TOKENS
         }
-        command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *self.arguments]
+        behind = BEHIND.get(self.arguments[0], 0)
+        command = child_command(*self.arguments, session_nice=behind)
         with self._opened_log() as log:
             self.log_began = log.tell()
             self.process = subprocess.Popen(
@@ -124,7 +116,7 @@ class Child:
         if status is None:
             return None
         self.process = None
-        self.next_start_s = now_s + self.backoff.after(now_s - self.started_s)
+        self.next_start_s = now_s + self.backoff.pause_after(now_s - self.started_s)
         return status
 
     def due(self, now_s: float) -> bool:

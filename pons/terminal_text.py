@@ -104,7 +104,7 @@ def robot_lines(robot: Json) -> list[str]:
     pose = status.get("base_in_map")
     where = f"x {pose['x_m']:.2f} y {pose['y_m']:.2f} yaw {pose['yaw_rad']:.2f}" if pose else "?"
     owner = (status.get("owner") or {}).get("planner_id", "nobody")
-    held = f", held ({_held(status['held'])})" if status.get("held") else ""
+    held = f", held ({_holder_line(status['held'])})" if status.get("held") else ""
     limits = status["limits"]
     lines = [
         f"bridge: {status['mode']}{held}, epoch {status['epoch']}, owner {owner}",
@@ -123,7 +123,7 @@ def robot_lines(robot: Json) -> list[str]:
     return lines
 
 
-def _held(held: Json) -> str:
+def _holder_line(held: Json) -> str:
     """Name who holds the robot; a fault by its cause."""
     reason = str(held["reason"])
     return f"fault: {held['id']}" if reason == "fault" else reason
@@ -140,16 +140,19 @@ def _trouble(status: Json) -> list[str]:
     by_fault = held.get("reason") == "fault"
     if not (codes or refused or by_fault):
         return []
-    from pons.code_messages import told, wanted  # late: what a healthy robot says needs no tables
+    from pons.code_messages import (
+        code_lines,
+        lack_lines,
+    )  # late: what a healthy robot says needs no tables
 
     faulty = status["mode"] == "FAULT"
     lines = [f"{'fault' if faulty else 'waiting for'}: {', '.join(codes)}"] if codes else []
     for code in codes:
-        lines += told(code) if faulty else wanted(code)
+        lines += code_lines(code) if faulty else lack_lines(code)
     if by_fault and held["id"] not in codes:
-        lines += told(held["id"])
+        lines += code_lines(held["id"])
     for answer in refused:
         who = f"refused {answer['kind']} of {answer['id']}"
         lines.append(f"{who}: {answer['code']}: {answer['detail']}")
-        lines += told(answer["code"])
+        lines += code_lines(answer["code"])
     return lines

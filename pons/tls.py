@@ -13,7 +13,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pons.authority import Issued, issue
+from pons.authority import IssuedCertificate, issue
 from pons.settings import allowed_hosts
 from wire import Misconfigured
 
@@ -33,12 +33,12 @@ def run(settings: Settings) -> int:
     except Misconfigured as wrong:
         print(f"pons tls: {wrong}", file=sys.stderr)
         return REFUSED
-    for line in issued.told():
+    for line in issued.trust_lines():
         print(line)
     return 0
 
 
-def prepare(settings: Settings) -> Issued:
+def prepare(settings: Settings) -> IssuedCertificate:
     """Return this robot's certificate, made or renewed where it must be.
 
     Raises:

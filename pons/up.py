@@ -19,7 +19,7 @@ import time
 from typing import TYPE_CHECKING
 
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.settings import allowed_hosts
 from pons.supervisor import REFUSED_TO_START, Child
@@ -30,7 +30,7 @@ from wire.sockets import Endpoints
 if TYPE_CHECKING:
     from types import FrameType
 
-    from pons.authority import Issued
+    from pons.authority import IssuedCertificate
     from pons.settings import Settings
 
 POLL_S = 0.05
@@ -57,9 +57,9 @@ class Supervisor:
         robot: RobotDescription,
         *,
         planner: bool,
-        issued: Issued | None = None,
+        issued: IssuedCertificate | None = None,
     ) -> None:
-        self._trust = issued.told() if issued else ()
+        self._trust = issued.trust_lines() if issued else ()
         self._settings = settings
         self._robot = robot
         self._planner = planner
@@ -142,7 +142,7 @@ class Supervisor:
             return True  # arming asks the bridge itself
         try:
             call(self._settings, "GET", "/readyz", timeout_s=1.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         return True
 
@@ -154,7 +154,7 @@ class Supervisor:
             return self._armed
         try:
             answer = call(self._settings, "POST", "/v1/arm", {}, timeout_s=3.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         self._armed = bool(answer.get("accepted"))
         return self._armed
@@ -180,7 +180,7 @@ def children(
     robot: RobotDescription,
     *,
     planner: bool = True,
-    issued: Issued | None = None,
+    issued: IssuedCertificate | None = None,
 ) -> list[Child]:
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
@@ -276,7 +276,7 @@ def run(settings: Settings, *, planner: bool = True) -> int:
         return REFUSED_TO_START
 
 
-def _certify(settings: Settings) -> Issued:
+def _certify(settings: Settings) -> IssuedCertificate:
     """Return this robot's certificate; the library that makes it is loaded for this alone."""
     from pons.tls import prepare
 
@@ -284,7 +284,7 @@ def _certify(settings: Settings) -> Issued:
 
 
 def _supervise(
-    settings: Settings, robot: RobotDescription, *, planner: bool, issued: Issued | None
+    settings: Settings, robot: RobotDescription, *, planner: bool, issued: IssuedCertificate | None
 ) -> int:
     supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

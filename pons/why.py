@@ -17,7 +17,7 @@ from wire import Mode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.stop_report import Stop
+    from bridge.stop_report import StopReport
     from pons.settings import Settings
 
 EXIT_TOLD, EXIT_NO_STOP, EXIT_BAD = 0, 1, 2
@@ -67,7 +67,7 @@ def run(settings: Settings) -> int:
     return EXIT_TOLD
 
 
-def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
+def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
     when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(stop.at_unix_s))
     yield "when", f"{when}, {stop.ago_s:.1f} s before the record ends"
     yield "stop", f"{stop.before.value} -> {stop.after.value}, by {stop.cause}"
@@ -81,37 +81,37 @@ def _lines(stop: Stop) -> Iterator[tuple[str, str]]:
         yield from _words("fault", stop.fault)
     held = f", held: {stop.held.reason.value} {stop.held.id}" if stop.held is not None else ""
     yield "then", f"{stop.ended.value}{held}"
-    yield from _both("to do", _to_do(stop))
+    yield from _both_languages("to do", _to_do(stop))
     for passed_s, code, detail in stop.events[:_SHOWN]:
         yield f"+{passed_s:.2f} s", f"{code} {detail}"
     if len(stop.events) > _SHOWN:
         yield "", f"and {len(stop.events) - _SHOWN} more"
     yield "record", str(stop.path)
     if not stop.whole:
-        yield from _both("", _GROWING if stop.growing else _CUT)
+        yield from _both_languages("", _GROWING if stop.growing else _CUT)
 
 
 def _words(name: str, code: str) -> Iterator[tuple[str, str]]:
     """Yield the sentence of a row, an order, a gate or a fault."""
     words = sentence(code)
     if words is not None:
-        yield from _both(name, words)
+        yield from _both_languages(name, words)
 
 
-def _both(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:
+def _both_languages(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:
     """Yield English, and Chinese below it."""
     yield name, words[0]
     yield "", words[1]
 
 
-def _motion(stop: Stop) -> str:
+def _motion(stop: StopReport) -> str:
     if stop.stood_s is None:
         return f"{stop.speed_mps:.2f} m/s when it began; the record ends before it stood"
     stood = f"stood {stop.stood_s:.2f} s and {stop.way_m:.2f} m later"
     return f"{stop.speed_mps:.2f} m/s when it began; {stood}"
 
 
-def _to_do(stop: Stop) -> tuple[str, str]:
+def _to_do(stop: StopReport) -> tuple[str, str]:
     if stop.ended in _TO_DO:
         return _TO_DO[stop.ended]
     if stop.held is not None:

@@ -15,7 +15,7 @@ from pons.conformance.scheduler_probe import Pulse, until_calm
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.conformance.scheduler_probe import Kept
+    from pons.conformance.scheduler_probe import HostTiming
 
 LIMIT_S = 120.0
 
@@ -23,11 +23,11 @@ LIMIT_S = 120.0
 def main() -> int:
     """Wait on this machine."""
     with Pulse() as pulse:
-        print(waited(pulse.look, time.monotonic), flush=True)
+        print(wait_for_calm(pulse.look, time.monotonic), flush=True)
     return 0
 
 
-def waited(look: Callable[[], Kept], clock: Callable[[], float]) -> str:
+def wait_for_calm(look: Callable[[], HostTiming], clock: Callable[[], float]) -> str:
     """Wait and tell what was seen at the end."""
     began_s = clock()
     seen = until_calm(look, LIMIT_S, clock)

@@ -28,12 +28,13 @@ class Generator:
 
 GENERATORS = (
     Generator("wire.docs", "docs/wire.md"),
-    Generator("bridge.core.faults.docs", "docs/safety.md"),
+    Generator("bridge.core.safety_page", "docs/safety.md"),
     Generator("planner.mission.docs", "docs/missions.md"),
     Generator("sim.site", "sites/"),
     Generator("planner.openapi", "openapi.json"),
     Generator("scripts.page_words", "web/src/i18n/"),
     Generator("scripts.threats", "docs/security.md"),
+    Generator("scripts.locked_extra", "pyproject.toml, extra locked"),
     Generator("scripts.sbom", "sbom.cdx.json, docs/licences.md"),
 )
 

@@ -23,15 +23,15 @@ ROWS, CODES = FOLDER / "rows.json", FOLDER / "codes.json"
 
 def rows_json() -> str:
     """Return each row's sentence."""
-    return _text(_both(WORDS))
+    return _text(_both_languages(WORDS))
 
 
 def codes_json() -> str:
     """Return what is said of each code that is no row."""
-    return _text({"sentences": _both(SENTENCES), "wants": _both(WANTS)})
+    return _text({"sentences": _both_languages(SENTENCES), "wants": _both_languages(WANTS)})
 
 
-def _both(table: Mapping[str, tuple[str, str]]) -> dict[str, dict[str, str]]:
+def _both_languages(table: Mapping[str, tuple[str, str]]) -> dict[str, dict[str, str]]:
     return {code: {"en": en, "zh": zh} for code, (en, zh) in table.items()}
 
 

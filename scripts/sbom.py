@@ -66,7 +66,7 @@ not permissive fails the check unless it is named here with its reason. Why each
 """
 
 
-class Unlicensed(Exception):
+class LicenceUnknown(Exception):
     """A package may not be passed on, or states nothing that can be read."""
 
 
@@ -120,9 +120,9 @@ def judge(name: str, licence: str) -> str:
     try:
         expression = str(canonicalize_license_expression(licence))
     except InvalidLicenseExpression as error:
-        raise Unlicensed(f"{name}: {licence!r} is no SPDX expression: {error}") from None
+        raise LicenceUnknown(f"{name}: {licence!r} is no SPDX expression: {error}") from None
     if not is_permissive(expression) and family(name) not in EXCEPTIONS:
-        raise Unlicensed(
+        raise LicenceUnknown(
             f"{name}: {expression} is not on the list of permissive licences (scripts/sbom.py)"
         )
     return expression
@@ -143,14 +143,14 @@ def python_packages(lock: str, before: dict[str, str]) -> list[Package]:
     """Return what requirements.lock pins; ``before`` has licences of what is not installed here."""
     found = []
     for name, version in PIN.findall(lock):
-        licence = _stated(name) or before.get(f"pkg:pypi/{name}@{version}")
+        licence = _stated_licence(name) or before.get(f"pkg:pypi/{name}@{version}")
         if licence is None:
-            raise Unlicensed(f"{name}: not installed here, so its licence can't be read")
+            raise LicenceUnknown(f"{name}: not installed here, so its licence can't be read")
         found.append(Package("pypi", name, version, judge(name, licence)))
     return found
 
 
-def _stated(name: str) -> str | None:
+def _stated_licence(name: str) -> str | None:
     if name in STATED:
         return STATED[name]
     try:
@@ -222,7 +222,7 @@ def main(arguments: list[str]) -> int:
             *python_packages((ROOT / "requirements.lock").read_text("utf-8"), known_before()),
             *page_packages((ROOT / "web" / "package-lock.json").read_text("utf-8")),
         ]
-    except Unlicensed as wrong:
+    except LicenceUnknown as wrong:
         sys.stderr.write(f"licence: {wrong}\n")
         return 1
     texts = {BILL: bill(packages), TABLE: table(packages)}

@@ -20,44 +20,44 @@ FAILED, SAYS_NOTHING = 1, 75
 """What pytest returns where tests failed; EX_TEMPFAIL of sysexits.h."""
 
 
-class Taken(NamedTuple):
+class StealTicks(NamedTuple):
     """Count the ticks of all processors since the machine's start."""
 
     stolen: int
     all: int
 
-    def share_since(self, before: Taken) -> float:
+    def share_since(self, before: StealTicks) -> float:
         """Return which share of the time since then was taken away, 0 to 1."""
         return (self.stolen - before.stolen) / max(1, self.all - before.all)
 
 
 def main(command: list[str]) -> int:
     """Run it to its end; return its exit status, or 75."""
-    before = now()
+    before = current_steal()
     # Ctrl-C reaches the command too, for it is of one terminal; it cleans up by itself.
     ours = signal.signal(signal.SIGINT, lambda *_: None)
     code = subprocess.Popen(command).wait()
     signal.signal(signal.SIGINT, ours)
     code = code if code >= 0 else 128 - code  # as a shell says by what it was killed
-    share = now().share_since(before)
+    share = current_steal().share_since(before)
     if code != FAILED or not share > TOO_MUCH:
         return code
     print(f"stolen: the host took {share:.0%} of the processors meanwhile", flush=True)
     return SAYS_NOTHING
 
 
-def now() -> Taken:
+def current_steal() -> StealTicks:
     """Look at this machine's processors; where nobody tells, nothing is taken."""
     try:
-        return taken(STAT.read_text("ascii"))
+        return read_steal(STAT.read_text("ascii"))
     except OSError:
-        return Taken(0, 0)
+        return StealTicks(0, 0)
 
 
-def taken(stat: str) -> Taken:
+def read_steal(stat: str) -> StealTicks:
     """Read /proc/stat's first line as proc(5) has it: user, nice, system, idle, …, steal."""
     ticks = [int(word) for word in stat.split("\n", 1)[0].split()[1:9]]
-    return Taken(ticks[7] if len(ticks) == 8 else 0, sum(ticks))
+    return StealTicks(ticks[7] if len(ticks) == 8 else 0, sum(ticks))
 
 
 if __name__ == "__main__":

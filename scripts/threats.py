@@ -25,7 +25,7 @@ class Threat:
 
 
 @dataclass(frozen=True, slots=True)
-class Asker:
+class ThreatAsker:
     """Describe somebody who may sit somewhere, and what they can and can't do there."""
 
     who: str
@@ -34,32 +34,32 @@ class Asker:
 
 
 ASKERS = (
-    Asker("anybody on the network, without a token",
+    ThreatAsker("anybody on the network, without a token",
           "load the page, which holds no secret; hold some connections for 5 s",
           "read the robot, order anything, keep a stop from another address or connection"),
-    Asker("a web page of another site, in the browser of somebody with a token",
+    ThreatAsker("a web page of another site, in the browser of somebody with a token",
           "nothing: Host, Origin and content type are judged, and the token lies in no cookie",
           "order, read or frame the robot"),
-    Asker("who has the viewer's token",
+    ThreatAsker("who has the viewer's token",
           "read all that the page shows; stop, protective stop, disarm",
           "make anything move, arm, change a place or the fence"),
-    Asker("who has the operator's token",
+    ThreatAsker("who has the operator's token",
           "give goals, steer by hand within its meter",
           "arm or clear a hold of a robot of metal without the operator's key"),
-    Asker("the planner's user (a planner that was taken over)",
+    ThreatAsker("the planner's user (a planner that was taken over)",
           "everything that a person may ask for at the bridge's door; show a person something untrue "
           "in the page; answer the shell that a stop was confirmed, where that shell can't ask "
           "the bridge",
           "say what the lidar, the wheels or localization saw; reach the wheels past the bridge; read "
           "the operator's key; foretell a nonce; drive further than a person granted; stand in for "
           "the bridge before the shell's direct way"),
-    Asker("localization's and the camera's users",
+    ThreatAsker("localization's and the camera's users",
           "what the planner's user may; localization also says where the robot is, within what "
           "odometry allows",
           "reach the wheels or the lidar"),
-    Asker("the bridge's and the drive's users, and root",
+    ThreatAsker("the bridge's and the drive's users, and root",
           "everything", "be guarded against by this software"),
-    Asker("a user of the machine in none of the groups", "nothing", "connect anywhere"),
+    ThreatAsker("a user of the machine in none of the groups", "nothing", "connect anywhere"),
 )  # fmt: skip
 
 _CONNECTIONS = "planner/api/test_connections.py"
@@ -185,7 +185,7 @@ THREATS = (
            ("pons/test_private.py::test_what_a_robot_keeps_is_readable_by_its_own_user_alone",)),
     Threat("A bridge that was frozen for seconds goes on",
            "From zero, where the drive has timed out meanwhile",
-           ("bridge/core/motion/test_command.py::test_after_a_freeze_nothing_is_ramped_down",)),
+           ("bridge/core/motion/test_wheel_command.py::test_after_a_freeze_nothing_is_ramped_down",)),
 )  # fmt: skip
 
 _INTRODUCTION = """\

@@ -1,4 +1,4 @@
-"""Stand in for a robot and a home that are not there. Imports wire only."""
+"""Simulate a robot in a home. Imports wire only."""
 
 from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware

@@ -15,8 +15,8 @@ import sys
 import threading
 from pathlib import Path
 
-from rank import fifo
-from sim.node import Shell
+from processes.priority import set_fifo
+from sim.node import SimNode
 from sim.robot import SimRobot
 from sim.site import check_fresh
 from sim.true_parameters import load_metal
@@ -63,9 +63,9 @@ def _serve(options: argparse.Namespace) -> None:
         boot_id=boot_id,
     )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    fifo(PRIORITY)  # before the session, whose threads inherit it
+    set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:
-        shell = Shell(robot, session)
+        shell = SimNode(robot, session)
         gc.collect()
         gc.freeze()
         logging.getLogger("sim").info(

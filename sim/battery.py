@@ -1,4 +1,4 @@
-"""Count what is left in the battery. Knows two loads: standing and driving."""
+"""Count the battery's charge under two loads: standing and driving."""
 
 from __future__ import annotations
 

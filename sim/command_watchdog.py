@@ -1,4 +1,4 @@
-"""Be the drive's own dead-man: no fresh command for the time-out, no motion. Pure; told the time.
+"""Stop the wheels when no fresh command came for the time-out. Pure; told the time.
 
 Law: an old command can never keep wheels turning, whatever its sender believes. Age runs from
 RECEIPT on the drive's own clock; a command whose seq does not rise within its boot is no sign of
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @value
-class Wheels:
+class WheelTargets:
     """Ask both motors for speeds; without torque they are braked."""
 
     left_radps: float
@@ -31,7 +31,7 @@ def towards_zero(value: float, step: float) -> float:
 
 
 class DeadMan:
-    """Turn received commands into what the motors get, tick by tick."""
+    """Turn received commands into the motors' targets, tick by tick."""
 
     def __init__(self, timeout_s: float, ramp_radps2: float) -> None:
         self._timeout_s = timeout_s
@@ -39,7 +39,7 @@ class DeadMan:
         self._command: DriveCommand | None = None
         self._received_s = 0.0
         self._asked_s = 0.0
-        self._wheels = Wheels(0.0, 0.0, torque=False, timed_out=True)
+        self._wheels = WheelTargets(0.0, 0.0, torque=False, timed_out=True)
 
     @property
     def echo(self) -> tuple[str | None, int]:
@@ -54,22 +54,22 @@ class DeadMan:
         self._command, self._received_s = command, now_s
         return True
 
-    def wheels(self, now_s: float) -> Wheels:
-        """Say what the motors get now. Call once per tick with a clock that never goes back."""
+    def wheels(self, now_s: float) -> WheelTargets:
+        """Return the motors' targets now. Call once per tick with a clock that never goes back."""
         elapsed_s, self._asked_s = now_s - self._asked_s, now_s
         command = self._command
         if command is not None and 0.0 <= now_s - self._received_s <= self._timeout_s:
             on = command.enable
             speeds = (command.left_radps, command.right_radps) if on else (0.0, 0.0)
-            self._wheels = Wheels(*speeds, torque=on, timed_out=False)
+            self._wheels = WheelTargets(*speeds, torque=on, timed_out=False)
         else:
-            self._wheels = self._expired(elapsed_s)
+            self._wheels = self._ramp_down(elapsed_s)
         return self._wheels
 
-    def _expired(self, elapsed_s: float) -> Wheels:
+    def _ramp_down(self, elapsed_s: float) -> WheelTargets:
         """Ramp down by the time that really passed: after a freeze this ends at once."""
         step = self._ramp_radps2 * max(0.0, elapsed_s)
         left = towards_zero(self._wheels.left_radps, step)
         right = towards_zero(self._wheels.right_radps, step)
         moving = left != 0.0 or right != 0.0
-        return Wheels(left, right, torque=self._wheels.torque and moving, timed_out=True)
+        return WheelTargets(left, right, torque=self._wheels.torque and moving, timed_out=True)

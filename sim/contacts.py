@@ -16,7 +16,7 @@ class Episodes:
         self.total = 0
 
     def sample(self, contacts: int) -> None:
-        """Take the number of contacts at one instant."""
+        """Add the number of contacts at one instant."""
         self.now = contacts
         if contacts == 0:
             self._since_contact += 1

@@ -1,4 +1,4 @@
-"""Break the robot on demand: one set of names, looked at in every tick. Empty by default.
+"""Hold the simulated robot's faults: a set of names, read in every tick, empty by default.
 
 A fault changes what hardware does or says, never what the simulator knows: truth stays true.
 """
@@ -20,27 +20,27 @@ LOW_CHARGE, SAGGING_CHARGE = 0.15, 0.05
 
 
 class Faults:
-    """Hold what is broken now."""
+    """Hold the faults that are in force now."""
 
     def __init__(self, standing: Iterable[SimFault] = ()) -> None:
         self._standing = frozenset(standing)
         self._in_order = tuple(fault for fault in SimFault if fault in self._standing)
         self._sensors = {sensor: self._troubles(sensor) for sensor in ("encoder", "lidar", "gyro")}
-        self.buttons = self._pressed()
+        self.buttons = self._buttons()
         """Which of the drive's inputs are pressed."""
 
     @property
     def standing(self) -> tuple[SimFault, ...]:
-        """Return what is broken, in the order in which the names are defined."""
+        """Return the faults in force, in the order in which the names are defined."""
         return self._in_order
 
     def __contains__(self, fault: SimFault) -> bool:
-        """Tell whether this is broken."""
+        """Return whether a fault is in force."""
         # Nearly always nothing is: the hash of a member is a call, asked for ten times in a tick.
         return bool(self._standing) and fault in self._standing
 
     def of_sensor(self, sensor: str) -> frozenset[Trouble]:
-        """Return what is wrong with a sensor: ``encoder``, ``lidar`` or ``gyro``."""
+        """Return the troubles of a sensor: ``encoder``, ``lidar`` or ``gyro``."""
         return self._sensors[sensor]
 
     def _troubles(self, sensor: str) -> frozenset[Trouble]:
@@ -50,12 +50,12 @@ class Faults:
         return frozenset(named)
 
     def wheels_radps(self, left: float, right: float, *, torque: bool) -> tuple[float, float]:
-        """Return what the motors do of what they were told; without torque nothing turns them."""
+        """Return the motors' speeds for two targets; a runaway needs torque."""
         if SimFault.RUNAWAY in self and torque:
             return RUNAWAY_RADPS, RUNAWAY_RADPS
         return (-left, -right) if SimFault.REVERSED in self else (left, right)
 
-    def _pressed(self) -> Buttons:
+    def _buttons(self) -> Buttons:
         return Buttons(
             estop=SimFault.ESTOP_PRESSED in self,
             bumper_front=SimFault.BUMPER_FRONT in self,
@@ -64,7 +64,7 @@ class Faults:
         )
 
     def charge(self, charge: float, *, turning: bool) -> float:
-        """Return what the battery's gauge shows of its charge, in steps of a thousandth."""
+        """Return the battery gauge's reading of a charge, in steps of a thousandth."""
         charge = round(charge, 3)
         if SimFault.BATTERY_SAG in self and turning:
             return min(charge, SAGGING_CHARGE)

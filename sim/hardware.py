@@ -1,4 +1,4 @@
-"""State what the simulated robot is really like, beyond what robot.toml believes of it.
+"""Define the simulated robot's true hardware, beyond what robot.toml believes of it.
 
 The bridge must cope with these numbers without being told them; calibration has to find them.
 """

@@ -1,4 +1,4 @@
-"""Write what the simulated robot says as messages of the wire. Knows no physics and no noise."""
+"""Write the simulated robot's state as messages of the wire. Knows neither physics nor noise."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from wire import DriveState, Imu, Pose2, Scan, SimScene, SimThing, SimTruth, Twi
 from wire.value import value
 
 if TYPE_CHECKING:
-    from sim.command_watchdog import DeadMan, Wheels
+    from sim.command_watchdog import DeadMan, WheelTargets
     from sim.contacts import Episodes
     from sim.sensors import Encoder, ImuSample, LidarModel, Ranges
     from wire import SimFault
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @value
 class Report:
-    """Give what the robot says after one tick; None where nothing was due or a fault keeps it."""
+    """Hold the robot's messages after one tick; None where none was due or a fault drops it."""
 
     drive: DriveState | None
     imu: Imu | None
@@ -26,7 +26,7 @@ class Report:
 
 @value
 class Buttons:
-    """Give what is wired to the drive besides wheels and battery: True where it is pressed."""
+    """Hold the inputs wired to the drive: stop, bumpers, cliff; True where pressed."""
 
     estop: bool = False
     bumper_front: bool = False
@@ -49,12 +49,12 @@ class Speaker:
         self,
         now_s: float,
         dead_man: DeadMan,
-        wheels: Wheels,
+        wheels: WheelTargets,
         encoders: tuple[Encoder, Encoder],
         battery: float,
         buttons: Buttons,
     ) -> DriveState:
-        """Say what the drive does."""
+        """Return the drive's state."""
         echo_boot, echo_seq = dead_man.echo
         left, right = encoders
         return DriveState(
@@ -77,7 +77,7 @@ class Speaker:
         )
 
     def imu(self, now_s: float, sample: ImuSample) -> Imu:
-        """Say what gyro and accelerometer read."""
+        """Return the gyro's and accelerometer's readings."""
         return Imu(
             boot_id=self._boot_id,
             seq=self._next("imu"),
@@ -88,7 +88,7 @@ class Speaker:
         )
 
     def scan(self, now_s: float, lidar: LidarModel, ranges_m: Ranges) -> Scan:
-        """Say what the lidar saw."""
+        """Return the lidar's scan."""
         return Scan(
             boot_id=self._boot_id,
             seq=self._next("scan"),
@@ -109,7 +109,7 @@ class Speaker:
         real_time_factor: float,
         faults: tuple[SimFault, ...],
     ) -> SimTruth:
-        """Say where the robot really is, to judges and the localization stand-in."""
+        """Return the true pose, for judges and the localization stand-in."""
         return SimTruth(
             boot_id=self._boot_id,
             seq=self._next("truth"),
@@ -129,7 +129,7 @@ class Speaker:
         things: tuple[SimThing, ...],
         faults: tuple[SimFault, ...],
     ) -> SimScene:
-        """Say to the camera's process what there is to draw."""
+        """Return the scene that the camera's process draws."""
         return SimScene(
             boot_id=self._boot_id,
             seq=self._next("scene"),

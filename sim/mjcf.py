@@ -50,7 +50,7 @@ def world_mjcf(
     step_s: float,
     uprights: Iterable[Upright] = (),
 ) -> str:
-    """Return the whole model as XML: what is fixed, what somebody may carry about, the robot.
+    """Return the whole model as XML: fixed solids, movable things, the robot.
 
     Elliptic cones with impratio 10 keep wheels from creeping. With some tens of solids and one
     robot, islands and the mid-phase cost more than they save (78 against 62 us for 5 steps).
@@ -96,7 +96,7 @@ def _obstacle(name: str) -> str:
     if name.startswith("crate"):
         half = CRATE_M / 2
         form = f'type="box" size="{half} {half} {half}" pos="0 0 {half}"'
-    return _carried(name, Pose2(0.0, 0.0, 0.0), PARKED_Z_M, form)
+    return _mocap_body(name, Pose2(0.0, 0.0, 0.0), PARKED_Z_M, form)
 
 
 def _upright(thing: Upright) -> str:
@@ -104,10 +104,10 @@ def _upright(thing: Upright) -> str:
     form = f'type="cylinder" size="{max(thing.half_m)} {half}" pos="0 0 {half}"'
     if not thing.round:
         form = f'type="box" size="{thing.half_m[0]} {thing.half_m[1]} {half}" pos="0 0 {half}"'
-    return _carried(thing.id, thing.pose, 0.0, form)
+    return _mocap_body(thing.id, thing.pose, 0.0, form)
 
 
-def _carried(name: str, pose: Pose2, z_m: float, form: str) -> str:
+def _mocap_body(name: str, pose: Pose2, z_m: float, form: str) -> str:
     quat = " ".join(map(str, quaternion(pose.yaw_rad)))
     return (
         f'    <body name="{name}" mocap="true" pos="{pose.x_m} {pose.y_m} {z_m}" quat="{quat}">'

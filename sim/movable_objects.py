@@ -1,4 +1,4 @@
-"""Remember where the movable things of a home are. Knows no physics, nor which are solid.
+"""Hold the poses of a home's movable things. Knows no physics.
 
 What nobody moved stands as the home declares; only the rest is worth telling.
 """
@@ -33,8 +33,8 @@ class Things:
         self.elsewhere: tuple[SimThing, ...] = ()
         """Those that are not where the home declares them."""
 
-    def where(self, name: str) -> Pose2 | None:
-        """Return where a thing is now; None is nowhere."""
+    def pose_of(self, name: str) -> Pose2 | None:
+        """Return a thing's pose now; None where it is nowhere."""
         self._check(name)
         return self._now[name]
 

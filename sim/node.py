@@ -11,7 +11,7 @@ import time
 from typing import TYPE_CHECKING
 
 from sim.hardware import PERIODS
-from sim.rate import Pacer, RealTimeFactor
+from sim.rate import RealTimeFactor, SimPacer
 from wire import Misconfigured, keys
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ STALE_TICKS = 10
 through on a busy machine. The dead-man has fired by then, so nothing is lost but 0.1 s."""
 
 
-class Shell:
+class SimNode:
     """Connect one SimRobot to the wire."""
 
     def __init__(self, robot: SimRobot, session: Session) -> None:
@@ -47,7 +47,7 @@ class Shell:
 
     def run(self, stopped: Callable[[], bool]) -> None:
         """Tick until told to stop."""
-        pacer = Pacer(PERIODS.tick_s, time.monotonic())
+        pacer = SimPacer(PERIODS.tick_s, time.monotonic())
         factor = RealTimeFactor(PERIODS.tick_s)
         frozen = round(self._robot.robot.drive.timeout_s / PERIODS.tick_s)
         while not stopped():
@@ -58,7 +58,7 @@ class Shell:
                 log.warning("frozen for %.2f s; skipped, not caught up", missed * PERIODS.tick_s)
                 self._distrust = STALE_TICKS
             self._receive(now_s)
-            self._say(self._robot.tick(now_s, real_time_factor=factor.ticked(now_s)))
+            self._say(self._robot.tick(now_s, real_time_factor=factor.note_tick(now_s)))
             self._show(now_s)
 
     def _receive(self, now_s: float) -> None:
@@ -90,7 +90,7 @@ class Shell:
             self._truth.put(report.truth)
 
     def _show(self, now_s: float) -> None:
-        """Tell the simulated camera what there is to draw."""
+        """Publish the scene for the simulated camera."""
         self._ticks += 1
         if self._scene is not None and self._ticks % PERIODS.scene_ticks == 0:
             self._scene.put(self._robot.scene(now_s))

@@ -10,7 +10,7 @@ from collections import deque
 from math import floor
 
 
-class Pacer:
+class SimPacer:
     """Hold absolute deadlines one period apart."""
 
     def __init__(self, period_s: float, now_s: float) -> None:
@@ -33,8 +33,8 @@ class RealTimeFactor:
         self._period_s = period_s
         self._stamps: deque[float] = deque(maxlen=round(window_s / period_s) + 1)
 
-    def ticked(self, now_s: float) -> float:
-        """Note a tick and return the factor; 1 until there are two ticks to compare."""
+    def note_tick(self, now_s: float) -> float:
+        """Add a tick and return the real-time factor; 1 until there are two ticks to compare."""
         self._stamps.append(now_s)
         real_s = now_s - self._stamps[0]
         return (len(self._stamps) - 1) * self._period_s / real_s if real_s > 0.0 else 1.0

@@ -1,4 +1,4 @@
-"""Be a robot in a home: commands in, sensor messages out, tick by tick.
+"""Simulate a robot in a home: commands in, sensor messages out, tick by tick.
 
 The one object that the process shell and the lockstep harness both drive. Deterministic: the same
 site, seed and calls give the same messages. It owns no clock; it is told the time of each receipt
@@ -25,13 +25,13 @@ from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
 from sim.site.objects import uprights
 from sim.true_parameters import true_base
-from sim.world import World
+from sim.world import PhysicsWorld
 from wire import Pose2, RobotDescription, SimFault, Twist2, compose
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from sim.command_watchdog import Wheels
+    from sim.command_watchdog import WheelTargets
     from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimScene, SimTruth
 
 _STEPS = round(PERIODS.tick_s / PERIODS.step_s)
@@ -63,7 +63,7 @@ class SimRobot:
         self.faults = Faults()
         self._hardware = hardware or Hardware()
         base = true_base(self.robot.base, self._hardware)
-        self._world = World(
+        self._world = PhysicsWorld(
             solids(self.home), base, self._hardware, PERIODS.step_s, uprights(self.home)
         )
         self.things = Things(self.home)
@@ -140,7 +140,7 @@ class SimRobot:
         )
 
     def scene(self, now_s: float) -> SimScene:
-        """Say what a camera on the robot could draw now."""
+        """Return the scene that a camera on the robot could draw now."""
         return self._speaker.scene(
             now_s, self._world.pose(), self.things.elsewhere, self.faults.standing
         )
@@ -167,7 +167,7 @@ class SimRobot:
         self.place_thing(name, Pose2(x_m, y_m, yaw_rad))
 
     def remove_obstacle(self, name: str = OBSTACLES[0]) -> None:
-        """Take a spare obstacle out of the home."""
+        """Remove a spare obstacle from the home."""
         self.place_thing(name, None)
 
     def place_thing(self, name: str, pose: Pose2 | None) -> None:
@@ -187,7 +187,7 @@ class SimRobot:
             self._world.place_obstacle(name, pose.x_m, pose.y_m, pose.yaw_rad)
 
     def control(self, control: SimControl) -> None:
-        """Do what a test asked over the wire; the same id again is the same wish, already done.
+        """Carry out a test's request over the wire; the same id again is the same request.
 
         Raises:
             Misconfigured: ``obstacle_unknown``; what stood before it in the wish is done.
@@ -213,11 +213,11 @@ class SimRobot:
         self._world.make_slippery(slippery=SimFault.SLIP in self.faults)
 
     def _past_dead_zone(self, wheel_radps: float, gain: float) -> float:
-        """Return what the motor follows: friction swallows the first part of every wish."""
+        """Return the speed that a motor follows: friction takes the first part of every target."""
         left_over = gain * max(0.0, abs(wheel_radps) - self._hardware.dead_zone_radps)
         return copysign(min(left_over, self._hardware.motor_max_radps), wheel_radps)
 
-    def _drive_due(self, now_s: float, wheels: Wheels) -> DriveState | None:
+    def _drive_due(self, now_s: float, wheels: WheelTargets) -> DriveState | None:
         turning = wheels.left_radps != 0.0 or wheels.right_radps != 0.0
         battery = self.faults.charge(self._battery.charge, turning=turning)
         state = self._speaker.drive(
@@ -244,7 +244,7 @@ class SimRobot:
             self._lidar.directions(lidar_in_map),
             config.range_max_m + _BEYOND_RANGE_M,
         )
-        ranges_m = self._lidar.measured(true_m)
+        ranges_m = self._lidar.measure(true_m)
         if SimFault.LIDAR_BLIND in self.faults:
             ranges_m = (None,) * len(ranges_m)
         return self._speaker.scan(now_s, self._lidar, ranges_m)

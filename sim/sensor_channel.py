@@ -1,4 +1,4 @@
-"""Carry one sensor's messages to the wire, and lose, repeat, spoil or delay them when told to.
+"""Pass one sensor's messages on, or drop, repeat, spoil or delay them when it is broken.
 
 Knows no sensor: what a message's payload is, and how garbage of it looks, is given. Counts ticks;
 owns no clock.
@@ -23,7 +23,7 @@ OPEN_TICKS = SHUT_TICKS = 40
 
 
 class Trouble(StrEnum):
-    """Name what can be wrong with any sensor."""
+    """Name the troubles of a sensor."""
 
     OFF = "off"
     STUCK = "stuck"
@@ -56,14 +56,14 @@ class Channel(Generic[M]):
         if Trouble.STUCK not in troubles:
             self._stuck = None
         if message is not None:
-            message = self._spoilt(message, troubles)
+            message = self._spoil(message, troubles)
         if Trouble.DELAYED in troubles or self._late:
-            message = self._delayed(message, wait=Trouble.DELAYED in troubles)
+            message = self._delay(message, wait=Trouble.DELAYED in troubles)
         shut = self._tick % (OPEN_TICKS + SHUT_TICKS) >= OPEN_TICKS
         lost = Trouble.OFF in troubles or (Trouble.INTERMITTENT in troubles and shut)
         return None if lost else message
 
-    def _spoilt(self, message: M, troubles: frozenset[Trouble]) -> M:
+    def _spoil(self, message: M, troubles: frozenset[Trouble]) -> M:
         if Trouble.STUCK in troubles:
             if self._stuck is None:
                 self._stuck = {name: getattr(message, name) for name in self._payload}
@@ -72,8 +72,8 @@ class Channel(Generic[M]):
             return message.model_copy(update=self._garbage(message))
         return message
 
-    def _delayed(self, message: M | None, *, wait: bool) -> M | None:
-        """Put it at the end; give out what has waited long enough, or at once when mended."""
+    def _delay(self, message: M | None, *, wait: bool) -> M | None:
+        """Queue a message; return one that has waited long enough, or the newest when mended."""
         if message is not None:
             self._late.append((self._tick + DELAY_TICKS, message))
         if not wait:

@@ -1,4 +1,4 @@
-"""Spoil the truth the way sensors do: quantised, biased, noisy. Pure given a seeded generator."""
+"""Model sensors: quantised, biased, noisy. Pure given a seeded generator."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class ImuModel:
 
 
 class LidarModel:
-    """Aim the beams and spoil what comes back.
+    """Aim the lidar's beams and add noise and dropout to true distances.
 
     A scan is taken in one instant and level, though a real one sweeps for 0.1 s and tilts with the
     robot: at 0.5 m/s that is up to 0.05 m, which the bridge's margins must hold anyway.
@@ -100,7 +100,7 @@ class LidarModel:
         angles = self._angles + lidar_in_map.yaw_rad
         return np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
 
-    def measured(self, true_m: NDArray[np.float64]) -> Ranges:
+    def measure(self, true_m: NDArray[np.float64]) -> Ranges:
         """Turn true distances (-1: nothing there) into ranges; millimetres, None for no return."""
         count = len(true_m)
         noisy = true_m + self._random.normal(0.0, self._hardware.lidar_noise_m, count)
@@ -133,6 +133,6 @@ class Garbage:
         return dict(zip(self.TURN, self._random.uniform(-20.0, 20.0, 3).tolist(), strict=True))
 
     def ranges(self, scan: Scan) -> dict[str, Ranges]:
-        """See anything anywhere."""
+        """Return ranges of a broken lidar: random values."""
         values = self._random.uniform(0.0, scan.range_max_m, len(scan.ranges_m))
         return {"ranges_m": tuple(values.tolist())}

@@ -1,4 +1,4 @@
-"""Read what the simulated robot is really like, where that differs from what robot.toml believes.
+"""Read the simulated robot's true parameters where they differ from robot.toml.
 
 A metal file is TOML with any fields of :class:`sim.hardware.Hardware`. Bridge and planner never see
 it: it stands for the workshop that built the robot, and calibration has to find it out.
@@ -27,7 +27,7 @@ KNOWN = tuple(field.name for field in fields(Hardware))
 
 
 def load_metal(path: Path) -> Hardware:
-    """Return the hardware that a file describes; what it leaves out is as always.
+    """Return the hardware that a file describes; the rest keeps its defaults.
 
     Raises:
         Misconfigured: it is missing, no TOML, or has an unknown key or an impossible value.

@@ -1,4 +1,4 @@
-"""Be the physics: floor, walls, furniture and a differential robot in MuJoCo.
+"""Simulate floor, walls, furniture and a differential robot in MuJoCo.
 
 The only file that calls MuJoCo. Knows metres, radians and newtons; no messages, no noise, no clock
 beyond the step. Frame: ``map`` is the world frame.
@@ -35,7 +35,7 @@ _ICE = 0.02  # Coulomb friction: 0.2 m/s2 at most
 _SEEN_BY_LIDAR = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)  # geom groups, see sim.mjcf
 
 
-class World:
+class PhysicsWorld:
     """Hold one MuJoCo model and its state."""
 
     def __init__(
@@ -110,7 +110,7 @@ class World:
         return sum([self._chassis in pair for pair in pairs])
 
     def place_robot(self, pose: Pose2) -> None:
-        """Put the robot down at rest. Wheels keep their angles, as when somebody carries it."""
+        """Put the robot down at rest. Wheels keep their angles, as when it is carried."""
         self._qpos[0:3] = (pose.x_m, pose.y_m, 0.0)
         self._qpos[3:7] = quaternion(pose.yaw_rad)
         self._qvel[:] = 0.0

@@ -1,4 +1,4 @@
-"""Give every record on the wire its strictness: frozen, nothing extra, nothing infinite."""
+"""Define the base class of all wire messages: frozen, strict, finite."""
 
 from __future__ import annotations
 
@@ -6,6 +6,6 @@ from pydantic import BaseModel, ConfigDict
 
 
 class Record(BaseModel):
-    """Be immutable, refuse unknown fields, refuse NaN and infinity."""
+    """Refuse unknown fields, NaN and infinity; immutable."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)

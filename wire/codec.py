@@ -1,4 +1,4 @@
-"""Turn messages into bytes and back. The one place where bytes are believed or not.
+"""Encode messages as JSON and decode them. The only place where bytes are validated.
 
 JSON by pydantic: in schema, in bounds, nothing extra, no NaN, no infinity, within the key's size.
 Refusals are values, not exceptions: with the collector off in the bridge, a ValidationError kept
@@ -26,7 +26,7 @@ def encode(message: Record) -> bytes:
 
 
 def decode(key: Key[M], payload: bytes) -> M | Rejected:
-    """Return the message, or why these bytes are none."""
+    """Return the message, or a Rejected that says why the bytes are not one."""
     size = len(payload)
     if not size <= key.max_bytes:
         return Rejected("too_large", f"{key.path}: {size} bytes, at most {key.max_bytes}")
@@ -40,14 +40,14 @@ def decode(key: Key[M], payload: bytes) -> M | Rejected:
 
 @dataclass(frozen=True, slots=True)
 class Image:
-    """Hold one picture as it came: its header and its bytes, not yet unpacked."""
+    """Hold one picture as received: header and packed bytes."""
 
     header: ImageHeader
     data: bytes
 
 
 def image(key: Key[ImageHeader], attached: bytes, payload: bytes) -> Image | Rejected:
-    """Return the picture, or why these bytes are none. What the bytes show is judged elsewhere."""
+    """Return the picture with its header, or a Rejected. Its pixels are judged elsewhere."""
     if not len(payload) <= key.max_bytes or not len(attached) <= SMALL:
         size = f"{len(payload)} bytes, at most {key.max_bytes}"
         return Rejected("too_large", f"{key.path}: {size}; header {len(attached)}, at most {SMALL}")

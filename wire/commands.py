@@ -1,4 +1,4 @@
-"""Define what is said to the bridge. All of it may be late, wrong or hostile.
+"""Define the messages to the bridge. Each may be late, wrong or hostile.
 
 ``seen`` is the seq of the newest ``bridge/status`` that the origin had when it made the message.
 The bridge knows when it sent that status, so no sender can make a message look younger than it is.

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 from typing import Any
 
+from pons_assets import ROOT, checkout
 from wire.base import Record
 from wire.bounded_types import PROTOCOL
 from wire.doors import DOORS
 from wire.keys import KEYS, Key, Party
 
-TARGET = Path(__file__).resolve().parents[1] / "docs" / "wire.md"
+TARGET = ROOT / "docs" / "wire.md"
 
 _HEAD = f"""# The wire
 
@@ -132,6 +132,7 @@ def _bounds(body: dict[str, Any]) -> str:
 
 def main(arguments: list[str]) -> int:
     """Write the page, or with ``--check`` say whether the committed one is fresh."""
+    checkout("writing docs/wire.md")
     page = render()
     if "--check" in arguments:
         fresh = TARGET.is_file() and TARGET.read_text("utf-8") == page

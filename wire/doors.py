@@ -35,12 +35,12 @@ class Door:
     purpose: str
 
     def inward(self, party: Party, path: str) -> bool:
-        """Tell whether a party that listens or dials here is told a key here."""
+        """Return whether a party that listens or dials here receives a key here."""
         said = self.hears if party is self.listener else self.says
         return any(key.path == path for key in said)
 
     def outward(self, party: Party, path: str) -> bool:
-        """Tell whether a party that listens or dials here may say a key here."""
+        """Return whether a party that listens or dials here may send a key here."""
         said = self.says if party is self.listener else self.hears
         return any(key.path == path for key in said)
 

@@ -1,4 +1,4 @@
-"""Name what can be wrong with a set-up or a message, by stable code."""
+"""Define the errors of a set-up and of a message, by stable code."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Unwritable(Misconfigured):
 
 @dataclass(frozen=True, slots=True)
 class Rejected:
-    """Say why bytes did not become a message. A value, so that no traceback outlives a tick."""
+    """Hold why bytes did not become a message. A value, so that no traceback outlives a tick."""
 
     code: str
     detail: str

@@ -56,12 +56,12 @@ def fence_text(fence: FenceFile) -> str:
 
 
 def text_sha256(text: str) -> str:
-    """Return what an operator signs of a fence's text."""
+    """Return the SHA-256 of a fence's text, which an operator signs."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def flaw(fence: FenceFile) -> tuple[str, str] | None:
-    """Return code and particulars of what is wrong with an outline; None if nothing is."""
+    """Return code and particulars of an outline's flaw; None where it has none."""
     for outline in fence.outlines:
         if not area_m2(outline) > MIN_AREA_M2:
             return "fence_degenerate", f"an outline has no area: {_brief(outline)}"
@@ -105,14 +105,14 @@ def crosses_itself(outline: tuple[Point, ...]) -> tuple[Point, Point] | None:
 
 
 def _folds(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Tell whether neighbouring sides run back over each other."""
+    """Return whether neighbouring sides run back over each other."""
     if _side(a, b, c) != 0.0 or _side(a, b, d) != 0.0:
         return False
     return (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) < 0.0
 
 
 def _share(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Tell whether two segments share a point, ends included."""
+    """Return whether two segments share a point, ends included."""
     if max(a[0], b[0]) < min(c[0], d[0]) or max(c[0], d[0]) < min(a[0], b[0]):
         return False
     if max(a[1], b[1]) < min(c[1], d[1]) or max(c[1], d[1]) < min(a[1], b[1]):

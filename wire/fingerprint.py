@@ -1,4 +1,4 @@
-"""Give maps, robots and fences the short names by which processes agree that they mean the same."""
+"""Fingerprint maps, robots and fences, so that processes can tell that they mean the same."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""List every key: who may say it, who hears it, how often, how large, and how it is buffered."""
+"""Define the key table: senders, receivers, rate, size and buffer of every key."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Key(Generic[M]):
 
 _P, _B, _L, _R, _C, _S, _O, _J = Party  # one letter each, for the table below
 _WHO_ASKS = frozenset({_P, _O, _J})
-"""Who is told what the bridge does."""
+"""Receivers of the bridge's status and events."""
 
 
 def _op(kind: str, purpose: str) -> Key[OpRequest]:

@@ -37,7 +37,7 @@ def signed_request(
 
 
 def authentic(key: bytes, kind: OpKind, robot: str, proof: Proof | None, request_id: str) -> bool:
-    """Say whether the proof fits the request; whether its nonce is still valid is not judged."""
+    """Return whether the proof fits the request; its nonce's validity is not judged."""
     if proof is None:
         return False
     return hmac.compare_digest(_mac(key, kind, robot, proof.nonce, request_id), proof.mac)
@@ -49,7 +49,7 @@ def sign_fence(key: bytes, robot: str, nonce: str, request_id: str, text: str) -
 
 
 def authentic_fence(key: bytes, robot: str, request: FenceRequest) -> bool:
-    """Say whether the proof fits the request and the very text that came with it."""
+    """Return whether the proof fits the request and the very text that came with it."""
     proof = request.proof
     if proof is None:
         return False

@@ -1,4 +1,4 @@
-"""Read a file that a person or an archive names: a plain one, and of a bounded size.
+"""Read a plain file of bounded size, at a path from a person or an archive.
 
 A device, a pipe or a socket in its place would fill the memory or wait for ever, at the start of a
 process that is to drive. Knows no format.

@@ -105,7 +105,7 @@ class DriveConfig(Record):
 
     @property
     def virtual(self) -> bool:
-        """Say whether no metal moves. Derived from the kind, so that no setting can claim it."""
+        """Return whether the drive moves no metal; its kind says so, no setting can claim it."""
         return self.kind == "sim"
 
 
@@ -227,7 +227,7 @@ class RobotDescription(Record):
 
 
 def _misfits(base: Base, lidar: LidarConfig) -> Iterator[str]:
-    """Yield what does not fit into the disc that is kept clear of obstacles [m]."""
+    """Yield the parts that reach out of the disc that is kept clear of obstacles [m]."""
     half_m, offset_m = base.wheel_separation_m / 2, hypot(lidar.x_m, lidar.y_m)
     stops_m = base.radius_m + HIDDEN_BEYOND_M
     if not base.radius_m >= half_m:
@@ -272,7 +272,7 @@ def load_robot(path: Path) -> RobotDescription:
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str:
-    """Say in one line what came and what was expected, field by field; of a model, what exists."""
+    """Describe a validation error in one line: what came, what was expected, what exists."""
     lines = []
     for item in error.errors(include_url=False):
         where = ".".join(str(part) for part in item["loc"]) or "whole file"

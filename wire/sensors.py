@@ -1,4 +1,4 @@
-"""Define what robot and localization say; ``stamp_s`` is the sender's own clock."""
+"""Define the messages of robot and localization; ``stamp_s`` is the sender's own clock."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Define what only a simulator hears and says: the truth, and wishes to break the robot.
+"""Define the simulator's own messages: the truth, the scene, and requests to break the robot.
 
 Nothing here is spoken by or to a real robot; no safety function reads any of it.
 """

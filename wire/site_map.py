@@ -1,4 +1,4 @@
-"""Name the map of a site by its bytes, as every process does. Reads files; knows no cells."""
+"""Fingerprint a site's map by its bytes, as every process does."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Say where each door is, who may reach it, and make sure that only one process listens there.
+"""Locate the doors' sockets, check their permissions, and lock each for one listener.
 
 Unix sockets ``$PONS_HOME/run/DOOR/DOOR.sock`` unless a TCP endpoint is given. Each door has a
 folder of its listener's, which nobody else may write: none can rename, replace or forestall
@@ -125,13 +125,13 @@ class Claim:
 
 
 def admit(path: Path) -> None:
-    """Let those connect to a new socket who may enter its folder: its owner, or its group too."""
+    """Set a new socket's permissions: those of its folder's owner, or its group too."""
     shared = path.parent.stat().st_mode & stat.S_IXGRP
     path.chmod(0o660 if shared else 0o600)
 
 
 def misplaced_listener(home: Path, door: Door) -> str | None:
-    """Say why whoever listens at a door is not to be believed; None where it is its owner.
+    """Return why a door's listener is not to be believed; None where it owns the folder.
 
     Believed are root, ourselves, and the owner of the door's folder where nobody else could have
     put that folder there. Elsewhere than on Linux the kernel does not tell, and nothing is checked.
@@ -153,10 +153,10 @@ def misplaced_listener(home: Path, door: Door) -> str | None:
 
 
 def unreachable(home: Path, door: Door) -> str | None:
-    """Say why this user can't connect to a door; None where it can."""
+    """Return why this user can't connect to a door; None where it can."""
     path = Endpoints(home).socket(door)
     try:
-        _dialled(path).close()
+        _dial(path).close()
     except OSError as error:
         return f"{path}: {error.strerror or error}"
     return None
@@ -180,12 +180,12 @@ def is_listening(path: Path) -> bool:
 
 def _listening_uid(path: Path) -> int:
     """Return the user of the process that listens, as the kernel noted it (unix(7))."""
-    with _dialled(path) as probe:
+    with _dial(path) as probe:
         told = probe.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize("3i"))
     return int(struct.unpack("3i", told)[1])
 
 
-def _dialled(path: Path) -> socket.socket:
+def _dial(path: Path) -> socket.socket:
     with ExitStack() as undo:
         probe = undo.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
         probe.settimeout(PROBE_S)

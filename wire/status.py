@@ -1,4 +1,4 @@
-"""Define what the bridge says. The only word on what really happened."""
+"""Define the bridge's status and events: the only word on what really happened."""
 
 from __future__ import annotations
 

@@ -6,7 +6,15 @@ sockets, logging, random or threads.
 
 from bridge.core.config import CoreConfig
 from bridge.core.decision import Decision
-from bridge.core.inbox import EMPTY, ON_TIME, ArrivedAt, Inbox, LoopFacts, OpArrived, RejectedAt
+from bridge.core.inbox import (
+    EMPTY,
+    ON_TIME,
+    ArrivedAt,
+    Inbox,
+    LoopFacts,
+    OperatorArrival,
+    RejectedAt,
+)
 from bridge.core.state import BridgeState
 from bridge.core.step import initial, step
 
@@ -19,7 +27,7 @@ __all__ = [
     "Decision",
     "Inbox",
     "LoopFacts",
-    "OpArrived",
+    "OperatorArrival",
     "RejectedAt",
     "initial",
     "step",

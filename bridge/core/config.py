@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bridge.core.sensing.fence import Fence
-from bridge.core.state_braking import UNLEARNT, Learnt
+from bridge.core.geometry.fence import FenceGrid
+from bridge.core.state_motion import UNLEARNT, Learnt
 from wire import RobotDescription
 
 
@@ -15,7 +15,7 @@ class CoreConfig:
 
     robot: RobotDescription
     robot_hash: str
-    fence: Fence | None
+    fence: FenceGrid | None
     """None: nothing is fenced, which SELFTEST refuses."""
     fence_hash: str
     map_id: str
@@ -27,3 +27,6 @@ class CoreConfig:
     """What earlier runs learnt of this robot's brakes: the state goes on from there."""
     braking_trouble: str | None = None
     """Why what earlier runs learnt could not be read: a code for the status."""
+
+
+PERIOD_S = 0.01

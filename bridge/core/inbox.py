@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bridge.core.state_fence import FenceArrived, FenceDone
 from wire import (
     DriveState,
     EstopLink,
@@ -30,7 +29,7 @@ from wire.value import value
 
 
 @dataclass(frozen=True, slots=True)
-class OpArrived:
+class OperatorArrival:
     """Give an operator's request, the key it came by, and whether its proof's HMAC fits."""
 
     kind: OpKind
@@ -76,7 +75,7 @@ class Inbox:
     """Give one tick's arrivals. Tuples are in order of arrival, oldest first."""
 
     stops: tuple[Stop, ...] = ()
-    ops: tuple[OpArrived, ...] = ()
+    ops: tuple[OperatorArrival, ...] = ()
     hellos: tuple[Hello, ...] = ()
     grants: tuple[Grant, ...] = ()
     heartbeats: tuple[Heartbeat, ...] = ()
@@ -88,7 +87,7 @@ class Inbox:
     scan: Scan | None = None
     imu: Imu | None = None
     estop_link: EstopLink | None = None
-    fences: tuple[FenceArrived, ...] = ()
+    fences: tuple[FenceArrival, ...] = ()
     fence_done: FenceDone | None = None
     """What became of the fence that the core asked for."""
     rejected: tuple[RejectedAt, ...] = ()
@@ -108,3 +107,24 @@ class Inbox:
 
 
 EMPTY = Inbox()
+
+
+@value
+class FenceArrival:
+    """Give an operator's request for another fence, and whether its proof binds this very text."""
+
+    id: str
+    source: str
+    nonce: str | None
+    authentic: bool
+    text: str
+    """Empty where the proof does not fit: nobody looks at it."""
+
+
+@value
+class FenceDone:
+    """Tell what became of a request: ``ok`` with both hashes, or why the fence can't be."""
+
+    id: str
+    code: str
+    detail: str

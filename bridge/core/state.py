@@ -9,23 +9,34 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from bridge.core.geometry.odometry import OdometryState
-from bridge.core.modes.stop_profile import StopPlan
-from bridge.core.motion.limiter import LimiterState
-from bridge.core.motion.pursuit import NEW, FollowState
-from bridge.core.motion.wheel_control import AT_REST, Wheel
 from bridge.core.record_copy import copier
-from bridge.core.state_braking import UNLEARNT, Learnt, Ramp
-from bridge.core.state_detectors import Flood, Watch
-from bridge.core.state_fence import FenceAsked
-from bridge.core.state_orders import External, Grants, Leg, Operator, Ownership, Stick
+from bridge.core.state_motion import (
+    UNLEARNT,
+    Gate,
+    Learnt,
+    Motion,
+    Ramp,
+    Stopping,
+)
+from bridge.core.state_orders import (
+    External,
+    Grants,
+    LegMemory,
+    Operator,
+    Ownership,
+    PendingFence,
+    Stick,
+)
 from bridge.core.state_senses import (
     ButtonMemory,
+    DetectorMemory,
     DriveMemory,
+    Flood,
     LidarMemory,
     LoopMemory,
     PoseMemory,
 )
-from wire import STILL, Action, Held, Mode, Pose2, Twist2
+from wire import Held, Mode, Pose2
 from wire.value import value
 
 
@@ -40,24 +51,6 @@ class RowUp:
 
 
 @dataclass(frozen=True, slots=True)
-class Stopping:
-    """Remember the stop in progress, to judge whether the robot really slows down."""
-
-    action: Action
-    """What it ends in: HOLD2 keeps torque, STOP1 and FAST1 take it away."""
-    cause: str
-    since_s: float
-    plan: StopPlan
-    source: str
-    """Who moved the robot: may go on when a HOLD2 clears, if it was W or X."""
-    resumes: bool
-    """False where a person asked for it."""
-    reset_needed: bool = False
-    slow_s: float = 0.0
-    """How full the window is in which it is measured to be too slow."""
-
-
-@dataclass(frozen=True, slots=True)
 class SelfTest:
     """Remember how far the self test got."""
 
@@ -65,42 +58,6 @@ class SelfTest:
     """echo -> withhold -> return -> done."""
     since_s: float = 0.0
     passed: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Gate:
-    """Remember how the gates for obstacle, fence and contact shut the way."""
-
-    shut_since_s: float | None = None
-    """Since when the way asked for is shut, without a gap; None while it is not."""
-    shut_s: float = 0.0
-    """How full the window is in which it is shut and the robot has not turned away from it."""
-    shut_yaw_rad: float = 0.0
-    """Heading in ``odom`` when that window began to fill."""
-    blocked: bool = False
-    by: str = "obstacle"
-    """Which gate left nothing of the way when it was called blocked: obstacle, fence, contact."""
-    free_scans: int = 0
-    judged_scan: int = -1
-
-
-@dataclass(slots=True)
-class Motion:
-    """Remember what was asked and what was really sent."""
-
-    asked: Twist2 = STILL
-    """What the source in charge wants, before gates and limits."""
-    limiter: LimiterState = field(default_factory=LimiterState)
-    """Its ``sent`` is what was meant last: what wheel control adds to it is not in there."""
-    left: Wheel = AT_REST
-    right: Wheel = AT_REST
-    powered: bool = False
-    follow: FollowState = NEW
-    bound_by: str = "robot"
-    """What set the nearest bound, for the status."""
-    cap: float = 1.0
-    free_m: float | None = None
-    margin_m: float | None = None
 
 
 @value
@@ -148,7 +105,7 @@ class BridgeState:
     ownership: Ownership = field(default_factory=Ownership)
     grants: Grants = field(default_factory=Grants)
     operator: Operator = field(default_factory=Operator)
-    leg: Leg = field(default_factory=Leg)
+    leg: LegMemory = field(default_factory=LegMemory)
     stick: Stick = field(default_factory=Stick)
     external: External | None = None
     stopping: Stopping | None = None
@@ -157,22 +114,29 @@ class BridgeState:
     selftest: SelfTest = field(default_factory=SelfTest)
     gate: Gate = field(default_factory=Gate)
     motion: Motion = field(default_factory=Motion)
-    watch: Watch = field(default_factory=Watch)
+    watch: DetectorMemory = field(default_factory=DetectorMemory)
     flood: Flood = field(default_factory=Flood)
     voice: Voice = field(default_factory=Voice)
     learnt: Learnt = UNLEARNT
     """How much worse than robot.toml this robot brakes; a run begins with what others learnt."""
-    fence_asked: FenceAsked | None = None
+    fence_asked: PendingFence | None = None
     braking_trouble: str | None = None
     """Why what others learnt could not be read."""
     ramp: Ramp | None = None
     """The ramp towards standstill that it is learning from."""
 
+    def sources(self) -> str:
+        """Return the letters of what moves the robot or holds a grant."""
+        owner = self.ownership.owner
+        if self.grants.mission is None or owner is None:
+            return self.source
+        return self.source + ("W" if owner.kind == "planner" else "X")
+
 
 _copy_state = copier(BridgeState)
 _copy_drive = copier(DriveMemory)
 _copy_motion = copier(Motion)
-_copy_watch = copier(Watch)
+_copy_watch = copier(DetectorMemory)
 
 
 def draft(state: BridgeState) -> BridgeState:

@@ -1,11 +1,11 @@
-"""Hold what the core remembers of owner, grants, operator, leg and stick."""
+"""Hold what the core remembers of owner, grants, operator, leg, stick and an asked-for fence."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bridge.core.geometry.path_profile import Path
-from wire import Answer, Owner, Waypoint, Waypoints
+from wire import Answer, Owner, Pose2, Waypoint, Waypoints
 from wire.value import value
 
 MAX_MISSIONS = 64
@@ -51,9 +51,37 @@ class Grants:
     since_arm: bool = False
     """A grant was given since arming: the brain's death then disarms."""
 
+    def return_budget(self) -> Grants:
+        """Put the granted mission's remainder in the book; nothing is granted any more."""
+        if self.mission is None:
+            return self
+        left = MissionLeft(self.mission, self.metres, self.seconds)
+        book = (*(item for item in self.book if item.mission != left.mission), left)
+        return replace(self, mission=None, metres=0.0, seconds=0.0, book=book[-MAX_MISSIONS:])
+
+    def spent_part(self) -> str | None:
+        """Name what is used up while a mission is granted; None if nothing is."""
+        if self.mission is None:
+            return None
+        for name, left in (
+            ("mission's metres", self.metres),
+            ("mission's seconds", self.seconds),
+            ("operator's metres", self.operator_metres),
+            ("operator's seconds", self.operator_seconds),
+        ):
+            if not left > 0.0:
+                return name
+        return None
+
+    def spent_hand_part(self) -> str | None:
+        """Name what a hand on the stick has used up; None if nothing is."""
+        if not self.hand_metres > 0.0:
+            return "hand's metres"
+        return None if self.hand_seconds > 0.0 else "hand's seconds"
+
 
 @dataclass(frozen=True, slots=True)
-class Answered:
+class TimedAnswer:
     """Keep one verdict for as long as its request may be repeated."""
 
     at_s: float
@@ -72,16 +100,16 @@ class Operator:
     old_nonce_no: int | None = None
     old_tag: str = ""
     old_until_s: float = 0.0
-    answers: tuple[Answered, ...] = ()
+    answers: tuple[TimedAnswer, ...] = ()
     """Verdicts on requests by id: one id, one verdict."""
     accepted: tuple[str, ...] = ()
     """Ids taken under the nonces that still count: no proof works twice, whatever is forgotten."""
-    refusals: tuple[Answered, ...] = ()
+    refusals: tuple[TimedAnswer, ...] = ()
     """Newest refusal per sender of hello and per mission of grant; overwritten and let go."""
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
+class LegMemory:
     """Remember the newest leg and the horizon that is followed."""
 
     mission: str | None = None
@@ -96,6 +124,16 @@ class Leg:
     """The horizon made ready to follow."""
     sent_s: float = 0.0
     """When the status that this horizon was cut on was sent."""
+
+    def has_usable_horizon(self, mission: str | None, now_s: float) -> bool:
+        """Tell whether a fresh horizon of the granted mission asks the robot to move."""
+        return (
+            self.horizon is not None
+            and bool(self.horizon.points)
+            and not self.reached
+            and self.horizon.mission == mission
+            and now_s - self.sent_s <= self.horizon.ttl_s
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,3 +163,17 @@ class Stick:
     w_radps: float = 0.0
     received_s: float = 0.0
     sent_s: float = 0.0
+
+
+@value
+class PendingFence:
+    """Remember a request whose proof held while nothing had torque."""
+
+    id: str
+    source: str
+    text: str
+    """All that is to be fence.json: what the proof binds."""
+    robot_in_map: Pose2
+    """Where the robot stood: a fence that leaves it outside is refused."""
+    written: bool = False
+    """It stands on the disk and counts from the bridge's next start."""

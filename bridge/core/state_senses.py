@@ -1,11 +1,11 @@
-"""Hold what the core remembers of drive, lidar, pose, buttons and its own loop."""
+"""Hold what the core remembers of sensors and its own loop, and the windows of the detectors."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from bridge.core.geometry.lidar_scan import ScanPicture
-from wire import DriveState, Imu, Localization, Scan
+from wire import DriveState, Imu, Localization, Pose2, Scan
 from wire.value import value
 
 
@@ -101,3 +101,52 @@ class LoopMemory:
     missed: int = 0
     real_time: bool = False
     recorder_ok: bool = False
+
+
+@value
+class SentBounds:
+    """Bound what was sent to both wheels [m/s at the rim] since a time."""
+
+    since_s: float
+    left_low: float
+    left_high: float
+    right_low: float
+    right_high: float
+
+
+@dataclass(slots=True)
+class DetectorMemory:
+    """Remember how long each trouble has been seen."""
+
+    blind_s: float = 0.0
+    yaw_s: float = 0.0
+    runaway_s: float = 0.0
+    sent: tuple[SentBounds, ...] = ()
+    """Oldest first; together they reach as far back as a drive may still follow."""
+    stuck_s: float = 0.0
+    progress_at: Pose2 | None = None
+    """Where in ``odom`` the robot was when it last got on; None where nothing is to be got on."""
+    progress_s: float = 0.0
+    stuck_at_s: tuple[float, ...] = ()
+    """When it was found stuck, the last three times."""
+    peak_s: float = 0.0
+    heat_a2s: float = 0.0
+    """Square of the current beyond what may flow for ever, added up [A^2 s]."""
+    low_s: float = 0.0
+    empty_s: float = 0.0
+    zone_mps: float | None = None
+    """Speed of the slowest zone that the robot is in."""
+    outside: bool = False
+    """A hand took the robot out of the fence, and it has not been well inside since."""
+
+
+@value
+class Flood:
+    """Count what came on each command key, in this half window and in the one before."""
+
+    half_since_s: float = 0.0
+    counts: tuple[int, ...] = ()
+    before: tuple[int, ...] = ()
+    level_s: float = 0.0
+    key: str = ""
+    """Which key was over its limit last."""

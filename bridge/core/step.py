@@ -8,21 +8,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority import fence_request, message_score, ownership, rate_limit
+from bridge.core.authority import (
+    fence_request,
+    hello,
+    message_score,
+    ownership,
+    rate_limit,
+    requests,
+)
+from bridge.core.authority.epoch import revoke
+from bridge.core.authority.external_velocity import hear_external
 from bridge.core.authority.grants import hear_grant, meter
 from bridge.core.authority.leg_tracking import hear_waypoints
 from bridge.core.decision import Decision
-from bridge.core.modes import external_velocity, operator, selftest, teleop
-from bridge.core.modes.external_velocity import hear_external
-from bridge.core.modes.mode_logic import arrive, decide, detect
+from bridge.core.faults.fault_latch import clear_on_grant
+from bridge.core.modes import operator, selftest, teleop
+from bridge.core.modes.mode_logic import decide, detect
 from bridge.core.motion import brake_learning, motion_gates, wheel_command
-from bridge.core.motion.wheel_command import command, shaped, wanted
+from bridge.core.motion.wheel_command import command
 from bridge.core.reporting.report import events_of, odometry_of, status_of
-from bridge.core.sensing import sensor_update
+from bridge.core.sensing import sensor_update, stop_inputs
 from bridge.core.state import BridgeState, draft
 from bridge.core.state_orders import Operator
-from bridge.core.tick_context import Tick
-from wire import STILL
+from bridge.core.tick_context import TickContext
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
@@ -58,15 +66,18 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     if not now_s >= state.now_s:
         now_s = state.now_s
     s = draft(state)
-    tick = Tick(config, s, inbox, now_s, now_s - state.now_s)
+    tick = TickContext(config, s, inbox, now_s, now_s - state.now_s)
     s.now_s = now_s
     s.tick += 1
     wheel_command.forget_after_gap(tick)
     sensor_update.sense(tick)
     _listen(tick)
+    stop_inputs.note_pressed(tick)
     detect(tick)
     decide(tick)
-    _move(tick)
+    if s.gate.blocked:
+        motion_gates.forget_block(tick)
+    wheel_command.move(tick)
     brake_learning.watch(tick, state)
     meter(tick, state)
     sends = not selftest.withholds(tick)
@@ -80,32 +91,20 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     )
 
 
-def _listen(tick: Tick) -> None:
+def _listen(tick: TickContext) -> None:
     """Hear everybody in the order of rank; a stop voids what came with it."""
-    inbox = tick.inbox = rate_limit.thinned(tick)
+    inbox = tick.inbox = rate_limit.rate_limited(tick)
     message_score.drain(tick)
-    operator.renew_nonce(tick)
-    ownership.free_the_lost(tick)
+    requests.renew_nonce(tick)
+    hello.free_lost_owner(tick)
     operator.hear_stops(tick)
     for op in inbox.ops:
         operator.hear_op(tick, op)
     if tick.stopped:
         _void(tick)
-        sensor_update.locate(tick)
+        _locate(tick)
     else:
-        for hello in inbox.hellos:
-            ownership.hear_hello(tick, hello)
-        for grant in inbox.grants:
-            hear_grant(tick, grant)
-        for heartbeat in inbox.heartbeats:
-            ownership.hear_heartbeat(tick, heartbeat)
-        sensor_update.locate(tick)
-        for velocity in inbox.teleop:
-            teleop.hear_teleop(tick, velocity)
-        for velocity in inbox.external:
-            hear_external(tick, velocity)
-        for waypoints in inbox.waypoints:
-            hear_waypoints(tick, waypoints)
+        _obey(tick)
     for fence in inbox.fences:
         fence_request.hear_fence(tick, fence)
     if inbox.fence_done is not None:
@@ -115,35 +114,42 @@ def _listen(tick: Tick) -> None:
     teleop.watch(tick)
 
 
-def _void(tick: Tick) -> None:
+def _obey(tick: TickContext) -> None:
+    """Hear the owner, the stick and the external brain, each after what it builds on.
+
+    Who owns comes before what is granted, the pose before waypoints that start at it, and the hand
+    on the stick before the brains that it outranks.
+    """
+    for new in tick.inbox.hellos:
+        hello.hear_hello(tick, new)
+    for grant in tick.inbox.grants:
+        granted = hear_grant(tick, grant)
+        if granted is not None:
+            clear_on_grant(tick)  # rows go down before the grant is said to be given
+            tick.say("granted", granted)
+    for heartbeat in tick.inbox.heartbeats:
+        ownership.hear_heartbeat(tick, heartbeat)
+    _locate(tick)
+    for velocity in tick.inbox.teleop:
+        teleop.hear_teleop(tick, velocity)
+    for velocity in tick.inbox.external:
+        hear_external(tick, velocity)
+    for waypoints in tick.inbox.waypoints:
+        before = tick.s.leg
+        hear_waypoints(tick, waypoints)
+        wheel_command.take_horizon(tick, before)
+
+
+def _locate(tick: TickContext) -> None:
+    """Find the robot in ``map``; where it was displaced, what was granted before is void."""
+    if sensor_update.locate(tick):
+        revoke(tick)
+
+
+def _void(tick: TickContext) -> None:
     """Count what came with a stop and is not obeyed."""
     inbox = tick.inbox
     came = (inbox.hellos, inbox.grants, inbox.heartbeats, inbox.teleop, inbox.external)
     for messages in (*came, inbox.waypoints):
         for _ in messages:
             tick.drop("void_by_stop")
-
-
-def _move(tick: Tick) -> None:
-    """Follow whoever is in charge, as far as caps, gate and limits let pass."""
-    motion = tick.s.motion
-    asked, at_end = wanted(tick)
-    arrive(tick, at_end=at_end)
-    if tick.s.gate.blocked:
-        _reconsider(tick)
-    motion.asked = asked if tick.moving else STILL
-    motion.limiter = shaped(tick, motion.asked)
-
-
-def _reconsider(tick: Tick) -> None:
-    """Judge a blocked way on what its owner asks now: a velocity still fresh, or the follower."""
-    owner = tick.s.ownership.owner
-    if owner is not None and owner.kind == "external":
-        motion_gates.reconsider(
-            tick, external_velocity.wanted(tick) if external_velocity.calls(tick) else STILL
-        )
-        return
-    kept = tick.s.motion.follow
-    asked, _ = wheel_command.followed(tick)
-    tick.s.motion.follow = kept  # blocked it stands: nothing has been followed
-    motion_gates.reconsider(tick, asked)

@@ -1,15 +1,15 @@
 """Carry one tick through the core: what is fixed, what is written, what arrived, what is said.
 
-Lives for one ``step`` and is then dropped. Every part of the core takes it and writes only its own
-records of ``s``.
+Lives for one ``step`` and is then dropped. Every part of the core takes it; each field of ``s`` is
+assigned to in one module alone, which tests/bridge/core/test_wings.py lists and holds.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from bridge.core.modes.mode_table import MOVING, POWERED
+from wire import Mode
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
@@ -17,12 +17,16 @@ if TYPE_CHECKING:
     from bridge.core.state import BridgeState
     from wire import Pose2
 
+POWERED = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.TELEOP, Mode.STOPPING})
+MOVING = frozenset({Mode.ACTIVE, Mode.TELEOP})
+"""Output follows from the mode alone: outside of these the target is zero."""
+
 STANDING_MPS = 0.02
 STANDING_RADPS = 0.05
 
 
 @dataclass(slots=True)
-class Tick:
+class TickContext:
     """Hold one tick in the making."""
 
     config: CoreConfig
@@ -34,6 +38,8 @@ class Tick:
     events: list[tuple[str, str]] = field(default_factory=list)
     """Code and detail, in order."""
     reasons: list[str] = field(default_factory=list)
+    dropped: int = 0
+    """Messages of this tick that were not obeyed."""
     stopped: bool = False
     """A stop was obeyed in this tick: what came with it is void."""
     room_m: float | None = None
@@ -47,12 +53,12 @@ class Tick:
         return f"{self.config.boot}-{self.s.epoch_no}"
 
     @property
-    def powered(self) -> bool:
+    def is_powered(self) -> bool:
         """Tell whether the mode keeps the drive powered."""
         return self.s.mode in POWERED
 
     @property
-    def moving(self) -> bool:
+    def is_moving(self) -> bool:
         """Tell whether the mode follows anybody."""
         return self.s.mode in MOVING
 
@@ -62,7 +68,7 @@ class Tick:
 
     def drop(self, code: str) -> None:
         """Count a message that is not obeyed, and keep the reason for the record."""
-        self.s.voice = replace(self.s.voice, dropped=self.s.voice.dropped + 1)
+        self.dropped += 1
         self.reasons.append(code)
 
     def still_for(self, seconds: float) -> bool:

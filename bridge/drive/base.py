@@ -1,4 +1,4 @@
-"""Say what a drive must be able to do: three methods and three facts about its metal."""
+"""Define the interface of a drive: three methods and three facts about its metal."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from wire import DriveCommand, DriveState, Misconfigured, Rejected
 
 Braking = Literal["brake", "coast"]
 """What the wheels do without torque: short or brake, or roll on. Decides what CUT0 is worth; who
-coasts is refused by :func:`braked`."""
+coasts is refused by :func:`require_brakes`."""
 
 
 class Drive(Protocol):
-    """Be the hands of the bridge. No method blocks."""
+    """Move the wheels and read them. No method blocks."""
 
     kind: str
     virtual: bool
@@ -29,8 +29,8 @@ class Drive(Protocol):
         """Zero both wheels and take the torque away. Never raises: all else may have failed."""
 
 
-def braked(drive: Drive) -> Drive:
-    """Return the drive, whose wheels brake without torque.
+def require_brakes(drive: Drive) -> Drive:
+    """Return the drive if its wheels brake without torque.
 
     Every stop but HOLD2 ends without torque. On wheels that roll on, that is safe only with torque
     kept at standstill until a person acts, which this bridge does not do.

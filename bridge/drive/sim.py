@@ -1,4 +1,4 @@
-"""Drive the simulated robot over its two keys. Knows the wire; not physics, not the core's state.
+"""Drive the simulated robot over its two keys of the wire.
 
 A command goes out as the core made it, the motors' dead zone fed forward there already.
 """

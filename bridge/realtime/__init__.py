@@ -1,8 +1,8 @@
-"""Wake the loop when it should be awake, and say honestly where the system refused to help."""
+"""Pace the bridge's loop: clock, real-time rights, garbage collection, systemd's watchdog."""
 
 from bridge.realtime.clock import Clock, MonotonicClock
-from bridge.realtime.collector import Collector
-from bridge.realtime.pacer import Pacer, Tick
+from bridge.realtime.collector import SlackCollector
+from bridge.realtime.pacer import Pacer, PacerTick
 from bridge.realtime.rights import (
     Right,
     all_granted,
@@ -15,12 +15,12 @@ from bridge.realtime.service import Service
 
 __all__ = [
     "Clock",
-    "Collector",
     "MonotonicClock",
     "Pacer",
+    "PacerTick",
     "Right",
     "Service",
-    "Tick",
+    "SlackCollector",
     "all_granted",
     "lock_memory",
     "pin",

@@ -1,4 +1,4 @@
-"""Tell the monotonic time and sleep until an absolute one. The loop's only clock; knows no tick.
+"""Read the monotonic clock and sleep until an absolute time. The loop's only clock.
 
 An absolute sleep can't drift: the time a tick took and the time until the thread really slept are
 both inside the deadline. Python has no door to clock_nanosleep(2), so ctypes opens one; it lets go
@@ -19,7 +19,7 @@ _NS = 1_000_000_000
 
 
 class Clock(Protocol):
-    """Give the monotonic time of this host [s] and wait for a moment of it."""
+    """Read this host's monotonic time [s] and wait until one."""
 
     def now_s(self) -> float: ...
 
@@ -32,7 +32,7 @@ class _Timespec(ctypes.Structure):
 
 
 class MonotonicClock:
-    """Be the real clock: clock_nanosleep where there is one, else time.sleep."""
+    """Sleep by clock_nanosleep where the system has it, else by time.sleep."""
 
     def __init__(self) -> None:
         self._libc = _clock_nanosleep()
@@ -41,7 +41,7 @@ class MonotonicClock:
 
     @property
     def absolute(self) -> bool:
-        """Say whether sleeps are absolute; where not, each may be late by what preceded it."""
+        """Return whether sleeps are absolute; where not, each is late by the work before it."""
         return self._libc is not None
 
     def now_s(self) -> float:

@@ -15,7 +15,7 @@ WORTH_IT = 700
 """Young objects before a collection pays, the interpreter's own threshold."""
 
 
-class Collector:
+class SlackCollector:
     """Collect only in slack time."""
 
     def freeze(self) -> None:

@@ -1,4 +1,4 @@
-"""Decide when the next tick is. Owns the schedule; knows no work.
+"""Schedule ticks at a fixed period and skip missed ones.
 
 Whole missed periods are counted and skipped, never caught up in a burst: a burst would send old
 decisions as if they were new. A tick less than a period late just runs late.
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 
 @value
-class Tick:
-    """Say when a tick woke, how late that was, and how many periods were skipped before it."""
+class PacerTick:
+    """Hold a tick's wake time, its lateness, and the periods skipped before it."""
 
     now_s: float
     late_s: float
@@ -26,7 +26,7 @@ class Tick:
 
 
 class Pacer:
-    """Give one Tick per period of an absolute schedule."""
+    """Wait for each period of an absolute schedule."""
 
     def __init__(self, clock: Clock, period_s: float) -> None:
         if not period_s > 0.0:
@@ -35,7 +35,7 @@ class Pacer:
         self.period_s = period_s
         self._due_s = clock.now_s() + period_s
 
-    def wait(self) -> Tick:
+    def wait(self) -> PacerTick:
         """Sleep until the next tick is due and say how it went."""
         self._clock.sleep_until(self._due_s)
         now_s = self._clock.now_s()
@@ -43,7 +43,7 @@ class Pacer:
         self._due_s += missed * self.period_s
         late_s = max(0.0, now_s - self._due_s)
         self._due_s += self.period_s
-        return Tick(now_s, late_s, missed)
+        return PacerTick(now_s, late_s, missed)
 
     def slack_s(self) -> float:
         """Return the time until the next tick is due; negative when it is already late."""

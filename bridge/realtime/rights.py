@@ -31,7 +31,7 @@ BELOW_THE_LOOP = 10
 
 @dataclass(frozen=True, slots=True)
 class Right:
-    """Say what was asked of the system and whether it was given."""
+    """Hold one right asked of the system, and whether it was granted."""
 
     name: str
     granted: bool
@@ -39,7 +39,7 @@ class Right:
 
 
 def all_granted(rights: tuple[Right, ...]) -> bool:
-    """Say whether nothing was refused."""
+    """Return whether every right was granted."""
     return all(right.granted for right in rights)
 
 
@@ -61,7 +61,7 @@ def lock_memory() -> Right:
 
 
 def _above_the_limit() -> bool:
-    """Say whether this process holds CAP_IPC_LOCK, by which the kernel asks for no limit."""
+    """Return whether this process holds CAP_IPC_LOCK, for which no limit counts."""
     try:
         lines = _STATUS.read_text("ascii").splitlines()
         held = next(int(line.split()[1], 16) for line in lines if line.startswith("CapEff:"))
@@ -86,7 +86,7 @@ def pin(cpu: int | None) -> Right:
 
 
 def take_fifo(priority: int) -> Right:
-    """Run the calling thread under SCHED_FIFO; what it starts later does not inherit it."""
+    """Run the calling thread under SCHED_FIFO; threads that it starts do not inherit it."""
     return _fifo("fifo", priority, inherited=False)
 
 

@@ -1,4 +1,4 @@
-"""Tell systemd that the loop turns (sd_notify(3)). Silent where nobody listens.
+"""Notify systemd that the loop turns (sd_notify(3)); does nothing without systemd.
 
 The watchdog is fed by turning, not by being well: health is a row of the table, not a death.
 """
@@ -21,17 +21,17 @@ class Service:
         self._fed_s = float("-inf")
 
     def ready(self) -> None:
-        """Say that start-up is over."""
+        """Notify systemd that start-up is over (READY=1)."""
         self._send(b"READY=1")
 
     def feed(self, now_s: float) -> None:
-        """Say that the loop turns, at most every WATCHDOG_PERIOD_S."""
+        """Feed systemd's watchdog, at most every WATCHDOG_PERIOD_S."""
         if self._socket is not None and now_s - self._fed_s >= WATCHDOG_PERIOD_S:
             self._fed_s = now_s
             self._send(b"WATCHDOG=1")
 
     def stopping(self) -> None:
-        """Say that the process is leaving."""
+        """Notify systemd that the process is leaving (STOPPING=1)."""
         self._send(b"STOPPING=1")
 
     def close(self) -> None:

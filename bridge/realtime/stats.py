@@ -1,4 +1,4 @@
-"""Summarise how the loop goes. Knows numbers; not where they come from."""
+"""Summarise the loop's lateness and step times, second by second."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ WINDOW_TICKS = 100
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """Give the last whole second's figures [us]."""
+    """Hold the last whole second's lateness and step times [us]."""
 
     late_p50_us: float = 0.0
     late_max_us: float = 0.0

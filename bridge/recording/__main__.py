@@ -1,4 +1,4 @@
-"""Be the process that writes recordings: ``FOLDER BOOT ROTATE_BYTES CAP_BYTES CLOCK_OFFSET_S``.
+"""Run the process that writes recordings: ``FOLDER BOOT ROTATE_BYTES CAP_BYTES CLOCK_OFFSET_S``.
 
 Frames come by standard input, words go by standard output. It ends when the pipe ends, however the
 bridge died, and then writes what was still in the pipe; that is why it asks for no death signal and
@@ -15,10 +15,10 @@ import sys
 import time
 from pathlib import Path
 
-from bridge.recording.foxglove_messages import Clock
+from bridge.recording.foxglove_messages import UnixClock
 from bridge.recording.pipe_frames import BadFrame, Splitter
 from bridge.recording.writer import Writer
-from rank import nice
+from processes.priority import add_nice
 
 BEAT_S = 0.5
 SYNC_S = 2.0
@@ -55,7 +55,7 @@ def pump(source_fd: int, words_fd: int, writer: Writer) -> None:
 
 
 def _say(words_fd: int, word: bytes) -> None:
-    """Never wait for a loop that does not listen: it may be dead, and what it said is not."""
+    """Answer the loop without waiting: it may be dead, and its frames still count."""
     try:
         os.write(words_fd, word)
     except (BlockingIOError, BrokenPipeError):
@@ -63,11 +63,11 @@ def _say(words_fd: int, word: bytes) -> None:
 
 
 def be_humble() -> None:
-    """Leave the loop's CPU and rank to the loop, and death to the end of the pipe."""
+    """Leave the loop's CPU and priority to the loop, and death to the end of the pipe."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    nice(NICE, apart=True)
+    add_nice(NICE, own_session=True)
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, range(os.cpu_count() or 1))
 
@@ -77,7 +77,7 @@ def main(arguments: list[str]) -> int:
     be_humble()
     folder, boot, rotate_bytes, cap_bytes, offset_s = arguments
     os.set_blocking(1, False)
-    clock = Clock(float(offset_s))
+    clock = UnixClock(float(offset_s))
     writer = Writer(Path(folder), boot, int(rotate_bytes), int(cap_bytes), clock)
     try:
         pump(0, 1, writer)

@@ -1,4 +1,4 @@
-"""Turn ticks into frames for the writing process. Runs in the loop: every microsecond counts here.
+"""Encode ticks as frames for the writing process. Runs in the loop: every microsecond counts.
 
 Serializers are called without the wrapper of their adapters, and defaults are left out: of most
 ticks nothing but the drive's report came. A scan's ranges are copied as doubles, for formatting 360
@@ -34,12 +34,12 @@ def tick_frames(
 ) -> None:
     """Add the frames of one tick; about 25 us while the code for it is warm."""
     number, head = state.tick, _HEAD
-    given = form.Given(number, now_s, inbox)
+    given = form.StepInput(number, now_s, inbox)
     out += (head(pipe_frames.TICK, pipe_frames.TICK_OF.size), _TICK(number, now_s))
     if inbox.scan is None:
         arrived = _given(given, exclude_defaults=True)
     else:
-        ranges = packed(inbox.scan.ranges_m)
+        ranges = pack_ranges(inbox.scan.ranges_m)
         out += (head(pipe_frames.RANGES, len(ranges)), ranges)
         arrived = _given(given, exclude_defaults=True, exclude=_RANGES)
     out += (head(pipe_frames.INBOX, len(arrived)), arrived)
@@ -73,7 +73,7 @@ def _digest(number: int, decision: Decision) -> bytes:
     ).encode()
 
 
-def packed(ranges_m: tuple[float | None, ...]) -> bytes:
+def pack_ranges(ranges_m: tuple[float | None, ...]) -> bytes:
     """Return ranges as little-endian doubles."""
     try:
         return struct.pack(f"<{len(ranges_m)}d", *ranges_m)
@@ -82,14 +82,14 @@ def packed(ranges_m: tuple[float | None, ...]) -> bytes:
         return struct.pack(f"<{len(ranges_m)}d", *filled)
 
 
-def unpacked(data: bytes) -> list[float | None]:
+def unpack_ranges(data: bytes) -> list[float | None]:
     """Return the ranges that were packed."""
     ranges = struct.unpack(f"<{len(data) // 8}d", data)
     return [None if range_m == NOTHING_M else range_m for range_m in ranges]
 
 
 def segment_frames(config: CoreConfig, core: str, state: BridgeState) -> bytes:
-    """Return what a segment begins with."""
+    """Return the boot and state frames that begin a segment."""
     return b"".join(
         (
             pipe_frames.frame(pipe_frames.TICK, _TICK(state.tick, state.now_s)),
@@ -107,7 +107,7 @@ def warm_frames(
     config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float, decision: Decision, *,
     whole: bool,
 ) -> bytes:  # fmt: skip
-    """Make what a tick is worth and throw it away, for code that has run once runs faster."""
+    """Encode a tick and throw it away: code that has run once runs faster."""
     out = [segment_frames(config, "", state)] if whole else []
     tick_frames(out, state, inbox, now_s, decision)
     return b"".join(out)

@@ -1,4 +1,4 @@
-"""Define what a recording says of the bridge, message by message, and how exactly.
+"""Define the messages of a recording, topic by topic, and their exactness.
 
 boot      all that is configured: enough to build the same core again
 state     the core's whole state before the tick that follows
@@ -19,8 +19,8 @@ from typing import Any, ClassVar, Literal
 from pydantic import ConfigDict, TypeAdapter
 
 from bridge.core import BridgeState, CoreConfig, Inbox
+from bridge.core.geometry.fence import FenceGrid, Zone, build_fence
 from bridge.core.geometry.polygon import Polygon
-from bridge.core.sensing.fence import Fence, Zone, build_fence
 from wire import DriveCommand, Event, Mode, Odometry, Status, Twist2
 from wire.fingerprint import fingerprint
 from wire.value import value
@@ -30,7 +30,7 @@ _STRICT = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outlines:
-    """Keep what a fence is built of; what is prepared from it is not worth its bytes."""
+    """Hold a fence's outlines; the cells prepared from them are not worth their bytes."""
 
     map_id: str
     allowed: tuple[Polygon, ...]
@@ -55,25 +55,28 @@ class Header:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateFrame:
-    """Give the state before the next tick."""
+    """Hold the core's whole state before the next tick."""
 
     state: BridgeState
     __pydantic_config__: ClassVar[ConfigDict] = _STRICT
 
 
 @value
-class Given:
-    """Give one step's arguments: the number of the tick before it, the time, what arrived."""
+class StepInput:
+    """Hold one step's arguments: number of the tick before it, time, inbox."""
 
     tick: int
     now_s: float
     inbox: Inbox
-    __pydantic_config__: ClassVar[ConfigDict] = _STRICT
+    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(
+        extra="forbid", allow_inf_nan=False, title="Given"
+    )
+    """The title of its first version: a title is part of a core's fingerprint."""
 
 
 @value
 class Digest:
-    """Give in short what one step decided, beside what it said."""
+    """Hold a decision in short, beside the messages that it sent."""
 
     tick: int
     mode: Mode
@@ -88,7 +91,7 @@ class Digest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TickFrame:
-    """Give one tick as it was recorded."""
+    """Hold one tick as it was recorded."""
 
     tick: int
     now_s: float
@@ -102,7 +105,7 @@ Frame = Header | StateFrame | TickFrame
 
 HEADER = TypeAdapter(Header)
 STATE = TypeAdapter(StateFrame)
-GIVEN = TypeAdapter(Given)
+GIVEN = TypeAdapter(StepInput)
 DIGEST = TypeAdapter(Digest)
 COMMAND = TypeAdapter(DriveCommand)
 STATUS = TypeAdapter(Status)
@@ -134,7 +137,7 @@ def schemas() -> dict[str, dict[str, Any]]:
 
 
 def core_of(said: dict[str, dict[str, Any]]) -> str:
-    """Return the fingerprint of what a replay must understand."""
+    """Return the fingerprint of the schemas that a replay must understand."""
     told = [said[topic]["schema"] for topic in ("/pons/boot", "/pons/state", "/pons/inbox")]
     return fingerprint(repr(_bare(told)).encode())
 
@@ -162,13 +165,13 @@ def config_of(header: Header) -> CoreConfig:
     return header.config if fence is None else replace(header.config, fence=_fence(fence))
 
 
-def _outlines(fence: Fence) -> Outlines:
+def _outlines(fence: FenceGrid) -> Outlines:
     return Outlines(
         map_id=fence.map_id, allowed=fence.allowed, keep_outs=fence.keep_outs, zones=fence.zones
     )
 
 
 @lru_cache(maxsize=4)
-def _fence(kept: Outlines) -> Fence:
+def _fence(kept: Outlines) -> FenceGrid:
     """Prepare a fence's cells; every segment of a run says the same one again."""
     return build_fence(kept.map_id, kept.allowed, kept.keep_outs, kept.zones)

@@ -1,4 +1,4 @@
-"""Say again in well-known schemas what came as the bridge's own JSON.
+"""Convert the bridge's own JSON into Foxglove's well-known schemas.
 
 Scan, frames, pose, plan and log, for viewers: replay and `pons why` read none of it but the scan's
 ranges. Each function returns topic and bytes of what one of our messages is worth there. Numbers
@@ -25,7 +25,7 @@ _INFO, _WARNING = 2, 3
 _GRAVE = (b'"mode":"FAULT"', b'"mode":"ESTOPPED"', b'"mode":"STOPPING"', b'"code":"row_up"')
 
 
-class Clock:
+class UnixClock:
     """Turn the host's monotonic time into UNIX time by one offset for the whole run."""
 
     def __init__(self, offset_s: float) -> None:
@@ -47,7 +47,7 @@ def from_boot(payload: bytes) -> tuple[float, float, float]:
 
 
 def from_inbox(
-    payload: bytes, ranges: bytes | None, lidar: tuple[float, float, float], clock: Clock,
+    payload: bytes, ranges: bytes | None, lidar: tuple[float, float, float], clock: UnixClock,
     now_s: float,
 ) -> Iterator[Made]:  # fmt: skip
     """Yield scan, localization and waypoints, where the tick was given any."""
@@ -75,14 +75,14 @@ def from_inbox(
         yield PLAN, f'{{"timestamp":{stamp},"frame_id":"map","poses":[{poses}]}}'.encode()
 
 
-def from_odometry(payload: bytes, clock: Clock, now_s: float) -> Made:
+def from_odometry(payload: bytes, clock: UnixClock, now_s: float) -> Made:
     """Return where ``base`` is in ``odom``."""
     said = json.loads(payload)
     return _transform(clock.stamped_ns(said["stamp_s"], now_s), "odom", "base",
                       said["base_in_odom"])  # fmt: skip
 
 
-def from_status(payload: bytes, clock: Clock, now_s: float) -> Iterator[Made]:
+def from_status(payload: bytes, clock: UnixClock, now_s: float) -> Iterator[Made]:
     """Yield where the robot is in ``map``, while it knows."""
     here = json.loads(payload)["base_in_map"]
     if here is not None:
@@ -90,7 +90,7 @@ def from_status(payload: bytes, clock: Clock, now_s: float) -> Iterator[Made]:
         yield POSE, f'{{"timestamp":{stamp},"frame_id":"map","pose":{pose}}}'.encode()
 
 
-def from_event(payload: bytes, clock: Clock, now_s: float) -> Made:
+def from_event(payload: bytes, clock: UnixClock, now_s: float) -> Made:
     """Return one line of the log."""
     said = json.loads(payload)
     level = _WARNING if any(mark in payload for mark in _GRAVE) else _INFO

@@ -1,4 +1,4 @@
-"""Judge from its words whether the writing process writes. Knows its words; no pipe, no clock."""
+"""Judge from the writing process's answers whether it writes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Health:
         self.wants_segment = True
 
     def hear(self, data: bytes, now_s: float) -> None:
-        """Take what was said since the last time."""
+        """Take the writing process's answers since the last call."""
         *lines, self._part = (self._part + data).split(b"\n")
         if lines:
             self._heard_s = now_s
@@ -37,11 +37,11 @@ class Health:
 
     @property
     def failing(self) -> bool:
-        """Say whether it is no use to send anything."""
+        """Return whether nothing can be written, so that nothing need be sent."""
         return self._word == pipe_frames.FAILING
 
     def trouble(self, now_s: float) -> str:
-        """Say why nothing may be on the disk; empty where all is well."""
+        """Return why nothing may be on the disk; empty where all is well."""
         if self.failing:
             return self._text
         self._heard_s = now_s if self._heard_s is None else self._heard_s

@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from bridge.recording.topics import Topic
+    from bridge.recording.topics import RecordedTopic
 
 CHUNK_BYTES = 16 << 20
 """Never reached: chunks end when they are flushed, between two ticks."""
 LIBRARY = "pons"
 
 
-class BoxFile:
-    """Be one file being written. Every method may raise OSError; then only ``abandon`` is left."""
+class McapFile:
+    """Write one MCAP file. Every method may raise OSError; then only ``abandon`` is left."""
 
-    def __init__(self, path: Path, topics: Mapping[str, Topic]) -> None:
+    def __init__(self, path: Path, topics: Mapping[str, RecordedTopic]) -> None:
         self.path = path
         self._sink = _Sink(path)
         self._writer = Writer(
@@ -52,7 +52,7 @@ class BoxFile:
 
     @property
     def size_bytes(self) -> int:
-        """Return what is in the file; what is not flushed is not."""
+        """Return the file's size, without what waits for a flush."""
         return self._sink.tell()
 
     def add(self, topic: str, at_ns: int, sequence: int, data: bytes) -> None:
@@ -60,12 +60,12 @@ class BoxFile:
         self._writer.add_message(self._channels[topic], at_ns, data, at_ns, sequence)
 
     def flush(self) -> None:
-        """Put what came so far within reach of a reader, and of one after a killed process."""
+        """Write all messages so far, so that a reader finds them even if this process is killed."""
         self._writer.flush()  # type: ignore[no-untyped-call]  # mcap leaves it untyped
         self._good_bytes = self._sink.tell()
 
     def sync(self) -> None:
-        """Bring what was flushed to the disk itself, for the power may fail."""
+        """Bring the flushed bytes to the disk itself, for the power may fail."""
         self._sink.sync()
 
     def close(self) -> None:
@@ -81,7 +81,7 @@ class BoxFile:
 
 
 class _Sink:
-    """Be what mcap's writer writes to: every byte goes to the system at once, or it raises."""
+    """Pass every byte of mcap's writer to the system at once, or raise."""
 
     def __init__(self, path: Path) -> None:
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC

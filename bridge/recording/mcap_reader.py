@@ -1,4 +1,4 @@
-"""Walk through an MCAP file, however its writer ended. Knows the container, not what is in it.
+"""Read an MCAP file's messages, however its writer ended.
 
 A file whose writer was killed, or whose host lost its power, has no footer and may end in half a
 record: it is read up to there. A file that was closed and is damaged is refused by name. Reads what
@@ -32,7 +32,7 @@ _MESSAGE_HEAD = struct.Struct("<HIQQ")
 
 
 class BadRecording(Exception):
-    """Say why a file is no recording that can be read, by stable code."""
+    """Name by stable code why a recording can't be read."""
 
     def __init__(self, code: str, detail: str) -> None:
         super().__init__(f"{code}: {detail}")
@@ -42,7 +42,7 @@ class BadRecording(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Raw:
-    """Give one message as it stands in the file."""
+    """Hold one message as it stands in the file."""
 
     topic: str
     sequence: int
@@ -52,15 +52,15 @@ class Raw:
 
 @dataclass(slots=True)
 class Chunk:
-    """Say where a chunk lies and, by its index, which topics it has."""
+    """Hold a chunk's place and, by its index, its topics."""
 
     at: int
     size: int
     topics: set[str]
 
 
-class BoxReader:
-    """Be one file, its chunks found and not yet unpacked."""
+class McapReader:
+    """Read one MCAP file chunk by chunk."""
 
     def __init__(self, path: Path) -> None:
         """Find the chunks.
@@ -85,7 +85,7 @@ class BoxReader:
             self._file.close()
             raise
 
-    def __enter__(self) -> BoxReader:
+    def __enter__(self) -> McapReader:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -107,7 +107,7 @@ class BoxReader:
             BadRecording: it is damaged, and no cut explains it.
         """
         try:
-            return list(self._messages(self._unpacked(chunk)))
+            return list(self._messages(self._unpack(chunk)))
         except (ValueError, struct.error, zstandard.ZstdError) as error:
             if chunk is self.chunks[-1] and not self.complete:
                 return []
@@ -116,7 +116,7 @@ class BoxReader:
 
     def _find(self) -> None:
         file = self._file
-        self.growing = _held(file)
+        self.growing = _is_locked(file)
         size = os.fstat(file.fileno()).st_size
         magic = file.read(len(MAGIC))
         if magic[:2] == _GZIP:
@@ -145,7 +145,7 @@ class BoxReader:
                 text = f"{self.path} was closed, yet holds what no record is"
                 raise BadRecording("recording_damaged", text)
 
-    def _unpacked(self, chunk: Chunk) -> bytes:
+    def _unpack(self, chunk: Chunk) -> bytes:
         if chunk.size > MOST_BYTES:
             raise ValueError(f"a chunk of {chunk.size} bytes, packed")
         self._file.seek(chunk.at)
@@ -155,7 +155,7 @@ class BoxReader:
         packed = body[at + 8 :]
         if size > MOST_BYTES or compression not in {"", "zstd"}:
             raise ValueError(f"a chunk of {size} bytes in {compression!r}")
-        data = _unpacked(packed, size) if compression else packed
+        data = _decompress(packed, size) if compression else packed
         if len(data) != size or (crc and zlib.crc32(data) != crc):
             raise ValueError("its checksum does not fit")
         return data
@@ -178,8 +178,8 @@ class BoxReader:
             at = end
 
 
-def _unpacked(packed: bytes, size: int) -> bytes:
-    """Unpack one frame, whose own word on its size outranks ours inside the library."""
+def _decompress(packed: bytes, size: int) -> bytes:
+    """Unpack one zstd frame; the library believes the frame's own size before ours."""
     said = zstandard.frame_content_size(packed)
     if said not in {-1, size}:  # -1: it does not say
         raise ValueError(f"a frame of {said} bytes in a chunk of {size}")
@@ -201,8 +201,8 @@ def _records(file: IO[bytes], size: int) -> Iterator[tuple[int, int, int]]:
         at += length
 
 
-def _held(file: IO[bytes]) -> bool:
-    """Tell whether a process holds the lock that a writer takes (mcap_file)."""
+def _is_locked(file: IO[bytes]) -> bool:
+    """Return whether a process holds the lock that a writer takes (mcap_file)."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

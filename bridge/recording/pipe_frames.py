@@ -1,4 +1,4 @@
-"""Define what loop and writing process say to each other: bytes in frames there, words back.
+"""Define the frames from the loop to the writing process and the words back.
 
 A frame is one letter, a length and so many bytes. A tick is ``TICK`` (its number and time), what it
 was given, what came of it, and ``DECISION`` last: a tick without one was cut short and counts as

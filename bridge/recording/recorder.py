@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 from bridge.recording.encode import schema_frame, segment_frames, tick_frames
 from bridge.recording.format import core_of, schemas
 from bridge.recording.health import DOWN, Health
-from bridge.recording.pipe import WANTED_BYTES, Pipe
 from bridge.recording.writer_process import Sizes, WriterProcess
+from processes.pipe import WANTED_BYTES, Pipe
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,7 +38,7 @@ REVIVE_FIRST_S, REVIVE_MOST_S = 1.0, 30.0
 
 
 class Recorder:
-    """Be the one door to recordings for the loop."""
+    """Take ticks from the loop and hand them to the writing process in batches."""
 
     def __init__(
         self,
@@ -73,7 +73,7 @@ class Recorder:
         when ticks are handed over: each look costs a system call."""
         self._schemas_due = True
         self._health = Health(None)
-        self._pipe, self._writer = self._started()
+        self._pipe, self._writer = self._start_writer()
 
     @property
     def writer_pid(self) -> int | None:
@@ -82,17 +82,17 @@ class Recorder:
 
     @property
     def backlog_bytes(self) -> int:
-        """Return what the writer has not taken yet."""
+        """Return how many bytes the writer has not taken yet."""
         return self._pipe.waiting_bytes()
 
     def tick(self, state: BridgeState, inbox: Inbox, now_s: float, decision: Decision) -> None:
-        """Take one tick: what the step was given and what it decided."""
+        """Take one tick: the step's arguments and its decision."""
         self._kept.append((state, inbox, now_s, decision))
         self._now_s = now_s
         if len(self._kept) >= TOGETHER:
             alive = self._look_after(now_s)
             self._hand_over()
-            self.trouble = self._judged(now_s, alive=alive)
+            self.trouble = self._judge(now_s, alive=alive)
 
     def close(self) -> bool:
         """Let the writer finish; say whether it did. After the loop only: it waits."""
@@ -103,7 +103,7 @@ class Recorder:
         self._pipe.close()
         return self._writer is not None and self._writer.join()
 
-    def _judged(self, now_s: float, *, alive: bool) -> str:
+    def _judge(self, now_s: float, *, alive: bool) -> str:
         if not alive or self._pipe.broken:
             return f"{DOWN}: the writing process has died"
         said = self._health.trouble(now_s)
@@ -112,7 +112,7 @@ class Recorder:
         return said
 
     def _look_after(self, now_s: float) -> bool:
-        """Hear the writer, and replace a dead one; say whether it lives.
+        """Read the writer's answers and replace a dead one; return whether it lives.
 
         Dead means reaped: one that hangs over a failing disk would hang again.
         """
@@ -141,7 +141,7 @@ class Recorder:
         return self._missing == 0 or 2 * self._pipe.waiting_bytes() <= self._pipe.capacity_bytes
 
     def _hand_over(self) -> None:
-        """Give the writer what was kept, all of it or nothing."""
+        """Send the writer all kept ticks, or none."""
         kept = self._kept
         if not kept:
             return
@@ -175,9 +175,9 @@ class Recorder:
         self._until_segment = 0
         self._schemas_due = True
         self._health = Health(self._now_s)
-        self._pipe, self._writer = self._started()
+        self._pipe, self._writer = self._start_writer()
 
-    def _started(self) -> tuple[Pipe, WriterProcess | None]:
+    def _start_writer(self) -> tuple[Pipe, WriterProcess | None]:
         pipe, writer = Pipe(self._pipe_bytes), None
         try:
             writer = WriterProcess(

@@ -1,4 +1,4 @@
-"""Read recordings as what the bridge meant: boots, states, ticks. Runs nothing.
+"""Read a recording's boots, states and ticks. Runs nothing.
 
 The door for whoever reads; bridge.recording's own is the loop's, which must not load what is needed
 here. A recording of another core is refused only where this one can't understand it, and then by
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeVar
 from pydantic import ValidationError
 
 from bridge.recording import format as form
-from bridge.recording.encode import unpacked
+from bridge.recording.encode import unpack_ranges
 from bridge.recording.format import (
     Frame,
     Header,
@@ -23,7 +23,7 @@ from bridge.recording.format import (
     core_of,
     schemas,
 )
-from bridge.recording.mcap_reader import BadRecording, BoxReader, Raw
+from bridge.recording.mcap_reader import BadRecording, McapReader, Raw
 from bridge.recording.protobuf import ranges_of
 
 if TYPE_CHECKING:
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BadRecording",
-    "BoxReader",
     "Frame",
     "Header",
+    "McapReader",
     "Raw",
     "StateFrame",
     "TickFrame",
@@ -60,12 +60,12 @@ def read_recording(path: Path) -> Iterator[Frame]:
     Raises:
         BadRecording: no such file, not MCAP, damaged, not ours, or of a core that is too different.
     """
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         yield from frames_of(path, box.messages())
 
 
 def frames_of(path: Path, messages: Iterable[Raw]) -> Iterator[Frame]:
-    """Yield what messages mean.
+    """Yield the frames that messages stand for.
 
     Raises:
         BadRecording: they are none of ours.
@@ -78,9 +78,9 @@ def frames_of(path: Path, messages: Iterable[Raw]) -> Iterator[Frame]:
         match raw.topic:
             case "/pons/boot":
                 core = _core_said(raw)
-                yield _parsed(path, raw, form.HEADER, core)
+                yield _parse(path, raw, form.HEADER, core)
             case "/pons/state":
-                yield _parsed(path, raw, form.STATE, core)
+                yield _parse(path, raw, form.STATE, core)
             case "/scan":
                 ranges = raw
             case "/pons/inbox":
@@ -93,7 +93,7 @@ def frames_of(path: Path, messages: Iterable[Raw]) -> Iterator[Frame]:
 
 
 def _core_said(boot: Raw) -> str:
-    """Return whose recording it says it is, even where this core can't read the rest of it."""
+    """Return the core's fingerprint in a boot, even where the rest can't be read."""
     try:
         return str(json.loads(boot.data)["core"])
     except (ValueError, KeyError, TypeError):
@@ -102,13 +102,13 @@ def _core_said(boot: Raw) -> str:
 
 def _tick(path: Path, core: str, parts: tuple[Raw, Raw | None, Raw | None, Raw]) -> TickFrame:
     inbox, scan, command, decision = parts
-    given = _parsed(path, _with_ranges(path, inbox, scan), form.GIVEN, core)
-    digest = _parsed(path, decision, form.DIGEST, core)
+    given = _parse(path, _with_ranges(path, inbox, scan), form.GIVEN, core)
+    digest = _parse(path, decision, form.DIGEST, core)
     return TickFrame(
         tick=given.tick,
         now_s=given.now_s,
         inbox=given.inbox,
-        command=None if command is None else _parsed(path, command, form.COMMAND, core),
+        command=None if command is None else _parse(path, command, form.COMMAND, core),
         mode=digest.mode,
         reasons=digest.reasons,
     )
@@ -120,13 +120,13 @@ def _with_ranges(path: Path, inbox: Raw, scan: Raw | None) -> Raw:
         return inbox
     try:
         given = json.loads(inbox.data)
-        given["inbox"]["scan"]["ranges_m"] = unpacked(ranges_of(scan.data))
+        given["inbox"]["scan"]["ranges_m"] = unpack_ranges(ranges_of(scan.data))
     except (ValueError, KeyError, TypeError) as error:
         raise BadRecording("recording_invalid", f"{path}, tick {scan.sequence}: {error}") from None
     return Raw(inbox.topic, inbox.sequence, inbox.at_ns, json.dumps(given).encode())
 
 
-def _parsed(path: Path, raw: Raw, adapter: TypeAdapter[T], core: str) -> T:
+def _parse(path: Path, raw: Raw, adapter: TypeAdapter[T], core: str) -> T:
     try:
         return adapter.validate_json(raw.data)
     except ValidationError as error:

@@ -1,4 +1,4 @@
-"""Own the folder of recordings: names, and which go when there are too many. Knows no content.
+"""Name recordings and remove the oldest when there are too many.
 
 A name holds the UTC time at which the file began, the bridge's boot, and its number within that, so
 names sort by time. The oldest go first, and this boot's own last, for a host without a clock may
@@ -35,7 +35,7 @@ def next_path(folder: Path, boot: str, unix_s: float) -> Path:
 
 
 def free_bytes(folder: Path) -> int:
-    """Return what an ordinary user may still write there."""
+    """Return the bytes that an ordinary user may still write there."""
     info = os.statvfs(folder)
     return info.f_bavail * info.f_frsize
 

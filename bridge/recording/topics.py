@@ -30,8 +30,8 @@ OF_KIND = {
 
 
 @dataclass(frozen=True, slots=True)
-class Topic:
-    """Say how the messages of one topic are written."""
+class RecordedTopic:
+    """Hold the schema and encoding of one topic."""
 
     schema: str
     schema_encoding: str
@@ -70,7 +70,7 @@ WELL_KNOWN: dict[str, tuple[str, dict[str, Any]]] = {
 """The fields that we write, in the JSON form of https://docs.foxglove.dev/docs/sdk/schemas."""
 
 
-def topics(ours: Mapping[str, Mapping[str, Any]]) -> dict[str, Topic]:
+def topics(ours: Mapping[str, Mapping[str, Any]]) -> dict[str, RecordedTopic]:
     """Return all topics, told the schema names and JSON Schemas of our own."""
     made = {
         name: _json(str(told["name"]), told["schema"])
@@ -78,9 +78,9 @@ def topics(ours: Mapping[str, Mapping[str, Any]]) -> dict[str, Topic]:
         if name in OF_KIND.values()
     }
     made |= {name: _json(*known) for name, known in WELL_KNOWN.items()}
-    made[SCAN] = Topic("foxglove.LaserScan", "protobuf", protobuf.SCAN_SCHEMA, "protobuf")
+    made[SCAN] = RecordedTopic("foxglove.LaserScan", "protobuf", protobuf.SCAN_SCHEMA, "protobuf")
     return made
 
 
-def _json(name: str, schema: Mapping[str, Any]) -> Topic:
-    return Topic(name, "jsonschema", json.dumps(schema).encode(), "json")
+def _json(name: str, schema: Mapping[str, Any]) -> RecordedTopic:
+    return RecordedTopic(name, "jsonschema", json.dumps(schema).encode(), "json")

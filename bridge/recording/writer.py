@@ -1,4 +1,4 @@
-"""Turn frames into files, and say how that goes. Owns which file is open; knows no tick's meaning.
+"""Write frames into MCAP files and report trouble. Owns which file is open.
 
 It never gives up: where the disk is full or gone, what comes is thrown away and said so, and every
 second it is tried again. A new file begins with a segment only, so one is asked for.
@@ -12,7 +12,7 @@ from errno import EDQUOT, ENOSPC
 from typing import TYPE_CHECKING
 
 from bridge.recording import foxglove_messages, pipe_frames
-from bridge.recording.mcap_file import BoxFile
+from bridge.recording.mcap_file import McapFile
 from bridge.recording.rotation import free_bytes, next_path, prune
 from bridge.recording.topics import OF_KIND, topics
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-    from bridge.recording.topics import Topic
+    from bridge.recording.topics import RecordedTopic
 
 log = logging.getLogger("bridge.recording")
 
@@ -31,7 +31,7 @@ _FULL = frozenset({ENOSPC, EDQUOT})
 
 
 class Writer:
-    """Hold the open file and what a frame needs to know of those before it."""
+    """Hold the open file and the last tick's time, ranges and lidar pose."""
 
     def __init__(
         self,
@@ -39,13 +39,13 @@ class Writer:
         boot: str,
         rotate_bytes: int,
         cap_bytes: int,
-        clock: foxglove_messages.Clock,
+        clock: foxglove_messages.UnixClock,
     ) -> None:
         self._folder, self._boot = folder, boot
         self._rotate_bytes, self._cap_bytes = rotate_bytes, cap_bytes
         self._clock = clock
-        self._topics: dict[str, Topic] = {}
-        self._file: BoxFile | None = None
+        self._topics: dict[str, RecordedTopic] = {}
+        self._file: McapFile | None = None
         self._failing = ""
         self._tick, self._now_s, self._at_ns = 0, 0.0, 0
         self._ranges: bytes | None = None
@@ -53,7 +53,7 @@ class Writer:
         self._unsaid: set[str] = set()
 
     def take(self, kind: bytes, payload: bytes, unix_s: float) -> None:
-        """Take one frame. Never raises for what a disk does."""
+        """Write one frame. Never raises for the disk's failures."""
         if kind == pipe_frames.TICK:
             self._tick, self._now_s = pipe_frames.TICK_OF.unpack(payload)
             self._at_ns = max(self._at_ns, self._clock.ns(self._now_s))
@@ -70,7 +70,7 @@ class Writer:
                     self._file.add(topic, self._at_ns, self._tick & 0xFFFFFFFF, data)
 
     def beat(self) -> bytes:
-        """Bring what came within reach of a reader; return the word that the loop must hear."""
+        """Flush the file and return the answer for the loop."""
         if self._file is not None:
             try:
                 self._file.flush()
@@ -86,7 +86,7 @@ class Writer:
         return word
 
     def sync(self) -> None:
-        """Bring what was flushed to the disk itself."""
+        """Bring the flushed bytes to the disk itself."""
         if self._file is not None:
             try:
                 self._file.sync()
@@ -101,15 +101,15 @@ class Writer:
                 file.close()
             except OSError as error:
                 file.abandon()
-                self._failing = _said(error, self._folder)
+                self._failing = _describe_failure(error, self._folder)
 
     def _worth(self, kind: bytes, payload: bytes) -> list[tuple[str, bytes]]:
-        """Return what a frame puts into the file: the well-known first, then itself.
+        """Return a frame's messages: Foxglove's first, then its own.
 
         The record matters more than its looks: what can't be said again is left out, and said once.
         """
         try:
-            made = list(self._known(kind, payload))
+            made = list(self._well_known(kind, payload))
         except (KeyError, TypeError, ValueError) as error:
             made = []
             if OF_KIND[kind] not in self._unsaid:
@@ -117,7 +117,7 @@ class Writer:
                 log.warning("recorder_unsaid: %s is not shown to viewers: %r", OF_KIND[kind], error)
         return [*made, (OF_KIND[kind], payload)]
 
-    def _known(self, kind: bytes, payload: bytes) -> Iterable[tuple[str, bytes]]:
+    def _well_known(self, kind: bytes, payload: bytes) -> Iterable[tuple[str, bytes]]:
         clock, now_s = self._clock, self._now_s
         if kind == pipe_frames.INBOX:
             return foxglove_messages.from_inbox(payload, self._ranges, self._lidar, clock, now_s)
@@ -141,7 +141,7 @@ class Writer:
             self._folder.mkdir(parents=True, exist_ok=True)
             prune(self._folder, self._boot, self._cap_bytes, self._rotate_bytes)
             self._demand_room()
-            self._file = BoxFile(next_path(self._folder, self._boot, unix_s), self._topics)
+            self._file = McapFile(next_path(self._folder, self._boot, unix_s), self._topics)
             self._failing = ""
         except OSError as error:
             self._fail(error)
@@ -153,22 +153,22 @@ class Writer:
             )
 
     def _still_failing(self) -> str:
-        """Look whether writing might work again; the next segment will show."""
+        """Return why writing still can't work; empty where the next segment may try."""
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
             prune(self._folder, self._boot, self._cap_bytes, self._rotate_bytes)
             self._demand_room()
         except OSError as error:
-            return _said(error, self._folder)
+            return _describe_failure(error, self._folder)
         return ""
 
     def _fail(self, error: OSError) -> None:
         file, self._file = self._file, None
         if file is not None:
             file.abandon()
-        self._failing = _said(error, self._folder)
+        self._failing = _describe_failure(error, self._folder)
 
 
-def _said(error: OSError, folder: Path) -> str:
+def _describe_failure(error: OSError, folder: Path) -> str:
     code = "disk_full" if error.errno in _FULL else "recorder_down"
     return f"{code}: {error.strerror or error} in {folder}"

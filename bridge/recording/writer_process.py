@@ -1,4 +1,4 @@
-"""Start the writing process and notice its death. Owns the child; knows nothing of frames.
+"""Start the writing process and notice its death.
 
 posix_spawn takes about a millisecond and copies no memory, which fits a tick; what a thread under
 SCHED_FIFO starts is not under it (realtime.rights resets it on fork).
@@ -27,7 +27,7 @@ _ENDS_WITHIN_S = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Sizes:
-    """Bound what recordings take."""
+    """Bound the disk space of recordings."""
 
     rotate_bytes: int
     """Of one file."""
@@ -36,12 +36,12 @@ class Sizes:
 
     @classmethod
     def of(cls, owner: Recording) -> Sizes:
-        """Return what the owner of the robot has chosen."""
+        """Return the sizes that robot.toml sets."""
         return cls(owner.file_mb << 20, owner.total_mb << 20)
 
 
 class WriterProcess:
-    """Be the handle of one running writer, and the pipe of its words."""
+    """Hold one running writing process and the pipe of its answers."""
 
     def __init__(
         self, folder: Path, boot: str, read_fd: int, sizes: Sizes, offset_s: float
@@ -74,14 +74,14 @@ class WriterProcess:
         self._alive = True
 
     def words(self) -> bytes:
-        """Return what it has said since the last time; never waits."""
+        """Return the process's answers since the last call; never waits."""
         try:
             return os.read(self._words_fd, 4096) if self._words_fd >= 0 else b""
         except BlockingIOError:
             return b""
 
     def alive(self) -> bool:
-        """Say whether it still runs; costs one system call."""
+        """Return whether the process still runs; costs one system call."""
         if self._alive:
             self._alive = not self._reap()
         return self._alive
@@ -92,7 +92,7 @@ class WriterProcess:
         while self.alive() and time.monotonic() < end_s:
             time.sleep(0.01)
         self.forget()
-        if self._alive:  # who ends our group would not: it is a session of its own (rank)
+        if self._alive:  # ending our group would not: the writer leads a session of its own
             os.kill(self.pid, signal.SIGKILL)
         return not self._alive
 

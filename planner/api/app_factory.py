@@ -26,6 +26,7 @@ from planner.api import (
 from planner.api.interfaces import Services
 from planner.api.middleware import Guard
 from planner.mission.errors import MissionError
+from pons_assets import PAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,7 +58,7 @@ def build(
     access: Access,
     lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] | None = None,
     *,
-    page: Path = static_files.BUILT,
+    page: Path = PAGE,
     authority: bytes = b"",
 ) -> FastAPI:
     """Return the application; documentation pages that load scripts from elsewhere stay off.

@@ -13,8 +13,10 @@ from planner.api.operator import act_behind, persons_act
 from planner.api.problems import Problem
 from planner.api.rates import Rates
 from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalOrder, Move, NewGoal, Reply
+from planner.language.catalogue import say
+from planner.language.utterance import Utterance, parse
 from planner.mission.errors import MissionError
-from planner.plan import Bilingual, Goal
+from planner.plan import Goal
 
 STATUS = {
     "unknown_goal": 404,
@@ -27,11 +29,7 @@ STATUS = {
 
 A_SECOND, AT_ONCE = 2.0, 50
 """Goals and answers of one address. A person is slower; each costs a thought and a line on disk."""
-STOPPED_BUT_LONG = Bilingual(
-    en="The robot was told to stop. The order is too long to be read whole: at most 4,000 "
-    "characters.",
-    zh="已让机器人停止。指令太长，无法完整读取：最多 4000 个字符。",
-)
+STOPPED_BUT_LONG = say("problem.stopped_but_long")
 
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", max_length=200)]
 Limit = Annotated[int, Query(ge=1, le=200)]
@@ -53,27 +51,31 @@ class Door:
         self._services = services
         self._rates = Rates(A_SECOND, AT_ONCE)
 
-    async def judge(self, text: str, request: Request) -> None:
-        """Pass a sentence. One that is too long to be kept may still stop the robot.
+    async def judge(self, text: str, request: Request) -> Utterance:
+        """Read a sentence, the one time, and pass it.
+
+        One that is too long to be kept may still stop the robot.
 
         Raises:
             Problem: ``goal_too_long`` or ``too_many_goals``.
         """
+        said = parse(text)
         stops, length = self._services.goals.hears_stop(text), len(text)
         if not length <= MAX_GOAL_CHARACTERS:
             detail = f"{length} characters; at most {MAX_GOAL_CHARACTERS} are taken"
             if not stops:
                 raise Problem(422, "goal_too_long", detail)
             await self._services.goals.stop("api")
-            said = STOPPED_BUT_LONG.model_dump()
-            raise Problem(422, "goal_too_long", f"{detail}; the robot was stopped", message=said)
+            told = STOPPED_BUT_LONG.model_dump()
+            raise Problem(422, "goal_too_long", f"{detail}; the robot was stopped", message=told)
         if stops:
-            return
+            return said
         address = address_of(request.client.host) if request.client else ""
         wait_s = self._rates.wait_s(address)
         if wait_s is not None:
             detail = f"at most {AT_ONCE} at once, then {A_SECOND:g} a second; wait {wait_s:.1f} s"
             raise Problem(429, "too_many_goals", detail)
+        return said
 
 
 def _giving(router: APIRouter, services: Services, door: Door) -> None:
@@ -86,8 +88,8 @@ def _giving(router: APIRouter, services: Services, door: Door) -> None:
         A plain yes or no answers what waits for one (a step's question, a plan, a brain's only
         offer), where nothing else can be meant.
         """
-        await door.judge(new.text, request)
-        act = act_behind(services.robot, new.text, new.operator)
+        said = await door.judge(new.text, request)
+        act = act_behind(services.robot, said, new.operator)
         return await goals.submit(
             new.text,
             language=new.language,
@@ -139,8 +141,8 @@ def _acting(router: APIRouter, services: Services, door: Door) -> None:
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: Reply, request: Request) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
-        await door.judge(reply.text, request)
-        act = act_behind(services.robot, reply.text, reply.operator)
+        said = await door.judge(reply.text, request)
+        act = act_behind(services.robot, said, reply.operator)
         return await goals.answer(goal_id, reply.text, act=act)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")

@@ -15,7 +15,7 @@ from planner.api.interfaces import Robot, Services
 from planner.api.lenient_body import Unrefused
 from planner.api.problems import Problem
 from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
-from planner.mission.reception import read_utterance
+from planner.language.utterance import Utterance
 from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, signed_request
 
 
@@ -101,13 +101,12 @@ def persons_act(robot: Robot, given: OperatorProof | None) -> OpRequest | None:
     return request(robot, "resume", "api", given)
 
 
-def act_behind(robot: Robot, text: str, given: OperatorProof | None) -> OpRequest | None:
+def act_behind(robot: Robot, said: Utterance, given: OperatorProof | None) -> OpRequest | None:
     """Return the resume that comes with a person's sentence, where it may lead to motion.
 
     Raises:
         Problem: as ``persons_act``; never for a sentence that may mean stop.
     """
-    said = read_utterance(text)
     if said.stays_put:
         return None
     try:

@@ -10,9 +10,9 @@ from pydantic import Field
 from planner.api.interfaces import Services
 from planner.api.problems import Problem
 from planner.api.schemas import Body
+from planner.language.catalogue import say
 from planner.mission.known_places import Kept, Lesson
 from planner.site import MAX_HERE, PlaceRefused, TaughtPlace
-from planner.site.taught_place_errors import REASONS
 from wire import Pose2
 from wire.bounded_types import Name
 from wire.geometry import Metres, Yaw
@@ -139,8 +139,7 @@ def _view(kept: Kept) -> dict[str, Any]:
     """Return a taught place with the reason why it can't be driven to, where there is one."""
     message = None
     if kept.why_not is not None:
-        en, zh = REASONS[kept.why_not]
-        message = {"en": en, "zh": zh}
+        message = say(f"taught_place.{kept.why_not}").model_dump()
     return {**_record(kept.place), "why_not": kept.why_not, "message": message}
 
 

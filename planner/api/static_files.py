@@ -22,7 +22,6 @@ from planner.api.access import AUTHORITY_PATH
 
 log = logging.getLogger(__name__)
 
-BUILT = Path(__file__).resolve().parents[2] / "web" / "dist"
 MAX_PAGE_BYTES = 8_000_000
 FOREVER = "public, max-age=31536000, immutable"
 ANEW = "no-cache"

@@ -11,7 +11,9 @@ from planner.api.goals import IdempotencyKey
 from planner.api.interfaces import Services
 from planner.api.operator import act_behind
 from planner.api.problems import Problem
-from planner.language.stop import is_stop
+from planner.language.catalogue import say
+from planner.language.stop import StopReading
+from planner.language.utterance import parse
 from planner.plan import Bilingual, Goal, Language
 from planner.voice import BadRecording, Heard, VoiceFailure, read_wav
 
@@ -24,17 +26,8 @@ STATUS = {
 STOP_DOUBT = 0.2
 """A stop heard with at least this confidence stops what moves, though no order would be believed.
 Of other sentences the built-in recogniser makes stops of up to 0.17 (docs/adr/0013)."""
-NOT_HEARD = Bilingual(
-    en="I did not hear an order that I know, so I begin nothing new. Say for example: go to the "
-    "kitchen.",
-    zh="没有听到能确认的英文指令，不会开始新的动作。中文目前请用文字输入。",
-)
-NO_ANSWER_HEARD = Bilingual(
-    en="I heard no answer, so my question still waits and I begin nothing. Say: yes please, or: "
-    "no please don't.",
-    zh="没有听清回答，问题仍在等待，不会开始新的动作。请用英语说 yes please "
-    "或 no please don't，或用文字回答。",
-)
+NOT_HEARD = say("voice.not_heard")
+NO_ANSWER_HEARD = say("voice.no_answer_heard")
 _BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
@@ -95,10 +88,10 @@ def routes(services: Services) -> APIRouter:
         goal = await services.goals.submit(
             text,
             language=Language.EN,
-            confirm=confirm or not (heard.sure or is_stop(text)),
+            confirm=confirm or not (heard.sure or parse(text).reading is StopReading.ORDER),
             replace=replace,
             idempotency_key=idempotency_key,
-            act=act_behind(services.robot, text, None),
+            act=act_behind(services.robot, parse(text), None),
         )
         return Spoken(
             transcript=text,

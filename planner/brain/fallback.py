@@ -15,7 +15,7 @@ from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.interface import Brain, ThinkRequest, Thought
 from planner.brain.model_error_codes import reason
 from planner.brain.streamed_draft import Hear
-from planner.language.grammar.input_checks import refuse_bad_text
+from planner.language.grammar.sentence_text import refuse_bad_text
 from planner.plan import BrainTag, Clarify, Code
 
 log = logging.getLogger(__name__)

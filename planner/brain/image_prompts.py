@@ -11,8 +11,9 @@ from functools import cached_property
 from typing import Any
 
 from planner.brain.image_questions import FULL, Asked, Detected, Picture, View
-from planner.brain.prompt_template import FOLDER, Template, as_json
+from planner.brain.prompt_template import Template, as_json
 from planner.brain.schema import Message
+from pons_assets import PROMPTS
 
 MAX_QUESTION = 500
 MAX_LISTED = 20
@@ -43,12 +44,12 @@ class LookPrompts:
     @cached_property
     def look(self) -> Template:
         """Return the prompt of a question."""
-        return Template.load(FOLDER / "look.md", _BLANKS)
+        return Template.load(PROMPTS / "look.md", _BLANKS)
 
     @cached_property
     def point(self) -> Template:
         """Return the prompt of a point."""
-        return Template.load(FOLDER / "point.md", _BLANKS)
+        return Template.load(PROMPTS / "point.md", _BLANKS)
 
     def look_messages(self, asked: Asked) -> list[Message]:
         """Return the messages of a question about a picture."""

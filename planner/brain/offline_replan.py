@@ -9,21 +9,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planner.brain.interface import Observation
-from planner.plan import Answer, Bilingual, Clarify, Code, Refuse, StepPlan, message
+from planner.language.catalogue import join, message, say
+from planner.plan import Answer, Bilingual, Clarify, Code, Refuse, StepPlan
 
-_READS_NO_ANSWER = Bilingual(
-    en="the built-in brain can't tell what the answer means", zh="内置大脑不明白这个回答的意思"
-)
-_NO_OTHER_WAY = Bilingual(en="the built-in brain knows no other way", zh="内置大脑没有别的办法")
+_READS_NO_ANSWER = say("replan.reads_no_answer")
+_NO_OTHER_WAY = say("replan.no_other_way")
 
 
 def _whole(seen: Observation) -> Bilingual:
     """Return what is known of a step, and beside it what a model read."""
     if seen.read is None:
         return seen.detail
-    return Bilingual(
-        en=f"{seen.detail.en} {seen.read.en}".strip(), zh=f"{seen.detail.zh}{seen.read.zh}"
-    )
+    return join(text for text in (seen.detail, seen.read) if text.en)
 
 
 def rest_of(

@@ -13,7 +13,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from planner.brain.interface import Observation, ThinkRequest
-from planner.brain.prompt_template import FOLDER, Template, as_json, repair
+from planner.brain.prompt_template import Template, as_json, repair
 from planner.brain.schema import (
     CLARIFY_CODES,
     REFUSE_CODES,
@@ -22,12 +22,14 @@ from planner.brain.schema import (
     step_line,
     step_models,
 )
+from planner.language.folding import CHINESE
 from planner.plan import NEEDS_CAMERA, Code, Language, Vocabulary
+from pons_assets import PROMPTS
 
 BUDGET_TOKENS = 1500
 ORDER_TOKENS = 120
 """Of the budget, left for the order and what came of its steps."""
-_PIECE = re.compile(r"([A-Za-z]+)|[0-9]{1,3}|[\u3400-\u9fff]|[^\sA-Za-z0-9\u3400-\u9fff]{1,3}")
+_PIECE = re.compile(rf"([A-Za-z]+)|[0-9]{{1,3}}|[{CHINESE}]|[^\sA-Za-z0-9{CHINESE}]{{1,3}}")
 _LETTERS = 8
 _BLANK = re.compile(r"\{\{(\w+)\}\}")
 _BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places", "schema"})
@@ -62,7 +64,7 @@ class Prompt:
     fingerprint: str
 
     @classmethod
-    def load(cls, path: Path = FOLDER / "plan.md") -> Prompt:
+    def load(cls, path: Path = PROMPTS / "plan.md") -> Prompt:
         """Read a template.
 
         Raises:

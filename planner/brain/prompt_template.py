@@ -12,7 +12,6 @@ from pathlib import Path
 from planner.brain.schema import Message
 from wire import Misconfigured
 
-FOLDER = Path(__file__).resolve().parents[2] / "prompts"
 SHOWN = 2000
 """Characters of a bad reply that are shown to the model again."""
 _VERSION = re.compile(r"version: ([0-9]{1,4})\n\n")

@@ -11,14 +11,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from planner.brain.errors import BrainDown, PlanRejected
-from planner.plan import Answer, Bilingual, StepPlan
+from planner.language.catalogue import say
+from planner.plan import Answer, StepPlan
 
 if TYPE_CHECKING:
     from planner.brain.interface import Brain, Observation, ThinkRequest, Thought
     from planner.brain.streamed_draft import Hear
     from planner.plan import Plan
 
-_SAID = Bilingual(en="Said something.", zh="说了话。")
+_SAID = say("observation.said_something")
 """Words that were said after a picture was read may repeat it, so they are withheld as well."""
 
 

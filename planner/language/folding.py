@@ -13,7 +13,10 @@ import unicodedata
 from planner.language.script_table import SIMPLIFIED, TRADITIONAL
 
 _TO_SIMPLIFIED = str.maketrans(TRADITIONAL, SIMPLIFIED)
-_CHINESE = re.compile(r"[\u3400-\u9fff]")
+CHINESE = r"\u3400-\u9fff"
+"""The range of Chinese characters, for use within a class of a pattern."""
+_CHINESE = re.compile(rf"[{CHINESE}]")
+_LATIN_WORD = re.compile(r"[A-Za-z]+")
 
 # Letters of other alphabets that are drawn as a Latin one (after folding of case): a person who
 # sees them reads the Latin word. Source: confusables.txt of Unicode (UTS 39), lower case only.
@@ -59,6 +62,15 @@ def unmask(text: str) -> str:
 def has_chinese(text: str) -> bool:
     """Return whether any Chinese character stands in the text."""
     return _CHINESE.search(text) is not None
+
+
+def is_chinese(text: str) -> bool:
+    """Return whether a text has at least as many Chinese characters as words in Latin script.
+
+    A name in the other script does not decide: "go to the 厨房" is English, 去kitchen Chinese.
+    """
+    chinese = count_chinese(text)
+    return chinese > 0 and chinese >= len(_LATIN_WORD.findall(text))
 
 
 def count_chinese(text: str) -> int:

@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
-import re
-
-from planner.language.folding import count_chinese
+from planner.language.folding import is_chinese
 from planner.plan import Language
-
-_WORD = re.compile(r"[A-Za-z]+")
 
 
 def language_of(text: str) -> Language:
-    """Return Chinese where it has at least as many characters as Latin script has words.
-
-    A name in the other script does not decide: "go to the 厨房" is English, 去kitchen Chinese.
-    """
-    chinese = count_chinese(text)
-    return Language.ZH if chinese and chinese >= len(_WORD.findall(text)) else Language.EN
+    """Return Chinese where the text is Chinese (``folding.is_chinese``), else English."""
+    return Language.ZH if is_chinese(text) else Language.EN

@@ -11,6 +11,7 @@ from functools import cache, lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language import color_names
+from planner.language.catalogue import list_names, say
 from planner.language.folding import fold, fold_words
 from planner.language.object_classes import KINDS, Kind, kind_of
 from planner.plan import Bilingual, Language
@@ -99,20 +100,20 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
 def named(label: str, color: str | None = None) -> Bilingual:
     """Return what to call a thing."""
     kind = kind_of(label)
+    name = Bilingual(en=kind.en, zh=kind.zh)
     if color is None:
-        return Bilingual(en=kind.en, zh=kind.zh)
+        return name
     en, zh = color_names.names_of(color)
-    return Bilingual(en=f"{en} {kind.en}", zh=f"{zh}的{kind.zh}")
+    return say("object.colored", color=Bilingual(en=en, zh=zh), kind=name)
 
 
 def listed(labels: Iterable[str], limit: int = 20) -> Bilingual:
     """Return class names for a sentence: "person, chair and sofa"."""
     kinds = [kind_of(label) for label in labels]
     more = len(kinds) - limit
-    en, zh = [k.en for k in kinds[:limit]], [k.zh for k in kinds[:limit]]
-    tail_en, tail_zh = (f", and {more} more", f"等另外 {more} 种") if more > 0 else ("", "")
-    return Bilingual(en=(", ".join(en) or "nothing") + tail_en,
-                     zh=("、".join(zh) or "无") + tail_zh)  # fmt: skip
+    names = list_names(Bilingual(en=kind.en, zh=kind.zh) for kind in kinds[:limit])
+    names = names if names.en else say("object.none")
+    return say("object.and_more", names=names, more=more) if more > 0 else names
 
 
 def _plain(words: str) -> str:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from planner.language.folding import fold
+from planner.language.folding import fold, has_chinese
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 _READ = 80
 """Characters; a longer answer is no plain one."""
 _CLAUSE_END = re.compile(r"[.,;:!~…。、—–\"“”「」]+")
-_CJK = re.compile(r"[\u3400-\u9fff]")
 _MARKS = str.maketrans({"’": "'", "-": " ", "欸": "诶"})
 
 YES, NO, COURTESY, END, NEITHER = "yes", "no", "courtesy", "end", "neither"
@@ -152,7 +151,7 @@ def consents(answer: str) -> bool | None:
 
 
 def _words(clause: str) -> list[_Word] | None:
-    if _CJK.search(clause):
+    if has_chinese(clause):
         return _READ_CHINESE.words("".join(clause.split()))
     return _READ_ENGLISH.words(" ".join(clause.split()))
 
@@ -167,7 +166,7 @@ def _sound(words: Sequence[_Word]) -> bool:
             continue
         if before is not None and word.text == "是" != before.text[:1]:  # 可以是, 好是
             return False
-        if before is not None and {word.kind, before.kind} == {NO} and _CJK.search(word.text):
+        if before is not None and {word.kind, before.kind} == {NO} and has_chinese(word.text):
             stutters = word.text.startswith(before.text) or before.text.endswith(word.text)
             if not stutters:  # 不不要 does; 不去不行 negates twice
                 return False

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import join, list_names, message, say
 from planner.language.formatting import angle, metres
-from planner.plan import Bilingual, Code, StepState, message, same
+from planner.plan import Bilingual, Code, StepState, same
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -22,13 +23,7 @@ MOTION = DRIVEN | {"turn", "move", "patrol"}
 BACK = frozenset({"come_back", "return_home"})
 _OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
 _IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
-_THING = {
-    "find": ("finding “{}”", "寻找“{}”"),
-    "count": ("counting “{}”", "清点“{}”"),
-    "follow": ("following “{}”", "跟随“{}”"),
-    "go_to_object": ("going up to “{}”", "走到“{}”跟前"),
-}
-_INSTEAD = ("Instead: ", "改为：")
+_OBJECT_STEPS = frozenset({"find", "count", "follow", "go_to_object"})
 
 
 def account(facts: SiteView, mission: Mission, code: Code, said: Bilingual | None) -> Bilingual:
@@ -69,9 +64,9 @@ def outcome_code(mission: Mission) -> Code:
 def place_name(facts: SiteView, mission: Mission, step: StepRecord | None) -> Bilingual:
     """Name a step's destination for a person."""
     if step is not None and step.kind == "come_back":
-        return Bilingual(en="where you gave the order", zh="下达指令的地方")
+        return say("account.start")
     if step is not None and step.kind in ("turn", "move"):
-        return Bilingual(en="where I was to be", zh="要到达的位置")
+        return say("account.goal_pose")
     wanted = facts.home if step is not None and step.kind == "return_home" else None
     return _name(facts, wanted or (_place(mission, step) if step is not None else ""))
 
@@ -99,7 +94,7 @@ def _told(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
             if not _failed_later(facts, mission, index):
                 arrived.append(name)
                 continue
-            sentences = [Bilingual(en=f"Been to: {name.en}.", zh=f"去过：{name.zh}。")]
+            sentences = [say("account.been_to", name=name)]
         else:
             sentences = list(_sentences(facts, step))
         if arrived and sentences:
@@ -115,8 +110,7 @@ def _told(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
 
 def _after(sentence: Bilingual, *, instead: bool) -> Iterator[Bilingual]:
     """Yield a sentence; where a step had failed before it, as what was done in place of that."""
-    en, zh = _INSTEAD if instead else ("", "")
-    yield Bilingual(en=f"{en}{sentence.en}", zh=f"{zh}{sentence.zh}")
+    yield say("account.instead", sentence=sentence) if instead else sentence
 
 
 def _mended(mission: Mission) -> int:
@@ -137,16 +131,14 @@ def _failed_later(facts: SiteView, mission: Mission, index: int) -> bool:
 
 
 def _arrived(names: Sequence[Bilingual]) -> Bilingual:
-    en, zh = ", then ".join(n.en for n in names), "，然后".join(n.zh for n in names)
-    return message(Code.ARRIVED, place=Bilingual(en=en, zh=zh))
+    return message(Code.ARRIVED, place=join(names, "joint.then"))
 
 
 def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
     """Yield what came of one step; nothing of one that was not begun."""
     if step.visited and step.places:
         names = [_name(facts, place) for place in step.places[: step.visited]]
-        en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
-        yield Bilingual(en=f"Visited one after the other: {en}.", zh=f"依次去过：{zh}。")
+        yield say("account.visited", names=list_names(names))
     if step.answer is not None:
         yield _answered(step)
     if step.said is not None and step.state in _OVER:
@@ -157,19 +149,13 @@ def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
         yield from _done(step)
     elif step.reason == "perhaps_said":
         text = step.text or ""
-        yield Bilingual(
-            en=f"Whether I said “{text}” I can't tell: I was restarted meanwhile.",
-            zh=f"“{text}”是否已说出无法确定：其间程序重启过。",
-        )
+        yield say("account.perhaps_said", text=text)
 
 
 def _answered(step: StepRecord) -> Bilingual:
     if step.kind != "ask":  # its question is in no record
-        return Bilingual(en=f"You answered “{step.answer}”.", zh=f"您的回答是“{step.answer}”。")
-    return Bilingual(
-        en=f"Asked: “{step.text}” Answer: “{step.answer}”.",
-        zh=f"问：“{step.text}”，答：“{step.answer}”。",
-    )
+        return say("account.answered", answer=step.answer)
+    return say("account.asked", text=step.text, answer=step.answer)
 
 
 def _done(step: StepRecord) -> Iterator[Bilingual]:
@@ -179,13 +165,11 @@ def _done(step: StepRecord) -> Iterator[Bilingual]:
             yield _amount(step)
         case "wait":
             seconds = f"{step.seconds or 0.0:g}"
-            yield Bilingual(en=f"Waited {seconds} s.", zh=f"等待了 {seconds} 秒。")
+            yield say("account.waited", seconds=seconds)
         case "say":
-            yield Bilingual(en=f"Said: “{step.text}”.", zh=f"已说：“{step.text}”。")
+            yield say("account.said", text=step.text)
         case "go_to_point":
-            yield Bilingual(
-                en="Arrived at the point of the picture.", zh="已到达画面中的那个位置。"
-            )
+            yield say("account.at_point")
 
 
 def _amount(step: StepRecord) -> Bilingual:
@@ -194,10 +178,7 @@ def _amount(step: StepRecord) -> Bilingual:
     put = angle if turned else metres
     asked = put((step.angle_rad if turned else step.distance_m) or 0.0)
     came = put((step.turned_rad if turned else step.moved_m) or 0.0)
-    return Bilingual(
-        en=f"Done: {came.en} by odometry ({asked.en} asked).",
-        zh=f"已完成：里程计显示{came.zh}（要求{asked.zh}）。",
-    )
+    return say("account.amount", came=came, asked=asked)
 
 
 def _undone(facts: SiteView, mission: Mission, code: Code) -> Bilingual | None:
@@ -207,8 +188,7 @@ def _undone(facts: SiteView, mission: Mission, code: Code) -> Bilingual | None:
     names = [n for step in mission.steps if (n := _left(facts, mission, step)) is not None]
     if not names:
         return None
-    en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
-    return Bilingual(en=f"Not done: {en}.", zh=f"没有做：{zh}。")
+    return say("account.not_done", names=list_names(names))
 
 
 def _left(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual | None:
@@ -224,37 +204,35 @@ def _left(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual | No
 def _asked(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual:
     """Name what a step asks for: ``going to the kitchen``, ``去厨房``."""
     text = step.object or step.text or ""
-    if step.kind in _THING:
-        en, zh = _THING[step.kind]
-        return Bilingual(en=en.format(text), zh=zh.format(text))
+    if step.kind in _OBJECT_STEPS:
+        return say(f"account_thing.{step.kind}", what=text)
     match step.kind:
         case "say":
-            return Bilingual(en=f"saying “{text}”", zh=f"说“{text}”")
+            return say("account.saying", text=text)
         case "ask":
-            return Bilingual(en=f"asking “{text}”", zh=f"问“{text}”")
+            return say("account.asking", text=text)
         case "look":
-            return Bilingual(en=f"looking (“{text}”)", zh=f"看（“{text}”）")
+            return say("account.looking", text=text)
         case "wait":
             seconds = f"{step.seconds or 0.0:g}"
-            return Bilingual(en=f"waiting {seconds} s", zh=f"等待 {seconds} 秒")
+            return say("account.waiting", seconds=seconds)
         case "turn":
             put = angle(step.angle_rad or 0.0)
-            return Bilingual(en=f"turning {put.en}", zh=f"转动（{put.zh}）")
+            return say("account.turning", put=put)
         case "move":
             put = metres(step.distance_m or 0.0)
-            return Bilingual(en=f"driving {put.en}", zh=put.zh)
+            return say("account.driving", put=put)
         case "patrol":
             names = [_name(facts, place) for place in step.places[step.visited or 0 :]]
-            en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
-            return Bilingual(en=f"visiting {en}", zh=f"去{zh}")
+            return say("account.visiting", names=list_names(names))
         case "go_to_point":
-            return Bilingual(en="going to the point of the picture", zh="去画面中的那个位置")
+            return say("account.going_to_point")
         case _:
             name = place_name(facts, mission, step)
-            return Bilingual(en=f"going to {name.en}", zh=f"去{name.zh}")
+            return say("account.going_to", name=name)
 
 
 def _joined(told: Sequence[Bilingual]) -> Bilingual:
     """Return sentences as one text; what is said twice in a row is told once."""
     kept = [each for at, each in enumerate(told) if at == 0 or each != told[at - 1]]
-    return Bilingual(en=" ".join(s.en for s in kept), zh="".join(s.zh for s in kept))
+    return join(kept)

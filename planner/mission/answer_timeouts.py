@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import message, say
 from planner.mission.open_questions import WAITS, asks, confirms
 from planner.mission.outcomes import ended_outcome
 from planner.mission.queue import finish
 from planner.mission.state import MAX_OPEN, Mission, MissionState
 from planner.mission.transitions import GoalFact
-from planner.plan import Bilingual, Code, GoalState, Outcome, message, same
+from planner.plan import Bilingual, Code, GoalState, Outcome, same
 
 if TYPE_CHECKING:
     from planner.mission.transaction import Transaction
@@ -86,10 +87,7 @@ def _about_order(mission: Mission) -> bool:
 
 def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:
     asked, newer = _asked(mission), newer[:60]
-    said = Bilingual(
-        en=f"Nobody answered “{asked.en}” before the next order came (“{newer}”).",
-        zh=f"在收到下一条指令（“{newer}”）之前，“{asked.zh}”没有得到回答。",
-    )
+    said = say("question.superseded", asked=asked, newer=newer)
     _end(turn, mission, said, GoalFact.SUPERSEDED, SUPERSEDED)
 
 

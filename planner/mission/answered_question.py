@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from planner.language.commands import Resume, intent_of
-from planner.language.yes_no import consents
+from planner.language.commands import Resume
+from planner.language.utterance import Utterance
 from planner.mission.goal_reference import goal_to_resume
 from planner.mission.open_questions import WAITS, asks_freely, takes_yes
 from planner.mission.state import MissionState
 
 
-def meant(book: MissionState, text: str) -> tuple[str, ...]:
+def meant(book: MissionState, said: Utterance) -> tuple[str, ...]:
     """Return the goals whose question a sentence may answer; one alone is beyond doubt.
 
     None unless it is a plain yes or no and one of them takes it. A question that takes neither (a
     brain's about the order, which offers no or several orders) counts where it is no older than the
     newest of these: it may be meant, too.
     """
-    if consents(text) is None:
+    if said.consent is None:
         return ()
-    intent = intent_of(text)
+    intent = said.intent
     if not (intent is None or (isinstance(intent, Resume) and goal_to_resume(book) is None)):
         return ()  # "go on" is a yes where there is nothing else to go on with
     waiting = [m for m in book.missions.values() if m.state in WAITS]

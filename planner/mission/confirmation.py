@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
+from planner.language.catalogue import message, say
 from planner.mission.motion_on_yes import first_deed
 from planner.mission.skills.look import looks_round
 from planner.mission.state import Mission, SiteView
-from planner.plan import Bilingual, Code, Outcome, StepRecord, message, same
+from planner.plan import Bilingual, Code, Outcome, StepRecord, same
 
 BACK = ""
 """Where a goal was given: no place has this id."""
-ROAMS = {
-    "find": ("it looks for “{what}” instead", "改去找“{what}”"),
-    "count": ("it counts “{what}” instead", "改去数“{what}”"),
-    "follow": ("it follows “{what}” instead", "改为跟随“{what}”"),
-    "go_to_object": ("it goes to “{what}” instead", "改去“{what}”那里"),
-    "go_to_point": ("it goes to a point of the picture instead", "改去画面中的一点"),
-    "look": ("it looks round instead", "改为环顾四周"),
-}
-"""Steps that lead where the eyes say, and no place: English and Chinese."""
+ROAMS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point", "look"})
+"""Steps that lead where the eyes say, and not to a place."""
 
 
 def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
@@ -29,7 +23,7 @@ def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) 
     """
     if mission.now is not None and mission.now.kind == "ask":
         deed = first_deed(facts, steps)
-        why = None if deed is None else Bilingual(en=f"I would {deed.en}", zh=f"我将{deed.zh}")
+        why = None if deed is None else say("confirmation.would", deed=deed)
         return None if why is None else _confirm(why)
     if mission.failure is None:
         return None
@@ -52,7 +46,7 @@ def _elsewhere(
     if not fresh:
         return None
     name = _name(facts, fresh[0])
-    return Bilingual(en=f"it goes to “{name.en}” instead", zh=f"改去“{name.zh}”")
+    return say("confirmation.elsewhere", name=name)
 
 
 def _roaming(before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]) -> Bilingual | None:
@@ -61,9 +55,7 @@ def _roaming(before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]) -> B
     fresh = next((s for s in steps if _roams(s) and _sought(s) not in known), None)
     if fresh is None:
         return None
-    en, zh = ROAMS[fresh.kind]
-    what = fresh.object or ""
-    return Bilingual(en=en.format(what=what), zh=zh.format(what=what))
+    return say(f"confirmation.{fresh.kind}", what=fresh.object or "")
 
 
 def _roams(step: StepRecord) -> bool:
@@ -90,6 +82,6 @@ def _places(facts: SiteView, step: StepRecord) -> tuple[str, ...]:
 
 def _name(facts: SiteView, place: str) -> Bilingual:
     if place == BACK:
-        return Bilingual(en="where the goal was given", zh="下达任务的地方")
+        return say("confirmation.start")
     target = facts.targets.get(place)
     return target.name if target is not None else same(place)

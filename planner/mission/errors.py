@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from planner.language.catalogue import say
 from planner.plan import Bilingual, GoalState
 
 
@@ -10,9 +11,9 @@ class MissionError(Exception):
 
     code = "mission_error"
 
-    def __init__(self, en: str, zh: str) -> None:
-        super().__init__(f"{self.code}: {en}")
-        self.message = Bilingual(en=en, zh=zh)
+    def __init__(self, **facts: str | int) -> None:
+        self.message: Bilingual = say(f"refusal.{self.code}", **facts)
+        super().__init__(f"{self.code}: {self.message.en}")
 
 
 class UnknownGoal(MissionError):
@@ -23,10 +24,7 @@ class UnknownGoal(MissionError):
     def __init__(self, goal_id: str, known: tuple[str, ...]) -> None:
         newest = ", ".join(known[-5:]) or "none"
         shown = goal_id[:64]
-        super().__init__(
-            f"no goal {shown!r}; newest goals: {newest}",
-            f"没有编号为 {shown!r} 的任务；最近的任务：{newest}",
-        )
+        super().__init__(shown=shown, newest=newest)
 
 
 class BadState(MissionError):
@@ -36,10 +34,7 @@ class BadState(MissionError):
 
     def __init__(self, goal_id: str, what: str, state: GoalState, allowed: tuple[str, ...]) -> None:
         needs = ", ".join(allowed)
-        super().__init__(
-            f"can't {what} goal {goal_id}: it is {state.value}; expected {needs}",
-            f"无法对任务 {goal_id} 执行 {what}：当前状态为 {state.value}，应为 {needs}",
-        )
+        super().__init__(what=what, goal_id=goal_id, state=state.value, needs=needs)
 
 
 class NothingToResume(MissionError):
@@ -48,10 +43,7 @@ class NothingToResume(MissionError):
     code = "nothing_to_resume"
 
     def __init__(self) -> None:
-        super().__init__(
-            "no goal is paused or kept waiting; give a new one",
-            "没有已暂停或等待中的任务，请给出新任务",
-        )
+        super().__init__()
 
 
 class QueueFull(MissionError):
@@ -60,10 +52,7 @@ class QueueFull(MissionError):
     code = "queue_full"
 
     def __init__(self, waiting: int) -> None:
-        super().__init__(
-            f"{waiting} goals are open, and no more are taken; cancel one or wait",
-            f"已有 {waiting} 个未完成的任务，不再接受新任务；请取消一个或稍后再试",
-        )
+        super().__init__(waiting=waiting)
 
 
 class IdempotencyConflict(MissionError):
@@ -72,10 +61,7 @@ class IdempotencyConflict(MissionError):
     code = "idempotency_conflict"
 
     def __init__(self, key: str, goal_id: str) -> None:
-        super().__init__(
-            f"the Idempotency-Key {key[:64]!r} belongs to goal {goal_id}, given with another body",
-            f"Idempotency-Key {key[:64]!r} 已用于内容不同的任务 {goal_id}",
-        )
+        super().__init__(key=key[:64], goal_id=goal_id)
 
 
 class JournalDown(MissionError):
@@ -84,7 +70,4 @@ class JournalDown(MissionError):
     code = "journal_unavailable"
 
     def __init__(self, why: str) -> None:
-        super().__init__(
-            f"the journal cannot be written ({why}); no goal is taken until it can",
-            f"任务日志无法写入（{why}）；恢复之前不接受任务",
-        )
+        super().__init__(why=why)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from planner.language.yes_no import consents
+from planner.language.catalogue import message, say
+from planner.language.utterance import parse
 from planner.mission.activity import Thinking
 from planner.mission.answer_timeouts import ask_anew, close_older, make_room, waiting_since
 from planner.mission.effects import AskBrain
@@ -48,28 +49,18 @@ from planner.plan import (
     PauseReason,
     Refuse,
     StepPlan,
-    message,
     plan_record,
 )
 
-MAP_CHANGED = Bilingual(
-    en="The map has changed since: places are found on the new one, but there is no way back.",
-    zh="地图已更换：地点以新地图为准，但无法返回原来的位置。",
-)
-HOW_FAR_UNKNOWN = Bilingual(
-    en="The map has changed since: how far this step had come is not known, so the goal ends.",
-    zh="地图已更换：无法得知这一步完成了多少，任务到此结束。",
-)
+MAP_CHANGED = say("goal.map_changed")
+HOW_FAR_UNKNOWN = say("goal.map_changed_in_step")
 LEGS_UNWRITTEN = 100
 """More legs than a planner can have streamed and not yet written when it died: the bridge latches
 what was reached by leg, so no number is ever streamed twice."""
 IN_HAND = frozenset(
     {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
 )
-UNCONFIRMED = Bilingual(
-    en="No more waypoints are sent, but the bridge did not confirm the stop.",
-    zh="已不再发送路径点，但安全桥没有确认停止。",
-)
+UNCONFIRMED = say("goal.unconfirmed")
 
 
 def submit(turn: Transaction, event: Submitted) -> None:
@@ -178,10 +169,7 @@ def planned(turn: Transaction, event: Planned) -> None:
 def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
     """Ask whether a sentence with a stop word in it was an order to do something."""
     told, text = stop_told(book), mission.text[:60]
-    return Bilingual(
-        en=f"{told.en} Did you mean “{text}” as an order to go on with? Say yes, or cancel.",
-        zh=f"{told.zh}您是要我执行“{text}”吗？请确认或取消。",
-    )
+    return say("goal.doubtful_stop", told=told, text=text)
 
 
 def _walkable(turn: Transaction, mission: Mission) -> None:
@@ -239,7 +227,7 @@ def reply(turn: Transaction, mission: Mission, text: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = turn.put(mission, given_under_hold=hold_now(turn))
     ask_anew(turn, mission)
-    agreed, order = consents(text), offered(mission)
+    agreed, order = parse(text).consent, offered(mission)
     if asks(mission):
         take_answer(turn, mission, text)
     elif agreed is False and (order is not None or confirms(mission)):

@@ -16,9 +16,9 @@ from itertools import chain, count
 from typing import Any, Protocol, TypeVar
 
 from planner.bridge_client import Aged
-from planner.language.commands import name_reads_as_order
 from planner.language.folding import fold, unmask
-from planner.language.grammar.normalisation import squash
+from planner.language.grammar.sentence_text import squash
+from planner.language.reserved_names import name_reads_as_order
 from planner.language.yes_no import consents
 from planner.mission.bridge_status import standing
 from planner.mission.site_view import facts_of, vocabulary_of

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.brain.interface import OFFLINE
+from planner.language.catalogue import CATALOGUE, say
 from planner.mission.outcomes import moves
 from planner.plan import Bilingual, StepRecord, same
 
@@ -18,20 +19,8 @@ if TYPE_CHECKING:
 
     from planner.mission.state import Mission, Rules, SiteView
 
-DO_THAT = Bilingual(en="do that", zh="这样做")
+DO_THAT = say("deed.do_that")
 _UNTIL = frozenset({"ask", "decide"})
-_DEEDS = {
-    "come_back": ("drive back", "回去"),
-    "turn": ("turn", "转动"),
-    "move": ("move", "移动"),
-    "patrol": ("set off", "出发"),
-    "find": ("look for “{what}”", "找“{what}”"),
-    "count": ("count “{what}”", "数“{what}”"),
-    "follow": ("follow “{what}”", "跟随“{what}”"),
-    "go_to_object": ("drive to “{what}”", "去“{what}”那里"),
-    "go_to_point": ("drive there", "开过去"),
-    "look": ("look round", "环顾四周"),
-}
 
 
 def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
@@ -57,10 +46,9 @@ def first_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual | None
     place = facts.home if step.kind == "return_home" else step.place
     if place:
         name = facts.targets[place].name if place in facts.targets else same(place)
-        return Bilingual(en=f"drive to “{name.en}”", zh=f"去“{name.zh}”")
-    en, zh = _DEEDS.get(step.kind, ("go on", "继续"))
-    what = step.object or ""
-    return Bilingual(en=en.format(what=what), zh=zh.format(what=what))
+        return say("deed.drive_to", name=name)
+    code = f"deed.{step.kind}"
+    return say(code if CATALOGUE.has(code) else "deed.go_on", what=step.object or "")
 
 
 def can_think(rules: Rules, mission: Mission) -> bool:

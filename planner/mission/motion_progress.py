@@ -10,22 +10,19 @@ from __future__ import annotations
 
 from math import cos, sin
 
+from planner.language.catalogue import say
 from planner.mission.queue import finish, standing_hold
 from planner.mission.skills.move import along
 from planner.mission.skills.turn import turned_rad
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
-from planner.plan import Bilingual, Code, Outcome, PauseReason
+from planner.plan import Code, Outcome, PauseReason
 from wire import Mode, Pose2, Status
 
 BY_AMOUNT = frozenset({"turn", "move"})
 """Steps that are measured from where they began."""
-STEERED = Bilingual(
-    en="Somebody steered the robot while its planner was down: how far this step had come is not "
-    "known, so the goal ends.",
-    zh="规划程序中断期间有人手动驾驶过机器人：无法得知这一步完成了多少，任务到此结束。",
-)
+STEERED = say("goal.steered")
 
 
 def measure_from(turn: Transaction, mission: Mission, pose: Pose2 | None) -> Mission:

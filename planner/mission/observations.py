@@ -7,6 +7,7 @@ every plan is validated whatever informed it.
 from __future__ import annotations
 
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
+from planner.language.catalogue import list_names, say
 from planner.language.formatting import angle, metres
 from planner.mission.state import Mission, SiteView
 from planner.plan import Bilingual, StepRecord, StepState, same
@@ -64,20 +65,17 @@ def _detail(facts: SiteView, step: StepRecord) -> Bilingual:
     match step.kind:
         case "ask":
             answer = step.answer if step.answer is not None else "-"
-            return Bilingual(
-                en=f"Asked “{text[:120]}”. Answer: “{answer[:150]}”",
-                zh=f"问：“{text[:120]}”。答：“{answer[:150]}”",
-            )
+            return say("observation.asked_answer", text=text[:120], answer=answer[:150])
         case "decide":
-            return Bilingual(en=f"To decide now: {text}", zh=f"现在需要决定：{text}")
+            return say("observation.decide_now", text=text)
         case "say":
-            return Bilingual(en=f"Said “{text}”", zh=f"说了“{text}”")
+            return say("observation.said", text=text)
         case "turn":
             return angle(step.turned_rad if step.turned_rad is not None else step.angle_rad or 0.0)
         case "move":
             return metres(step.moved_m if step.moved_m is not None else step.distance_m or 0.0)
         case "wait":
-            return Bilingual(en=f"{step.seconds or 0:.0f} s", zh=f"{step.seconds or 0:.0f} 秒")
+            return say("observation.seconds", seconds=step.seconds or 0)
         case _:
             return _where(facts, step)
 
@@ -85,7 +83,8 @@ def _detail(facts: SiteView, step: StepRecord) -> Bilingual:
 def _where(facts: SiteView, step: StepRecord) -> Bilingual:
     wanted = (step.place,) if step.place else step.places
     names = [facts.targets[p].name if p in facts.targets else same(p) for p in wanted]
-    en, zh = ", ".join(n.en for n in names), "、".join(n.zh for n in names)
-    if step.reason is not None:
-        return Bilingual(en=f"{en} ({step.reason})".strip(), zh=f"{zh}（{step.reason}）")
-    return Bilingual(en=en, zh=zh)
+    if step.reason is None:
+        return list_names(names)
+    if not names:
+        return say("observation.reason", reason=step.reason)
+    return say("observation.place_reason", names=list_names(names), reason=step.reason)

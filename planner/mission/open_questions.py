@@ -8,8 +8,9 @@ a goal is the answer where one thing alone can be meant: a wrong guess would mov
 from __future__ import annotations
 
 from planner.brain.interface import OFFLINE
+from planner.language.catalogue import join, list_names, message, say
 from planner.language.stop import is_stop
-from planner.language.yes_no import consents
+from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
 from planner.mission.motion_on_yes import DO_THAT, first_deed, upon_yes
 from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
@@ -19,11 +20,18 @@ from planner.mission.skills.ask import ask, declined
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import PersonCause
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, message
+from planner.plan import (
+    Bilingual,
+    Code,
+    GoalState,
+    Outcome,
+    StepState,
+    same,
+)
 
 MAX_ANSWER = 2000
 WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
-_YES_OR_NO = Bilingual(en="Please answer yes or no. ", zh="请回答“是”或“不”。")
+_YES_OR_NO = say("question.yes_or_no")
 
 
 def asks(mission: Mission) -> bool:
@@ -68,19 +76,15 @@ def takes_yes(mission: Mission) -> bool:
 
 def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
     """End a goal whose words answer another; return whose they answer, None of several."""
-    names = [f"“{turn.book.missions[asked].text[:60]}”" for asked in asking]
-    en, zh = ", ".join(names), "、".join(names)
+    names = list_names(same(f"“{turn.book.missions[asked].text[:60]}”") for asked in asking)
     if len(asking) > 1:
-        said = Bilingual(
-            en=f"More than one goal waits for you: {en}. I take this for none of them.",
-            zh=f"有不止一个任务在等待您：{zh}。这句话没有用于其中任何一个。",
-        )
+        said = say("question.for_none", names=names)
         outcome = Outcome(code=Code.AMBIGUOUS, message=said)
         turn.move_to(
             mission, PersonCause.MAY_MEAN_SEVERAL, reason=Code.AMBIGUOUS.value, outcome=outcome
         )
         return None
-    said = Bilingual(en=f"Taken as the answer for {en}.", zh=f"已作为{zh}的回答。")
+    said = say("question.taken", names=names)
     outcome = Outcome(code=Code.ANSWERED, message=said)
     turn.move_to(mission, PersonCause.ANSWERS_ANOTHER, outcome=outcome)
     return turn.book.missions[asking[0]]
@@ -91,7 +95,7 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
 
     What ends the goal ends it now, whatever else runs or holds the robot.
     """
-    facts, agreed = turn.book.facts, consents(text)
+    facts, agreed = turn.book.facts, parse(text).consent
     if agreed or (agreed is None and upon_yes(facts, mission) is None):
         clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
@@ -116,10 +120,9 @@ def ask_plainly(turn: Transaction, mission: Mission) -> None:
     """Ask for a yes or no to a plan, after an answer that is neither."""
     asked = mission.outcome.message if mission.outcome is not None else _shall_i(mission.text)
     if not asked.en.startswith(_YES_OR_NO.en):
-        asked = Bilingual(en=_YES_OR_NO.en + asked.en, zh=_YES_OR_NO.zh + asked.zh)
+        asked = join((_YES_OR_NO, asked), "joint.none")
     turn.put(mission, outcome=Outcome(code=Code.CONFIRM, message=asked))
 
 
 def _shall_i(text: str) -> Bilingual:
-    return message(Code.ASKED, text=Bilingual(
-        en=f"Shall I do “{text[:200]}”?", zh=f"要执行“{text[:200]}”吗？"))  # fmt: skip
+    return message(Code.ASKED, text=say("question.shall_i_do", text=text[:200]))  # fmt: skip

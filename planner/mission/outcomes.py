@@ -5,10 +5,18 @@
 
 from __future__ import annotations
 
+from planner.language.catalogue import message, say
 from planner.mission.account import MOTION, account, place_name
 from planner.mission.skills.look import looks_round
 from planner.mission.state import Mission, SiteView
-from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState, message
+from planner.plan import (
+    Bilingual,
+    Code,
+    Outcome,
+    Spot,
+    StepRecord,
+    StepState,
+)
 from planner.site.polygon import area_m2, contains
 from wire import Pose2, Status
 
@@ -16,7 +24,7 @@ MAX_LIMITS_NAMED = 5
 MIN_LIMIT_SHARE = 0.02
 """A limit that was the nearest one in under 2 % of the statuses explains nothing."""
 SEEKS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point"})
-BUDGET = Bilingual(en="distance or time", zh="里程或时间")
+BUDGET = say("account.budget")
 
 
 def moves(step: StepRecord) -> bool:
@@ -98,7 +106,7 @@ def ended_outcome(
 
 def thoughts(count: int) -> Bilingual:
     """Name the thoughts that a goal may have under way, as a budget."""
-    return Bilingual(en=f"{count} thoughts under way", zh=f"途中 {count} 次思考机会")
+    return say("account.thoughts", count=count)
 
 
 def failure(

@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import hypot
 
+from planner.language.catalogue import message
 from planner.mission.activity import AskingImage, Driving, Observing
 from planner.mission.bridge_status import standing
 from planner.mission.effects import KeepPicture
@@ -23,7 +24,7 @@ from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.perception.snapshot import Sight
-from planner.plan import Code, message, same
+from planner.plan import Code, same
 from wire import wrap
 
 SETTLE_S = 0.15

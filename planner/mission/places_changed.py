@@ -6,12 +6,13 @@ place that was moved is laid anew.
 
 from __future__ import annotations
 
+from planner.language.catalogue import list_names, message
 from planner.mission.queue import end_running, finish, settle_activity
 from planner.mission.state import Mission, SiteView
 from planner.mission.step_execution import begin_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
-from planner.plan import Bilingual, Code, Outcome, StepRecord, StepState, message
+from planner.plan import Bilingual, Code, Outcome, StepRecord, StepState
 
 GONE = "place_gone"
 _AHEAD = (StepState.PENDING, StepState.RUNNING)
@@ -42,10 +43,7 @@ def _named(step: StepRecord) -> tuple[str, ...]:
 
 
 def _end(turn: Transaction, mission: Mission, name: Bilingual, facts: SiteView) -> None:
-    known = Bilingual(
-        en=", ".join(t.name.en for t in facts.targets.values()),
-        zh="、".join(t.name.zh for t in facts.targets.values()),
-    )
+    known = list_names(target.name for target in facts.targets.values())
     said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
     if turn.book.running == mission.id:
         end_running(turn, GoalFact.PLACE_GONE, Code.UNKNOWN_PLACE, GONE, said=said)

@@ -7,6 +7,7 @@ as they are now, and whether a model can point. Eyes that fail later end their o
 
 from __future__ import annotations
 
+from planner.language.catalogue import message, say
 from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import meant, picks_out
 from planner.mission.skills.object_questions import unknown_kind
@@ -19,11 +20,10 @@ from planner.plan import (
     Language,
     Outcome,
     StepRecord,
-    message,
     same,
 )
 
-NO_STEPS = Bilingual(en="there are no steps in it", zh="里面没有步骤")
+NO_STEPS = say("plan.no_steps")
 UP_TO = frozenset({"go_to_object", "follow"})
 """The robot goes up to what these name: any other of its kind is the wrong one."""
 

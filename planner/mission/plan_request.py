@@ -8,12 +8,14 @@ from functools import lru_cache
 from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.interface import Brain, ThinkRequest
 from planner.brain.tainted_text import think_warily
+from planner.language.catalogue import message
 from planner.language.object_classes import kind_of
+from planner.language.place_lists import rejection_outcome
 from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
-from planner.plan import BARE, Code, Means, Outcome, Rejection, Vocabulary, message, validate_plan
+from planner.plan import BARE, Code, Means, Outcome, Rejection, Vocabulary, validate_plan
 
 log = logging.getLogger(__name__)
 
@@ -59,7 +61,7 @@ def thinker(
             return Planned(ask.id, None, said, error.brain or brain.tag)
         judged = validate_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if isinstance(judged, Rejection):
-            return Planned(ask.id, None, judged.outcome, thought.brain)
+            return Planned(ask.id, None, rejection_outcome(judged, vocabulary), thought.brain)
         return Planned(ask.id, judged, None, thought.brain)
 
     return think

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import message, say
 from planner.language.commands import (
     Cancel,
     Doing,
@@ -21,15 +22,15 @@ from planner.language.commands import (
     Resume,
     Slower,
     Where,
-    intent_of,
 )
+from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.goal_reference import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.known_places import Lesson
 from planner.mission.spoken_status import doing, where
-from planner.plan import Answer, Bilingual, Code, Refuse, message
+from planner.plan import Answer, Bilingual, Code, Refuse
 from planner.site import PlaceRefused
 
 if TYPE_CHECKING:
@@ -70,7 +71,9 @@ class PlannerCommands:
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
         mission = self._book().missions.get(ask.id)
-        intent = intent_of(ask.text) if mission is not None and _by_person(mission, ask) else None
+        intent = (
+            parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
+        )
         if isinstance(intent, Replace):
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if intent is None or mission is None or mission.steps:
@@ -108,7 +111,7 @@ class PlannerCommands:
         error = self._command(make(goal_id))
         if error is not None:
             return Answer(text=error.message)
-        return Answer(text=Bilingual(en=f"{done.en}: “{text}”.", zh=f"{done.zh}：“{text}”。"))
+        return Answer(text=say("commands.done", done=done, text=text))
 
     def _change_speed(self, *, slower: bool) -> Answer:
         """Change the speed cap of the running goal and say what it is now."""
@@ -120,31 +123,17 @@ class PlannerCommands:
             return Answer(text=error.message)
         mission = self._book().missions[running]
         share, text = f"{100.0 * mission.speed_share:.0f} %", mission.text[:60]
-        return Answer(
-            text=Bilingual(
-                en=f"At most {share} of the planned speed for “{text}” from now on.",
-                zh=f"从现在起，“{text}”的速度不超过原计划的 {share}。",
-            )
-        )
+        return Answer(text=say("commands.speed_cap", share=share, text=text))
 
     async def _remember(self, name: str) -> Answer | Refuse:
         try:
             place, new = await self._memory.teach(Lesson(en=name, by=SPOKEN_BY))
         except PlaceRefused as refused:
             return not_kept(refused)
-        names = place.name
+        names = Bilingual(en=place.name.en, zh=place.name.zh)
         if new:
-            return Answer(
-                text=Bilingual(
-                    en=f"I will remember this place as “{names.en}”.",
-                    zh=f"我记住了，这里是“{names.zh}”。",
-                )
-            )
-        return Answer(
-            text=Bilingual(
-                en=f"“{names.en}” is here from now on.", zh=f"以后“{names.zh}”就是这里。"
-            )
-        )
+            return Answer(text=say("commands.remembered", names=names))
+        return Answer(text=say("commands.place_moved", names=names))
 
     async def _forget(self, name: str) -> Answer | Refuse:
         try:
@@ -152,27 +141,23 @@ class PlannerCommands:
         except PlaceRefused as refused:
             return not_kept(refused)
         return Answer(
-            text=Bilingual(
-                en=f"I have forgotten “{place.name.en}”.", zh=f"我已忘记“{place.name.zh}”。"
-            )
+            text=say("commands.forgotten", name=Bilingual(en=place.name.en, zh=place.name.zh))
         )
 
 
-_NOTHING_RUNS = Bilingual(
-    en="No goal is running whose speed could change.", zh="没有正在执行的任务，无法改变速度。"
-)
+_NOTHING_RUNS = say("commands.nothing_runs")
 _SAID: dict[str, tuple[Bilingual, Bilingual]] = {
     "pause": (
-        Bilingual(en="Paused", zh="已暂停"),
-        Bilingual(en="There is nothing to pause.", zh="没有可以暂停的任务。"),
+        say("commands.paused"),
+        say("commands.nothing_to_pause"),
     ),
     "resume": (
-        Bilingual(en="I go on", zh="继续执行"),
-        Bilingual(en="There is nothing to go on with.", zh="没有可以继续的任务。"),
+        say("commands.resumed"),
+        say("commands.nothing_to_resume"),
     ),
     "cancel": (
-        Bilingual(en="Cancelled", zh="已取消"),
-        Bilingual(en="There is nothing to cancel.", zh="没有可以取消的任务。"),
+        say("commands.cancelled"),
+        say("commands.nothing_to_cancel"),
     ),
 }
 """What is said when it was done, and when there was nothing to do it to."""

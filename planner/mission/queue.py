@@ -7,6 +7,7 @@ with the answer, too.
 
 from __future__ import annotations
 
+from planner.language.catalogue import message
 from planner.mission.activity import (
     TIMED,
     Activity,
@@ -21,7 +22,14 @@ from planner.mission.skills.skill_state import Notes
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
-from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState, message
+from planner.plan import (
+    Bilingual,
+    Code,
+    GoalState,
+    Outcome,
+    PauseReason,
+    StepState,
+)
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""

@@ -7,14 +7,11 @@ missions asks :func:`receive` and does what it says, a stop first of all.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language.commands import Cancel as TakeBack
-from planner.language.commands import Intent, Replace, intent_of
+from planner.language.commands import Replace
 from planner.language.commands import Resume as GoOn
-from planner.language.stop import StopReading, is_stop, read_stop
-from planner.language.yes_no import consents
 from planner.mission.allowed_commands import refusal
 from planner.mission.answer_timeouts import has_room
 from planner.mission.answered_question import meant
@@ -25,46 +22,13 @@ from planner.mission.open_questions import takes_yes
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
+    from planner.language.utterance import Utterance
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
     from planner.mission.state import MissionState
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""
-
-
-@dataclass(frozen=True, slots=True)
-class Utterance:
-    """Hold a sentence and what it says by itself, whatever the robot does."""
-
-    text: str
-    intent: Intent | None
-    reading: StopReading
-
-    @property
-    def orders_stop(self) -> bool:
-        """Return whether it orders a stop, at its start or in place of the current goal."""
-        instead = isinstance(self.intent, Replace) and is_stop(self.intent.rest)
-        return self.reading is StopReading.ORDER or instead
-
-    @property
-    def may_mean_stop(self) -> bool:
-        """Return whether a stop word stands in it that is not read as anything else."""
-        if isinstance(self.intent, Replace):
-            return read_stop(self.intent.rest) is not StopReading.NONE
-        return self.intent is None and self.reading is StopReading.POSSIBLE
-
-    @property
-    def stays_put(self) -> bool:
-        """Return whether it can't lead to motion, so that it needs no operator's proof."""
-        memory_or_goals = not (self.intent is None or isinstance(self.intent, Replace | GoOn))
-        return self.orders_stop or memory_or_goals or consents(self.text) is False
-
-
-@lru_cache(maxsize=64)
-def read_utterance(text: str) -> Utterance:
-    """Return what a sentence says by itself."""
-    return Utterance(text, intent_of(text), read_stop(text))
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +60,7 @@ def receive(
         return Reception(replace(given, stop=True), stops=True)
     intent, full = said.intent, not has_room(book)
     may_answer = answers and not (given.confirm or given.replace)
-    asking = meant(book, given.text) if may_answer else ()
+    asking = meant(book, said) if may_answer else ()
     if said.may_mean_stop and not asking and is_active(book, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
@@ -140,7 +104,7 @@ def receive_answer(
     which stays open: no sentence that needs no proof is ever taken as the answer.
     """
     intent = said.intent
-    if said.orders_stop or (consents(said.text) is None and hears_stop(book, said, now_s)):
+    if said.orders_stop or (said.consent is None and hears_stop(book, said, now_s)):
         ends = Cancel(goal_id) if isinstance(intent, Replace) else None
         return AnswerReception(stops=True, command=ends)
     if (error := refusal(book, Reply(goal_id, said.text))) is not None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 
 from planner.brain.interface import OFFLINE
+from planner.language.catalogue import message, say
 from planner.mission.confirmation import needs_yes
 from planner.mission.events import Planned
 from planner.mission.plan_check import NO_STEPS, unwalkable
@@ -22,7 +23,6 @@ from planner.mission.transaction import Transaction
 from planner.mission.transitions import BrainCause, Cause, GoalFact
 from planner.plan import (
     Answer,
-    Bilingual,
     Clarify,
     Code,
     Outcome,
@@ -32,11 +32,10 @@ from planner.plan import (
     StepPlan,
     StepRecord,
     StepState,
-    message,
     plan_record,
 )
 
-SAME_AGAIN = Bilingual(en="the same steps again", zh="与试过的步骤相同")
+SAME_AGAIN = say("plan.same_again")
 
 
 def fingerprint(steps: tuple[StepRecord, ...]) -> str:

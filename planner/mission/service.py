@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from planner.brain.image_questions import Looker
 from planner.brain.interface import Brain
 from planner.bridge_client import Identity, Link, StopResult
-from planner.language.identification import language_of
+from planner.language.utterance import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import goal_of
 from planner.mission.draft_events import Hearing
@@ -47,13 +47,7 @@ from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
 from planner.mission.plan_request import thinker
 from planner.mission.planner_commands import PlannerCommands
-from planner.mission.reception import (
-    awaits_answer,
-    hears_stop,
-    read_utterance,
-    receive,
-    receive_answer,
-)
+from planner.mission.reception import awaits_answer, hears_stop, receive, receive_answer
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import Router
@@ -157,10 +151,10 @@ class Missions:
             IdempotencyConflict: the key came with another request before.
             JournalDown: it can't be written down, so it was not taken.
         """
-        spoken, goal_id = language or language_of(text), self._clocks.new_id()
+        said, goal_id = parse(text), self._clocks.new_id()
+        spoken = language or said.language
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
-        said, now_s = read_utterance(text), self._clocks.monotonic()
-        heard = receive(self._book, said, given, now_s, answers=answers)
+        heard = receive(self._book, said, given, self._clocks.monotonic(), answers=answers)
         if heard.stops:
             return await self._stop_goal(heard.given, source)
         body = body_of(text, spoken, confirm, replace)
@@ -183,7 +177,7 @@ class Missions:
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, whatever else they may mean."""
-        return hears_stop(self._book, read_utterance(text), self._clocks.monotonic())
+        return hears_stop(self._book, parse(text), self._clocks.monotonic())
 
     def awaits_answer(self) -> bool:
         """Return whether a question waits for a yes or no."""
@@ -227,8 +221,7 @@ class Missions:
         Raises:
             UnknownGoal, BadState: as named.
         """
-        now_s = self._clocks.monotonic()
-        heard = receive_answer(self._book, read_utterance(text), goal_id, now_s)
+        heard = receive_answer(self._book, parse(text), goal_id, self._clocks.monotonic())
         if heard.refused is not None:
             raise heard.refused
         if heard.stops:

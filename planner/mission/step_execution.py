@@ -6,6 +6,7 @@ pose lies inside the room's outline. Nothing moves or speaks before the journal 
 
 from __future__ import annotations
 
+from planner.language.catalogue import message
 from planner.mission.account import outcome_code
 from planner.mission.activity import (
     Asking,
@@ -56,7 +57,7 @@ from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
-from planner.plan import Code, Outcome, StepState, message
+from planner.plan import Code, Outcome, StepState
 from planner.site.polygon import contains
 from wire import Pose2
 

@@ -7,6 +7,7 @@ look and to come back comes back with nothing, too: that way alone is still driv
 
 from __future__ import annotations
 
+from planner.language.catalogue import say
 from planner.mission.account import BACK
 from planner.mission.activity import Retrying, Thinking
 from planner.mission.declined_goals import decline
@@ -112,7 +113,7 @@ def _go_back(turn: Transaction, mission: Mission) -> bool:
 def _beside(before: Outcome, said: Bilingual) -> Outcome:
     """Return a failure with what failed on the way back told after it."""
     told = before.message
-    both = Bilingual(en=f"{told.en} {said.en}", zh=f"{told.zh}{said.zh}")
+    both = say("step_failure.both", told=told, said=said)
     return Outcome(code=before.code, message=both)
 
 

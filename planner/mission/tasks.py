@@ -8,13 +8,14 @@ from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from planner.language.catalogue import message
 from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, KeepPicture
 from planner.mission.events import Planned, Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Way
 from planner.mission.skills.perception import Answer
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
-from planner.plan import Code, Outcome, message
+from planner.plan import Code, Outcome
 
 log = logging.getLogger(__name__)
 

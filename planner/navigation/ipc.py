@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from dataclasses import asdict
 
-from planner.kept import Frame
 from planner.navigation.route import RouteLimits, RoutePoint, RouteRequest, RouteResult
+from processes.worker_protocol import Frame
 from wire.geometry import Pose2
 
 

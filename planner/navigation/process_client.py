@@ -9,15 +9,16 @@ from __future__ import annotations
 from dataclasses import asdict
 from pathlib import Path
 
-from planner.kept import Codes, KeptProcess
 from planner.navigation.ipc import limits_text, read_result
 from planner.navigation.route import RouteFailure, RouteLimits, RouteRequest, RouteResult
+from processes.worker import SupervisedWorker
+from processes.worker_protocol import FailureCodes
 
 READY_S = 30.0
 """To start Python, numpy and OpenCV on a busy board and load a site."""
 ROUTE_S = 5.0
 LONGEST_PAUSE_S = 5.0
-CODES = Codes(
+CODES = FailureCodes(
     RouteFailure,
     down="route_worker_unavailable",
     died="route_worker_died",
@@ -25,7 +26,7 @@ CODES = Codes(
 )
 
 
-class RouteWorker(KeptProcess):
+class RouteWorker(SupervisedWorker):
     """Find routes on one site, in another process."""
 
     def __init__(self, folder: Path, map_id: str, limits: RouteLimits) -> None:
@@ -62,6 +63,6 @@ class RouteWorker(KeptProcess):
         except (TypeError, ValueError) as error:
             raise RouteFailure("route_request_malformed", str(error)) from error
 
-    def _greet(self, said: object) -> None:
+    def _check_greeting(self, said: object) -> None:
         if said != self._map_id:
             raise RouteFailure(CODES.down, f"it loaded map {said}, not {self._map_id}")

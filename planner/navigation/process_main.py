@@ -9,14 +9,15 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from planner.kept import Frame, Parent, run
 from planner.navigation.ipc import read_limits, read_request, result_frame
 from planner.navigation.process_client import CODES
 from planner.navigation.router import Router
 from planner.site import Site, SiteError
+from processes.worker_main import ParentPipes, run_worker
+from processes.worker_protocol import Frame
 
 
-def main(parent: Parent, folder: str, limits: str) -> int:
+def main(parent: ParentPipes, folder: str, limits: str) -> int:
     """Load the site named by path, say ready, and answer until the input ends."""
     try:
         site = Site.load(Path(folder))
@@ -32,4 +33,4 @@ def _answer(router: Router, asked: Frame) -> Frame:
 
 
 if __name__ == "__main__":
-    run(main)
+    run_worker(main)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from planner.kept.failure import Failure
+from processes.worker_protocol import WorkerFailure
 from wire.geometry import Pose2
 from wire.robot import RobotDescription
 
@@ -25,7 +25,7 @@ REASONS = MappingProxyType(
 """Every code with its sentence in English and Chinese."""
 
 
-class RouteFailure(Failure):
+class RouteFailure(WorkerFailure):
     """Say why there is no route. Nothing was moved and nothing is lost: ask again later."""
 
     reasons = REASONS

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from planner.kept.failure import Failure
+from processes.worker_protocol import WorkerFailure
 
 REFUSALS = MappingProxyType(
     {
@@ -86,7 +86,7 @@ REASONS = MappingProxyType({**REFUSALS, **SKIPS, **FAILURES})
 """Every code with its sentence in English and Chinese."""
 
 
-class VisionFailure(Failure):
+class VisionFailure(WorkerFailure):
     """Say why there is no look: a model that is refused, a process that is down."""
 
     reasons = REASONS

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from planner.kept import Frame
 from planner.perception.result import About, LookResult
 from planner.perception.snapshot import Detection
+from processes.worker_protocol import Frame
 
 
 def look_frame(result: LookResult) -> Frame:

@@ -22,6 +22,7 @@ from planner.perception.object_map import Known
 from planner.perception.pending_poses import Handed
 from planner.perception.pixel_to_map import pixel, point_on_map
 from planner.perception.projection import View
+from processes.backoff import Backoff
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -58,7 +59,7 @@ class Sightseer:
         self._handed = Handed()
         self._thinking: asyncio.Task[None] | None = None
         self._task: asyncio.Task[None] | None = None
-        self._pause_s = FIRST_PAUSE_S
+        self._backoff = Backoff(FIRST_PAUSE_S, LONGEST_PAUSE_S)
         self.counts: Counter[str] = Counter()
         """Looks, and what became of them."""
         self.lag_s = self.took_s = 0.0
@@ -234,7 +235,8 @@ class Sightseer:
         if result.skipped is not None:
             self._skip(result.skipped)
             return
-        self._down, self._unusable, self._pause_s = None, 0, FIRST_PAUSE_S
+        self._down, self._unusable = None, 0
+        self._backoff.reset()
         self._saw(picture, result)
 
     def _skip(self, code: str) -> None:
@@ -276,10 +278,10 @@ class Sightseer:
 
     def _ended(self, task: asyncio.Task[None]) -> None:
         if task is self._task and not task.cancelled() and (error := task.exception()) is not None:
-            log.critical("the eyes ended; again in %g s", self._pause_s, exc_info=error)
+            pause_s = self._backoff.pause_after()
+            log.critical("the eyes ended; again in %g s", pause_s, exc_info=error)
             self.counts["eyes_ended"] += 1
-            self._open(self._pause_s)
-            self._pause_s = min(2 * self._pause_s, LONGEST_PAUSE_S)
+            self._open(pause_s)
             self._down = self._down or "detector_down"  # until the next look
             self._tell()
 

@@ -12,10 +12,11 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner.kept import Codes, Frame, KeptProcess
 from planner.perception.failure import VisionFailure
 from planner.perception.ipc import read_about, read_look
 from planner.perception.result import About, LookResult
+from processes.worker import SupervisedWorker
+from processes.worker_protocol import FailureCodes, Frame
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,12 +34,12 @@ FIRST_WORD_S = 3600.0
 """TensorRT builds its engine at the first start, for minutes; what takes an hour hangs."""
 LOOK_S = 5.0
 LONGEST_PAUSE_S = 10.0
-CODES = Codes(
+CODES = FailureCodes(
     VisionFailure, down="detector_down", died="detector_down", timed_out="detector_timed_out"
 )
 
 
-class VisionWorker(KeptProcess):
+class VisionWorker(SupervisedWorker):
     """Look at pictures with the owner's detector, or with the one that comes with Pons."""
 
     def __init__(self, settings: VisionSettings, child: str = CHILD) -> None:
@@ -134,7 +135,7 @@ class VisionWorker(KeptProcess):
         head = {"at": [u_px, v_px], "size": [depth.header.width, depth.header.height]}
         return await self.ask(head, (depth.data,), timeout_s, _depth_m)
 
-    def _greet(self, said: dict[str, Any] | None) -> None:
+    def _check_greeting(self, said: dict[str, Any] | None) -> None:
         self.about = read_about(said)
         log.info("%s", "no detector is installed" if self.about is None else self.about.line)
 

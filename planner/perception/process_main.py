@@ -12,7 +12,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from planner.kept import Frame, Parent, run
 from planner.perception.detect import (
     Detector,
     Wanted,
@@ -26,9 +25,11 @@ from planner.perception.detect import (
 )
 from planner.perception.failure import VisionFailure
 from planner.perception.ipc import look_frame
+from processes.worker_main import ParentPipes, run_worker
+from processes.worker_protocol import Frame
 
 
-def main(parent: Parent, settings: str) -> int:
+def main(parent: ParentPipes, settings: str) -> int:
     """Open the model, say ready, and answer until the input ends."""
     try:
         detector = _detector(json.loads(settings))
@@ -92,4 +93,4 @@ def _sheet(head: dict[str, Any], body: bytes) -> bytes:
 
 
 if __name__ == "__main__":
-    run(main)
+    run_worker(main)

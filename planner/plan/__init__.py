@@ -16,7 +16,7 @@ from planner.plan.goal import (
     plan_record,
 )
 from planner.plan.outcome import Outcome, Spot
-from planner.plan.outcome_codes import Code, message, template
+from planner.plan.outcome_codes import Code
 from planner.plan.responses import MAX_STEPS, PLAN, Answer, Clarify, Option, Plan, Refuse, StepPlan
 from planner.plan.steps import (
     DRIVES,
@@ -100,10 +100,8 @@ __all__ = [
     "Wait",
     "fault",
     "lacking",
-    "message",
     "places_of",
     "plan_record",
     "same",
-    "template",
     "validate_plan",
 ]

@@ -29,9 +29,9 @@ class Bilingual(Frozen):
     en: str
     zh: str
 
-    def of(self, language: Language) -> str:
-        """Return the text in the language asked for."""
-        return self.zh if language is Language.ZH else self.en
+    def of(self, language: str) -> str:
+        """Return the text in the language asked for; English where it has none."""
+        return self.zh if language == Language.ZH else self.en
 
 
 def same(text: str) -> Bilingual:

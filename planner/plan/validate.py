@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from planner.plan.base import Frozen, same
-from planner.plan.outcome import Outcome
-from planner.plan.outcome_codes import Code, message
+from planner.plan.base import Frozen
+from planner.plan.outcome_codes import Code
 from planner.plan.responses import MAX_STEPS, Answer, Clarify, Refuse, StepPlan
 from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step, places_of
 from planner.plan.vocabulary import Vocabulary
@@ -27,10 +26,14 @@ class Reason(Frozen):
 
 
 class Rejection(Frozen):
-    """Refuse a plan, with every reason found and the outcome that a person reads."""
+    """Refuse a plan, with every reason found; ``planner.language.plan_rejections`` tells it."""
 
     reasons: tuple[Reason, ...]
-    outcome: Outcome
+
+    @property
+    def first(self) -> Reason:
+        """Return what a person must hear first: what no repair can mend."""
+        return next((reason for reason in self.reasons if not reason.repairable), self.reasons[0])
 
     @property
     def repairable(self) -> bool:
@@ -52,7 +55,7 @@ def validate_plan(
     if not isinstance(plan, StepPlan):
         return plan
     reasons = tuple(_faults(plan, vocabulary, runnable, blind))
-    return Rejection(reasons=reasons, outcome=_outcome(reasons, vocabulary)) if reasons else plan
+    return Rejection(reasons=reasons) if reasons else plan
 
 
 def _faults(
@@ -73,15 +76,3 @@ def _faults(
 def lacking(step: Step, blind: Code = Code.NO_CAMERA) -> Code:
     """Name what the robot lacks for a step that it can't run; ``blind``: what its eyes lack."""
     return blind if step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY
-
-
-def _outcome(reasons: tuple[Reason, ...], vocabulary: Vocabulary) -> Outcome:
-    # What no repair can mend is what the person must hear first.
-    first = next((reason for reason in reasons if not reason.repairable), reasons[0])
-    if first.code is Code.UNKNOWN_PLACE:
-        said = message(first.code, name=first.what, near="", known=vocabulary.known())
-    elif first.code is Code.BAD_PLAN:
-        said = message(first.code, why=first.what)
-    else:
-        said = message(first.code, part=same(first.what))
-    return Outcome(code=first.code, message=said)

@@ -57,12 +57,3 @@ class Vocabulary(Frozen):
         """Return a place's name; an id that is no longer known is its own name."""
         entry = self.by_id.get(place)
         return entry.name if entry else Bilingual(en=place, zh=place)
-
-    def known(self, limit: int = 30) -> Bilingual:
-        """List what exists for a message, at most `limit` names."""
-        shown, more = self.entries[:limit], len(self.entries) - limit
-        en, zh = [e.name.en for e in shown], [e.name.zh for e in shown]
-        if more > 0:
-            en.append(f"and {more} more")
-            zh.append(f"等另外 {more} 处")
-        return Bilingual(en=", ".join(en) or "none", zh="、".join(zh) or "无")

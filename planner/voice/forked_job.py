@@ -1,4 +1,4 @@
-"""Do work in a fork of this process and hand its result back: what it changes, nobody meets again.
+"""Do work in a fork of this process and hand its result back; what it changes is lost with it.
 
 For work that spoils its tools and takes a core: each piece begins with the same memory, two run at
 once, and one that crashes fails alone. The forking process must have one thread.
@@ -14,13 +14,13 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Generic, NoReturn, TypeVar
 
-from planner.kept import bind_to_parent
+from processes.parent_death import bind_to_parent
 
 T = TypeVar("T")
 
 
-class Apart(Generic[T]):
-    """Hold one piece of work until it is answered; leaving the ``with`` ends it."""
+class ForkedJob(Generic[T]):
+    """One piece of work in a fork; leaving the ``with`` ends it."""
 
     def __init__(self, work: Callable[[], T]) -> None:
         """Begin it.
@@ -33,14 +33,14 @@ class Apart(Generic[T]):
         try:
             self._pid = os.fork()
             if self._pid == 0:
-                _work(work, answers, parent)
+                _run_fork(work, answers, parent)
         except OSError:
             os.close(self._answers)
             raise
         finally:
             os.close(answers)
 
-    def __enter__(self) -> Apart[T]:
+    def __enter__(self) -> ForkedJob[T]:
         return self
 
     def __exit__(
@@ -71,7 +71,7 @@ class Apart(Generic[T]):
         return result
 
 
-def _work(work: Callable[[], object], answers: int, parent: int) -> NoReturn:
+def _run_fork(work: Callable[[], object], answers: int, parent: int) -> NoReturn:
     """Be the fork: nothing of the parent's stack is ever run on."""
     status = 1
     try:

@@ -13,9 +13,11 @@ from asyncio.subprocess import Process
 from collections.abc import Sequence
 from typing import Any
 
-from planner.kept import STREAM_ERRORS, command_of, exchange, pack, reap, spawn
 from planner.voice.recogniser import Heard, VoiceFailure
 from planner.voice.wav import Sound
+from processes.parent_death import worker_command
+from processes.worker import STREAM_ERRORS, exchange, reap, spawn
+from processes.worker_protocol import pack
 
 log = logging.getLogger(__name__)
 
@@ -33,7 +35,7 @@ class VoiceWorker:
         self._names = tuple(names)
         self._told: tuple[str, ...] = ()
         """The names that the process of now was started with."""
-        self._command = command or command_of("planner.voice.process_main")
+        self._command = command or worker_command("planner.voice.process_main")
         self._process: Process | None = None
         self._turn = asyncio.Lock()
         self._waiting = 0

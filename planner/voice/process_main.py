@@ -1,4 +1,4 @@
-"""Be the voice process: ``planner.voice.process_main``, begun by ``planner.kept.begin``.
+"""Run the voice process: ``planner.voice.process_main``.
 
 The first frame carries the site's names, each later one a recording. Decoding holds the interpreter
 for its whole length (measured: 0.1 s for each second of speech), which is why it is a process.
@@ -10,13 +10,14 @@ from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING
 
-from planner.kept import Frame, Parent, run
+from processes.worker_main import ParentPipes, run_worker
+from processes.worker_protocol import Frame
 
 if TYPE_CHECKING:
     from planner.voice.sphinx import Sphinx
 
 
-def main(parent: Parent) -> int:
+def main(parent: ParentPipes) -> int:
     """Load the recogniser, say ready, and answer until the input ends."""
     first = parent.read()
     if first is None:
@@ -42,4 +43,4 @@ def _answer(sphinx: Sphinx, asked: Frame) -> Frame:
 
 
 if __name__ == "__main__":
-    run(main)
+    run_worker(main)

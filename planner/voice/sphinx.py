@@ -21,7 +21,7 @@ from planner.voice.audio_preprocess import FRAME, prepare, quiet
 from planner.voice.common_words import COMMON
 from planner.voice.confidence import Decoded, confidence, long_pauses, stop_confidence
 from planner.voice.dictionary import Dictionary
-from planner.voice.forked_job import Apart
+from planner.voice.forked_job import ForkedJob
 from planner.voice.grammar import (
     ANSWERS,
     OTHER_STOPS,
@@ -101,8 +101,8 @@ class Sphinx:
         """Return what the orders and the stops make of it, and the everyday words found in it."""
         samples, frames = recording.samples, recording.frames
         with (
-            Apart(lambda: _decode(self._free, "words", samples)) as spoken,
-            Apart(lambda: self._order(samples)) as bound,
+            ForkedJob(lambda: _decode(self._free, "words", samples)) as spoken,
+            ForkedJob(lambda: self._order(samples)) as bound,
         ):
             order = bound.result()
             if order is None or not self.language.is_order(order.text):
@@ -129,7 +129,7 @@ class Sphinx:
         short as they are: "bring me a cup of tea" was heard as "freeze" (docs/adr/0013).
         """
         samples, frames = recording.samples, recording.frames
-        with Apart(lambda: _decode(self._decoder, "other_stops", samples)) as bound:
+        with ForkedJob(lambda: _decode(self._decoder, "other_stops", samples)) as bound:
             stop = bound.result()
         if stop is None or words is None or _is_drawn_out(stop):
             return None
@@ -146,7 +146,7 @@ class Sphinx:
         words are far behind and nothing was said after it (docs/adr/0013).
         """
         samples, frames = recording.samples, recording.frames
-        with Apart(lambda: _decode(self._decoder, "answers", samples)) as bound:
+        with ForkedJob(lambda: _decode(self._decoder, "answers", samples)) as bound:
             answer = bound.result()
         if answer is None or not is_answer(answer.text):
             return None
@@ -160,7 +160,7 @@ class Sphinx:
         return Heard(answer.text, round(sure, 3), understood=True)
 
     def _phones(self, samples: bytes) -> Decoded:
-        with Apart(lambda: _decode(self._free, "phones", samples)) as sounds:
+        with ForkedJob(lambda: _decode(self._free, "phones", samples)) as sounds:
             return sounds.result() or Decoded("", 0.0, ())  # fits perfectly: nothing is believed
 
     def _order(self, samples: bytes) -> Decoded | None:

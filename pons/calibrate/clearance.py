@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import copysign, cos, hypot, sin, tau
 from typing import TYPE_CHECKING
 
-from pons.calibrate.errors import CalibrationRefused
+from pons.calibrate.errors import CalibrationRefusal
 from pons.calibrate.wall import Points, wall_ahead
 from wire import Pose2, transform, wrap
 
@@ -45,7 +45,7 @@ measure against it."""
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class ClearWay:
     """Name a heading to drive back and forth in, and how far."""
 
     heading_rad: float
@@ -84,7 +84,7 @@ def points_of(scan: Scan, robot: RobotDescription) -> Points:
             points.append(transform(lidar_in_base, range_m * cos(angle), range_m * sin(angle)))
     if not len(points) >= RETURNS * len(scan.ranges_m) > 0:
         text = f"{len(points)} of {len(scan.ranges_m)} beams came back"
-        raise CalibrationRefused("no_lidar", text)
+        raise CalibrationRefusal("no_lidar", text)
     return points
 
 
@@ -123,10 +123,10 @@ def clear_to_turn(points: Points, radius_m: float) -> None:
     if not nearest >= radius_m + ASIDE_M:
         needs_m = radius_m + ASIDE_M
         text = f"something is {nearest:.2f} m from the middle; turning needs {needs_m:.2f} m"
-        raise CalibrationRefused("no_room", text)
+        raise CalibrationRefusal("no_room", text)
 
 
-def best_way(points: Points, radius_m: float, headings: Sequence[float] = EVERYWHERE) -> Way:
+def best_way(points: Points, radius_m: float, headings: Sequence[float] = EVERYWHERE) -> ClearWay:
     """Choose the heading that needs the least turning among those with room for a long run.
 
     Raises:
@@ -140,19 +140,19 @@ def best_way(points: Points, radius_m: float, headings: Sequence[float] = EVERYW
             f"{had:.2f} m are free at best; a run needs {needed_m(SHORTEST_M) + SPARE_M:.2f} m "
             f"ahead and {BEHIND_M + SPARE_M:.2f} m behind"
         )
-        raise CalibrationRefused("no_room", text)
+        raise CalibrationRefusal("no_room", text)
     return best
 
 
-def _way(points: Points, radius_m: float, heading_rad: float) -> Way:
+def _way(points: Points, radius_m: float, heading_rad: float) -> ClearWay:
     seen = seen_along(points, heading_rad)
     ahead, behind = free_m(seen, radius_m, SPARE_M if heading_rad else SPARE_M / 2)
     run_m = min(LONGEST_M, (ahead - END_M) / OFF) if behind >= BEHIND_M else 0.0
-    return Way(heading_rad, run_m, run_m >= SHORTEST_M and _has_a_wall(seen))
+    return ClearWay(heading_rad, run_m, run_m >= SHORTEST_M and _has_a_wall(seen))
 
 
 def _has_a_wall(seen: Points) -> bool:
     try:
         return abs(wall_ahead(seen).slope) <= SQUARE
-    except CalibrationRefused:
+    except CalibrationRefusal:
         return False

@@ -10,11 +10,12 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from pons.calibrate.errors import CalibrationRefused
-from pons.calibrate.procedure import Plan, calibrate
+from pons.calibrate.errors import CalibrationRefusal
+from pons.calibrate.procedure import CalibrationPlan, calibrate
 from pons.calibrate.reference import MEASURED
-from pons.calibrate.robot_toml import difference, edited, replace
-from pons.calibrate.session import Rig
+from pons.calibrate.robot_toml import difference, edit_values, replace
+from pons.calibrate.session import CalibrationRig
+from pons_assets import IS_INSTALLED, ROBOT_FILE
 from wire import Misconfigured, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-    from pons.calibrate.findings import Finding
+    from pons.calibrate.findings import CalibrationFinding
     from pons.settings import Settings
 
 EXIT_DONE, EXIT_REFUSED, EXIT_INTERRUPTED = 0, 3, 130
@@ -42,13 +43,15 @@ def run(
     """Calibrate; 0 written or nothing to change, 3 refused, 130 interrupted."""
     signal.signal(signal.SIGTERM, _interrupt)
     try:
+        if IS_INSTALLED and settings.robot == ROBOT_FILE:
+            raise CalibrationRefusal("shipped_robot_toml", f"cp {ROBOT_FILE} robot.toml")
         text = settings.robot.read_text("utf-8") if settings.robot.is_file() else ""
         stamp = time.gmtime()
         kind = MEASURED if measured_m is not None else reference
-        asked = Plan(kind, shuttles, patience_s=patience_s)
+        asked = CalibrationPlan(kind, shuttles, patience_s=patience_s)
         found = _measure(settings, asked, measured_m or [], time.strftime("%FT%TZ", stamp))
         return _write(settings, text, found, time.strftime("%Y%m%dT%H%M%SZ", stamp), yes=yes)
-    except CalibrationRefused as refused:
+    except CalibrationRefusal as refused:
         print("\n".join(refused.lines()), file=sys.stderr)
         return EXIT_REFUSED
     except (Misconfigured, OSError) as trouble:
@@ -63,14 +66,16 @@ def _interrupt(_number: int, _frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _measure(settings: Settings, plan: Plan, typed: list[float], when: str) -> list[Finding]:
+def _measure(
+    settings: Settings, plan: CalibrationPlan, typed: list[float], when: str
+) -> list[CalibrationFinding]:
     robot = load_robot(settings.robot)
     metres = _metres(typed)
     with (
         open_session(Party.OPERATOR, robot.id, settings.home) as operator,
         open_session(Party.JUDGE, robot.id, settings.home) as judge,
     ):
-        rig = Rig(operator, judge, time.monotonic, lambda: time.sleep(PUMP_S))
+        rig = CalibrationRig(operator, judge, time.monotonic, lambda: time.sleep(PUMP_S))
         return calibrate(rig, robot, plan, when, _say, lambda: next(metres))
 
 
@@ -78,34 +83,36 @@ def _metres(typed: list[float]) -> Iterator[float]:
     """Yield what a person measured: first what came with the command, then what is typed now.
 
     Raises:
-        CalibrationRefused: ``no_measure``.
+        CalibrationRefusal: ``no_measure``.
     """
     yield from typed
     while True:
         if not sys.stdin.isatty():
-            raise CalibrationRefused("no_measure", f"{len(typed)} were given; one for each run")
+            raise CalibrationRefusal("no_measure", f"{len(typed)} were given; one for each run")
         answer = input("how far did it go, by tape? [m] ")
         try:
             yield float(answer)
         except ValueError:
-            raise CalibrationRefused("no_measure", f"{answer!r}") from None
+            raise CalibrationRefusal("no_measure", f"{answer!r}") from None
 
 
-def _write(settings: Settings, before: str, found: list[Finding], stamp: str, *, yes: bool) -> int:
+def _write(
+    settings: Settings, before: str, found: list[CalibrationFinding], stamp: str, *, yes: bool
+) -> int:
     """Show the difference, ask, write."""
     for one in found:
         print(f"{one.name:<24} {one.was:g} -> {one.value:g}   ({one.evidence})")
-    after = edited(before, found)
+    after = edit_values(before, found)
     print(difference(settings.robot, before, after), flush=True)
-    if not yes and not _agreed(settings):
-        raise CalibrationRefused("not_confirmed", "" if sys.stdin.isatty() else "--yes writes it")
+    if not yes and not _ask_to_write(settings):
+        raise CalibrationRefusal("not_confirmed", "" if sys.stdin.isatty() else "--yes writes it")
     kept = replace(settings.robot, before, after, stamp)
     _say(f"wrote {settings.robot}; the old one is {kept.name}")
     _say("start `pons up` anew for it to count; the robot is held: `pons resume` frees it")
     return EXIT_DONE
 
 
-def _agreed(settings: Settings) -> bool:
+def _ask_to_write(settings: Settings) -> bool:
     if not sys.stdin.isatty():
         return False
     return input(f"write {settings.robot}? [y/N] ").strip().lower() in {"y", "yes", "是"}

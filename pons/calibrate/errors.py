@@ -31,6 +31,10 @@ WORDS: dict[str, tuple[str, str]] = {
         "The bridge runs with another robot.toml than this one; restart it or set PONS_ROBOT.",
         "桥接进程使用的 robot.toml 与此文件不同；请重启或设置 PONS_ROBOT。",
     ),
+    "shipped_robot_toml": (
+        "This robot.toml came with Pons and is not written to; copy it and set PONS_ROBOT.",
+        "此 robot.toml 随 Pons 安装，不会被改写；请复制后用 PONS_ROBOT 指定。",
+    ),
     "no_drive": (
         "The drive's own reports do not arrive here.",
         "收不到驱动器的状态报告。",
@@ -86,7 +90,7 @@ WORDS: dict[str, tuple[str, str]] = {
 }  # fmt: skip
 
 
-class CalibrationRefused(Exception):
+class CalibrationRefusal(Exception):
     """End a calibration; the robot stands and nothing was written."""
 
     def __init__(self, code: str, detail: str = "") -> None:

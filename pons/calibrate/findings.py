@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
-from pons.calibrate.errors import CalibrationRefused
-from pons.calibrate.motor import LEFT, RIGHT, braking_radps2, fitted, plateau, statics
+from pons.calibrate.errors import CalibrationRefusal
+from pons.calibrate.motor import LEFT, RIGHT, braking_radps2, fit_motor, plateau, statics
 from pons.calibrate.runs import EVEN_TICKS, SETTLED_TICKS
 from pons.calibrate.track import TICK_S
 from wire import RobotDescription
@@ -33,7 +33,7 @@ PLAUSIBLE = (0.75, 1.33)
 
 
 @dataclass(frozen=True, slots=True)
-class Straight:
+class StraightRun:
     """Hold what one run in a line showed; for the mean of both wheels unless said otherwise."""
 
     radius_m: float
@@ -49,7 +49,7 @@ class Straight:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class CalibrationFinding:
     """Give one value, what it rests on, and what it was."""
 
     table: str
@@ -64,7 +64,7 @@ class Finding:
         return f"{self.table}.{self.key}"
 
 
-def of_straight(run: Run, went_m: float) -> Straight:
+def of_straight(run: Run, went_m: float) -> StraightRun:
     """Read one run in a line.
 
     Args:
@@ -81,10 +81,10 @@ def of_straight(run: Run, went_m: float) -> Straight:
     motors = []
     for wheel in (LEFT, RIGHT):
         dead_zone, gain = statics(plateau(ticks, wheel, *slow), plateau(ticks, wheel, *fast))
-        motors.append(fitted(ticks, wheel, dead_zone, gain))
+        motors.append(fit_motor(ticks, wheel, dead_zone, gain))
     rolled_rad = abs(sum(track.turned_rad())) / 2
     transport_s = median(track.behind) * TICK_S if track.behind else TICK_S
-    return Straight(
+    return StraightRun(
         radius_m=went_m / rolled_rad,
         dead_zone_radps=fmean(motor.dead_zone_radps for motor in motors),
         gains=(motors[LEFT].gain, motors[RIGHT].gain),
@@ -102,12 +102,12 @@ def separation_m(run: Run, turned_rad: float, radius_m: float) -> float:
 
 
 def findings(
-    straights: Sequence[Straight],
+    straights: Sequence[StraightRun],
     separations_m: Sequence[float],
     robot: RobotDescription,
     reference: str,
     when: str,
-) -> list[Finding]:
+) -> list[CalibrationFinding]:
     """Return every value with its evidence.
 
     Args:
@@ -127,7 +127,7 @@ def findings(
     dead_zone = _near("dead_zone_radps", dead, DEAD_ZONE_SPREAD_RADPS)
     response = [run.response_s for run in straights]
     _near("response_s", response, LAG_SPREAD_S)
-    response_s = _down(min(response), 3)
+    response_s = _round_down(min(response), 3)
     lags = [run.lag_s for run in straights]
     _near("lag_s", lags, LAG_SPREAD_S)
     braking = [run.braking_radps2 * radius_m for run in straights]
@@ -140,28 +140,28 @@ def findings(
     outside, inside = f"against {reference}", f"by the encoders; wheels turn {gain} of what is told"
     seen = _Evidence(when)
     found = [
-        Finding("base", "wheel_radius_m", base.wheel_radius_m, round(radius_m, 5),
+        CalibrationFinding("base", "wheel_radius_m", base.wheel_radius_m, round(radius_m, 5),
                 seen.of([run.radius_m for run in straights], 4, outside)),
-        Finding("base", "wheel_separation_m", base.wheel_separation_m, round(apart_m, 4),
+        CalibrationFinding("base", "wheel_separation_m", base.wheel_separation_m, round(apart_m, 4),
                 seen.of(separations_m, 4, outside)),
-        Finding("limits", "max_decel_mps2", limits.max_decel_mps2,
-                min(limits.max_decel_mps2, _down(min(braking), 2)),
+        CalibrationFinding("limits", "max_decel_mps2", limits.max_decel_mps2,
+                min(limits.max_decel_mps2, _round_down(min(braking), 2)),
                 seen.of(braking, 3, "never more than the weakest stop, never raised")),
-        Finding("drive", "lag_s", drive.lag_s, _up(max(lags), 3),
+        CalibrationFinding("drive", "lag_s", drive.lag_s, _round_up(max(lags), 3),
                 seen.of(lags, 3, "the longest counts: way to the drive, delay and motor")),
-        Finding("drive", "dead_zone_radps", drive.dead_zone_radps, round(dead_zone, 3),
+        CalibrationFinding("drive", "dead_zone_radps", drive.dead_zone_radps, round(dead_zone, 3),
                 seen.of(dead, 3, inside)),
-        Finding("drive", "response_s", drive.response_s, response_s,
+        CalibrationFinding("drive", "response_s", drive.response_s, response_s,
                 seen.of(response, 3, "the shortest counts")),
-        Finding("drive", "kp", drive.kp, kp, seen.by_rule(response_s)),
-        Finding("drive", "ki_per_s", drive.ki_per_s, ki_per_s, seen.by_rule(response_s)),
+        CalibrationFinding("drive", "kp", drive.kp, kp, seen.by_rule(response_s)),
+        CalibrationFinding("drive", "ki_per_s", drive.ki_per_s, ki_per_s, seen.by_rule(response_s)),
     ]  # fmt: skip
     _plausible("base.wheel_separation_m", apart_m, base.wheel_separation_m)
-    _allowed(robot, found)
+    _check_limits(robot, found)
     return found
 
 
-def radius_of(straights: Sequence[Straight], robot: RobotDescription) -> float:
+def radius_of(straights: Sequence[StraightRun], robot: RobotDescription) -> float:
     """Return the wheel radius that the runs in a line agree on [m].
 
     Raises:
@@ -207,29 +207,29 @@ class _Evidence:
 def _close(name: str, values: Sequence[float], share: float) -> float:
     """Return the median of values that lie together, by share of it."""
     middle = median(values)
-    if not (all(isfinite(one) for one in values) and _apart(values) <= share * middle):
+    if not (all(isfinite(one) for one in values) and _spread(values) <= share * middle):
         text = f"{name}: {min(values):.4f} to {max(values):.4f}, allowed {100 * share:.1f} % apart"
-        raise CalibrationRefused("spread_too_wide", text)
+        raise CalibrationRefusal("spread_too_wide", text)
     return middle
 
 
 def _near(name: str, values: Sequence[float], apart: float) -> float:
     """Return the median of values that lie together, by distance."""
-    if not (all(isfinite(one) for one in values) and _apart(values) <= apart):
+    if not (all(isfinite(one) for one in values) and _spread(values) <= apart):
         text = f"{name}: {min(values):.3f} to {max(values):.3f}, allowed {apart:.3f} apart"
-        raise CalibrationRefused("spread_too_wide", text)
+        raise CalibrationRefusal("spread_too_wide", text)
     return median(values)
 
 
-def _apart(values: Sequence[float]) -> float:
+def _spread(values: Sequence[float]) -> float:
     return max(values) - min(values)
 
 
-def _up(value: float, digits: int) -> float:
+def _round_up(value: float, digits: int) -> float:
     return float(ceil(value * 10**digits - 1e-9)) / float(10**digits)
 
 
-def _down(value: float, digits: int) -> float:
+def _round_down(value: float, digits: int) -> float:
     return float(floor(value * 10**digits + 1e-9)) / float(10**digits)
 
 
@@ -237,10 +237,10 @@ def _plausible(name: str, value: float, was: float) -> None:
     low, high = PLAUSIBLE
     if not low * was <= value <= high * was:
         text = f"{name}: {value:.4g}, {was:.4g} in robot.toml; was the measure right?"
-        raise CalibrationRefused("out_of_bounds", text)
+        raise CalibrationRefusal("out_of_bounds", text)
 
 
-def _allowed(robot: RobotDescription, found: Sequence[Finding]) -> None:
+def _check_limits(robot: RobotDescription, found: Sequence[CalibrationFinding]) -> None:
     """See that robot.toml may hold all of it."""
     told = robot.model_dump()
     for one in found:
@@ -248,4 +248,4 @@ def _allowed(robot: RobotDescription, found: Sequence[Finding]) -> None:
     try:
         RobotDescription.model_validate(told, strict=True)
     except ValidationError as error:
-        raise CalibrationRefused("out_of_bounds", explain(error)) from None
+        raise CalibrationRefusal("out_of_bounds", explain(error)) from None

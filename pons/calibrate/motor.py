@@ -17,7 +17,7 @@ from pons.calibrate.track import TICK_S
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pons.calibrate.track import Tick
+    from pons.calibrate.track import TrackTick
 
 LEFT, RIGHT = 0, 1
 SHORTEST_LAG_S, LONGEST_LAG_S = 0.002, 0.5
@@ -38,7 +38,7 @@ class Motor:
     delay_s: float
 
 
-def plateau(ticks: Sequence[Tick], wheel: int, begin: int, end: int) -> tuple[float, float]:
+def plateau(ticks: Sequence[TrackTick], wheel: int, begin: int, end: int) -> tuple[float, float]:
     """Return the mean of what a wheel was told and of what it did between two ticks [rad/s].
 
     Raises:
@@ -66,9 +66,9 @@ def statics(slow: tuple[float, float], fast: tuple[float, float]) -> tuple[float
     return max(0.0, abs(slow[0]) - abs(slow[1]) / gain), gain
 
 
-def fitted(ticks: Sequence[Tick], wheel: int, dead_zone_radps: float, gain: float) -> Motor:
+def fit_motor(ticks: Sequence[TrackTick], wheel: int, dead_zone_radps: float, gain: float) -> Motor:
     """Return the lag and delay with which the model comes nearest to what the wheel did."""
-    told = [_past(tick.told[wheel], dead_zone_radps, gain) for tick in ticks]
+    told = [_beyond_dead_zone(tick.told[wheel], dead_zone_radps, gain) for tick in ticks]
     did = [None if tick.did is None else tick.did[wheel] for tick in ticks]
     best = (float("inf"), SHORTEST_LAG_S, 0)
     for delay in DELAYS:
@@ -78,7 +78,7 @@ def fitted(ticks: Sequence[Tick], wheel: int, dead_zone_radps: float, gain: floa
     return Motor(dead_zone_radps, gain, lag_s, delay * TICK_S)
 
 
-def _past(told: float, dead_zone: float, gain: float) -> float:
+def _beyond_dead_zone(told: float, dead_zone: float, gain: float) -> float:
     return copysign(gain * max(0.0, abs(told) - dead_zone), told)
 
 
@@ -125,7 +125,7 @@ def _error(wishes: Sequence[float], did: Sequence[float | None], lag_s: float) -
     return total / max(1, count)
 
 
-def braking_radps2(ticks: Sequence[Tick], since: int) -> float:
+def braking_radps2(ticks: Sequence[TrackTick], since: int) -> float:
     """Return how fast the slower-braking wheel slows in the even part of a stop [rad/s2].
 
     Raises:
@@ -134,7 +134,7 @@ def braking_radps2(ticks: Sequence[Tick], since: int) -> float:
     return min(_slope(ticks, wheel, since) for wheel in (LEFT, RIGHT))
 
 
-def _slope(ticks: Sequence[Tick], wheel: int, since: int) -> float:
+def _slope(ticks: Sequence[TrackTick], wheel: int, since: int) -> float:
     points = [
         (tick.seq * TICK_S, abs(tick.did[wheel]))
         for tick in ticks

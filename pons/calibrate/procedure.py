@@ -11,8 +11,8 @@ from math import pi
 from typing import TYPE_CHECKING, TypeVar
 
 from pons.calibrate.clearance import best_way, clear_to_turn, free_m, needed_m, points_of
-from pons.calibrate.errors import CalibrationRefused, RunLost
-from pons.calibrate.findings import Straight, findings, of_straight, radius_of, separation_m
+from pons.calibrate.errors import CalibrationRefusal, RunLost
+from pons.calibrate.findings import StraightRun, findings, of_straight, radius_of, separation_m
 from pons.calibrate.reference import LIDAR, MEASURED, SPOKEN, TRUTH, turned_rad, went_m
 from pons.calibrate.runs import ROUND_RAD, straight, turn
 from wire import Mode
@@ -20,9 +20,9 @@ from wire import Mode
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.calibrate.clearance import Way
-    from pons.calibrate.findings import Finding
-    from pons.calibrate.session import Rig
+    from pons.calibrate.clearance import ClearWay
+    from pons.calibrate.findings import CalibrationFinding
+    from pons.calibrate.session import CalibrationRig
     from pons.calibrate.wall import Points
     from wire import RobotDescription, Status
 
@@ -49,7 +49,7 @@ _AFTERMATH = {"not_armed", "fault", "no_room"}
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class CalibrationPlan:
     """Say what is wanted."""
 
     reference: str | None
@@ -61,13 +61,13 @@ class Plan:
 
 
 def calibrate(
-    rig: Rig,
+    rig: CalibrationRig,
     robot: RobotDescription,
-    plan: Plan,
+    plan: CalibrationPlan,
     when: str,
     say: Callable[[str], None],
     ask_m: Callable[[], float],
-) -> list[Finding]:
+) -> list[CalibrationFinding]:
     """Drive and measure; the robot stands when this returns or raises.
 
     Raises:
@@ -77,22 +77,22 @@ def calibrate(
     ready(status, robot)
     reference = plan.reference or (TRUTH if rig.truth is not None else LIDAR)
     if reference == TRUTH and not (status.drive.virtual and rig.truth is not None):
-        raise CalibrationRefused("no_truth")
+        raise CalibrationRefusal("no_truth")
     run_m = _face_the_way(rig, robot, plan, say)
     say(f"runs of {run_m:.2f} m; distances by {SPOKEN[reference]}")
-    straights: list[Straight] = []
+    straights: list[StraightRun] = []
     for count in range(2 * plan.shuttles):
         metres = run_m if count % 2 == 0 else -run_m
         straights.append(
-            _again(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
+            _retry_lost(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
         )
-        say(f"run {count + 1}/{2 * plan.shuttles}: {_told(straights[-1])}")
+        say(f"run {count + 1}/{2 * plan.shuttles}: {_run_line(straights[-1])}")
     radius_m = radius_of(straights, robot)  # before the turns, which a wrong one would spoil
     separations: list[float] = []
     for count in range(plan.turns):
         angle = ROUND_RAD if count % 2 == 0 else -ROUND_RAD
         separations.append(
-            _again(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
+            _retry_lost(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
         )
         say(f"turn {count + 1}/{plan.turns}: separation {separations[-1]:.4f} m")
     by = SPOKEN[reference]
@@ -111,27 +111,29 @@ def ready(status: Status, robot: RobotDescription) -> None:
         who = f"mode {status.mode.value}"
         if status.mode is Mode.ACTIVE and status.grant is not None:
             who = f"mission {status.grant.mission} is driving"
-        raise CalibrationRefused(_MODES[status.mode], who)
+        raise CalibrationRefusal(_MODES[status.mode], who)
     if status.robot_hash != robot.hash:
         text = f"the bridge has {status.robot_hash[:12]}, the file {robot.hash[:12]}"
-        raise CalibrationRefused("other_robot_toml", text)
+        raise CalibrationRefusal("other_robot_toml", text)
 
 
 def _face_the_way(
-    rig: Rig, robot: RobotDescription, plan: Plan, say: Callable[[str], None]
+    rig: CalibrationRig, robot: RobotDescription, plan: CalibrationPlan, say: Callable[[str], None]
 ) -> float:
     """Look, choose and turn until it faces what it chose; return how long a run may be.
 
     A turn by a robot.toml that is wrong ends some degrees off: each look chooses anew.
     """
     for _ in range(TURNS):
-        way = _again(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
+        way = _retry_lost(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
         if not way.turns_rad:
             return way.run_m
     return best_way(_points(rig, robot), robot.base.radius_m, (0.0,)).run_m
 
 
-def _turn_nearer(rig: Rig, robot: RobotDescription, say: Callable[[str], None]) -> Way:
+def _turn_nearer(
+    rig: CalibrationRig, robot: RobotDescription, say: Callable[[str], None]
+) -> ClearWay:
     """Look, choose a way and, unless it is ahead, take the first turn that leads there."""
     way = best_way(_points(rig, robot), robot.base.radius_m)
     say(
@@ -143,32 +145,36 @@ def _turn_nearer(rig: Rig, robot: RobotDescription, say: Callable[[str], None]) 
     return way
 
 
-def _points(rig: Rig, robot: RobotDescription) -> Points:
+def _points(rig: CalibrationRig, robot: RobotDescription) -> Points:
     return points_of(rig.look().scans[-1], robot)
 
 
 def _straight(
-    rig: Rig, robot: RobotDescription, metres: float, reference: str, ask_m: Callable[[], float]
-) -> Straight:
+    rig: CalibrationRig,
+    robot: RobotDescription,
+    metres: float,
+    reference: str,
+    ask_m: Callable[[], float],
+) -> StraightRun:
     ahead, behind = free_m(_points(rig, robot), robot.base.radius_m)
     run_m, needs_m = abs(metres), needed_m(abs(metres))
     if metres > 0.0 and not ahead >= needs_m:
         # After a run that was cut short the robot is somewhere on its way: drive it back.
         if not behind >= run_m:
             text = f"{ahead:.2f} m are free, the run needs {needs_m:.2f} m"
-            raise CalibrationRefused("no_room", text)
+            raise CalibrationRefusal("no_room", text)
         metres = -run_m
     elif metres < 0.0 and not behind >= run_m:
         if not ahead >= needs_m:
             text = f"{behind:.2f} m are free behind, the way back needs {run_m:.2f} m"
-            raise CalibrationRefused("no_room", text)
+            raise CalibrationRefusal("no_room", text)
         metres = run_m
     run = straight(rig, robot, metres)
     return of_straight(run, went_m(reference, run.before, run.after, robot, ask_m))
 
 
 def _turn(
-    rig: Rig, robot: RobotDescription, angle_rad: float, reference: str, radius_m: float
+    rig: CalibrationRig, robot: RobotDescription, angle_rad: float, reference: str, radius_m: float
 ) -> float:
     clear_to_turn(_points(rig, robot), robot.base.radius_m)
     run = turn(rig, robot, angle_rad)
@@ -179,7 +185,9 @@ def _turn(
     return separation_m(run, turned, radius_m)
 
 
-def _again(rig: Rig, plan: Plan, say: Callable[[str], None], take: Callable[[], R]) -> R:
+def _retry_lost(
+    rig: CalibrationRig, plan: CalibrationPlan, say: Callable[[str], None], take: Callable[[], R]
+) -> R:
     """Take a run; one that was lost is taken again, a few times.
 
     Raises:
@@ -194,14 +202,14 @@ def _again(rig: Rig, plan: Plan, say: Callable[[str], None], take: Callable[[], 
             before = lost
             if not rig.settle(plan.patience_s):
                 break
-        except CalibrationRefused as refused:
+        except CalibrationRefusal as refused:
             if refused.code in _AFTERMATH and before.detail:  # what the lost run led to
-                raise CalibrationRefused(before.code, before.detail) from None
+                raise CalibrationRefusal(before.code, before.detail) from None
             raise
-    raise CalibrationRefused(before.code, before.detail)
+    raise CalibrationRefusal(before.code, before.detail)
 
 
-def _told(run: Straight) -> str:
+def _run_line(run: StraightRun) -> str:
     left, right = run.gains
     return (
         f"radius {run.radius_m:.4f} m, dead zone {run.dead_zone_radps:.3f} rad/s, "

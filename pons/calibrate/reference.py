@@ -11,14 +11,14 @@ from statistics import fmean, median
 from typing import TYPE_CHECKING
 
 from pons.calibrate.clearance import points_of
-from pons.calibrate.errors import CalibrationRefused, RunLost
+from pons.calibrate.errors import CalibrationRefusal, RunLost
 from pons.calibrate.wall import wall_ahead
 from wire import distance
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pons.calibrate.track import Track
+    from pons.calibrate.track import DriveTrack
     from wire import RobotDescription, Scan, SimTruth
 
 TRUTH, LIDAR, MEASURED = "truth", "lidar", "measured"
@@ -35,7 +35,7 @@ FINE_RAD = 0.0005
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class WallLook:
     """Hold what was seen while standing."""
 
     truth: SimTruth | None
@@ -43,7 +43,7 @@ class Look:
 
 
 def went_m(
-    kind: str, before: Look, after: Look, robot: RobotDescription, ask: Callable[[], float]
+    kind: str, before: WallLook, after: WallLook, robot: RobotDescription, ask: Callable[[], float]
 ) -> float:
     """Return how far the robot went along its heading, without sign [m].
 
@@ -55,13 +55,18 @@ def went_m(
         return ask()
     if kind == TRUTH:
         if before.truth is None or after.truth is None:
-            raise CalibrationRefused("no_truth")
+            raise CalibrationRefusal("no_truth")
         return distance(before.truth.base_in_map, after.truth.base_in_map)
     return abs(wall_m(before.scans, robot) - wall_m(after.scans, robot))
 
 
 def turned_rad(
-    kind: str, track: Track, before: Look, after: Look, robot: RobotDescription, near_rad: float
+    kind: str,
+    track: DriveTrack,
+    before: WallLook,
+    after: WallLook,
+    robot: RobotDescription,
+    near_rad: float,
 ) -> float:
     """Return how far the robot turned in a run, by truth or by matching scans.
 
@@ -75,7 +80,7 @@ def turned_rad(
     """
     if kind == TRUTH:
         if track.truth is None:
-            raise CalibrationRefused("no_truth")
+            raise CalibrationRefusal("no_truth")
         return track.true_turn_rad
     return near_rad + matched_rad(before.scans, after.scans, near_rad)
 
@@ -99,7 +104,7 @@ def matched_rad(before: Sequence[Scan], after: Sequence[Scan], near_rad: float) 
     Raises:
         RunLost: no shift fits.
     """
-    old, new = _averaged(before), _averaged(after)
+    old, new = _median_scan(before), _median_scan(after)
     step = before[0].angle_increment_rad
 
     def worst(more_rad: float) -> float:
@@ -116,7 +121,7 @@ def _steps(low: float, high: float, by: float) -> list[float]:
     return [low + n * by for n in range(round((high - low) / by) + 1)]
 
 
-def _averaged(scans: Sequence[Scan]) -> list[float | None]:
+def _median_scan(scans: Sequence[Scan]) -> list[float | None]:
     """Return the median of each beam; None where it mostly did not come back."""
     beams: list[float | None] = []
     for ranges in zip(*(scan.ranges_m for scan in scans), strict=True):

@@ -15,14 +15,14 @@ import tomllib
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
-from pons.calibrate.errors import CalibrationRefused
+from pons.calibrate.errors import CalibrationRefusal
 from wire import load_robot
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from pons.calibrate.findings import Finding
+    from pons.calibrate.findings import CalibrationFinding
 
 MARK = "# calibrated "
 _TABLE = re.compile(r"^\s*\[\s*(?P<name>[A-Za-z0-9_-]+)\s*\]\s*(#.*)?$")
@@ -31,7 +31,7 @@ _KEY = re.compile(
 )
 
 
-def edited(text: str, found: Sequence[Finding]) -> str:
+def edit_values(text: str, found: Sequence[CalibrationFinding]) -> str:
     """Return the file's text with these values, each below its evidence.
 
     Raises:
@@ -41,22 +41,22 @@ def edited(text: str, found: Sequence[Finding]) -> str:
     for one in found:
         lines = _with(lines, one)
     after = "\n".join(lines) + "\n"
-    wanted = _expected(text, found)
+    wanted = _expected_content(text, found)
     with contextlib.suppress(tomllib.TOMLDecodeError):
         if tomllib.loads(after) == wanted:
             return after
     values = ", ".join(f"{one.name} = {one.value!r}" for one in found)
-    raise CalibrationRefused("robot_toml_shape", values)
+    raise CalibrationRefusal("robot_toml_shape", values)
 
 
-def _expected(text: str, found: Sequence[Finding]) -> dict[str, Any]:
+def _expected_content(text: str, found: Sequence[CalibrationFinding]) -> dict[str, Any]:
     told = deepcopy(tomllib.loads(text))
     for one in found:
         told.setdefault(one.table, {})[one.key] = one.value
     return told
 
 
-def _with(lines: list[str], one: Finding) -> list[str]:
+def _with(lines: list[str], one: CalibrationFinding) -> list[str]:
     """Return the lines with one value set."""
     begin, end = _table(lines, one.table)
     if begin is None:
@@ -102,7 +102,7 @@ def replace(path: Path, before: str, after: str, stamp: str) -> Path:
         OSError: it cannot be written.
     """
     if path.read_text("utf-8") != before:
-        raise CalibrationRefused("robot_toml_shape", f"{path} was changed meanwhile")
+        raise CalibrationRefusal("robot_toml_shape", f"{path} was changed meanwhile")
     fresh = path.with_name(f"{path.name}.new-{os.getpid()}")
     kept = path.with_name(f"{path.name}.bak-{stamp}")
     try:

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
-from pons.calibrate.track import Track
+from pons.calibrate.track import DriveTrack
 
 if TYPE_CHECKING:
-    from pons.calibrate.reference import Look
-    from pons.calibrate.session import Rig
+    from pons.calibrate.reference import WallLook
+    from pons.calibrate.session import CalibrationRig
     from wire import RobotDescription
 
 SLOW_MPS, SLOW_S = 0.06, 2.2
@@ -32,26 +32,26 @@ EVEN_TICKS = round(EVEN_S * 100)
 class Run:
     """Hold what one run recorded, from standing to standing."""
 
-    track: Track
-    before: Look
-    after: Look
+    track: DriveTrack
+    before: WallLook
+    after: WallLook
 
 
-def straight(rig: Rig, robot: RobotDescription, metres: float) -> Run:
+def straight(rig: CalibrationRig, robot: RobotDescription, metres: float) -> Run:
     """Drive so many believed metres, backwards if negative; slowly at first."""
     sign = 1.0 if metres > 0.0 else -1.0
     fast_mps = min(FAST_MPS, FAST_SHARE * robot.limits.max_speed_mps)
     lag_m = fast_mps * 0.1
     stop_m = lag_m + fast_mps * fast_mps / (2 * robot.limits.max_decel_mps2) + 0.02
     before = rig.look()
-    track = rig.track = Track()
+    track = rig.track = DriveTrack()
     try:
         rig.take()
         began_s = rig.now_s
         track.mark("slow")
         rig.steer(sign * SLOW_MPS, 0.0, lambda: rig.now_s - began_s >= SLOW_S, 2 * SLOW_S)
         track.mark("fast")
-        rolled = _Rolled(track, robot)
+        rolled = _WheelRun(track, robot)
         target_m = abs(metres) - stop_m
         limit_s = 4.0 + 2.0 * abs(metres) / fast_mps
         rig.steer(sign * fast_mps, 0.0, lambda: rolled.metres() >= target_m, limit_s)
@@ -62,17 +62,17 @@ def straight(rig: Rig, robot: RobotDescription, metres: float) -> Run:
     return Run(track, before, rig.look())
 
 
-def turn(rig: Rig, robot: RobotDescription, angle_rad: float) -> Run:
+def turn(rig: CalibrationRig, robot: RobotDescription, angle_rad: float) -> Run:
     """Turn on the spot by about so much, clockwise if negative."""
     sign = 1.0 if angle_rad > 0.0 else -1.0
     radps = min(TURN_RADPS, TURN_SHARE * robot.limits.max_turn_radps)
     rim_mps = radps * robot.base.wheel_separation_m / 2
     stop_rad = radps * (0.1 + rim_mps / (2 * robot.limits.max_decel_mps2))
     before = rig.look()
-    track = rig.track = Track()
+    track = rig.track = DriveTrack()
     try:
         rig.take()
-        rolled = _Rolled(track, robot)
+        rolled = _WheelRun(track, robot)
         target_rad = abs(angle_rad) - stop_rad
         limit_s = 5.0 + 2.0 * abs(angle_rad) / radps
         rig.steer(0.0, sign * radps, lambda: rolled.radians() >= target_rad, limit_s)
@@ -87,10 +87,10 @@ ROUND_RAD = 2 * pi
 
 
 @dataclass(frozen=True, slots=True)
-class _Rolled:
+class _WheelRun:
     """Tell how far the wheels say the robot came in a run, by robot.toml's geometry."""
 
-    track: Track
+    track: DriveTrack
     robot: RobotDescription
 
     def metres(self) -> float:

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
-from pons.calibrate.errors import CalibrationRefused, RunLost
-from pons.calibrate.reference import SCANS, Look
-from pons.calibrate.track import Track
+from pons.calibrate.errors import CalibrationRefusal, RunLost
+from pons.calibrate.reference import SCANS, WallLook
+from pons.calibrate.track import DriveTrack
 from wire import DriveCommand, DriveState, Mode, RowReport, Scan, SimTruth, Status, Velocity
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, SCAN, SIM_TRUTH, STATUS, TELEOP
 
@@ -41,7 +41,7 @@ NO_GYRO = "no gyro"
 WAY_GATES = {"obstacle", "contact", "fence"}
 
 
-class Rig:
+class CalibrationRig:
     """Drive by teleop and listen."""
 
     def __init__(
@@ -62,7 +62,7 @@ class Rig:
         self.state: DriveState | None = None
         self.truth: SimTruth | None = None
         self.scans: deque[Scan] = deque(maxlen=SCANS)
-        self.track: Track | None = None
+        self.track: DriveTrack | None = None
         self._heard_s = clock()
         self._said_s = 0.0
         self._seq = 0
@@ -133,13 +133,13 @@ class Rig:
         """
         self._until(lambda: self.status is not None, FIRST_S)
         if self.status is None:
-            raise CalibrationRefused("no_bridge")
+            raise CalibrationRefusal("no_bridge")
         self._until(lambda: self.state is not None and len(self.scans) > 0, FIRST_S)
         if self.state is None:
-            raise CalibrationRefused("no_drive")
+            raise CalibrationRefusal("no_drive")
         if not self.scans:
-            raise CalibrationRefused("no_lidar", "no scan arrived")
-        self._until(lambda: not self._in({Mode.TELEOP, Mode.STOPPING}), PASSES_S)
+            raise CalibrationRefusal("no_lidar", "no scan arrived")
+        self._until(lambda: not self._is_mode({Mode.TELEOP, Mode.STOPPING}), PASSES_S)
         return self.status
 
     def take(self) -> None:
@@ -151,14 +151,14 @@ class Rig:
         self._wish = (0.0, 0.0, False)
         self._for(0.25)
         self._wish = (0.0, 0.0, True)
-        self._until(self.held, TAKE_OVER_S)
-        if not self.held():
+        self._until(self.is_driving, TAKE_OVER_S)
+        if not self.is_driving():
             self._raise_why()
             raise RunLost("run_lost", "the bridge did not give the stick over")
 
-    def held(self) -> bool:
+    def is_driving(self) -> bool:
         """Tell whether this hand moves the robot."""
-        return self._in({Mode.TELEOP})
+        return self._is_mode({Mode.TELEOP})
 
     def steer(
         self, v_mps: float, w_radps: float, until: Callable[[], bool], limit_s: float
@@ -179,13 +179,13 @@ class Rig:
                 raise RunLost("run_lost", f"not done within {limit_s:.0f} s")
             if self.now_s >= next_s:
                 seen = self._angles()
-                if self._stopped():
+                if self._is_stopped():
                     self._raise_why()
                 elif not max(abs(seen[0] - angles[0]), abs(seen[1] - angles[1])) >= TURNS_RAD:
                     raise RunLost("encoder_fault", f"the wheels' angles stay at {seen}")
                 next_s, angles = self.now_s + TURNS_S, seen
 
-    def _stopped(self) -> bool:
+    def _is_stopped(self) -> bool:
         """Tell whether the bridge lets the robot stand: a gate, a row."""
         sent = self.status.sent if self.status is not None else None
         return sent is None or (
@@ -199,7 +199,7 @@ class Rig:
     def let_go(self) -> None:
         """Release the dead-man and wait until the robot stands. Never raises for the robot."""
         self._wish = (0.0, 0.0, False)
-        self._until(lambda: not self.held() and self.stands(), STAND_S)
+        self._until(lambda: not self.is_driving() and self.stands(), STAND_S)
         self._for(STANDS_S)
         self._wish = None
 
@@ -209,10 +209,10 @@ class Rig:
         A stop that was pressed is the end of it.
         """
         self._until(self._quiet, QUIET_S)
-        self._until(lambda: self._in({Mode.HOLD, Mode.ESTOPPED}), patience_s)
-        return self._in({Mode.HOLD})
+        self._until(lambda: self._is_mode({Mode.HOLD, Mode.ESTOPPED}), patience_s)
+        return self._is_mode({Mode.HOLD})
 
-    def _in(self, modes: set[Mode]) -> bool:
+    def _is_mode(self, modes: set[Mode]) -> bool:
         return self.status is not None and self.status.mode in modes
 
     def _quiet(self) -> bool:
@@ -228,13 +228,13 @@ class Rig:
             and abs(measured.w_radps) < STANDING_RADPS
         )
 
-    def look(self) -> Look:
+    def look(self) -> WallLook:
         """Stand and look: scans and truth that are new."""
         self.scans.clear()
         self._until(lambda: len(self.scans) == SCANS, FIRST_S)
         if len(self.scans) < SCANS:
-            raise CalibrationRefused("no_lidar", "no scans arrive")
-        return Look(self.truth, tuple(self.scans))
+            raise CalibrationRefusal("no_lidar", "no scans arrive")
+        return WallLook(self.truth, tuple(self.scans))
 
     # Trouble --------------------------------------------------------------------------------------
 
@@ -245,27 +245,27 @@ class Rig:
             CalibrationRefused, RunLost: it has not.
         """
         if self.now_s - self._heard_s > SILENT_S:
-            raise CalibrationRefused("no_bridge", "the bridge fell silent during a run")
-        if not self.held():
+            raise CalibrationRefusal("no_bridge", "the bridge fell silent during a run")
+        if not self.is_driving():
             self._raise_why()
 
     def _raise_why(self) -> None:
         status = self.status
         if status is None:
-            raise CalibrationRefused("no_bridge")
+            raise CalibrationRefusal("no_bridge")
         if status.mode is Mode.ESTOPPED:
-            raise CalibrationRefused("estopped")
+            raise CalibrationRefusal("estopped")
         rows = {row.row: row.evidence for row in status.rows}
         for row in status.rows:
             if _ails(row):
                 raise RunLost("encoder_fault", f"{row.row}: {row.evidence}")
         if status.mode is Mode.FAULT:
-            raise CalibrationRefused("fault", ", ".join(rows))
+            raise CalibrationRefusal("fault", ", ".join(rows))
         if status.mode is Mode.DISARMED:
-            raise CalibrationRefused("not_armed", "disarmed during a run")
-        if status.blocked or (status.limits.by in WAY_GATES and self._stopped()):
+            raise CalibrationRefusal("not_armed", "disarmed during a run")
+        if status.blocked or (status.limits.by in WAY_GATES and self._is_stopped()):
             raise RunLost("blocked", f"by {status.limits.by}")
-        if not self.held():
+        if not self.is_driving():
             why = ", ".join(f"{name}: {seen}" for name, seen in rows.items()) or status.mode.value
             raise RunLost("run_lost", why)
 

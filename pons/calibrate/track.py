@@ -25,7 +25,7 @@ MOST_MISSING = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Tick:
+class TrackTick:
     """Give one drive tick of both wheels: what they were told and, where heard, what they did."""
 
     seq: int
@@ -34,7 +34,7 @@ class Tick:
 
 
 @dataclass
-class Track:
+class DriveTrack:
     """Hold one run."""
 
     states: list[DriveState] = field(default_factory=list)
@@ -67,7 +67,7 @@ class Track:
         first, last = self.states[0], self.states[-1]
         return last.left_rad - first.left_rad, last.right_rad - first.right_rad
 
-    def ticks(self) -> list[Tick]:
+    def ticks(self) -> list[TrackTick]:
         """Return every tick from the first state to the last.
 
         Raises:
@@ -78,16 +78,18 @@ class Track:
         if self.states[0].boot_id != self.states[-1].boot_id:
             raise RunLost("encoder_fault", "the drive started anew")
         known = sorted(self.told)
-        ticks: list[Tick] = []
+        ticks: list[TrackTick] = []
         before: DriveState | None = None
         for state in self.states:
-            ticks += self._missed(before, state, known)
+            ticks += self._fill_gap(before, state, known)
             did = (state.left_radps, state.right_radps)
-            ticks.append(Tick(state.seq, self._told_at(state.echo_seq, known), did))
+            ticks.append(TrackTick(state.seq, self._told_at(state.echo_seq, known), did))
             before = state
         return ticks
 
-    def _missed(self, before: DriveState | None, state: DriveState, known: list[int]) -> list[Tick]:
+    def _fill_gap(
+        self, before: DriveState | None, state: DriveState, known: list[int]
+    ) -> list[TrackTick]:
         """Fill ticks whose states were not heard; commands in between are known all the same."""
         if before is None:
             return []
@@ -96,7 +98,9 @@ class Track:
             raise RunLost("run_lost", f"{gap - 1} drive states in a row were not heard")
         share = (state.echo_seq - before.echo_seq) / gap
         return [
-            Tick(before.seq + n, self._told_at(before.echo_seq + round(n * share), known), None)
+            TrackTick(
+                before.seq + n, self._told_at(before.echo_seq + round(n * share), known), None
+            )
             for n in range(1, gap)
         ]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from statistics import fmean, median
 
-from pons.calibrate.errors import CalibrationRefused
+from pons.calibrate.errors import CalibrationRefusal
 
 HALF_M, OFF_M, SHARE, FEWEST = 0.35, 0.03, 0.9, 8
 STEEPEST = 1.0
@@ -17,14 +17,14 @@ Points = list[tuple[float, float]]
 
 
 @dataclass(frozen=True, slots=True)
-class Wall:
+class WallFit:
     """Give the wall's distance [m] and by how much it recedes for each metre to the left."""
 
     distance_m: float
     slope: float
 
 
-def wall_ahead(points: Points, scans: int = 1) -> Wall:
+def wall_ahead(points: Points, scans: int = 1) -> WallFit:
     """Return the flat wall ahead.
 
     Args:
@@ -36,13 +36,13 @@ def wall_ahead(points: Points, scans: int = 1) -> Wall:
     """
     near = _ahead(points)
     if len(near) < FEWEST * scans:
-        raise CalibrationRefused("no_wall", f"{len(near)} points ahead")
+        raise CalibrationRefusal("no_wall", f"{len(near)} points ahead")
     # Least squares of x = d + m y: the wall stands across the heading, so x is the far side of it.
     for _ in range(3):
         wall = _line(near)
         flat = [(x, y) for x, y in near if abs(x - wall.distance_m - wall.slope * y) <= OFF_M]
         if not len(flat) >= SHARE * len(near) or abs(wall.slope) > STEEPEST:
-            raise CalibrationRefused("no_wall", f"{len(flat)} of {len(near)} points on one line")
+            raise CalibrationRefusal("no_wall", f"{len(flat)} of {len(near)} points on one line")
         near = flat
     return _line(near)
 
@@ -56,8 +56,8 @@ def _ahead(points: Points) -> Points:
     return [(x, y) for x, y in ahead if abs(x - middle) <= HALF_M]
 
 
-def _line(points: Points) -> Wall:
+def _line(points: Points) -> WallFit:
     mean_x, mean_y = fmean(x for x, _ in points), fmean(y for _, y in points)
     spread = sum((y - mean_y) ** 2 for _, y in points)
     m = sum((x - mean_x) * (y - mean_y) for x, y in points) / spread if spread > 0.0 else 0.0
-    return Wall(mean_x - m * mean_y, m)
+    return WallFit(mean_x - m * mean_y, m)

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from pons.conformance.bounds import Bounds
-    from pons.conformance.record import Record
+    from pons.conformance.bounds import MotionBounds
+    from pons.conformance.record import DriveRecord
     from wire import OpKind, Status
 
 
@@ -26,8 +26,8 @@ class Adapter(Protocol):
     """Be one bridge with its simulated robot, seen from outside."""
 
     name: str
-    bounds: Bounds
-    record: Record
+    bounds: MotionBounds
+    record: DriveRecord
 
     def __enter__(self) -> Self:
         """Start it, or join it; return when it speaks and its robot reports. Raises CannotTest."""
@@ -55,7 +55,7 @@ class Adapter(Protocol):
         """Make an operator's request, with a proof; return its bytes."""
         ...
 
-    def helper(self) -> list[str]:
+    def helper(self) -> tuple[str, ...]:
         """Return the command of a worker process with a link of its own to this bridge."""
         ...
 

@@ -17,7 +17,7 @@ SLACK_TICKS = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class MotionBounds:
     """Give one robot's bounds, as its owner set them."""
 
     wheel_radius_m: float
@@ -37,7 +37,7 @@ class Bounds:
     period_s: float = PERIOD_S
 
     @classmethod
-    def of(cls, robot: RobotDescription) -> Bounds:
+    def of(cls, robot: RobotDescription) -> MotionBounds:
         """Read them from robot.toml's record."""
         base, limits = robot.base, robot.limits
         return cls(

@@ -20,7 +20,7 @@ FAULTS: tuple[Fault, ...] = (
 )
 
 
-def chosen(
+def choose_faults(
     names: list[str], *, quick: bool, kinds: tuple[OwnerKind, ...] = (X, W)
 ) -> tuple[Fault, ...]:
     """Return the faults of these names, the short run's, or all, for these brains.

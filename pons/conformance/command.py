@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING
 
 from pons.conformance import matrix
 from pons.conformance.adapter import CannotTest
-from pons.conformance.catalogue import FAULTS, chosen
+from pons.conformance.catalogue import FAULTS, choose_faults
 from pons.conformance.fault import W, X
 from pons.conformance.runner import NAMES, play_all
 from pons.conformance.site_track import find_track
-from pons.conformance.system_under_test import OURS, Rig
-from pons.settings import CHECKOUT
-from tools.bench.machine import commit, machine, today
+from pons.conformance.system_under_test import OURS, SystemUnderTest
+from pons.machine import commit, machine, today
+from pons_assets import SITES
 from wire import Misconfigured, load_robot
 
 if TYPE_CHECKING:
@@ -31,13 +31,13 @@ if TYPE_CHECKING:
 
     from pons.conformance.adapter import Adapter
     from pons.conformance.fault import Fault
-    from pons.conformance.runner import Line
-    from pons.conformance.track import Track
+    from pons.conformance.runner import MatrixRow
+    from pons.conformance.track import TestTrack
     from pons.settings import Settings
 
 EXIT_HELD, EXIT_BROKEN, EXIT_UNTESTED, EXIT_INTERRUPTED = 0, 1, 2, 130
 KINDS = {name: kind for kind, name in NAMES.items()}
-SITE = CHECKOUT / "sites" / "two_room"
+SITE = SITES / "two_room"
 
 
 def parser() -> argparse.ArgumentParser:
@@ -74,10 +74,10 @@ def main(settings: Settings, arguments: list[str]) -> int:
         signal.signal(number, _as_interrupt)
     try:
         kinds = (KINDS[said.brain],) if said.brain else (X, W)
-        faults = chosen(said.faults, quick=said.quick, kinds=kinds)
+        faults = choose_faults(said.faults, quick=said.quick, kinds=kinds)
         settings = replace(settings, site=said.site.absolute())
         track = find_track(settings.site, load_robot(settings.robot).base.radius_m)
-        rig = Rig(settings, track, module=said.bridge, join=said.connect)
+        rig = SystemUnderTest(settings, track, module=said.bridge, join=said.connect)
         lines = run(rig, track, faults, said.seed)
     except (CannotTest, Misconfigured, OSError) as why:
         print(f"pons conformance: {why}", file=sys.stderr)
@@ -93,19 +93,21 @@ def main(settings: Settings, arguments: list[str]) -> int:
     return status_of(lines)
 
 
-def status_of(lines: list[Line]) -> int:
+def status_of(lines: list[MatrixRow]) -> int:
     """Return the exit status: a row that could not be judged is no pass and no failure."""
-    if not lines or any(line.failed for line in lines):
+    if not lines or any(line.has_failed for line in lines):
         return EXIT_BROKEN
-    return EXIT_HELD if all(line.passed for line in lines) else EXIT_UNTESTED
+    return EXIT_HELD if all(line.has_passed for line in lines) else EXIT_UNTESTED
 
 
-def run(adapter: Adapter, track: Track, faults: tuple[Fault, ...], seed: int) -> list[Line]:
+def run(
+    adapter: Adapter, track: TestTrack, faults: tuple[Fault, ...], seed: int
+) -> list[MatrixRow]:
     """Play the faults at one bridge, telling each row as it ends."""
     count = sum(len(fault.kinds) for fault in faults)
     began_s = time.monotonic()
     _say(f"starting {adapter.name}; {count} rows")
-    lines: list[Line] = []
+    lines: list[MatrixRow] = []
     with adapter:
         for line in play_all(adapter, track, faults, seed, _say):
             lines.append(line)
@@ -118,7 +120,7 @@ def _say(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 
 
-def _write(said: argparse.Namespace, lines: list[Line], origin: matrix.Origin) -> None:
+def _write(said: argparse.Namespace, lines: list[MatrixRow], origin: matrix.Origin) -> None:
     if said.json is not None:
         text = json.dumps(matrix.record(lines, origin), ensure_ascii=False, indent=1)
         said.json.write_text(text + "\n", "utf-8")

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from pons.conformance.reference_client import number
 
 if TYPE_CHECKING:
-    from pons.conformance.reference_client import Brain, Said
+    from pons.conformance.reference_client import ReferenceBrain, Said
     from wire import Status
 
 Sent = tuple[str, bytes]
@@ -40,12 +40,12 @@ def pack(message: object) -> bytes:
     return json.dumps(message, separators=(",", ":")).encode()
 
 
-class Driver:
+class BrainDriver:
     """Run one brain until closed."""
 
     def __init__(
         self,
-        brain: Brain,
+        brain: ReferenceBrain,
         listen: Callable[[], Status | None],
         say: Callable[[str, bytes], None],
         clock: Callable[[], float] = time.monotonic,

@@ -10,7 +10,7 @@ from pons.conformance.driver import pack
 
 if TYPE_CHECKING:
     from pons.conformance.driver import Breaker, Sent
-    from pons.conformance.fault_context import Stage
+    from pons.conformance.fault_context import FaultStage
     from wire import OwnerKind, Status
 
 X: OwnerKind = "external"
@@ -36,7 +36,7 @@ class Fault:
 
     name: str
     what: str
-    play: Callable[[Stage], None]
+    play: Callable[[FaultStage], None]
     """Prepares, calls ``begin`` and, unless the return is the end, ``end``."""
     noticed_s: dict[OwnerKind, float]
     """Where it must stand: within which the bridge must have begun to stop."""
@@ -77,10 +77,12 @@ def _bytes(what: object) -> bytes:
     return what if isinstance(what, bytes) else pack(what)
 
 
-def broken(make: Callable[[Stage], Breaker], *, stand: bool = True) -> Callable[[Stage], None]:
+def spoil(
+    make: Callable[[FaultStage], Breaker], *, stand: bool = True
+) -> Callable[[FaultStage], None]:
     """Return the play of a brain whose words go wrong, until it stands or for a while."""
 
-    def play(stage: Stage) -> None:
+    def play(stage: FaultStage) -> None:
         stage.begin(make(stage))
         if stand:
             stage.until_standing()

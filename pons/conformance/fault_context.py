@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pons.conformance.adapter import Adapter
-    from pons.conformance.driver import Breaker, Driver
-    from pons.conformance.reference_client import Brain
-    from pons.conformance.worker_processes import Helper, Helpers
+    from pons.conformance.driver import BrainDriver, Breaker
+    from pons.conformance.reference_client import ReferenceBrain
+    from pons.conformance.worker_processes import Helper, HelperPool
     from wire import Status
 
 POLL_S = 0.005
@@ -38,12 +38,12 @@ class NotBegun(Exception):
 
 
 @dataclass
-class Stage:
+class FaultStage:
     """Hold one play of one fault."""
 
     adapter: Adapter
-    driver: Driver
-    helpers: Helpers
+    driver: BrainDriver
+    helpers: HelperPool
     chance: Random
     patience_s: float
     """How long to wait for it to stand before that is called a failure."""
@@ -52,7 +52,7 @@ class Stage:
     to_s: float | None = None
 
     @property
-    def brain(self) -> Brain:
+    def brain(self) -> ReferenceBrain:
         """Return the brain that is to go wrong."""
         return self.driver.brain
 
@@ -168,9 +168,9 @@ class Stage:
         stop_id = f"kit-{self.chance.getrandbits(48):x}"
         self.adapter.say("cmd/stop", json.dumps({"id": stop_id, "source": "kit"}).encode())
         self.until(lambda: self.told_to_stand(0.1), "standing after a stop")
-        self.until(self._resumed, "resume")
+        self.until(self._has_resumed, "resume")
 
-    def _resumed(self) -> bool:
+    def _has_resumed(self) -> bool:
         status = self.status
         if status.held is not None:
             self.adapter.operate("resume")

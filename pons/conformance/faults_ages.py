@@ -16,8 +16,8 @@ from pons.conformance.fault import (
     Fault,
     W,
     X,
-    broken,
     everything,
+    spoil,
 )
 from pons.conformance.reference_client import number
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.fault_context import Stage
+    from pons.conformance.fault_context import FaultStage
     from wire import Status
 
 AHEAD = 3
@@ -38,7 +38,7 @@ AGAIN = 4
 HOUR_S = 3600.0
 
 
-def _replayed(stage: Stage) -> Breaker:
+def _replay(stage: FaultStage) -> Breaker:
     """Say what was said in the last seconds once more, byte for byte."""
     recorded, turn = list(stage.driver.sent), count()
 
@@ -48,7 +48,7 @@ def _replayed(stage: Stage) -> Breaker:
     return breaker
 
 
-def _renumbered(stage: Stage) -> Breaker:
+def _renumber(stage: FaultStage) -> Breaker:
     """Say the newest commands once more with fresh numbers, the owner silent otherwise."""
     recorded = [item for item in stage.driver.sent if item[0] in COMMANDS][-4:]
     turn = count()
@@ -61,7 +61,7 @@ def _renumbered(stage: Stage) -> Breaker:
     return breaker
 
 
-def _seen(change: int) -> Breaker:
+def _shift_seen(change: int) -> Breaker:
     def shift(message: Message, status: Status) -> object:
         fields = {name for name in ("seen", "used") if name in message}
         return message | dict.fromkeys(fields, max(0, status.seq + change))
@@ -69,13 +69,13 @@ def _seen(change: int) -> Breaker:
     return everything(shift)
 
 
-def _stale_seen(stage: Stage) -> Breaker:
+def _stale_seen(stage: FaultStage) -> Breaker:
     """Go on talking about one status for ever."""
     seen = stage.status.seq
     return everything(lambda message, _status: message | {"seen": seen})
 
 
-def _stale_used(stage: Stage) -> Breaker:
+def _stale_used(stage: FaultStage) -> Breaker:
     """Live, but think on one status for ever."""
     used = stage.status.seq
 
@@ -85,14 +85,14 @@ def _stale_used(stage: Stage) -> Breaker:
     return everything(freeze)
 
 
-def _no_heartbeat(_stage: Stage) -> Breaker:
+def _no_heartbeat(_stage: FaultStage) -> Breaker:
     def breaker(said: list[tuple[str, Message]], _status: Status) -> list[Sent]:
         return [(key, pack(message)) for key, message in said if key != "cmd/heartbeat"]
 
     return breaker
 
 
-def _reordered(stage: Stage) -> Breaker:
+def _reorder(stage: FaultStage) -> Breaker:
     """Keep three commands back and send them in the wrong order."""
     kept: list[Sent] = []
 
@@ -109,17 +109,17 @@ def _reordered(stage: Stage) -> Breaker:
     return breaker
 
 
-def _duplicated(_stage: Stage) -> Breaker:
+def _duplicate(_stage: FaultStage) -> Breaker:
     def breaker(said: list[tuple[str, Message]], _status: Status) -> list[Sent]:
         return [(key, pack(message)) for key, message in said for _ in range(3)]
 
     return breaker
 
 
-def _skewed(offset_s: float, rate: float) -> Callable[[Stage], None]:
+def _skew(offset_s: float, rate: float) -> Callable[[FaultStage], None]:
     """Return the play of a brain whose clock is wrong and runs wrong."""
 
-    def play(stage: Stage) -> None:
+    def play(stage: FaultStage) -> None:
         began_s = time.monotonic()
 
         def clock() -> float:
@@ -139,24 +139,24 @@ def _skewed(offset_s: float, rate: float) -> Callable[[Stage], None]:
 
 
 FAULTS = (
-    Fault("replayed", "all of the last 2 s again, byte for byte", broken(_replayed), SILENT),
-    Fault("renumbered", "old commands with fresh numbers", broken(_renumbered), SILENT, quick=(X,)),
-    Fault("clock_ahead", "the sender's clock an hour ahead and 25 % fast", _skewed(HOUR_S, 1.25),
+    Fault("replayed", "all of the last 2 s again, byte for byte", spoil(_replay), SILENT),
+    Fault("renumbered", "old commands with fresh numbers", spoil(_renumber), SILENT, quick=(X,)),
+    Fault("clock_ahead", "the sender's clock an hour ahead and 25 % fast", _skew(HOUR_S, 1.25),
           DRIVES_ON),
     Fault("clock_behind", "the sender's clock an hour behind and 25 % slow",
-          _skewed(-HOUR_S, 0.75), DRIVES_ON),
+          _skew(-HOUR_S, 0.75), DRIVES_ON),
     Fault("seen_ahead", f"claims a status {AHEAD} ahead of the newest",
-          broken(lambda _stage: _seen(AHEAD)), SILENT),
+          spoil(lambda _stage: _shift_seen(AHEAD)), SILENT),
     Fault("seen_behind", f"answers what was said {BEHIND} statuses ago",
-          broken(lambda _stage: _seen(-BEHIND)), SILENT),
-    Fault("stale_seen", "one status named for ever", broken(_stale_seen), SILENT),
-    Fault("stale_used", "lives, but thinks on one status for ever", broken(_stale_used),
+          spoil(lambda _stage: _shift_seen(-BEHIND)), SILENT),
+    Fault("stale_seen", "one status named for ever", spoil(_stale_seen), SILENT),
+    Fault("stale_used", "lives, but thinks on one status for ever", spoil(_stale_used),
           {W: USED_S}, kinds=(W,)),
     Fault("no_heartbeat", "commands, but no heartbeats: velocities are a lease by themselves",
-          broken(_no_heartbeat, stand=False), DRIVES_ON, kinds=(X,)),
-    Fault("no_heartbeat", "commands, but no heartbeats", broken(_no_heartbeat), {W: USED_S},
+          spoil(_no_heartbeat, stand=False), DRIVES_ON, kinds=(X,)),
+    Fault("no_heartbeat", "commands, but no heartbeats", spoil(_no_heartbeat), {W: USED_S},
           kinds=(W,)),
-    Fault("reordered", "three commands at a time, shuffled", broken(_reordered, stand=False),
+    Fault("reordered", "three commands at a time, shuffled", spoil(_reorder, stand=False),
           DRIVES_ON),
-    Fault("duplicated", "each message three times", broken(_duplicated, stand=False), DRIVES_ON),
+    Fault("duplicated", "each message three times", spoil(_duplicate, stand=False), DRIVES_ON),
 )  # fmt: skip

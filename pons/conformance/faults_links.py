@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from pons.conformance.driver import mute, pack
 from pons.conformance.fault import PATH_S, SILENT, VELOCITY_S, Fault, W, X
-from pons.conformance.proxy import Proxy, Way
+from pons.conformance.proxy import Proxy, ProxyWay
 from pons.conformance.worker_processes import FLOODER
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.conformance.fault_context import Stage
+    from pons.conformance.fault_context import FaultStage
 
 FLOOD_HZ, JUNK_HZ = 10_000, 1_000
 FLOODED_S = 0.1
@@ -29,14 +29,14 @@ KEPT_S = 1.0
 AFTER_S = 0.6
 
 
-def _killed(stage: Stage) -> None:
+def _kill(stage: FaultStage) -> None:
     puppet = stage.hand_over()
     stage.begin()
     puppet.process.send_signal(signal.SIGKILL)
     stage.until_standing()
 
 
-def _frozen(stage: Stage) -> None:
+def _frozen(stage: FaultStage) -> None:
     puppet = stage.hand_over()
     stage.begin()
     puppet.process.send_signal(signal.SIGSTOP)
@@ -47,33 +47,33 @@ def _frozen(stage: Stage) -> None:
         puppet.process.send_signal(signal.SIGCONT)
 
 
-def _half_open(stage: Stage) -> None:
+def _half_open(stage: FaultStage) -> None:
     proxy = Proxy(stage.adapter.door())
     stage.stack.callback(proxy.close)
     stage.hand_over(proxy.address)
     stage.begin()
-    proxy.way = Way.STALLED
+    proxy.way = ProxyWay.STALLED
     stage.until_standing()
 
 
-def _buffered(stage: Stage) -> None:
+def _buffer(stage: FaultStage) -> None:
     """Keep a second of commands back, and deliver them when who sent them is gone."""
     proxy = Proxy(stage.adapter.door())
     stage.stack.callback(proxy.close)
     puppet = stage.hand_over(proxy.address)
     stage.begin()
-    proxy.way = Way.KEPT
+    proxy.way = ProxyWay.KEPT
     began_s = time.monotonic()
     stage.until_standing()
     stage.wait(max(0.0, KEPT_S - (time.monotonic() - began_s)))
     puppet.process.send_signal(signal.SIGKILL)
     puppet.process.wait()
-    proxy.way = Way.OPEN
+    proxy.way = ProxyWay.OPEN
     stage.wait(AFTER_S)
 
 
-def _flooded(task: Callable[[Stage], dict[str, Any]]) -> Callable[[Stage], None]:
-    def play(stage: Stage) -> None:
+def _flood(task: Callable[[FaultStage], dict[str, Any]]) -> Callable[[FaultStage], None]:
+    def play(stage: FaultStage) -> None:
         flooder = stage.borrow()
         stage.until(stage.drives_fast, "driving before the flood")
         stage.begin()
@@ -84,7 +84,7 @@ def _flooded(task: Callable[[Stage], dict[str, Any]]) -> Callable[[Stage], None]
     return play
 
 
-def _stop_in_flood(stage: Stage) -> None:
+def _stop_in_flood(stage: FaultStage) -> None:
     """Say stop, as one does until it is echoed, on a key that is full of junk."""
     flooder = stage.borrow()
     flooder.go({"be": FLOODER, "key": "cmd/stop", "text": '{"id": [[[', "hertz": FLOOD_HZ})
@@ -98,7 +98,7 @@ def _stop_in_flood(stage: Stage) -> None:
     stage.until_standing()
 
 
-def _valid(stage: Stage) -> dict[str, Any]:
+def _valid(stage: FaultStage) -> dict[str, Any]:
     """Return a flood of messages that each look like the owner's newest command."""
     brain, status = stage.brain, stage.status
     _, message = (
@@ -107,16 +107,16 @@ def _valid(stage: Stage) -> dict[str, Any]:
     return {"key": stage.command_key, "template": message, "hertz": FLOOD_HZ}
 
 
-def _heartbeats(stage: Stage) -> dict[str, Any]:
+def _heartbeats(stage: FaultStage) -> dict[str, Any]:
     key, message = stage.brain.heartbeat(stage.status)
     return {"key": key, "template": message, "hertz": FLOOD_HZ, "numbered": "used"}
 
 
-def _malformed(stage: Stage) -> dict[str, Any]:
+def _malformed_task(stage: FaultStage) -> dict[str, Any]:
     return {"key": stage.command_key, "text": '{"v_mps": NaN, "points": 7}', "hertz": JUNK_HZ}
 
 
-def _silent(stage: Stage) -> None:
+def _silent(stage: FaultStage) -> None:
     stage.begin(mute)
     stage.until_standing()
 
@@ -125,15 +125,15 @@ _FLOOD = {X: VELOCITY_S + FLOODED_S, W: PATH_S + FLOODED_S}
 
 FAULTS = (
     Fault("silent", "the brain says no more", _silent, SILENT, quick=(W,)),
-    Fault("killed", "SIGKILL of the brain's process", _killed, SILENT, quick=(X,)),
+    Fault("killed", "SIGKILL of the brain's process", _kill, SILENT, quick=(X,)),
     Fault("frozen", "SIGSTOP of the brain's process", _frozen, SILENT),
     Fault("half_open", "the link accepts and is never read", _half_open, SILENT, quick=(W,)),
-    Fault("buffered", "1 s of commands kept back, then delivered at once", _buffered, SILENT),
-    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flooded(_valid), _FLOOD,
+    Fault("buffered", "1 s of commands kept back, then delivered at once", _buffer, SILENT),
+    Fault("flood", f"{FLOOD_HZ} valid-looking commands a second", _flood(_valid), _FLOOD,
           quick=(X,)),
     Fault("heartbeat_flood", f"{FLOOD_HZ} heartbeats a second in the owner's name",
-          _flooded(_heartbeats), {X: WINDOWS_S + FLOODED_S, W: WINDOWS_S + FLOODED_S}),
+          _flood(_heartbeats), {X: WINDOWS_S + FLOODED_S, W: WINDOWS_S + FLOODED_S}),
     Fault("stop_in_flood", f"a stop among {FLOOD_HZ} pieces of junk a second on its own key",
           _stop_in_flood, {X: STOP_AGAIN_S, W: STOP_AGAIN_S}),
-    Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flooded(_malformed), _FLOOD),
+    Fault("junk_flood", f"{JUNK_HZ} malformed messages a second", _flood(_malformed_task), _FLOOD),
 )  # fmt: skip

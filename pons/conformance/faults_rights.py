@@ -16,11 +16,11 @@ from pons.conformance.fault import (
     Fault,
     W,
     X,
-    broken,
     commands,
     everything,
+    spoil,
 )
-from pons.conformance.reference_client import Brain, number
+from pons.conformance.reference_client import ReferenceBrain, number
 from wire import MAX_POINTS, PROTOCOL
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.fault_context import Stage
+    from pons.conformance.fault_context import FaultStage
     from pons.conformance.reference_client import Said
     from wire import Status
 
@@ -43,7 +43,7 @@ WALL_STEP_M = 0.2
 HAND = "kit-hand"
 
 
-def _old_epoch(_stage: Stage) -> Breaker:
+def _old_epoch(_stage: FaultStage) -> Breaker:
     def before(message: Message, status: Status) -> object:
         boot, _, counter = status.epoch.rpartition("-")
         return message | ({"epoch": f"{boot}-{max(0, int(counter) - 1)}"})
@@ -51,15 +51,15 @@ def _old_epoch(_stage: Stage) -> Breaker:
     return everything(before)
 
 
-def _other_owner(_stage: Stage) -> Breaker:
-    def renamed(message: Message, _status: Status) -> object:
+def _other_owner(_stage: FaultStage) -> Breaker:
+    def rename(message: Message, _status: Status) -> object:
         field = "source_id" if "source_id" in message else "planner_id"
         return message | {field: "intruder"}
 
-    return everything(renamed)
+    return everything(rename)
 
 
-def eager(stage: Stage, brain: Brain, status: Status) -> list[Said]:
+def eager(stage: FaultStage, brain: ReferenceBrain, status: Status) -> list[Said]:
     """Return all that a brain could say to be driven, whether or not it may."""
     said = [brain.heartbeat(status), brain.grant(status)]
     seq = number(time.monotonic())
@@ -72,10 +72,10 @@ def eager(stage: Stage, brain: Brain, status: Status) -> list[Said]:
 
 def pushing(
     change: Callable[[str, Message, Status], Message], *, hello: bool = False
-) -> Callable[[Stage], None]:
+) -> Callable[[FaultStage], None]:
     """Return the play of a resting owner who says everything that could move the robot, changed."""
 
-    def play(stage: Stage) -> None:
+    def play(stage: FaultStage) -> None:
         stage.rest()
         stage.brain.new_mission()
 
@@ -107,10 +107,10 @@ def _believing(**wrong: object) -> Callable[[str, Message, Status], Message]:
     return lambda key, message, _status: message | (wrong if key == "cmd/hello" else {})
 
 
-def _two_brains(stage: Stage) -> None:
+def _two_brains(stage: FaultStage) -> None:
     """Let a second brain claim everything beside a live owner that asks for nothing."""
     stage.rest()
-    other = Brain(stage.brain.kind, "intruder", stage.brain.track)
+    other = ReferenceBrain(stage.brain.kind, "intruder", stage.brain.track)
 
     def breaker(said: list[Said], status: Status) -> list[Sent]:
         claimed = [other.hello(status), *eager(stage, other, status)]
@@ -120,7 +120,7 @@ def _two_brains(stage: Stage) -> None:
     stage.wait(REST_S)
 
 
-def _spent(stage: Stage) -> None:
+def _spend(stage: FaultStage) -> None:
     """Ask for little, and again and again for the same mission."""
     stage.rest()
     stage.brain.metres = SMALL_M
@@ -137,7 +137,7 @@ def _spent(stage: Stage) -> None:
     stage.wait(0.5)
 
 
-def _after_stop(stage: Stage) -> None:
+def _after_stop(stage: FaultStage) -> None:
     """Go on in the new epoch as if nobody had said stop."""
 
     def breaker(_said: list[Said], status: Status) -> list[Sent]:
@@ -151,7 +151,7 @@ def _after_stop(stage: Stage) -> None:
     stage.wait(0.4)
 
 
-def _forged(stage: Stage) -> None:
+def _forge_proof(stage: FaultStage) -> None:
     """Clear a stop with no proof, a wrong one, and one that was used."""
     stage.rest()
     used = json.loads(stage.adapter.operate("resume"))
@@ -175,7 +175,7 @@ def _forged(stage: Stage) -> None:
     stage.wait(REST_S)
 
 
-def _hand(stage: Stage, v_mps: float, *, dead_man: bool) -> None:
+def _hand(stage: FaultStage, v_mps: float, *, dead_man: bool) -> None:
     status = stage.status
     message = {
         "source_id": HAND, "epoch": status.epoch, "seq": number(time.monotonic()),
@@ -185,14 +185,14 @@ def _hand(stage: Stage, v_mps: float, *, dead_man: bool) -> None:
     stage.wait(PULSE_S)
 
 
-def _no_dead_man(stage: Stage) -> None:
+def _no_dead_man(stage: FaultStage) -> None:
     stage.rest()
     stage.begin()
     for _ in range(12):
         _hand(stage, 0.5, dead_man=False)
 
 
-def _held_from_the_start(stage: Stage) -> None:
+def _held_from_the_start(stage: FaultStage) -> None:
     """Hold the dead-man without ever having shown it released."""
     stage.rest()
     stage.begin()
@@ -200,7 +200,7 @@ def _held_from_the_start(stage: Stage) -> None:
         _hand(stage, 0.5, dead_man=True)
 
 
-def _hand_gone(stage: Stage) -> None:
+def _hand_gone(stage: FaultStage) -> None:
     """Steer by hand as one should, then vanish with the dead-man held."""
     stage.rest()
     for _ in range(4):
@@ -216,8 +216,8 @@ def _hand_gone(stage: Stage) -> None:
     stage.until_standing()
 
 
-def _off_the_path(shift: Callable[[Message, int], Message]) -> Callable[[Stage], Breaker]:
-    def make(_stage: Stage) -> Breaker:
+def _off_the_path(shift: Callable[[Message, int], Message]) -> Callable[[FaultStage], Breaker]:
+    def make(_stage: FaultStage) -> Breaker:
         def change(message: Message, _status: Status) -> object:
             points = [shift(dict(point), n) for n, point in enumerate(message["points"])]
             return message | {"points": points}
@@ -227,7 +227,7 @@ def _off_the_path(shift: Callable[[Message, int], Message]) -> Callable[[Stage],
     return make
 
 
-def _through_walls(stage: Stage) -> Breaker:
+def _through_walls(stage: FaultStage) -> Breaker:
     """Lead straight off to the left, farther than any site is wide."""
     heading_rad = stage.brain.track.heading_rad
     dx, dy = -sin(heading_rad) * WALL_STEP_M, cos(heading_rad) * WALL_STEP_M
@@ -245,13 +245,13 @@ def _through_walls(stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _wrong_map(_stage: Stage) -> Breaker:
+def _wrong_map(_stage: FaultStage) -> Breaker:
     return commands(lambda message, _status: message | {"map_id": "0123456789abcdef"})
 
 
 FAULTS = (
-    Fault("old_epoch", "all of the epoch before", broken(_old_epoch), SILENT, quick=(X,)),
-    Fault("other_owner", "all in another's name", broken(_other_owner), SILENT),
+    Fault("old_epoch", "all of the epoch before", spoil(_old_epoch), SILENT, quick=(X,)),
+    Fault("other_owner", "all in another's name", spoil(_other_owner), SILENT),
     Fault("two_brains", "a second brain claims and commands beside a live owner", _two_brains, {},
           rest=True, quick=(W,)),
     Fault("wrong_robot", "a hello for another robot.toml",
@@ -267,11 +267,11 @@ FAULTS = (
           pushing(_budget((-5.0, 60.0), (5.0, -60.0), (0.0, 0.0))), {}, kinds=(X,), rest=True),
     Fault("grant_nan", "a grant of NaN", pushing(_budget((nan, 60.0), (5.0, nan))), {},
           kinds=(X,), rest=True),
-    Fault("grant_spent", f"drives on when {SMALL_M} m are driven, and asks again", _spent,
+    Fault("grant_spent", f"drives on when {SMALL_M} m are driven, and asks again", _spend,
           {X: SPENT_S, W: SPENT_S}),
     Fault("after_stop", "goes on as if nobody had said stop", _after_stop,
           {X: AT_ONCE_S, W: AT_ONCE_S}, quick=(W,)),
-    Fault("forged_resume", "clears a stop with no proof, a wrong one, a used one", _forged, {},
+    Fault("forged_resume", "clears a stop with no proof, a wrong one, a used one", _forge_proof, {},
           kinds=(X,), rest=True),
     Fault("no_dead_man", "teleop without its dead-man", _no_dead_man, {}, kinds=(X,), rest=True,
           quick=(X,)),
@@ -279,13 +279,13 @@ FAULTS = (
           {}, kinds=(X,), rest=True),
     Fault("hand_gone", "teleop that falls silent, dead-man held", _hand_gone, {X: VELOCITY_S},
           kinds=(X,)),
-    Fault("path_wrong_map", "horizons on another map", broken(_wrong_map), STALE, kinds=(W,)),
+    Fault("path_wrong_map", "horizons on another map", spoil(_wrong_map), STALE, kinds=(W,)),
     Fault("path_elsewhere", "horizons that begin 1 m beside the robot",
-          broken(_off_the_path(lambda p, _n: p | {"x_m": p["x_m"] + 1.0, "y_m": p["y_m"] + 1.0})),
+          spoil(_off_the_path(lambda p, _n: p | {"x_m": p["x_m"] + 1.0, "y_m": p["y_m"] + 1.0})),
           STALE, kinds=(W,)),
-    Fault("path_through_walls", "horizons straight out of the fence", broken(_through_walls),
+    Fault("path_through_walls", "horizons straight out of the fence", spoil(_through_walls),
           STALE, kinds=(W,)),
     Fault("path_both_ways", "horizons of both directions",
-          broken(_off_the_path(lambda p, n: p | {"speed_mps": p["speed_mps"] * (-1) ** n})),
+          spoil(_off_the_path(lambda p, n: p | {"speed_mps": p["speed_mps"] * (-1) ** n})),
           STALE, kinds=(W,)),
 )  # fmt: skip

@@ -6,14 +6,14 @@ from math import inf, nan
 from typing import TYPE_CHECKING
 
 from pons.conformance.driver import pack
-from pons.conformance.fault import DRIVES_ON, STALE, Fault, W, X, broken, commands
+from pons.conformance.fault import DRIVES_ON, STALE, Fault, W, X, commands, spoil
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.fault_context import Stage
+    from pons.conformance.fault_context import FaultStage
     from wire import Status
 
 HUGE_BYTES = (7_000_000, 10_000_000)
@@ -26,10 +26,10 @@ JUNK = (
 )  # fmt: skip
 
 
-def poisoned(value: object) -> Callable[[Stage], Breaker]:
+def poison_field(value: object) -> Callable[[FaultStage], Breaker]:
     """Put a value where a number belongs, another field each time."""
 
-    def make(stage: Stage) -> Breaker:
+    def make(stage: FaultStage) -> Breaker:
         def change(message: Message, _status: Status) -> object:
             if stage.external:
                 return message | {stage.chance.choice(("v_mps", "w_radps")): value}
@@ -44,7 +44,7 @@ def poisoned(value: object) -> Callable[[Stage], Breaker]:
     return make
 
 
-def _too_fast(_stage: Stage) -> Breaker:
+def _too_fast(_stage: FaultStage) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         if "points" in message:
             return message | {"points": [p | {"speed_mps": 9.0} for p in message["points"]]}
@@ -54,7 +54,7 @@ def _too_fast(_stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _jerky(stage: Stage) -> Breaker:
+def _jerky(stage: FaultStage) -> Breaker:
     """Ask for full speed one way and the other in turn."""
 
     def change(message: Message, _status: Status) -> object:
@@ -64,7 +64,7 @@ def _jerky(stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _wrong_types(stage: Stage) -> Breaker:
+def _wrong_types(stage: FaultStage) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         field, wrong = stage.chance.choice(
             [("epoch", 7), ("seen", "1"), ("seq", 1.5), ("seq", True), ("dead_man", 1),
@@ -79,11 +79,11 @@ def _wrong_types(stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _junk(stage: Stage) -> Breaker:
+def _junk(stage: FaultStage) -> Breaker:
     return commands(lambda _message, _status: stage.chance.choice(JUNK))
 
 
-def _truncated(stage: Stage) -> Breaker:
+def _truncate(stage: FaultStage) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         whole = pack(message)
         return whole[: stage.chance.randrange(1, len(whole))]
@@ -91,7 +91,7 @@ def _truncated(stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _flipped(stage: Stage) -> Breaker:
+def _flip_bits(stage: FaultStage) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         whole = bytearray(pack(message))
         for _ in range(stage.chance.choice((1, 1, 2, 8))):
@@ -101,12 +101,12 @@ def _flipped(stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _unknown_field(stage: Stage) -> Breaker:
+def _unknown_field(stage: FaultStage) -> Breaker:
     extra = stage.chance.choice(("priority", "override_safety", "stamp_s"))
     return commands(lambda message, _status: message | {extra: 1})
 
 
-def _twice_the_field(_stage: Stage) -> Breaker:
+def _twice_the_field(_stage: FaultStage) -> Breaker:
     """Say a field twice with two values: parsers differ in which one they take."""
 
     def change(message: Message, _status: Status) -> object:
@@ -115,7 +115,7 @@ def _twice_the_field(_stage: Stage) -> Breaker:
     return commands(change)
 
 
-def _huge(stage: Stage) -> None:
+def _huge(stage: FaultStage) -> None:
     """Say something enormous beside good commands."""
     left = list(HUGE_BYTES)
     whole = {size: b'{"v_mps":"' + b"x" * size + b'"}' for size in HUGE_BYTES}
@@ -128,7 +128,7 @@ def _huge(stage: Stage) -> None:
     stage.wait(1.5)
 
 
-def _into_the_wall(stage: Stage) -> None:
+def _into_the_wall(stage: FaultStage) -> None:
     """Drive on at full speed where the line turns back, until something keeps it from there."""
     way = 1.0 if stage.brain.heading > 0 else -1.0
 
@@ -141,23 +141,23 @@ def _into_the_wall(stage: Stage) -> None:
 
 
 FAULTS = (
-    Fault("nan", "NaN in a number's place", broken(poisoned(nan)), STALE, quick=(X,)),
-    Fault("infinity", "Infinity and -Infinity", broken(poisoned(inf)), STALE),
-    Fault("out_of_bounds", "numbers no robot has: 1e9", broken(poisoned(-1e9)), STALE),
-    Fault("too_fast", "9 m/s, four times the turn", broken(_too_fast, stand=False), DRIVES_ON,
+    Fault("nan", "NaN in a number's place", spoil(poison_field(nan)), STALE, quick=(X,)),
+    Fault("infinity", "Infinity and -Infinity", spoil(poison_field(inf)), STALE),
+    Fault("out_of_bounds", "numbers no robot has: 1e9", spoil(poison_field(-1e9)), STALE),
+    Fault("too_fast", "9 m/s, four times the turn", spoil(_too_fast, stand=False), DRIVES_ON,
           kinds=(X,)),
-    Fault("path_too_fast", "a horizon at 9 m/s", broken(_too_fast), STALE, kinds=(W,)),
-    Fault("jerky", "full speed and turn, to and fro at 20 Hz", broken(_jerky, stand=False),
+    Fault("path_too_fast", "a horizon at 9 m/s", spoil(_too_fast), STALE, kinds=(W,)),
+    Fault("jerky", "full speed and turn, to and fro at 20 Hz", spoil(_jerky, stand=False),
           DRIVES_ON, kinds=(X,), quick=(X,)),
     Fault("into_the_wall", "full speed at a wall: the lidar must stop it", _into_the_wall,
           {X: WALL_S}, kinds=(X,)),
-    Fault("wrong_types", "strings, lists, truth values for numbers", broken(_wrong_types), STALE),
-    Fault("junk", "empty, not JSON, nested 3000 deep, not text", broken(_junk), STALE),
-    Fault("truncated", "each message cut at a random byte", broken(_truncated), STALE),
+    Fault("wrong_types", "strings, lists, truth values for numbers", spoil(_wrong_types), STALE),
+    Fault("junk", "empty, not JSON, nested 3000 deep, not text", spoil(_junk), STALE),
+    Fault("truncated", "each message cut at a random byte", spoil(_truncate), STALE),
     Fault("bit_flipped", "one to eight random bits of each message flipped",
-          broken(_flipped, stand=False), DRIVES_ON, quick=(W,)),
-    Fault("unknown_field", "a field that the schema has not", broken(_unknown_field), STALE),
-    Fault("field_twice", "one field twice, the second out of bounds", broken(_twice_the_field),
+          spoil(_flip_bits, stand=False), DRIVES_ON, quick=(W,)),
+    Fault("unknown_field", "a field that the schema has not", spoil(_unknown_field), STALE),
+    Fault("field_twice", "one field twice, the second out of bounds", spoil(_twice_the_field),
           STALE),
     Fault("huge", "a message of 7 MB and one of 10 MB beside good ones", _huge, DRIVES_ON),
 )  # fmt: skip

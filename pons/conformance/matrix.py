@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from pons.conformance.runner import COLUMNS
 
 if TYPE_CHECKING:
-    from pons.conformance.runner import Line
-    from pons.conformance.verdict import Cell
+    from pons.conformance.runner import MatrixRow
+    from pons.conformance.verdict import MatrixCell
 
 NOT_JUDGED = "NOT JUDGED"
 BEGIN, END = "<!-- matrix: begin -->", "<!-- matrix: end -->"
@@ -34,23 +34,23 @@ class Origin:
         )
 
 
-def text_of(cell: Cell) -> str:
+def text_of(cell: MatrixCell) -> str:
     """Return a cell as text."""
     if cell.ok is not False:
         return cell.figure
     return f"{'FAIL' if cell.judged else NOT_JUDGED} {cell.figure}"
 
 
-def one_line(line: Line, number: int, count: int, at_s: float) -> str:
+def one_line(line: MatrixRow, number: int, count: int, at_s: float) -> str:
     """Return a row as it is told while the kit runs."""
     bad = [f"{name}: {cell.figure}" for name, cell in line.cells.items() if cell.ok is False]
-    verdict = _verdict(failed=line.failed, passed=line.passed)
+    verdict = _verdict(failed=line.has_failed, passed=line.has_passed)
     stood = line.cells["stands"].figure
     rest = "; ".join(bad) or (f"stood in {stood}" if stood != "-" else "")
     return f"{number:3}/{count} {at_s:4.0f} s  {verdict}  {line.brain:9} {line.fault:18} {rest}"
 
 
-def table(lines: list[Line]) -> str:
+def table(lines: list[MatrixRow]) -> str:
     """Return the matrix aligned for a terminal."""
     head = ("brain", "fault", *COLUMNS)
     rows = [head, *((one.brain, one.fault, *_cells(one)) for one in lines)]
@@ -62,7 +62,7 @@ def table(lines: list[Line]) -> str:
     )
 
 
-def tries(lines: list[Line]) -> str:
+def tries(lines: list[MatrixRow]) -> str:
     """Tell of each try that failed, a line each; nothing where none did."""
     return "".join(
         f"- {line.brain} {line.fault}, try {number}: {failed}\n"
@@ -71,7 +71,7 @@ def tries(lines: list[Line]) -> str:
     )
 
 
-def markdown(lines: list[Line], origin: Origin) -> str:
+def markdown(lines: list[MatrixRow], origin: Origin) -> str:
     """Return the matrix for a page."""
     head = ("brain", "fault", "what it does", *COLUMNS)
     rows = [head, ("---",) * len(head)]
@@ -81,12 +81,12 @@ def markdown(lines: list[Line], origin: Origin) -> str:
     return f"{origin.line()}.\n\n{summary(lines)}\n\n{told}"
 
 
-def summary(lines: list[Line]) -> str:
+def summary(lines: list[MatrixRow]) -> str:
     """Count rows and cells."""
     cells = [cell for line in lines for cell in line.cells.values() if cell.ok is not None]
     failed = sum(cell.ok is False and cell.judged for cell in cells)
-    bad = sum(line.failed for line in lines)
-    open_rows = sum(not (line.failed or line.passed) for line in lines)
+    bad = sum(line.has_failed for line in lines)
+    open_rows = sum(not (line.has_failed or line.has_passed) for line in lines)
     rows = f"{len(lines)} rows, {bad} failed" + (f", {open_rows} not judged" if open_rows else "")
     verdict = _verdict(failed=bad > 0 or not lines, passed=not open_rows)
     return f"{rows}; {len(cells)} cells measured, {failed} failed: {verdict}"
@@ -105,14 +105,16 @@ def into_page(page: str, matrix: str) -> str:
     return f"{before}{BEGIN}\n{matrix}{END}{after}"
 
 
-def record(lines: list[Line], origin: Origin) -> dict[str, Any]:
+def record(lines: list[MatrixRow], origin: Origin) -> dict[str, Any]:
     """Return all of it as JSON can hold it."""
     return {
         "origin": asdict(origin),
-        "passed": bool(lines) and all(line.passed for line in lines),
-        "rows": [{**asdict(line), "passed": line.passed, "failed": line.failed} for line in lines],
+        "passed": bool(lines) and all(line.has_passed for line in lines),
+        "rows": [
+            {**asdict(line), "passed": line.has_passed, "failed": line.has_failed} for line in lines
+        ],
     }
 
 
-def _cells(line: Line) -> tuple[str, ...]:
+def _cells(line: MatrixRow) -> tuple[str, ...]:
     return tuple(text_of(line.cells[name]) for name in COLUMNS)

@@ -14,7 +14,7 @@ CHUNK = 65_536
 POLL_S = 0.005
 
 
-class Way(StrEnum):
+class ProxyWay(StrEnum):
     """Say what becomes of what the brain sends, and of what it should hear."""
 
     OPEN = "open"
@@ -33,7 +33,7 @@ class Proxy:
         Args:
             door: path of a unix socket, or host:port.
         """
-        self.way = Way.OPEN
+        self.way = ProxyWay.OPEN
         self._door = door
         self._ending = threading.Event()
         self._sockets: list[socket.socket] = []
@@ -82,10 +82,10 @@ class Proxy:
         with contextlib.suppress(OSError):
             while not self._ending.is_set():
                 way = self.way
-                if way is Way.STALLED:
+                if way is ProxyWay.STALLED:
                     self._ending.wait(POLL_S)
                     continue
-                if kept and way is Way.OPEN:
+                if kept and way is ProxyWay.OPEN:
                     sink.sendall(b"".join(kept))
                     kept.clear()
                 try:
@@ -96,7 +96,7 @@ class Proxy:
                     return
                 if not data:  # the sender is gone; what it said still waits to be delivered
                     self._ending.wait(POLL_S)
-                elif self.way is Way.OPEN or (self.way is Way.KEPT and not to_bridge):
+                elif self.way is ProxyWay.OPEN or (self.way is ProxyWay.KEPT and not to_bridge):
                     sink.sendall(data)
                 else:  # asked again: the way may have changed while we read
                     kept.append(data)

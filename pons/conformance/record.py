@@ -39,7 +39,7 @@ class Word:
 
 
 @dataclass(frozen=True, slots=True)
-class Wheels:
+class WheelSample:
     """Hold how far the wheels have really turned."""
 
     at_s: float
@@ -63,21 +63,21 @@ class Truth:
     """Episodes since start."""
 
 
-class _Timed(Protocol):
+class _HasStamp(Protocol):
     @property
     def at_s(self) -> float: ...
 
 
-T = TypeVar("T", bound=_Timed)
+T = TypeVar("T", bound=_HasStamp)
 
 
 @dataclass
-class Record:
+class DriveRecord:
     """Hold all of it, oldest first."""
 
     commands: list[Command] = field(default_factory=list)
     words: list[Word] = field(default_factory=list)
-    wheels: list[Wheels] = field(default_factory=list)
+    wheels: list[WheelSample] = field(default_factory=list)
     truths: list[Truth] = field(default_factory=list)
     unreadable: list[tuple[float, str]] = field(default_factory=list)
     """Commands that are none: out of schema, not finite."""
@@ -101,5 +101,5 @@ def between(items: list[T], from_s: float, to_s: float = float("inf")) -> list[T
     return items[first:last]
 
 
-def _at(item: _Timed) -> float:
+def _at(item: _HasStamp) -> float:
     return item.at_s

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from wire import PROTOCOL, Mode
 
 if TYPE_CHECKING:
-    from pons.conformance.track import Track
+    from pons.conformance.track import TestTrack
     from wire import OwnerKind, Pose2, Status
 
 Said = tuple[str, dict[str, Any]]
@@ -35,12 +35,12 @@ GRANTED_IN = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.STOPPING})
 
 
 @dataclass
-class Brain:
+class ReferenceBrain:
     """Hold what one brain remembers."""
 
     kind: OwnerKind
     brain_id: str
-    track: Track
+    track: TestTrack
     metres: float = METRES
     asks: bool = True
     """It wants to drive; without it only shows that it lives."""
@@ -98,12 +98,12 @@ class Brain:
 
     def heartbeat(self, status: Status) -> Said:
         """Show that it lives and thinks."""
-        return "cmd/heartbeat", {**self._now(status), "used": status.seq}
+        return "cmd/heartbeat", {**self._stamp(status), "used": status.seq}
 
     def grant(self, status: Status) -> Said:
         """Ask for leave to move."""
         budget = {"mission": self.mission, "metres": self.metres, "seconds": SECONDS}
-        return "cmd/grant", {**self._now(status), **budget}
+        return "cmd/grant", {**self._stamp(status), **budget}
 
     def velocity(self, status: Status, seq: int, v_mps: float, w_radps: float) -> Said:
         """Ask for a speed and a turn, the dead-man held."""
@@ -115,11 +115,11 @@ class Brain:
     def waypoints(self, status: Status, seq: int, points: list[dict[str, float]]) -> Said:
         """Stream a horizon."""
         return "cmd/waypoints", {
-            **self._now(status), "seq": seq, "mission": self.mission, "leg": self.leg,
+            **self._stamp(status), "seq": seq, "mission": self.mission, "leg": self.leg,
             "map_id": status.map_id, "ttl_s": TTL_S, "points": points, "final": False,
         }  # fmt: skip
 
-    def _now(self, status: Status) -> dict[str, Any]:
+    def _stamp(self, status: Status) -> dict[str, Any]:
         return {"planner_id": self.brain_id, "epoch": status.epoch, "seen": status.seq}
 
     def _steer(self, pose: Pose2) -> tuple[float, float]:

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pons.conformance.adapter import Adapter
-    from pons.conformance.scheduler_probe import Kept
-    from pons.conformance.verdict import Cell
+    from pons.conformance.scheduler_probe import HostTiming
+    from pons.conformance.verdict import MatrixCell
 
 WAIT_S = 60.0
 EXTRA_S = 180.0
@@ -30,10 +30,10 @@ ON_ANY_MACHINE = ("speed", "contacts")
 class Timer(Protocol):
     """Measure whether the machine keeps time."""
 
-    def kept(self, from_s: float) -> Kept:
+    def timing_since(self, from_s: float) -> HostTiming:
         """Judge the time since then."""
 
-    def look(self) -> Kept:
+    def look(self) -> HostTiming:
         """Judge the next moments."""
 
 
@@ -67,16 +67,16 @@ class Fairness:
         self._timer, self._say, self._clock = timer, say, clock
         self.left_s = EXTRA_S
 
-    def kept(self, from_s: float) -> Kept:
+    def timing_since(self, from_s: float) -> HostTiming:
         """Say how the machine has kept time since then."""
-        return self._timer.kept(from_s)
+        return self._timer.timing_since(from_s)
 
-    def judge(self, adapter: Adapter, cells: dict[str, Cell], from_s: float) -> Try | None:
+    def judge(self, adapter: Adapter, cells: dict[str, MatrixCell], from_s: float) -> Try | None:
         """Return what failed since then and whether the machine did; None where nothing failed."""
         bad = {name: cell for name, cell in cells.items() if cell.ok is False}
         if not bad:
             return None
-        seen, now_s = self._timer.kept(from_s), self._clock()
+        seen, now_s = self._timer.timing_since(from_s), self._clock()
         held_up = verdict.held_up(adapter.record, adapter.bounds, from_s, now_s)
         kept_time = seen.time and not held_up
         fact = any(name in bad and bad[name].measured for name in ON_ANY_MACHINE)

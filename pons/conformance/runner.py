@@ -13,14 +13,14 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from pons.conformance import verdict
-from pons.conformance.driver import Driver, mute, plain
+from pons.conformance.driver import BrainDriver, mute, plain
 from pons.conformance.fault import W, X
-from pons.conformance.fault_context import NotBegun, Stage
-from pons.conformance.reference_client import METRES, Brain
+from pons.conformance.fault_context import FaultStage, NotBegun
+from pons.conformance.reference_client import METRES, ReferenceBrain
 from pons.conformance.retry_policy import Fairness
 from pons.conformance.scheduler_probe import Pulse
-from pons.conformance.verdict import NOT_ASKED, Cell
-from pons.conformance.worker_processes import Helpers
+from pons.conformance.verdict import NOT_ASKED, MatrixCell
+from pons.conformance.worker_processes import HelperPool
 from wire import Mode
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from pons.conformance.adapter import Adapter
     from pons.conformance.fault import Fault
     from pons.conformance.retry_policy import Try
-    from pons.conformance.track import Track
+    from pons.conformance.track import TestTrack
     from wire import OpKind, OwnerKind
 
 AGAIN = "drives again"
@@ -44,43 +44,43 @@ NAMES: dict[OwnerKind, str] = {X: "velocity", W: "waypoints"}
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class MatrixRow:
     """Give one row of the matrix."""
 
     fault: str
     what: str
     brain: str
-    cells: dict[str, Cell]
+    cells: dict[str, MatrixCell]
     """Of its last try."""
     tried: tuple[Try, ...] = ()
     """Those that failed, the last one too."""
 
     @property
-    def passed(self) -> bool:
+    def has_passed(self) -> bool:
         """Tell whether every cell that is asked for holds."""
         return all(cell.ok is not False for cell in self.cells.values())
 
     @property
-    def failed(self) -> bool:
+    def has_failed(self) -> bool:
         """Tell whether a cell failed; one that could not be judged has not."""
         return any(cell.ok is False and cell.judged for cell in self.cells.values())
 
 
 def play_all(
     adapter: Adapter,
-    track: Track,
+    track: TestTrack,
     faults: tuple[Fault, ...],
     seed: int,
     say: Callable[[str], None],
-) -> Iterator[Line]:
+) -> Iterator[MatrixRow]:
     """Play every fault with each brain that it concerns, brain by brain."""
-    with Pulse() as pulse, closing(Helpers(adapter)) as helpers:
+    with Pulse() as pulse, closing(HelperPool(adapter)) as helpers:
         helpers.load()
         fair = Fairness(pulse, say)
         for kind in (X, W):
             mine = [fault for fault in faults if kind in fault.kinds]
             if mine:
-                brain = Brain(kind, f"kit-{NAMES[kind]}", track)
+                brain = ReferenceBrain(kind, f"kit-{NAMES[kind]}", track)
                 runner = Runner(adapter, helpers, brain, fair, seed)
                 with closing(runner.driver):
                     yield from runner.play(mine)
@@ -90,30 +90,35 @@ class Runner:
     """Play faults with one brain."""
 
     def __init__(
-        self, adapter: Adapter, helpers: Helpers, brain: Brain, fair: Fairness, seed: int
+        self,
+        adapter: Adapter,
+        helpers: HelperPool,
+        brain: ReferenceBrain,
+        fair: Fairness,
+        seed: int,
     ) -> None:
         self._adapter, self._helpers, self._fair = adapter, helpers, fair
         self._name = NAMES[brain.kind]
         self._chance = Random(f"{seed} {brain.kind}")
-        self.driver = Driver(brain, adapter.status, adapter.say)
+        self.driver = BrainDriver(brain, adapter.status, adapter.say)
 
-    def play(self, faults: list[Fault]) -> Iterator[Line]:
+    def play(self, faults: list[Fault]) -> Iterator[MatrixRow]:
         """Play one after another; what can't be played has failed."""
-        drives = self.again()
+        drives = self.drive_well()
         lost = 0
         for fault in faults:
             tried: tuple[Try, ...] = ()
             if lost < GIVE_UP:
                 cells, tried = self._play_fairly(fault, drives=drives.ok is True)
             else:
-                cells = dict.fromkeys(COLUMNS, NOT_ASKED) | {AGAIN: Cell(False, "not played")}
+                cells = dict.fromkeys(COLUMNS, NOT_ASKED) | {AGAIN: MatrixCell(False, "not played")}
             drives = cells[AGAIN]
             lost = 0 if drives.ok else lost + 1
-            yield Line(fault.name, fault.what, self._name, cells, tried)
+            yield MatrixRow(fault.name, fault.what, self._name, cells, tried)
 
     def _play_fairly(
         self, fault: Fault, *, drives: bool
-    ) -> tuple[dict[str, Cell], tuple[Try, ...]]:
+    ) -> tuple[dict[str, MatrixCell], tuple[Try, ...]]:
         """Play it; again where it could not begin, or failed while the machine kept no time."""
         from_s = facts_s = time.monotonic()
         tried: list[Try] = []
@@ -128,14 +133,14 @@ class Runner:
                 break
             if failed.excused:
                 self._fair.wait(f"{self._name} {fault.name}", failed)
-            drives = self.again().ok is True
+            drives = self.drive_well().ok is True
             if failed.excused:  # it has driven all the while: facts leave no gap
                 from_s, facts_s = time.monotonic(), judged_s
         return cells, tuple(tried)
 
     def _play(
         self, fault: Fault, from_s: float, facts_s: float, *, drives: bool
-    ) -> tuple[dict[str, Cell], bool]:
+    ) -> tuple[dict[str, MatrixCell], bool]:
         """Play it once; return its cells and whether it could begin.
 
         Args:
@@ -146,13 +151,13 @@ class Runner:
         """
         stage = self._stage()
         trouble = self._try(stage, fault) if drives else "the good brain does not drive"
-        drives_again = self.again()
+        drives_again = self.drive_well()
         self._helpers.load()
-        stands = Cell(False, trouble) if trouble else _stands(stage, fault)
+        stands = MatrixCell(False, trouble) if trouble else _stands(stage, fault)
         cells = self._judge(from_s, facts_s) | {"stands": stands, AGAIN: drives_again}
         return cells, trouble is None
 
-    def _try(self, stage: Stage, fault: Fault) -> str | None:
+    def _try(self, stage: FaultStage, fault: Fault) -> str | None:
         """Play it once; return why it could not begin."""
         with stage.stack:
             try:
@@ -166,18 +171,18 @@ class Runner:
                     stage.end()
         return None
 
-    def _judge(self, from_s: float, facts_s: float) -> dict[str, Cell]:
+    def _judge(self, from_s: float, facts_s: float) -> dict[str, MatrixCell]:
         """Judge what must hold at every moment, up to now."""
         record, bounds, to_s = self._adapter.record, self._adapter.bounds, time.monotonic()
         return {
             "speed": verdict.speed(record, bounds, facts_s, to_s),
             "acceleration": verdict.acceleration(record, bounds, from_s, to_s),
-            "unasked": verdict.unasked(record, from_s, to_s),
-            "ticks": verdict.alive(record, bounds, from_s, to_s, self._fair.kept(from_s)),
+            "unasked": verdict.hold_unasked_motion(record, from_s, to_s),
+            "ticks": verdict.alive(record, bounds, from_s, to_s, self._fair.timing_since(from_s)),
             "contacts": verdict.contacts(record, facts_s, to_s),
         }
 
-    def again(self) -> Cell:
+    def drive_well(self) -> MatrixCell:
         """Let the good brain drive, with a person who does what the bridge waits for."""
         brain = self.driver.brain
         if brain.metres != METRES:
@@ -191,24 +196,24 @@ class Runner:
             now_s = time.monotonic()
             if now_s - began_s > AGAIN_S:
                 self.driver.breaker = mute
-                return Cell(False, f"not within {AGAIN_S:.0f} s: {stage.describe()}")
-            act = self._needed()
+                return MatrixCell(False, f"not within {AGAIN_S:.0f} s: {stage.describe()}")
+            act = self._needed_request()
             if act is not None and now_s >= next_s:
                 self._adapter.operate(act)
                 acts[act] = None
                 next_s = now_s + ACT_S
             time.sleep(0.005)
-        return Cell(True, ", ".join((f"{time.monotonic() - began_s:.1f} s", *acts)))
+        return MatrixCell(True, ", ".join((f"{time.monotonic() - began_s:.1f} s", *acts)))
 
-    def _stage(self) -> Stage:
-        return Stage(self._adapter, self.driver, self._helpers, self._chance, PATIENCE_S)
+    def _stage(self) -> FaultStage:
+        return FaultStage(self._adapter, self.driver, self._helpers, self._chance, PATIENCE_S)
 
     def _owns(self) -> bool:
         status = self._adapter.status()
         owner = status.owner if status is not None else None
         return owner is not None and owner.planner_id == self.driver.brain.brain_id
 
-    def _needed(self) -> OpKind | None:
+    def _needed_request(self) -> OpKind | None:
         """Return what a person would do now."""
         status = self._adapter.status()
         if status is None:
@@ -220,11 +225,11 @@ class Runner:
         return "resume" if status.held is not None else None
 
 
-def _stands(stage: Stage, fault: Fault) -> Cell:
+def _stands(stage: FaultStage, fault: Fault) -> MatrixCell:
     noticed_s = fault.noticed_s.get(stage.brain.kind)
     if noticed_s is None and not fault.rest:
         return NOT_ASKED
     if stage.from_s is None or stage.to_s is None:
-        return Cell(False, "it never began")
+        return MatrixCell(False, "it never began")
     adapter = stage.adapter
     return verdict.stands(adapter.record, adapter.bounds, stage.from_s, stage.to_s, noticed_s)

@@ -27,7 +27,7 @@ LOOK_S = 3.0
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class HostTiming:
     """Give how naps ended in a span of time."""
 
     naps: int
@@ -64,21 +64,23 @@ class Naps:
         return self.late_s[first:last] + ([overdue_s] if overdue_s > LATE_S else [])
 
 
-def kept(processors: Sequence[Naps], from_s: float, to_s: float) -> Kept:
+def worst_timing(processors: Sequence[Naps], from_s: float, to_s: float) -> HostTiming:
     """Judge a span by the processor that kept time worst."""
-    each = [_kept(naps.between(from_s, to_s)) for naps in processors]
+    each = [_timing_of(naps.between(from_s, to_s)) for naps in processors]
     worst = max(
-        each, key=lambda one: (not one.time, one.late, one.worst_s), default=Kept(0, 0, 0.0)
+        each, key=lambda one: (not one.time, one.late, one.worst_s), default=HostTiming(0, 0, 0.0)
     )
     return replace(worst, lost_s=max((one.lost_s for one in each), default=0.0))
 
 
-def _kept(late_s: list[float]) -> Kept:
+def _timing_of(late_s: list[float]) -> HostTiming:
     late = [one for one in late_s if one > LATE_S]
-    return Kept(len(late_s), len(late), max(late_s, default=0.0), sum(late))
+    return HostTiming(len(late_s), len(late), max(late_s, default=0.0), sum(late))
 
 
-def until_calm(look: Callable[[], Kept], limit_s: float, clock: Callable[[], float]) -> Kept:
+def until_calm(
+    look: Callable[[], HostTiming], limit_s: float, clock: Callable[[], float]
+) -> HostTiming:
     """Look again and again until the machine keeps time, for so long at most; return the last."""
     end_s = clock() + limit_s
     while True:
@@ -114,15 +116,15 @@ class Pulse:
         for thread in self._threads:
             thread.join()
 
-    def kept(self, from_s: float) -> Kept:
+    def timing_since(self, from_s: float) -> HostTiming:
         """Judge the time since then."""
-        return kept(self._naps, from_s, time.monotonic())
+        return worst_timing(self._naps, from_s, time.monotonic())
 
-    def look(self) -> Kept:
+    def look(self) -> HostTiming:
         """Judge the next moments."""
         from_s = time.monotonic()
         time.sleep(LOOK_S)
-        return self.kept(from_s)
+        return self.timing_since(from_s)
 
     def _nap(self, cpu: int, naps: Naps) -> None:
         with suppress(OSError):  # it was taken from us: any other serves

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from planner.navigation.costmap import static_costmap
 from planner.site import Site
 from pons.conformance.adapter import CannotTest
-from pons.conformance.track import Track
+from pons.conformance.track import TestTrack
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,7 +21,7 @@ ROOM_M = 0.15
 STRIDE = 2
 
 
-def find_track(folder: Path, radius_m: float) -> Track:
+def find_track(folder: Path, radius_m: float) -> TestTrack:
     """Return the longest free line along x or y of a site, cut to what is needed.
 
     Raises:
@@ -36,10 +36,10 @@ def find_track(folder: Path, radius_m: float) -> Track:
             f"{radius_m + ROOM_M:.2f} m beside it; the longest has {found:.2f} m"
         )
     spare_m = max(0.0, best.length_m - LONGEST_M) / 2
-    return Track(best.at(spare_m), best.at(best.length_m - spare_m))
+    return TestTrack(best.at(spare_m), best.at(best.length_m - spare_m))
 
 
-def _lines(costmap: Costmap) -> list[Track]:
+def _lines(costmap: Costmap) -> list[TestTrack]:
     """Return the longest run of free cells of each second row and column."""
     grid, free = costmap.grid, costmap.free
     lines = []
@@ -49,7 +49,7 @@ def _lines(costmap: Costmap) -> list[Track]:
             first, last = _run([bool(cell) for cell in rows[index]])
             if last > first:
                 ends = [(cell, index) if along_x else (index, cell) for cell in (first, last)]
-                lines.append(Track(grid.centre_of(*ends[0]), grid.centre_of(*ends[1])))
+                lines.append(TestTrack(grid.centre_of(*ends[0]), grid.centre_of(*ends[1])))
     return lines
 
 

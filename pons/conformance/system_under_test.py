@@ -5,9 +5,7 @@ Owns processes and the two sessions: the judge's, which watches, and the planner
 
 from __future__ import annotations
 
-import os
 import secrets
-import sys
 import time
 from contextlib import ExitStack
 from pathlib import Path
@@ -16,11 +14,12 @@ from typing import TYPE_CHECKING, Self
 
 from localization.site_map import read_map_id
 from pons.conformance.adapter import CannotTest
-from pons.conformance.bounds import Bounds
+from pons.conformance.bounds import MotionBounds
 from pons.conformance.raw_publisher import Mouth
-from pons.conformance.record import Record
-from pons.conformance.watch import Watch
+from pons.conformance.record import DriveRecord
+from pons.conformance.watch import BridgeWatch
 from pons.supervisor import Child
+from processes.parent_death import child_command
 from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, signed_request
 from wire.doors import BRIDGE_DOOR
 from wire.keys import Party
@@ -30,7 +29,7 @@ from wire.sockets import Endpoints
 if TYPE_CHECKING:
     from types import TracebackType
 
-    from pons.conformance.track import Track
+    from pons.conformance.track import TestTrack
     from pons.settings import Settings
     from wire import OpKind, Status
 
@@ -41,11 +40,11 @@ PUT_S = 1.0
 OURS = "bridge"
 
 
-class Rig:
+class SystemUnderTest:
     """Be an Adapter for every bridge that speaks this wire."""
 
     def __init__(
-        self, settings: Settings, track: Track, *, module: str = OURS, join: bool = False
+        self, settings: Settings, track: TestTrack, *, module: str = OURS, join: bool = False
     ) -> None:
         """Describe it; entering the context starts or joins it.
 
@@ -58,8 +57,8 @@ class Rig:
         self.name = f"joined in {settings.home}" if join else module
         self._settings, self._track, self._module, self._join = settings, track, module, join
         self._robot = load_robot(settings.robot)
-        self.bounds = Bounds.of(self._robot)
-        self.record = Record()
+        self.bounds = MotionBounds.of(self._robot)
+        self.record = DriveRecord()
         self._home = settings.home
         self._stack = ExitStack()
         self._children: list[Child] = []
@@ -69,7 +68,7 @@ class Rig:
             if not self._join:
                 self._start(stack)
             try:
-                self._watch = stack.enter_context(Watch(self._home, self._robot.id))
+                self._watch = stack.enter_context(BridgeWatch(self._home, self._robot.id))
                 party = open_session(Party.PLANNER, self._robot.id, self._home)
                 self._mouth = Mouth(stack.enter_context(party))
             except Misconfigured as wrong:
@@ -109,10 +108,9 @@ class Rig:
         self.say(f"op/{kind}", payload)
         return payload
 
-    def helper(self) -> list[str]:
+    def helper(self) -> tuple[str, ...]:
         """Return the command of a helper, which dies with this process."""
-        words = ["pons.conformance.worker_process", str(self._home), self._robot.id]
-        return [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        return child_command("pons.conformance.worker_process", str(self._home), self._robot.id)
 
     def door(self) -> str:
         """Return the bridge's socket."""

@@ -9,7 +9,7 @@ from wire import Pose2
 
 
 @dataclass(frozen=True, slots=True)
-class Track:
+class TestTrack:
     """Give a line in ``map`` by its ends."""
 
     start: tuple[float, float]

@@ -13,9 +13,9 @@ from pons.conformance.record import between
 from pons.conformance.scheduler_probe import LATE_SHARE
 
 if TYPE_CHECKING:
-    from pons.conformance.bounds import Bounds
-    from pons.conformance.record import Command, Record
-    from pons.conformance.scheduler_probe import Kept
+    from pons.conformance.bounds import MotionBounds
+    from pons.conformance.record import Command, DriveRecord
+    from pons.conformance.scheduler_probe import HostTiming
 
 EPS_RADPS = 2e-3
 CREEP_RADPS = 1e-6
@@ -42,7 +42,7 @@ HELD_UP_S = 0.2
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class MatrixCell:
     """Give one verdict with its figure. ``ok`` None: nothing is asked here."""
 
     ok: bool | None
@@ -53,10 +53,10 @@ class Cell:
     """False: it does not hold, and whether the bridge or the host is to blame can't be told."""
 
 
-NOT_ASKED = Cell(None, "-")
+NOT_ASKED = MatrixCell(None, "-")
 
 
-def speed(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
+def speed(record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float) -> MatrixCell:
     """Hold what the robot does within its speeds, and what its wheels are told near them.
 
     Near: what makes a wheel turn as meant (dead zone, lag, correction) is part of a command.
@@ -64,10 +64,10 @@ def speed(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
     commands = between(record.commands, from_s, to_s)
     rims = [rim for rim in turning(record, bounds, from_s, to_s) if rim is not None]
     if not (commands and rims):
-        return Cell(False, "no command, or no wheel, was seen", measured=False)
+        return MatrixCell(False, "no command, or no wheel, was seen", measured=False)
     bad = [text for at_s, text in record.unreadable if from_s <= at_s <= to_s]
     if bad:
-        return Cell(False, f"unreadable command: {bad[0][:60]}")
+        return MatrixCell(False, f"unreadable command: {bad[0][:60]}")
     told = [(bounds.rim_mps(one.left_radps), bounds.rim_mps(one.right_radps)) for one in commands]
     v, w = _fastest_body(bounds, [(one.left_mps, one.right_mps) for one in rims])
     told_v, told_w = _fastest_body(bounds, told)
@@ -80,10 +80,10 @@ def speed(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
         and wheel <= bounds.wheel_radps + EPS_RADPS
     )
     said = "" if ok else f", told {told_v:.2f} m/s {told_w:.2f} rad/s"
-    return Cell(ok, f"{v:.2f} m/s {w:.2f} rad/s{said}")
+    return MatrixCell(ok, f"{v:.2f} m/s {w:.2f} rad/s{said}")
 
 
-def _fastest_body(bounds: Bounds, rims: list[tuple[float, float]]) -> tuple[float, float]:
+def _fastest_body(bounds: MotionBounds, rims: list[tuple[float, float]]) -> tuple[float, float]:
     """Return the greatest speed [m/s] and turn [rad/s] of pairs of rim speeds."""
     v = max(abs(left + right) / 2 for left, right in rims)
     w = max(abs(right - left) for left, right in rims) / bounds.wheel_separation_m
@@ -100,7 +100,9 @@ class Rims:
     right_mps: float
 
 
-def turning(record: Record, bounds: Bounds, from_s: float, to_s: float) -> list[Rims | None]:
+def turning(
+    record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float
+) -> list[Rims | None]:
     """Return the rims' speeds state by state; None where the drive was not in control.
 
     Speed is way by the drive's own periods, for a simulator that was held up skips them; from two
@@ -119,7 +121,9 @@ def turning(record: Record, bounds: Bounds, from_s: float, to_s: float) -> list[
     return found
 
 
-def acceleration(record: Record, bounds: Bounds, from_s: float, to_s: float) -> Cell:
+def acceleration(
+    record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float
+) -> MatrixCell:
     """Hold each wheel's real change within its rates; show the quickest growth and braking."""
     rims = turning(record, bounds, from_s, to_s)
     grew = braked = over = 0.0
@@ -135,13 +139,13 @@ def acceleration(record: Record, bounds: Bounds, from_s: float, to_s: float) -> 
             over = max(over, more - bounds.accel_mps2 * (s + LATE_S))
             over = max(over, abs(now - was) - bounds.hardest_mps2 * (s + LATE_S))
     if not looked:
-        return Cell(False, "no wheel was seen turning", measured=False)
-    return Cell(over <= REAL_MPS, f"+{grew:.2f} -{braked:.2f} m/s2")
+        return MatrixCell(False, "no wheel was seen turning", measured=False)
+    return MatrixCell(over <= REAL_MPS, f"+{grew:.2f} -{braked:.2f} m/s2")
 
 
 def stands(
-    record: Record, bounds: Bounds, from_s: float, to_s: float, noticed_s: float | None
-) -> Cell:
+    record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float, noticed_s: float | None
+) -> MatrixCell:
     """Hold that the wheels are told to stand within their ticks, and stay told so.
 
     Args:
@@ -153,37 +157,39 @@ def stands(
     """
     commands = between(record.commands, from_s, to_s)
     if not commands:
-        return Cell(False, "no command was seen", measured=False)
+        return MatrixCell(False, "no command was seen", measured=False)
     before = between(record.commands, from_s - 0.5, from_s)
     start = before[-1] if before else commands[0]
-    rims = [bounds.rim_mps(speed) for one in (*before[-1:], *commands) for speed in _both(one)]
+    rims = [
+        bounds.rim_mps(speed) for one in (*before[-1:], *commands) for speed in _both_wheels(one)
+    ]
     fastest = min(max(map(abs, rims)), _fastest(bounds))
     most = 0 if noticed_s is None else bounds.stand_ticks(noticed_s, fastest)
     turning = [one for one in commands if _turns(one)]
     if turning and turning[-1] is commands[-1]:
-        return Cell(False, f"still moves after {commands[-1].number - start.number} ticks")
+        return MatrixCell(False, f"still moves after {commands[-1].number - start.number} ticks")
     took = turning[-1].number + 1 - start.number if turning else 0
     newest = between(record.truths, to_s - NEWEST_S, to_s)[-1:]
     rests = all(
         abs(one.v_mps) <= STANDING_MPS and abs(one.w_radps) <= STANDING_RADPS for one in newest
     )
     told = "" if rests else ", but the robot moves"
-    return Cell(bool(newest) and rests and took <= most, f"{took} of {most} ticks{told}")
+    return MatrixCell(bool(newest) and rests and took <= most, f"{took} of {most} ticks{told}")
 
 
-def _fastest(bounds: Bounds) -> float:
+def _fastest(bounds: MotionBounds) -> float:
     return bounds.speed_mps + bounds.turn_radps * bounds.wheel_separation_m / 2
 
 
-def _both(command: Command) -> tuple[float, float]:
+def _both_wheels(command: Command) -> tuple[float, float]:
     return command.left_radps, command.right_radps
 
 
 def _turns(command: Command) -> bool:
-    return command.enabled and max(map(abs, _both(command))) > CREEP_RADPS
+    return command.enabled and max(map(abs, _both_wheels(command))) > CREEP_RADPS
 
 
-def unasked(record: Record, from_s: float, to_s: float) -> Cell:
+def hold_unasked_motion(record: DriveRecord, from_s: float, to_s: float) -> MatrixCell:
     """Hold that no wheel speeds up while the bridge itself says that it follows nobody."""
     words = between(record.words, from_s, to_s)
     commands = between(record.commands, from_s, to_s)
@@ -202,18 +208,20 @@ def unasked(record: Record, from_s: float, to_s: float) -> Cell:
         looked += len(part)
         if part:
             grew = max(grew, _growth(part))
-    return Cell(grew <= UNASKED_RADPS, f"{grew:.2f} rad/s in {looked}")
+    return MatrixCell(grew <= UNASKED_RADPS, f"{grew:.2f} rad/s in {looked}")
 
 
 def _growth(part: list[Command]) -> float:
     """Return the most by which either wheel was faster in a span than at its start [rad/s]."""
     most = 0.0
-    for side in zip(*(_both(one) for one in part), strict=True):
+    for side in zip(*(_both_wheels(one) for one in part), strict=True):
         most = max(most, max(map(abs, side)) - abs(side[0]))
     return most
 
 
-def alive(record: Record, bounds: Bounds, from_s: float, to_s: float, host: Kept) -> Cell:
+def alive(
+    record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float, host: HostTiming
+) -> MatrixCell:
     """Hold that it is one run, that each period is a tick or told as missed, one command each.
 
     The first and the last word are compared by the bridge's own clock, which is this machine's.
@@ -222,10 +230,10 @@ def alive(record: Record, bounds: Bounds, from_s: float, to_s: float, host: Kept
     """
     words = between(record.words, from_s, to_s)
     if len(words) < 2:
-        return Cell(False, "silent", measured=False)
+        return MatrixCell(False, "silent", measured=False)
     first, last = words[0], words[-1]
     if first.boot != last.boot:
-        return Cell(False, "it was started anew")
+        return MatrixCell(False, "it was started anew")
     ticks, missed = last.tick - first.tick, last.missed - first.missed
     due = (last.made_s - first.made_s) / bounds.period_s
     numbers = [
@@ -241,28 +249,28 @@ def alive(record: Record, bounds: Bounds, from_s: float, to_s: float, host: Kept
     said += "" if heard else f", silent for {quiet_s:.1f} s"
     text = f"{ticks}" + (f" + {missed} missed" if missed else "") + f" of {due:.0f}{said}"
     if not (known and once and heard):
-        return Cell(False, text)
+        return MatrixCell(False, text)
     if missed <= _forgiven(due, bounds.period_s, host):
-        return Cell(True, text)
-    return Cell(False, f"{text}, the host took {host.lost_s:.2f} s", judged=host.time)
+        return MatrixCell(True, text)
+    return MatrixCell(False, f"{text}, the host took {host.lost_s:.2f} s", judged=host.time)
 
 
-def _forgiven(due: float, period_s: float, host: Kept) -> float:
+def _forgiven(due: float, period_s: float, host: HostTiming) -> float:
     """Return how many ticks may be missed, of those due: a few, and what the host took."""
     few = TICKS_OFF + LATE_SHARE * due
     return min(few + host.lost_s / period_s, TICKS_OFF + MOST_MISSED * due)
 
 
-def contacts(record: Record, from_s: float, to_s: float) -> Cell:
+def contacts(record: DriveRecord, from_s: float, to_s: float) -> MatrixCell:
     """Hold that the robot touched nothing."""
     seen = between(record.truths, from_s, to_s)
     if not seen:
-        return Cell(False, "no truth was heard", measured=False)
+        return MatrixCell(False, "no truth was heard", measured=False)
     count = seen[-1].contacts - seen[0].contacts
-    return Cell(count == 0, str(count))
+    return MatrixCell(count == 0, str(count))
 
 
-def held_up(record: Record, bounds: Bounds, from_s: float, to_s: float) -> bool:
+def held_up(record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float) -> bool:
     """Tell whether the machine held the simulator up: what came of that, no bridge has done."""
     wheels = between(record.wheels, from_s, to_s)
     lost_s = (

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from dataclasses import replace
 from typing import TYPE_CHECKING, Self, TypeVar
 
-from pons.conformance.record import Command, Record, Truth, Wheels, Word
+from pons.conformance.record import Command, DriveRecord, Truth, WheelSample, Word
 from wire import (
     DriveCommand,
     DriveState,
@@ -37,16 +37,16 @@ RING = 1024
 MOVES = frozenset({Mode.ACTIVE, Mode.TELEOP})
 
 
-def _all(payloads: list[bytes], key: Key[M]) -> list[M | Rejected]:
+def _parse_all(payloads: list[bytes], key: Key[M]) -> list[M | Rejected]:
     """Parse everything: a judge may not skip what the bridge would."""
     return [decode(key, payload) for payload in payloads]
 
 
-class Watch:
+class BridgeWatch:
     """Hear status, commands, wheels and truth until closed."""
 
     def __init__(self, home: Path, robot_id: str) -> None:
-        self.record = Record()
+        self.record = DriveRecord()
         self._home, self._robot_id = home, robot_id
         self._status: Status | None = None
         self._ending = threading.Event()
@@ -94,7 +94,7 @@ class Watch:
             self.record.learn()
 
     def _hear_words(self, now_s: float) -> None:
-        for raw in _all(self._words.drain_bytes(), STATUS):
+        for raw in _parse_all(self._words.drain_bytes(), STATUS):
             if isinstance(raw, Status):
                 self._status = raw
                 moves = raw.mode in MOVES
@@ -104,7 +104,7 @@ class Watch:
                 )
 
     def _hear_commands(self, now_s: float) -> None:
-        for raw in _all(self._commands.drain_bytes(), DRIVE_COMMAND):
+        for raw in _parse_all(self._commands.drain_bytes(), DRIVE_COMMAND):
             if isinstance(raw, DriveCommand):
                 command = Command(now_s, raw.seq, raw.left_radps, raw.right_radps, raw.enable)
                 self.record.commands.append(command)
@@ -112,13 +112,13 @@ class Watch:
                 self.record.unreadable.append((now_s, raw.detail))
 
     def _hear_robot(self, now_s: float) -> None:
-        for state in _all(self._wheels.drain_bytes(), DRIVE_STATE):
+        for state in _parse_all(self._wheels.drain_bytes(), DRIVE_STATE):
             if isinstance(state, DriveState):
                 turned = (state.left_rad, state.right_rad)
                 self.record.wheels.append(
-                    Wheels(now_s, state.stamp_s, state.seq, *turned, state.enabled)
+                    WheelSample(now_s, state.stamp_s, state.seq, *turned, state.enabled)
                 )
-        for truth in _all(self._truths.drain_bytes(), SIM_TRUTH):
+        for truth in _parse_all(self._truths.drain_bytes(), SIM_TRUTH):
             if isinstance(truth, SimTruth):
                 twist = truth.twist
                 self.record.truths.append(

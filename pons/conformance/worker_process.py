@@ -13,11 +13,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pons.conformance.driver import Driver, plain
+from pons.conformance.driver import BrainDriver, plain
 from pons.conformance.flooder import flood
 from pons.conformance.raw_publisher import Mouth, dial
-from pons.conformance.reference_client import Brain
-from pons.conformance.track import Track
+from pons.conformance.reference_client import ReferenceBrain
+from pons.conformance.track import TestTrack
 from pons.conformance.worker_processes import FLOODER
 from wire.keys import STATUS, Party
 
@@ -44,16 +44,16 @@ def main(arguments: list[str]) -> int:
 def puppet(session: Session, task: dict[str, Any]) -> None:
     """Be a well-behaved brain until standard input ends."""
     ears, mouth = session.subscriber(STATUS), Mouth(session)
-    brain = Brain(
+    brain = ReferenceBrain(
         task["kind"],
         task["brain_id"],
-        Track(tuple(task["start"]), tuple(task["end"])),
+        TestTrack(tuple(task["start"]), tuple(task["end"])),
         mission=task["mission"],
         heading=task["heading"],
         leg=task["leg"],
         missions=task["missions"],
     )
-    driver = Driver(brain, ears.newest, mouth.say)
+    driver = BrainDriver(brain, ears.newest, mouth.say)
     driver.breaker = plain
     print("going", flush=True)
     sys.stdin.read()

@@ -7,6 +7,8 @@ import subprocess
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from pons.conformance.adapter import Adapter
 
 PUPPET, FLOODER = "puppet", "flooder"
@@ -21,7 +23,7 @@ class HelperLost(Exception):
 class Helper:
     """Hold one helper process."""
 
-    def __init__(self, command: list[str]) -> None:
+    def __init__(self, command: Sequence[str]) -> None:
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def ready(self) -> None:
@@ -51,7 +53,7 @@ class Helper:
             raise HelperLost(f"a helper said {line!r} instead of {word}")
 
 
-class Helpers:
+class HelperPool:
     """Lend helpers; loading one takes longer than the fault that it is for."""
 
     def __init__(self, adapter: Adapter) -> None:

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING
 
 from pons.doctor import host_checks, model_checks, path_checks
 from pons.doctor import jitter as late
-from pons.doctor.finding import Finding, Verdict, Words, fail
+from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
 
 if TYPE_CHECKING:
     from pons.settings import Settings
 
-EXIT = {Verdict.OK: 0, Verdict.WARN: 1, Verdict.FAIL: 2}
+EXIT = {HealthVerdict.OK: 0, HealthVerdict.WARN: 1, HealthVerdict.FAIL: 2}
 """0: all is well; 1: something works less well; 2: something must be mended first."""
 NO_CYCLICTEST = (
     "cyclictest did not run beside it -> sudo apt install rt-tests; it needs the same rights\n"
     "cyclictest 未能同时运行 -> sudo apt install rt-tests；需要同样的权限"
 )
-MARKS = {Verdict.OK: "ok  ", Verdict.WARN: "warn", Verdict.FAIL: "FAIL"}
+MARKS = {HealthVerdict.OK: "ok  ", HealthVerdict.WARN: "warn", HealthVerdict.FAIL: "FAIL"}
 
 
 def run(settings: Settings, *, as_json: bool = False, jitter: bool = False) -> int:
@@ -43,7 +43,7 @@ def run(settings: Settings, *, as_json: bool = False, jitter: bool = False) -> i
     return max(EXIT[one.verdict] for one in found)
 
 
-def findings(settings: Settings) -> list[Finding]:
+def findings(settings: Settings) -> list[HealthFinding]:
     """Return what every check finds, the machine first."""
     described, robot = path_checks.robot(settings.robot)
     sited, site = path_checks.site(settings.site)
@@ -51,37 +51,36 @@ def findings(settings: Settings) -> list[Finding]:
     priority, virtual = robot.realtime.priority, robot.drive.virtual
     return [
         host_checks.python(),
-        checked("core", host_checks.core),
         host_checks.page_size(),
-        checked("real_time", lambda: host_checks.real_time(priority, virtual=virtual)),
-        checked("locked_memory", host_checks.locked_memory),
+        run_check("real_time", lambda: host_checks.real_time(priority, virtual=virtual)),
+        run_check("locked_memory", host_checks.locked_memory),
         host_checks.node(),
-        checked("home", lambda: path_checks.home(settings.home)),
-        checked("secrets", lambda: path_checks.secrets(settings.home, virtual=virtual)),
-        checked("disk", lambda: path_checks.disk(settings.home)),
-        checked("sockets", lambda: path_checks.sockets(settings.home)),
-        checked("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
+        run_check("home", lambda: path_checks.home(settings.home)),
+        run_check("secrets", lambda: path_checks.secrets(settings.home, virtual=virtual)),
+        run_check("disk", lambda: path_checks.disk(settings.home)),
+        run_check("sockets", lambda: path_checks.sockets(settings.home)),
+        run_check("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
         described,
         sited,
-        checked("model", lambda: model_checks.model(settings.home)),
-        checked("recogniser", lambda: model_checks.recogniser(site)),
+        run_check("model", lambda: model_checks.model(settings.home)),
+        run_check("recogniser", lambda: model_checks.recogniser(site)),
     ]
 
 
-def checked(name: str, check: Callable[[], Finding]) -> Finding:
+def run_check(name: str, check: Callable[[], HealthFinding]) -> HealthFinding:
     """Return what a check finds; one that the system itself cuts short must not hide the others."""
     try:
         return check()
     except (OSError, SubprocessError, RuntimeError) as error:
         return fail(
             name,
-            Words(f"could not be checked: {error}", f"无法检查：{error}"),
-            Words("run as the user that runs the robot, and mend what it names",
+            BilingualWords(f"could not be checked: {error}", f"无法检查：{error}"),
+            BilingualWords("run as the user that runs the robot, and mend what it names",
                   "请以运行机器人的用户执行，并修正上述问题"),
         )  # fmt: skip
 
 
-def lines(one: Finding) -> list[str]:
+def lines(one: HealthFinding) -> list[str]:
     """Return a finding for a terminal: one line, with its fix; a fault in both languages."""
     shown = [f"{MARKS[one.verdict]}  {one.name:<14} {one.found.en}"]
     if one.fix is not None:

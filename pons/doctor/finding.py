@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 
-class Verdict(StrEnum):
+class HealthVerdict(StrEnum):
     """Grade a finding."""
 
     OK = "ok"
@@ -17,7 +17,7 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class BilingualWords:
     """Say it in English and Chinese."""
 
     en: str
@@ -25,27 +25,27 @@ class Words:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class HealthFinding:
     """Hold what one check found."""
 
     name: str
     """Stable, in snake_case."""
-    verdict: Verdict
-    found: Words
-    fix: Words | None = None
+    verdict: HealthVerdict
+    found: BilingualWords
+    fix: BilingualWords | None = None
     """What to do; always there unless the verdict is ok."""
 
 
-def ok(name: str, en: str, zh: str) -> Finding:
+def ok(name: str, en: str, zh: str) -> HealthFinding:
     """Return a finding that all is well."""
-    return Finding(name, Verdict.OK, Words(en, zh))
+    return HealthFinding(name, HealthVerdict.OK, BilingualWords(en, zh))
 
 
-def warn(name: str, found: Words, fix: Words) -> Finding:
+def warn(name: str, found: BilingualWords, fix: BilingualWords) -> HealthFinding:
     """Return a finding that something lacks."""
-    return Finding(name, Verdict.WARN, found, fix)
+    return HealthFinding(name, HealthVerdict.WARN, found, fix)
 
 
-def fail(name: str, found: Words, fix: Words) -> Finding:
+def fail(name: str, found: BilingualWords, fix: BilingualWords) -> HealthFinding:
     """Return a finding that nothing works without."""
-    return Finding(name, Verdict.FAIL, found, fix)
+    return HealthFinding(name, HealthVerdict.FAIL, found, fix)

@@ -1,4 +1,4 @@
-"""Check the machine itself: Python, the core, page size, real-time rights, memory, Node."""
+"""Check the machine itself: Python, page size, real-time rights, memory, Node."""
 
 from __future__ import annotations
 
@@ -10,37 +10,33 @@ import subprocess
 import sys
 import threading
 
-from bridge.compiled import find
 from bridge.realtime import Right, take_fifo
-from pons.doctor.finding import Finding, Words, fail, ok, warn
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from pons_assets import IS_INSTALLED
 
 USUAL_PAGE_BYTES = 4096
 NODE_LOWEST = (20, 19)
 _LOCK = "from bridge.realtime import lock_memory as l; r = l(); print(int(r.granted), r.detail)"
 
 
-def python() -> Finding:
+def python() -> HealthFinding:
     """Look at the interpreter that runs us."""
     have = platform.python_version()
     if (3, 11) <= sys.version_info[:2] <= (3, 13):
         return ok("python", f"Python {have}", f"Python {have}")
     return fail(
         "python",
-        Words(f"Python {have}; needed: 3.11, 3.12 or 3.13", f"Python {have}；需要 3.11 至 3.13"),
-        Words("install one and run `make clean setup PYTHON=python3.12`",
-              "安装后运行 `make clean setup PYTHON=python3.12`"),
-    )  # fmt: skip
+        BilingualWords(
+            f"Python {have}; needed: 3.11, 3.12 or 3.13", f"Python {have}；需要 3.11 至 3.13"
+        ),
+        BilingualWords(
+            "install one and run `make clean setup PYTHON=python3.12`",
+            "安装后运行 `make clean setup PYTHON=python3.12`",
+        ),
+    )
 
 
-def core() -> Finding:
-    """Say which core the bridge will run; the plain source decides the same, at twice the cost."""
-    found = find()
-    if found.compiled:
-        return ok("core", found.text, f"已编译（{found.text.split()[-1]}）")
-    return ok("core", found.text, "使用纯 Python 源码；`make core` 可编译，CPU 用量更低")
-
-
-def page_size() -> Finding:
+def page_size() -> HealthFinding:
     """Look at the kernel's page size: some boards with 64-bit ARM use 16 or 64 KiB."""
     size = os.sysconf("SC_PAGE_SIZE")
     said = f"{size // 1024} KiB pages on {platform.machine()}"
@@ -48,15 +44,19 @@ def page_size() -> Finding:
         return ok("page_size", said, f"{platform.machine()}，内存页 {size // 1024} KiB")
     return warn(
         "page_size",
-        Words(f"{said}; some binary packages are built for 4 KiB only",
-              f"内存页 {size // 1024} KiB；部分二进制包只支持 4 KiB"),
-        Words("if an import fails, boot the 4 KiB kernel (Raspberry Pi 5: kernel=kernel8.img in "
-              "config.txt)",
-              "若导入失败，请改用 4 KiB 内核（树莓派 5：config.txt 中写 kernel=kernel8.img）"),
-    )  # fmt: skip
+        BilingualWords(
+            f"{said}; some binary packages are built for 4 KiB only",
+            f"内存页 {size // 1024} KiB；部分二进制包只支持 4 KiB",
+        ),
+        BilingualWords(
+            "if an import fails, boot the 4 KiB kernel (Raspberry Pi 5: kernel=kernel8.img in "
+            "config.txt)",
+            "若导入失败，请改用 4 KiB 内核（树莓派 5：config.txt 中写 kernel=kernel8.img）",
+        ),
+    )
 
 
-def real_time(priority: int, *, virtual: bool) -> Finding:
+def real_time(priority: int, *, virtual: bool) -> HealthFinding:
     """Try the bridge's own request for SCHED_FIFO in a thread that ends at once."""
     got: list[Right] = []
     thread = threading.Thread(target=lambda: got.append(take_fifo(priority)))
@@ -69,8 +69,8 @@ def real_time(priority: int, *, virtual: bool) -> Finding:
     grade = warn if virtual else fail  # without it a robot of metal does not move: row NOT_RT
     return grade(
         "real_time",
-        Words(f"no SCHED_FIFO: {detail}", f"没有实时优先级：{detail}"),
-        Words(
+        BilingualWords(f"no SCHED_FIFO: {detail}", f"没有实时优先级：{detail}"),
+        BilingualWords(
             f"add '{_user()} - rtprio {priority + 10}' to /etc/security/limits.d/pons.conf and log "
             "in again; as a service, deploy/systemd does it",
             f"在 /etc/security/limits.d/pons.conf 中加入 '{_user()} - rtprio {priority + 10}' "
@@ -79,7 +79,7 @@ def real_time(priority: int, *, virtual: bool) -> Finding:
     )
 
 
-def locked_memory() -> Finding:
+def locked_memory() -> HealthFinding:
     """Try the bridge's own request to lock its memory, in a process that ends at once."""
     done = subprocess.run(
         [sys.executable, "-c", _LOCK], capture_output=True, text=True, timeout=30, check=False
@@ -90,8 +90,8 @@ def locked_memory() -> Finding:
     detail = detail or (done.stderr.strip().splitlines() or ["no answer"])[-1]
     return warn(
         "locked_memory",
-        Words(f"memory can't be locked: {detail}", f"无法锁定内存：{detail}"),
-        Words(
+        BilingualWords(f"memory can't be locked: {detail}", f"无法锁定内存：{detail}"),
+        BilingualWords(
             f"add '{_user()} - memlock unlimited' to /etc/security/limits.d/pons.conf and log in "
             "again; as a service, deploy/systemd does it",
             f"在 /etc/security/limits.d/pons.conf 中加入 '{_user()} - memlock unlimited' "
@@ -100,8 +100,10 @@ def locked_memory() -> Finding:
     )
 
 
-def node() -> Finding:
+def node() -> HealthFinding:
     """Look for Node; only building the page needs it, and `make setup` can bring it as a wheel."""
+    if IS_INSTALLED:
+        return ok("node", "not needed: the page came built", "不需要：网页已随安装包构建")
     path = shutil.which("node")
     found = _node_version(path) if path else None
     if found is not None and found >= NODE_LOWEST:

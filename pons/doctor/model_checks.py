@@ -9,17 +9,17 @@ from pathlib import Path
 from planner.brain.endpoint.url_policy import Address, refused_among
 from planner.settings import load_settings
 from planner.site import Site
-from pons.doctor.finding import Finding, Words, fail, ok, warn
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from wire import Misconfigured
 
 CONNECT_S = 3.0
-_FIX_MODEL = Words(
+_FIX_MODEL = BilingualWords(
     "start the model's server or mend [model] in settings.toml; until then the offline brain plans",
     "请启动模型服务或修正 settings.toml 的 [model]；在此期间由离线大脑回答",
 )
 
 
-def model(home: Path) -> Finding:
+def model(home: Path) -> HealthFinding:
     """Connect to the model's server; nothing is sent, so nothing is spent."""
     try:
         chosen = load_settings(home, os.environ).model
@@ -27,15 +27,15 @@ def model(home: Path) -> Finding:
             return ok("model", "none is set: the offline brain plans", "未设置模型：由离线大脑规划")
         address = Address.parse(chosen.url)
     except Misconfigured as wrong:
-        fix = Words(
+        fix = BilingualWords(
             "mend settings.toml or PONS_MODEL_URL", "请修正 settings.toml 或 PONS_MODEL_URL"
         )
-        return fail("model", Words(str(wrong), str(wrong)), fix)
+        return fail("model", BilingualWords(str(wrong), str(wrong)), fix)
     where = f"{chosen.name} at {address.host}:{address.port}"
     trouble = _trouble(address)
     if trouble is None:
         return ok("model", f"{where} can be reached", f"{where} 可以连接")
-    return warn("model", Words(f"{where}: {trouble}", f"{where}：{trouble}"), _FIX_MODEL)
+    return warn("model", BilingualWords(f"{where}: {trouble}", f"{where}：{trouble}"), _FIX_MODEL)
 
 
 def _trouble(address: Address) -> str | None:
@@ -50,34 +50,38 @@ def _trouble(address: Address) -> str | None:
     return None
 
 
-def recogniser(site: Site | None) -> Finding:
+def recogniser(site: Site | None) -> HealthFinding:
     """Load the recogniser with the site's English names and list those that can't be said."""
     try:
         from planner.voice.sphinx import Sphinx
     except ImportError as error:
         return warn(
             "recogniser",
-            Words(f"no spoken orders: {error}", f"无法使用语音：{error}"),
-            Words("run `make clean setup PYTHON=python3.11` (or 3.13): pocketsphinx has no wheel "
-                  "for Python 3.12 on ARM; typing works meanwhile",
-                  "请运行 `make clean setup PYTHON=python3.11`（或 3.13）：pocketsphinx 没有用于 "
-                  "ARM 上 Python 3.12 的安装包；文字输入不受影响"),
-        )  # fmt: skip
+            BilingualWords(f"no spoken orders: {error}", f"无法使用语音：{error}"),
+            BilingualWords(
+                "run `make clean setup PYTHON=python3.11` (or 3.13): pocketsphinx has no wheel "
+                "for Python 3.12 on ARM; typing works meanwhile",
+                "请运行 `make clean setup PYTHON=python3.11`（或 3.13）：pocketsphinx 没有用于 "
+                "ARM 上 Python 3.12 的安装包；文字输入不受影响",
+            ),
+        )
     names = [name for place in site.places for name in place.said_in_english] if site else []
     try:
         left_out = Sphinx(names).language.left_out
     except (OSError, RuntimeError, ValueError) as error:
         return warn(
             "recogniser",
-            Words(f"no spoken orders: {error}", f"无法使用语音：{error}"),
-            Words("run `make clean setup`", "请运行 `make clean setup`"),
+            BilingualWords(f"no spoken orders: {error}", f"无法使用语音：{error}"),
+            BilingualWords("run `make clean setup`", "请运行 `make clean setup`"),
         )
     if left_out:
         shown = ", ".join(left_out[:20])
         return warn(
             "recogniser",
-            Words(f"names that can't be spoken: {shown}", f"无法用语音说出的名称：{shown}"),
-            Words(
+            BilingualWords(
+                f"names that can't be spoken: {shown}", f"无法用语音说出的名称：{shown}"
+            ),
+            BilingualWords(
                 "give these places an alias in plain English words", "请为这些地点添加普通英文别名"
             ),
         )

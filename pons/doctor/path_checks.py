@@ -12,7 +12,7 @@ from pathlib import Path
 from bridge.operator_key import load_operator_key
 from planner.settings import exposed
 from planner.site import Site, SiteError
-from pons.doctor.finding import Finding, Words, fail, ok, warn
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.up import MIN_FREE_BYTES
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.doors import DOORS
@@ -22,68 +22,72 @@ ROOMY_BYTES = 10 * MIN_FREE_BYTES
 """Recordings of a day."""
 
 
-def robot(path: Path) -> tuple[Finding, RobotDescription]:
+def robot(path: Path) -> tuple[HealthFinding, RobotDescription]:
     """Read robot.toml; what can't be read counts as the default robot for the other checks."""
     try:
         described = load_robot(path)
     except Misconfigured as wrong:
-        fix = Words("mend the file; `pons up` refuses it as it is", "请修正该文件，否则无法启动")
-        return fail("robot", Words(str(wrong), str(wrong)), fix), RobotDescription()
+        fix = BilingualWords(
+            "mend the file; `pons up` refuses it as it is", "请修正该文件，否则无法启动"
+        )
+        return fail("robot", BilingualWords(str(wrong), str(wrong)), fix), RobotDescription()
     kind = described.drive.kind
     return ok("robot", f"{described.id}, {kind} drive", f"{described.id}，驱动 {kind}"), described
 
 
-def site(path: Path) -> tuple[Finding, Site | None]:
+def site(path: Path) -> tuple[HealthFinding, Site | None]:
     """Load the site with all that the planner checks."""
     try:
         loaded = Site.load(path)
     except SiteError as wrong:
-        fix = Words(
+        fix = BilingualWords(
             "mend the site, or choose another with PONS_SITE", "请修正场地或用 PONS_SITE 另选"
         )
-        return fail("site", Words(str(wrong), str(wrong)), fix), None
+        return fail("site", BilingualWords(str(wrong), str(wrong)), fix), None
     count = len(loaded.places)
     return ok(
         "site", f"{path.name}, {count} rooms and places", f"{path.name}，{count} 处地点"
     ), loaded
 
 
-def home(path: Path) -> Finding:
+def home(path: Path) -> HealthFinding:
     """Look whether the home folder is ours alone to write; keys and the journal lie in it."""
     nearest = next(folder for folder in (path, *path.parents) if folder.exists())
     if not nearest.is_dir() or not os.access(nearest, os.W_OK | os.X_OK):
         return fail(
             "home",
-            Words(f"{nearest} can't be written by this user", f"当前用户无法写入 {nearest}"),
-            Words("change its owner, or set PONS_HOME", "请更改所有者或设置 PONS_HOME"),
+            BilingualWords(
+                f"{nearest} can't be written by this user", f"当前用户无法写入 {nearest}"
+            ),
+            BilingualWords("change its owner, or set PONS_HOME", "请更改所有者或设置 PONS_HOME"),
         )
     if path.exists() and _open_to_others(path.stat().st_mode):
         return warn(
             "home",
-            Words(f"{path} can be written by others", f"其他用户可以写入 {path}"),
-            Words(f"chmod go-w {path}", f"chmod go-w {path}"),
+            BilingualWords(f"{path} can be written by others", f"其他用户可以写入 {path}"),
+            BilingualWords(f"chmod go-w {path}", f"chmod go-w {path}"),
         )
     state = "is there" if path.exists() else "will be made"
     return ok("home", f"{path} {state}", f"{path} {'已存在' if path.exists() else '将被创建'}")
 
 
-def secrets(path: Path, *, virtual: bool) -> Finding:
+def secrets(path: Path, *, virtual: bool) -> HealthFinding:
     """Look whether others may read or change the keys that lie in the home folder."""
     try:
         load_operator_key(path, virtual=virtual)
         found = exposed(path)
     except Misconfigured as wrong:
-        fix = Words(
+        fix = BilingualWords(
             "mend or remove that file; as the bridge's user, `pons key new` makes operator.key",
             "请修正或删除该文件；以 bridge 的用户执行 `pons key new` 可生成 operator.key",
         )
-        return fail("secrets", Words(str(wrong), str(wrong)), fix)
+        return fail("secrets", BilingualWords(str(wrong), str(wrong)), fix)
     if found:
         told = "; ".join(found)
         return warn(
             "secrets",
-            Words(told, f"其他用户可以读取或修改：{told}"),
-            Words("chmod 600, as the planner's user", "请以 planner 的用户执行 chmod 600"),
+            BilingualWords(told, f"其他用户可以读取或修改：{told}"),
+            BilingualWords("chmod 600, as the planner's user", "请以 planner 的用户执行 chmod 600"),
         )
     return ok("secrets", "no key lies open to others", "没有密钥暴露给其他用户")
 
@@ -93,7 +97,7 @@ def _open_to_others(mode: int) -> bool:
     return bool(mode & 0o002 or (mode & 0o020 and not mode & stat.S_ISVTX))
 
 
-def disk(path: Path) -> Finding:
+def disk(path: Path) -> HealthFinding:
     """Look for room for recordings and the journal."""
     nearest = next(folder for folder in (path, *path.parents) if folder.exists())
     free = shutil.disk_usage(nearest).free
@@ -103,22 +107,22 @@ def disk(path: Path) -> Finding:
     grade = warn if free >= MIN_FREE_BYTES else fail
     return grade(
         "disk",
-        Words(f"{shown} free in {nearest}", f"{nearest} 剩余 {shown}"),
-        Words("delete old recordings, or set PONS_HOME to a larger disk",
+        BilingualWords(f"{shown} free in {nearest}", f"{nearest} 剩余 {shown}"),
+        BilingualWords("delete old recordings, or set PONS_HOME to a larger disk",
               "请删除旧录制文件或将 PONS_HOME 设到更大的磁盘"),
     )  # fmt: skip
 
 
-def sockets(path: Path) -> Finding:
+def sockets(path: Path) -> HealthFinding:
     """Look at the socket paths, and for what dead processes left."""
     where = Endpoints(path)
     longest = max(len(os.fsencode(where.socket(door))) for door in DOORS)
     if not longest <= MAX_SOCKET_PATH:
         return fail(
             "sockets",
-            Words(f"socket paths of {longest} bytes; the kernel takes {MAX_SOCKET_PATH}",
+            BilingualWords(f"socket paths of {longest} bytes; the kernel takes {MAX_SOCKET_PATH}",
                   f"套接字路径 {longest} 字节，内核最多 {MAX_SOCKET_PATH}"),
-            Words("set PONS_HOME to a shorter folder", "请将 PONS_HOME 设为更短的目录"),
+            BilingualWords("set PONS_HOME to a shorter folder", "请将 PONS_HOME 设为更短的目录"),
         )  # fmt: skip
     live = listening(path)
     stale = [door.name for door in DOORS if door.name not in live and where.socket(door).exists()]
@@ -136,7 +140,7 @@ def listening(path: Path) -> list[str]:
     return [door.name for door in DOORS if is_listening(where.socket(door))]
 
 
-def port(host: str, number: int, *, running: bool) -> Finding:
+def port(host: str, number: int, *, running: bool) -> HealthFinding:
     """Look whether page and API can listen."""
     try:
         family, kind, _, _, address = socket.getaddrinfo(host, number, type=socket.SOCK_STREAM)[0]
@@ -149,7 +153,11 @@ def port(host: str, number: int, *, running: bool) -> Finding:
                       f"{host}:{number} 正由运行中的机器人使用")  # fmt: skip
         return fail(
             "port",
-            Words(f"{host}:{number}: {error.strerror or error}", f"{host}:{number}：无法监听"),
-            Words("stop what listens there, or set PONS_PORT", "请停止占用者或设置 PONS_PORT"),
+            BilingualWords(
+                f"{host}:{number}: {error.strerror or error}", f"{host}:{number}：无法监听"
+            ),
+            BilingualWords(
+                "stop what listens there, or set PONS_PORT", "请停止占用者或设置 PONS_PORT"
+            ),
         )
     return ok("port", f"{host}:{number} is free", f"{host}:{number} 空闲")

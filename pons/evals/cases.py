@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pons.evals.category_rules import Law
-from pons.evals.matchers import BadMatcher, Wanted, wanted
-from pons.evals.world import World
+from pons.evals.matchers import BadMatcher, Expectation, read_expectation
+from pons.evals.world import EvalWorld
 
 HOLD_OUT_SEED = 5
 TUNED, HELD_OUT = "tuned", "held out"
@@ -25,7 +25,7 @@ class Case:
     text: str
     group: str
     law: Law | None = None
-    wanted: Wanted | None = None
+    wanted: Expectation | None = None
     split: str = TUNED
 
 
@@ -34,10 +34,10 @@ class Suite:
     """Hold cases and the world they are planned in."""
 
     name: str
-    world: World
+    world: EvalWorld
     cases: tuple[Case, ...]
 
-    def halved(self, seed: int = HOLD_OUT_SEED) -> Suite:
+    def split_in_half(self, seed: int = HOLD_OUT_SEED) -> Suite:
         """Return the suite with a random half held out, the same for one seed."""
         rng = random.Random(seed)
         order = list(range(len(self.cases)))
@@ -50,7 +50,7 @@ class Suite:
         return replace(self, cases=tuple(cases))
 
 
-def read_tsv(path: Path, world: World) -> Suite:
+def read_tsv(path: Path, world: EvalWorld) -> Suite:
     """Read a suite of our own: split, group, sentence and expectation in four columns.
 
     Raises:
@@ -65,7 +65,7 @@ def read_tsv(path: Path, world: World) -> Suite:
             continue
         try:
             split, group, text, expected = line.split("\t")
-            cases.append(Case(text, group, wanted=wanted(expected), split=_split(split)))
+            cases.append(Case(text, group, wanted=read_expectation(expected), split=_split(split)))
         except ValueError as wrong:
             raise BadMatcher(f"{path.name}:{number}: {wrong}") from wrong
     return Suite(path.stem, world, tuple(cases))

@@ -1,4 +1,4 @@
-"""Be ``pons eval``: read the words, choose the brain, score, show. Nothing moves."""
+"""The command ``pons eval``: a suite, an exam of a minute, or a journal thought again."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from planner.brain import Brain, OfflineBrain, OutOfBudget
 from planner.site.errors import SiteError
 from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
-from pons.evals.report import as_json, content, passed, table
-from pons.evals.score import Verdict, score_each
-from pons.evals.suites import DATA, HOME_SITE, known, load
+from pons.evals.report import as_json, content, has_passed, table
+from pons.evals.score import SentenceVerdict, score_each
+from pons.evals.suites import DATA, HOME_SITE, load, suite_names
 from wire import Misconfigured
 
 if TYPE_CHECKING:
@@ -26,21 +26,28 @@ REACHED, MISSED, REFUSED = 0, 1, 2
 
 
 @dataclass(frozen=True, slots=True)
-class Scored:
+class SuiteScore:
     """Hold what came of one suite."""
 
     name: str
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[SentenceVerdict, ...]
     left: int
     """Sentences not asked: the budget was up."""
 
 
 def main(settings: Settings, words: list[str]) -> int:
     """Score a brain on a suite: 0 the goal is reached, 1 it is not, 2 nothing could be asked."""
-    said = _parser().parse_args(words)
+    parser = _parser()
+    said = parser.parse_args(words)
+    if said.quick or said.journal is not None:
+        if said.suite is not None or (said.quick and said.journal is not None):
+            parser.error("give one of SUITE, --quick and --journal")
+        return _quick(settings, said) if said.quick else _journal(settings, said)
+    if said.suite is None:
+        parser.error("give a SUITE, --quick or --journal")
     try:
         suites = load(said.suite, said.data, said.site)
-        brain, scored = asyncio.run(_all(settings, suites, said.model, yes=said.yes))
+        brain, scored = asyncio.run(_score_suites(settings, suites, said.model, yes=said.yes))
     except (MissingSuite, BadMatcher, SiteError) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
         return REFUSED
@@ -53,7 +60,7 @@ def main(settings: Settings, words: list[str]) -> int:
         print(as_json(content(one.name, brain, one.verdicts, one.left) for one in scored))
     else:
         print("\n\n".join(table(one.name, brain, one.verdicts, one.left) for one in scored))
-    return REACHED if all(passed(one.verdicts, one.left) for one in scored) else MISSED
+    return REACHED if all(has_passed(one.verdicts, one.left) for one in scored) else MISSED
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -61,7 +68,13 @@ def _parser() -> argparse.ArgumentParser:
         prog="pons eval",
         description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
     )
-    parser.add_argument("suite", help=f"{', '.join(known())}, or a .tsv file")
+    parser.add_argument("suite", nargs="?", help=f"{', '.join(suite_names())}, or a .tsv file")
+    parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
+    parser.add_argument(
+        "--journal",
+        metavar="FILE",
+        help="think the sentences of a journal (missions.db) or a home folder again",
+    )
     parser.add_argument(
         "--model",
         nargs="?",
@@ -70,22 +83,39 @@ def _parser() -> argparse.ArgumentParser:
         help="ask a model: the owner's, or NAME, URL or NAME@URL; else the offline brain",
     )
     parser.add_argument("--yes", action="store_true", help="a model elsewhere may be asked")
+    parser.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
+    parser.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--data", type=Path, default=DATA, help="folder of the orders of others")
     parser.add_argument("--site", type=Path, default=HOME_SITE, help="whose names ours use")
     return parser
 
 
-async def _all(
+def _quick(settings: Settings, said: argparse.Namespace) -> int:
+    from pons.evals import quick
+
+    word = said.model or ""
+    return quick.run(settings, word, as_json=said.json, yes=said.yes, called="pons eval --quick")
+
+
+def _journal(settings: Settings, said: argparse.Namespace) -> int:
+    from pons.evals.journal import command
+
+    options = command.JournalOptions(max(0, said.most), max(0, said.drives), said.json, said.yes)
+    word = said.model or ""
+    return command.run(settings, [said.journal], word, options, "pons eval --journal")
+
+
+async def _score_suites(
     settings: Settings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
-) -> tuple[str, list[Scored]]:
+) -> tuple[str, list[SuiteScore]]:
     if model is None:
-        return await _scored(suites, OfflineBrain())
+        return await _score_each(suites, OfflineBrain())
     from planner.brain.endpoint import Address, EndpointBrain
     from planner.budget import Ledger, Purse
-    from pons.model_selection import chosen
+    from pons.evals.model_access import choose_model
 
-    owner, whom = chosen(model, settings.home, os.environ)
+    owner, whom = choose_model(model, settings.home, os.environ)
     address = Address.parse(whom.url)
     count = sum(len(suite.cases) for suite in suites)
     if not address.local and not yes:
@@ -96,15 +126,15 @@ async def _all(
         whom.model_copy(update={"allow_offhost": True}), settings.home, meter=purse
     )
     try:
-        return await _scored(suites, brain)
+        return await _score_each(suites, brain)
     finally:
         await brain.close()
         purse.close()
 
 
-async def _scored(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[Scored]]:
+async def _score_each(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[SuiteScore]]:
     """Score to the end of the suites or of the budget: what was paid for is kept."""
-    verdicts: list[list[Verdict]] = [[] for _ in suites]
+    verdicts: list[list[SentenceVerdict]] = [[] for _ in suites]
     try:
         for suite, mine in zip(suites, verdicts, strict=True):
             async for verdict in score_each(suite, brain):
@@ -112,7 +142,7 @@ async def _scored(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[Sc
     except OutOfBudget as spent:
         print(f"pons eval: {spent.said.en}", file=sys.stderr)
     scored = [
-        Scored(suite.name, tuple(mine), len(suite.cases) - len(mine))
+        SuiteScore(suite.name, tuple(mine), len(suite.cases) - len(mine))
         for suite, mine in zip(suites, verdicts, strict=True)
     ]
     return f"{brain.tag.name} {brain.tag.version}", scored

@@ -12,9 +12,9 @@ from xml.etree import ElementTree as ET
 from planner.plan import Bilingual, Entry, Vocabulary
 from pons.evals.cases import Case, MissingSuite, Suite
 from pons.evals.category_rules import LAWS
-from pons.evals.matchers import wanted
+from pons.evals.matchers import read_expectation
 from pons.evals.mentioned_names import places_named, plain
-from pons.evals.world import World
+from pons.evals.world import EvalWorld
 
 ROUTES = frozenset({"navigate", "multi", "mixed"})
 _ZH_ROOMS = {
@@ -41,7 +41,7 @@ def gpsr(folder: Path) -> Suite:
         MissingSuite: the files are not there.
     """
     rows = _rows(folder / "gpsr_dev.tsv")
-    world = World(_gpsr_names(folder / "gpsr_lists" / "kyordhel_Locations.xml"))
+    world = EvalWorld(_gpsr_names(folder / "gpsr_lists" / "kyordhel_Locations.xml"))
     cases = tuple(
         Case(text, category, law=LAWS[category]) for category, _source, _rule, text in rows
     )
@@ -54,7 +54,7 @@ def chinese(folder: Path) -> Suite:
     Raises:
         MissingSuite: the file is not there.
     """
-    world = World(_zh_names())
+    world = EvalWorld(_zh_names())
     rows = _rows(folder / "zh_dev.tsv")
     return Suite("zh", world, tuple(_zh_case(kind, want, text) for kind, _from, want, text in rows))
 
@@ -64,7 +64,7 @@ def _zh_case(kind: str, expected: str, text: str) -> Case:
         return Case(text, kind, law=LAWS[kind])
     rooms = places_named(text if "rooms" in expected else expected, _zh_names())
     route = " > ".join(f"go {room} > look?" for room in rooms)
-    return Case(text, kind, wanted=wanted(route))
+    return Case(text, kind, wanted=read_expectation(route))
 
 
 def _rows(path: Path) -> list[list[str]]:

@@ -14,7 +14,7 @@ from math import radians
 
 from planner.plan import Answer, Clarify, Refuse, StepPlan
 from pons.evals.mentioned_names import plain
-from pons.evals.world import HOME, START, Event, walk
+from pons.evals.world import HOME, START, EvalEvent, walk
 
 Made = StepPlan | Answer | Clarify | Refuse
 CLOSE = 0.02
@@ -39,7 +39,7 @@ class Act:
     number: float | None = None
     optional: bool = False
 
-    def fits(self, event: Event) -> bool:
+    def fits(self, event: EvalEvent) -> bool:
         """Tell whether an event is what is expected."""
         if event.kind != self.kind or (self.where is not None and event.where != self.where):
             return False
@@ -56,7 +56,7 @@ Item = Act | tuple[Act, ...]  # a tuple in any order
 
 
 @dataclass(frozen=True, slots=True)
-class Still:
+class NoMotion:
     """Expect no motion: a question, a no, an answer; with one of these codes where any is named."""
 
     kinds: frozenset[str]
@@ -69,11 +69,11 @@ class Still:
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class Expectation:
     """Expect one of several things of a sentence."""
 
     plans: tuple[tuple[Item, ...], ...]
-    stills: tuple[Still, ...]
+    stills: tuple[NoMotion, ...]
 
     def fits(self, made: Made) -> bool:
         """Tell whether a plan, an answer, a question or a no is one that is expected."""
@@ -88,7 +88,7 @@ class Wanted:
         return bool(self.plans)
 
 
-def wanted(text: str) -> Wanted:
+def read_expectation(text: str) -> Expectation:
     """Read an expectation.
 
     Raises:
@@ -99,10 +99,10 @@ def wanted(text: str) -> Wanted:
         word, *codes = way.split() or [""]
         if word in _STILL:
             kinds = frozenset({"clarify", "refuse"}) if word == "still" else frozenset({word})
-            stills.append(Still(kinds, frozenset(codes)))
+            stills.append(NoMotion(kinds, frozenset(codes)))
         else:
             plans.append(tuple(_item(part.strip()) for part in way.split(">")))
-    return Wanted(tuple(plans), tuple(stills))
+    return Expectation(tuple(plans), tuple(stills))
 
 
 def _item(text: str) -> Item:
@@ -128,7 +128,7 @@ def _act(text: str) -> Act:
     return Act(kind, tuple(plain(words).split("/")) if words else (), where, optional=optional)
 
 
-def _follows(trace: tuple[Event, ...], items: tuple[Item, ...], here: str = START) -> bool:
+def _follows(trace: tuple[EvalEvent, ...], items: tuple[Item, ...], here: str = START) -> bool:
     """Tell whether a trace does these things in order and nothing else but talk."""
     if not items:
         return all(event.kind == "say" for event in trace)

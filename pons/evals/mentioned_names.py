@@ -8,10 +8,10 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from planner.language.folding import fold_words
+from planner.language.folding import CHINESE, fold_words
 from planner.plan import Vocabulary
 
-_WORD = re.compile(r"[a-z0-9']+|[\u3400-\u9fff]")
+_WORD = re.compile(rf"[a-z0-9']+|[{CHINESE}]")
 _GENERIC = frozenset(
     (
         "the",

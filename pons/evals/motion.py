@@ -55,12 +55,12 @@ def wrong_motions(plan: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[st
         if moves(step):
             unnamed = [place for place in places_of(step) if place not in named]
             found += [f"{step.kind} to {place}, which is not named" for place in unnamed]
-            what = _unnamed(step, plain(text))
+            what = _unnamed_part(step, plain(text))
             found += [f"{step.kind}: {what}"] if what else []
     return tuple(found)
 
 
-def _unnamed(step: Step, said: str) -> str:
+def _unnamed_part(step: Step, said: str) -> str:
     """Return what of a step, besides its places, the sentence does not say."""
     match step:
         case ReturnHome():

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pons.evals.score import Verdict
+from pons.evals.score import SentenceVerdict
 
 GOAL = 0.95
 """Of the sentences of a suite, with no wrong motion at all."""
@@ -16,7 +16,7 @@ _KINDS = ("plan", "clarify", "refuse", "answer")
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class GroupLine:
     """Sum up one group of sentences."""
 
     group: str
@@ -32,26 +32,26 @@ class Line:
         return self.right / self.count
 
 
-def lines(verdicts: Sequence[Verdict]) -> list[Line]:
+def lines(verdicts: Sequence[SentenceVerdict]) -> list[GroupLine]:
     """Return one line for each group and split, then the sums."""
     groups = sorted({verdict.case.group for verdict in verdicts})
     splits = sorted({verdict.case.split for verdict in verdicts}, reverse=True)
     found = []
     for group in (*groups, ALL):
         for split in (*splits, ALL) if len(splits) > 1 else (ALL,):
-            chosen = [v for v in verdicts if _in(v, group, split)]
+            chosen = [v for v in verdicts if _is_in(v, group, split)]
             found += [_line(group, split, chosen)] if chosen else []
     return found
 
 
-def passed(verdicts: Sequence[Verdict], left: int = 0) -> bool:
+def has_passed(verdicts: Sequence[SentenceVerdict], left: int = 0) -> bool:
     """Tell whether a suite reaches the goal: all asked, enough right, nothing moved wrongly."""
     right = sum(verdict.right for verdict in verdicts)
     enough = right >= GOAL * len(verdicts) and not any(verdict.wrong for verdict in verdicts)
     return enough and left == 0
 
 
-def table(name: str, brain: str, verdicts: Sequence[Verdict], left: int = 0) -> str:
+def table(name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int = 0) -> str:
     """Return the table of a suite, with every sentence that went wrong."""
     not_asked = f", {left} more not asked" if left else ""
     rows = [f"{name}: {len(verdicts)} sentences, planned by {brain}{not_asked}", ""]
@@ -67,13 +67,15 @@ def table(name: str, brain: str, verdicts: Sequence[Verdict], left: int = 0) -> 
     return "\n".join(rows)
 
 
-def content(name: str, brain: str, verdicts: Sequence[Verdict], left: int = 0) -> dict[str, Any]:
+def content(
+    name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int = 0
+) -> dict[str, Any]:
     """Return the same as plain data."""
     p50, p99 = _times_ms(verdicts)
     return {
         "suite": name,
         "brain": brain,
-        "passed": passed(verdicts, left),
+        "passed": has_passed(verdicts, left),
         "not_asked": left,
         "calls": sum(verdict.calls for verdict in verdicts),
         "tokens": sum(verdict.tokens for verdict in verdicts),
@@ -88,13 +90,13 @@ def as_json(results: Iterable[dict[str, Any]]) -> str:
     return json.dumps({"suites": list(results)}, ensure_ascii=False, indent=2)
 
 
-def _in(verdict: Verdict, group: str, split: str) -> bool:
+def _is_in(verdict: SentenceVerdict, group: str, split: str) -> bool:
     return group in (ALL, verdict.case.group) and split in (ALL, verdict.case.split)
 
 
-def _line(group: str, split: str, chosen: Sequence[Verdict]) -> Line:
+def _line(group: str, split: str, chosen: Sequence[SentenceVerdict]) -> GroupLine:
     kinds = [sum(v.made.kind == kind for v in chosen) for kind in _KINDS]
-    return Line(
+    return GroupLine(
         group,
         split,
         len(chosen),
@@ -104,7 +106,7 @@ def _line(group: str, split: str, chosen: Sequence[Verdict]) -> Line:
     )
 
 
-def _row(line: Line) -> str:
+def _row(line: GroupLine) -> str:
     kinds = "/".join(map(str, line.kinds))
     return (
         f"{line.group:18}{line.split:10}{line.count:5}{line.right:7}{line.share:8.1%}"
@@ -112,7 +114,7 @@ def _row(line: Line) -> str:
     )
 
 
-def _plain(line: Line) -> dict[str, Any]:
+def _plain(line: GroupLine) -> dict[str, Any]:
     named = dict(zip(_KINDS, line.kinds, strict=True))
     return {
         "group": line.group,
@@ -124,7 +126,7 @@ def _plain(line: Line) -> dict[str, Any]:
     }
 
 
-def _failure(verdict: Verdict) -> dict[str, Any]:
+def _failure(verdict: SentenceVerdict) -> dict[str, Any]:
     return {
         "text": verdict.case.text,
         "group": verdict.case.group,
@@ -134,7 +136,7 @@ def _failure(verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def _times_ms(verdicts: Sequence[Verdict]) -> tuple[float, float]:
+def _times_ms(verdicts: Sequence[SentenceVerdict]) -> tuple[float, float]:
     times = sorted(verdict.seconds * 1e3 for verdict in verdicts)
     if not times:
         return 0.0, 0.0

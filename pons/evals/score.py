@@ -11,24 +11,18 @@ from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 
 from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.language.catalogue import message
+from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
-from planner.plan import (
-    EVERY_KIND,
-    Code,
-    Refuse,
-    Rejection,
-    StepPlan,
-    message,
-    validate_plan,
-)
+from planner.plan import EVERY_KIND, Code, Refuse, Rejection, StepPlan, validate_plan
 from pons.evals.cases import Case, Suite
 from pons.evals.matchers import Made
 from pons.evals.motion import moves, wrong_motions
-from pons.evals.world import World
+from pons.evals.world import EvalWorld
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class SentenceVerdict:
     """Hold what a brain made of one sentence, and what is wrong with it."""
 
     case: Case
@@ -59,7 +53,7 @@ class Verdict:
 
 async def score(
     suite: Suite, brain: Brain, clock: Callable[[], float] = time.perf_counter
-) -> tuple[Verdict, ...]:
+) -> tuple[SentenceVerdict, ...]:
     """Return a verdict for every sentence, in order.
 
     Raises:
@@ -70,7 +64,7 @@ async def score(
 
 async def score_each(
     suite: Suite, brain: Brain, clock: Callable[[], float] = time.perf_counter
-) -> AsyncGenerator[Verdict]:
+) -> AsyncGenerator[SentenceVerdict]:
     """Yield the verdicts one by one; each sentence of each run is a goal of its own to a budget.
 
     Raises:
@@ -83,8 +77,8 @@ async def score_each(
 
 
 async def _one(
-    case: Case, world: World, brain: Brain, clock: Callable[[], float], goal: str
-) -> Verdict:
+    case: Case, world: EvalWorld, brain: Brain, clock: Callable[[], float], goal: str
+) -> SentenceVerdict:
     asked = ThinkRequest(
         text=case.text,
         vocabulary=world.vocabulary,
@@ -109,25 +103,25 @@ async def _one(
     return judge(case, thought.plan, world, clock() - began, thought.calls, thought.tokens)
 
 
-def _nothing(case: Case, made: Refuse, fault: str, seconds: float) -> Verdict:
+def _nothing(case: Case, made: Refuse, fault: str, seconds: float) -> SentenceVerdict:
     """Return the verdict over no decision: a fault, whatever is expected of the sentence."""
-    return Verdict(case, made, fault[:200], (), seconds)
+    return SentenceVerdict(case, made, fault[:200], (), seconds)
 
 
 def judge(
-    case: Case, made: Made, world: World, seconds: float = 0.0, calls: int = 0, tokens: int = 0
-) -> Verdict:
+    case: Case, made: Made, world: EvalWorld, seconds: float = 0.0, calls: int = 0, tokens: int = 0
+) -> SentenceVerdict:
     """Return the verdict over one outcome."""
     checked = validate_plan(made, world.vocabulary, EVERY_KIND)
     if isinstance(checked, Rejection):  # what validation refuses never moves
-        fault = f"no valid plan: {checked.outcome.message.en}"
-        return Verdict(case, made, fault, (), seconds, calls, tokens)
+        fault = f"no valid plan: {rejection_outcome(checked, world.vocabulary).message.en}"
+        return SentenceVerdict(case, made, fault, (), seconds, calls, tokens)
     wrong = _wrong(case, checked, world)
     fault = _fault(case, checked, world)
-    return Verdict(case, checked, fault, wrong, seconds, calls, tokens)
+    return SentenceVerdict(case, checked, fault, wrong, seconds, calls, tokens)
 
 
-def _fault(case: Case, made: Made, world: World) -> str:
+def _fault(case: Case, made: Made, world: EvalWorld) -> str:
     if case.law is not None:
         return case.law.fault(made, case.text, world.vocabulary)
     if case.wanted is not None and not case.wanted.fits(made):
@@ -135,7 +129,7 @@ def _fault(case: Case, made: Made, world: World) -> str:
     return ""
 
 
-def _wrong(case: Case, made: Made, world: World) -> tuple[str, ...]:
+def _wrong(case: Case, made: Made, world: EvalWorld) -> tuple[str, ...]:
     if not isinstance(made, StepPlan):
         return ()
     may_move = case.law.steps if case.law is not None else case.wanted and case.wanted.may_move

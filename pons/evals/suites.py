@@ -7,15 +7,16 @@ from pathlib import Path
 from pons.evals.cases import MissingSuite, Suite, read_tsv
 from pons.evals.external_suites import chinese, gpsr
 from pons.evals.world import site_world
+from pons_assets import DEFAULT_SITE, ROOT
 
 OURS = Path(__file__).parent / "suites"
-HOME_SITE = Path(__file__).parents[2] / "sites" / "home"
-DATA = Path(__file__).parents[3] / "shared" / "data" / "commands"
+HOME_SITE = DEFAULT_SITE
+DATA = ROOT.parent / "shared" / "data" / "commands"
 """Where the orders of others lie, beside a checkout; --data names another folder."""
 SETS = {"home": ("home_en", "home_zh"), "outside": ("gpsr", "zh")}
 
 
-def known() -> tuple[str, ...]:
+def suite_names() -> tuple[str, ...]:
     """Return the names of suites and of sets of them."""
     return (*SETS, *(path.stem for path in sorted(OURS.glob("*.tsv"))), "gpsr", "zh")
 
@@ -38,8 +39,8 @@ def load(name: str, data: Path = DATA, site: Path = HOME_SITE) -> tuple[Suite, .
 
 def _one(name: str, data: Path, site: Path) -> Suite:
     if name in ("gpsr", "zh"):
-        return (gpsr(data) if name == "gpsr" else chinese(data)).halved()
+        return (gpsr(data) if name == "gpsr" else chinese(data)).split_in_half()
     path = Path(name) if name.endswith(".tsv") else OURS / f"{name}.tsv"
     if not path.is_file():
-        raise MissingSuite(f"no suite {name!r}; known: {', '.join(known())}, or a .tsv file")
+        raise MissingSuite(f"no suite {name!r}; known: {', '.join(suite_names())}, or a .tsv file")
     return read_tsv(path, site_world(site, room="study"))

@@ -18,7 +18,7 @@ START, HOME, SOMEWHERE = "start", "home", "?"
 
 
 @dataclass(frozen=True, slots=True)
-class World:
+class EvalWorld:
     """Hold what a suite plans against: its names, and the room the robot stands in."""
 
     vocabulary: Vocabulary
@@ -26,7 +26,7 @@ class World:
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
+class EvalEvent:
     """Write down one thing that a walked plan does, and where."""
 
     kind: str
@@ -38,18 +38,18 @@ class Event:
 @dataclass
 class _Walk:
     here: str = START
-    events: list[Event] = field(default_factory=list)
+    events: list[EvalEvent] = field(default_factory=list)
 
     def arrive(self, place: str) -> None:
         if place != self.here:
             self.here = place
-            self.events.append(Event("at", place, place))
+            self.events.append(EvalEvent("at", place, place))
 
     def act(self, kind: str, what: str = "", number: float | None = None) -> None:
-        self.events.append(Event(kind, what, self.here, number))
+        self.events.append(EvalEvent(kind, what, self.here, number))
 
 
-def walk(plan: StepPlan) -> tuple[Event, ...]:
+def walk(plan: StepPlan) -> tuple[EvalEvent, ...]:
     """Return what a plan would do, in order."""
     trace = _Walk()
     for step in plan.steps:
@@ -71,10 +71,10 @@ def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
         trace.here = SOMEWHERE
 
 
-def site_world(folder: Path, room: str | None = None) -> World:
+def site_world(folder: Path, room: str | None = None) -> EvalWorld:
     """Return the world of a site's folder.
 
     Raises:
         SiteError: a file is missing or wrong.
     """
-    return World(vocabulary_of(Site.load(folder)), room)
+    return EvalWorld(vocabulary_of(Site.load(folder)), room)

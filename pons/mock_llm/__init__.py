@@ -6,6 +6,6 @@ request, so any client that sends our prompt or a schema with places gets a plan
 
 from pons.mock_llm.app import build
 from pons.mock_llm.fault_switches import FAULTS, READABLE, Switches
-from pons.mock_llm.serve import Options, run
+from pons.mock_llm.serve import MockOptions, run
 
-__all__ = ["FAULTS", "READABLE", "Options", "Switches", "build", "run"]
+__all__ = ["FAULTS", "READABLE", "MockOptions", "Switches", "build", "run"]

@@ -19,7 +19,7 @@ from pons.mock_llm import pictures, streams
 from pons.mock_llm.completion import bytes_of, completion
 from pons.mock_llm.error_replies import error, instead_of_a_reply
 from pons.mock_llm.fault_switches import Switches
-from pons.mock_llm.replies import GARBAGE, hallucinated, hostile, reply_of, shaped
+from pons.mock_llm.replies import GARBAGE, hallucinate, hostile, reply_of, shape_reply
 from pons.mock_llm.request_parser import request_of
 
 MAX_BODY = 4_000_000
@@ -105,7 +105,7 @@ def build(switches: Switches | None = None) -> FastAPI:
             asked = await obeying(brain, asked, pictures.words_read(body))
         good = json.dumps(reply_of((await brain.think(asked)).plan), ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
-        text = _written(fault, good, mock, known, request)
+        text = _reply_text(fault, good, mock, known, request)
         return await _answer(fault, completion(body, text, fault), body, mock)
 
     return app
@@ -134,19 +134,21 @@ async def _body(request: Request) -> dict[str, Any] | None:
     return body if isinstance(body, dict) else None
 
 
-def _written(fault: str | None, good: str, mock: Mock, known: str, request: Request) -> str | None:
+def _reply_text(
+    fault: str | None, good: str, mock: Mock, known: str, request: Request
+) -> str | None:
     """Return the content of the reply."""
     match fault:
         case "garbage":
             return GARBAGE[mock.served["garbage"] % len(GARBAGE)]
         case "hallucinate":
-            return json.dumps(hallucinated(json.loads(good)), ensure_ascii=False)
+            return json.dumps(hallucinate(json.loads(good)), ensure_ascii=False)
         case "hostile":
             return hostile(next(mock.hostile), known)
         case "echo_key":
             words = f"the key is {request.headers.get('authorization', 'none')}"
             return json.dumps({"kind": "answer", "en": words, "zh": words})
-    return shaped(fault, good, known)
+    return shape_reply(fault, good, known)
 
 
 async def _answer(

@@ -7,7 +7,7 @@ import argparse
 from pydantic import ValidationError
 
 from pons.mock_llm.fault_switches import FAULTS, Switches
-from pons.mock_llm.serve import Options, run
+from pons.mock_llm.serve import MockOptions, run
 
 
 def main(words: list[str]) -> int:
@@ -28,7 +28,7 @@ def main(words: list[str]) -> int:
     except ValidationError as wrong:
         told = "; ".join(f"{e['loc'][0] if e['loc'] else ''}: {e['msg']}" for e in wrong.errors())
         grammar.error(told)
-    return run(Options(said.host, said.port, switches))
+    return run(MockOptions(said.host, said.port, switches))
 
 
 def _grammar() -> argparse.ArgumentParser:

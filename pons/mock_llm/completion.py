@@ -20,7 +20,7 @@ def completion(body: dict[str, Any], text: str | None, fault: str | None = None)
     called = "tool_calls" in message
     finish = "length" if fault == "length" else "tool_calls" if called else "stop"
     prompt = len(json.dumps(body.get("messages", ""), ensure_ascii=False)) // CHARACTERS_PER_TOKEN
-    wrote = min(len(text or "") // CHARACTERS_PER_TOKEN, _most(body))
+    wrote = min(len(text or "") // CHARACTERS_PER_TOKEN, _max_tokens(body))
     return {
         "id": f"chatcmpl-{time.monotonic_ns():x}",
         "object": "chat.completion",
@@ -35,7 +35,7 @@ def completion(body: dict[str, Any], text: str | None, fault: str | None = None)
     }
 
 
-def _most(body: dict[str, Any]) -> int:
+def _max_tokens(body: dict[str, Any]) -> int:
     """Return how many tokens the client wants at most: no server bills more than that."""
     asked = [body.get(name) for name in ("max_tokens", "max_completion_tokens")]
     return min((most for most in asked if isinstance(most, int) and most > 0), default=1_000_000)
@@ -54,12 +54,12 @@ def _message(body: dict[str, Any], text: str | None, fault: str | None) -> dict[
             message |= _call("drive", text)
         case "object_arguments" if text is not None:
             message |= _call(_tool(body), json.loads(text))
-        case _ if (text is not None and (fault or "").startswith("odd_")) or _forced(body):
+        case _ if (text is not None and (fault or "").startswith("odd_")) or _is_tool_forced(body):
             message |= _call(_tool(body), text) if text is not None else {}
     return message
 
 
-def _forced(body: dict[str, Any]) -> bool:
+def _is_tool_forced(body: dict[str, Any]) -> bool:
     return isinstance(body.get("tool_choice"), dict)
 
 

@@ -106,7 +106,7 @@ class Switches(BaseModel):
 
     @field_validator("fault")
     @classmethod
-    def _known(cls, fault: str | None) -> str | None:
+    def _check_fault(cls, fault: str | None) -> str | None:
         if fault is not None and fault not in FAULTS:
             raise ValueError(f"unknown fault {fault!r}; known: {', '.join(FAULTS)}")
         return fault

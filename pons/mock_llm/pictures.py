@@ -26,7 +26,7 @@ NUMBER_OF_BAD_POINTS = len(_OUT_OF_RANGE)
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class PictureOrder:
     """Hold what is asked about a picture."""
 
     kind: Literal["look", "point"]
@@ -35,7 +35,7 @@ class Asked:
     jpeg: bytes | None
 
     @property
-    def written(self) -> str:
+    def sign_text(self) -> str:
         """Return what stands written in the picture."""
         found = segments(self.jpeg or b"")
         return next(
@@ -51,7 +51,7 @@ def with_words(jpeg: bytes, words: str) -> bytes:
     )
 
 
-def asked_of(body: dict[str, Any]) -> Asked | None:
+def asked_of(body: dict[str, Any]) -> PictureOrder | None:
     """Return the question about a picture that a request holds, or None where it is another."""
     for message in _dicts(body.get("messages")):
         if message.get("role") != "user":
@@ -64,7 +64,7 @@ def asked_of(body: dict[str, Any]) -> Asked | None:
                 tiles = _dicts(order.get("pictures"))
                 each = (order, *tiles)
                 listed = tuple(line for one in each for line in _dicts(one.get("detector")))
-                return Asked(kind, order[key], listed, _picture(parts))  # type: ignore[arg-type]  # one of the two
+                return PictureOrder(kind, order[key], listed, _picture(parts))  # type: ignore[arg-type]  # one of the two
     return None
 
 
@@ -74,7 +74,7 @@ def holds_picture(body: dict[str, Any]) -> bool:
     return any(part.get("type") == "image_url" for part in parts)
 
 
-def answer(asked: Asked, fault: str | None, number: int, place: str) -> str:
+def answer(asked: PictureOrder, fault: str | None, number: int, place: str) -> str:
     """Return the reply to a question about a picture, as a fault writes it.
 
     Args:
@@ -86,29 +86,29 @@ def answer(asked: Asked, fault: str | None, number: int, place: str) -> str:
     if asked.jpeg is None or fault == "drops_pictures":
         return _dump({"picture": False, "en": "There is no picture.", "zh": "没有图像。"})
     if asked.kind == "point":
-        return _dump(_pointed(asked, fault, number))
-    if fault == "obeys_pictures" and asked.written:
-        return _obeyed(asked, number, place)
-    return _dump(_described(asked))
+        return _dump(_point(asked, fault, number))
+    if fault == "obeys_pictures" and asked.sign_text:
+        return _obey_sign(asked, number, place)
+    return _dump(_describe(asked))
 
 
-def _described(asked: Asked) -> dict[str, Any]:
+def _describe(asked: PictureOrder) -> dict[str, Any]:
     width, height = jpeg_size(asked.jpeg or b"") or (0, 0)
     names = [str(line.get("what", "")) for line in asked.listed]
     en, zh = f"A picture of {width} by {height}: ", f"{width}×{height} 的图像："
     en += f"{', '.join(names) or 'nothing'}."
     zh += f"{'、'.join(names) or '什么也没有'}。"
-    if asked.written:
-        en, zh = f"{en} “{asked.written}” stands there.", f"{zh}上面写着“{asked.written}”。"
+    if asked.sign_text:
+        en, zh = f"{en} “{asked.sign_text}” stands there.", f"{zh}上面写着“{asked.sign_text}”。"
     seen = any(name.split()[-1] in asked.words.lower() for name in names if name.split())
     return {"picture": True, "seen": seen, "en": en, "zh": zh}
 
 
-def _pointed(asked: Asked, fault: str | None, number: int) -> dict[str, Any]:
+def _point(asked: PictureOrder, fault: str | None, number: int) -> dict[str, Any]:
     if fault == "point_out_of_range":
         bad = _OUT_OF_RANGE[number % NUMBER_OF_BAD_POINTS]
         return {"picture": True, "there": True, "x": 500, "y": bad}
-    if fault == "hallucinated_point" or (fault == "obeys_pictures" and asked.written):
+    if fault == "hallucinated_point" or (fault == "obeys_pictures" and asked.sign_text):
         return {"picture": True, "there": True, "x": 37 * number % 1001, "y": 91 * number % 1001}
     for line in asked.listed:
         name = str(line.get("what", "")).split()
@@ -117,9 +117,9 @@ def _pointed(asked: Asked, fault: str | None, number: int) -> dict[str, Any]:
     return {"picture": True, "there": False}
 
 
-def _obeyed(asked: Asked, number: int, place: str) -> str:
+def _obey_sign(asked: PictureOrder, number: int, place: str) -> str:
     """Return what a model writes that takes a sign for its master, in turns."""
-    sign, honest = asked.written, _described(asked)
+    sign, honest = asked.sign_text, _describe(asked)
     plan = {"kind": "plan", "steps": [{"kind": "go_to", "place": place}]}
     bad: tuple[dict[str, Any], ...] = (
         {**honest, "en": sign, "zh": sign},

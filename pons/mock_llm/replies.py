@@ -42,7 +42,7 @@ def _one_of(code: Code, codes: tuple[Code, ...]) -> str:
     return (code if code in codes else Code.NOT_UNDERSTOOD).value
 
 
-def hallucinated(reply: dict[str, Any]) -> dict[str, Any]:
+def hallucinate(reply: dict[str, Any]) -> dict[str, Any]:
     """Return a plan to places that do not exist, however the order was understood."""
     steps = reply.get("steps") or []
     if not any("place" in step for step in steps):
@@ -54,7 +54,7 @@ def hallucinated(reply: dict[str, Any]) -> dict[str, Any]:
     return {"kind": "plan", "steps": moved}
 
 
-def shaped(fault: str | None, text: str, place: str = "kitchen") -> str | None:
+def shape_reply(fault: str | None, text: str, place: str = "kitchen") -> str | None:
     """Return a good reply as a fault writes it; ``place`` exists in the closed world."""
     other = '{"kind":"plan","steps":[{"kind":"return_home"}]}'
     match fault:

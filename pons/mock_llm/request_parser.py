@@ -9,13 +9,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from planner.brain import ThinkRequest
+from planner.language.folding import has_chinese
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 
 MAX_DEPTH = 12
 MAX_PLACES = 2000
 _LINE = re.compile(r"^([a-z0-9][a-z0-9_]{0,63}): (\[.*\])$", re.MULTILINE)
 _STEP = re.compile(r'^\{"kind":"([a-z_]+)"', re.MULTILINE)
-_CHINESE = re.compile(r"[\u3400-\u9fff]")
 
 
 def request_of(body: dict[str, Any]) -> ThinkRequest:
@@ -23,17 +23,19 @@ def request_of(body: dict[str, Any]) -> ThinkRequest:
     texts = [(m.get("role"), _words(m.get("content"))) for m in _dicts(body.get("messages"))]
     page = "\n".join(text for _, text in texts)
     vocabulary = _vocabulary(page, body)
-    offered = EVERY_KIND & set(_STEP.findall(page) or _allowed(body, "kind", 0))
+    offered = EVERY_KIND & set(_STEP.findall(page) or _allowed_words(body, "kind", 0))
     for role, text in texts:  # our prompt's message; a repair turn comes after it
         order = _order(text) if role == "user" else None
         if order is not None:
-            return _asked(order, vocabulary, offered or RUNNABLE)
+            return _think_request(order, vocabulary, offered or RUNNABLE)
     said = [text for role, text in texts if role == "user"]
     text = said[-1] if said else ""
     return ThinkRequest(text=text, vocabulary=vocabulary, runnable=offered or RUNNABLE)
 
 
-def _asked(order: dict[str, Any], vocabulary: Vocabulary, runnable: frozenset[str]) -> ThinkRequest:
+def _think_request(
+    order: dict[str, Any], vocabulary: Vocabulary, runnable: frozenset[str]
+) -> ThinkRequest:
     room, language = order.get("robot_is_in"), order.get("language")
     answer = order.get("answer")  # to a question of ours about the order
     return ThinkRequest(
@@ -58,7 +60,7 @@ def _vocabulary(text: str, body: dict[str, Any]) -> Vocabulary:
     """Return the places: the prompt's lines, then what the schema lists beyond them."""
     named = {found[1]: _entry(found[1], found[2]) for found in _LINE.finditer(text)}
     entries = {id_: entry for id_, entry in named.items() if entry is not None}
-    for id_ in _allowed(body, "place", 0):
+    for id_ in _allowed_words(body, "place", 0):
         words = id_.replace("_", " ")
         try:
             entries.setdefault(id_, Entry(id=id_, kind="place", name=Bilingual(en=words, zh=words)))
@@ -72,26 +74,26 @@ def _entry(id_: str, listed: str) -> Entry | None:
         names = [name for name in json.loads(listed) if isinstance(name, str) and name.strip()]
         first = names[0] if names else id_.replace("_", " ")  # an id may be a mere code
         name = Bilingual(
-            en=next((n for n in names if not _CHINESE.search(n)), first),
-            zh=next((n for n in names if _CHINESE.search(n)), first),
+            en=next((n for n in names if not has_chinese(n)), first),
+            zh=next((n for n in names if has_chinese(n)), first),
         )
         return Entry(id=id_, kind="place", name=name, aliases=tuple(names))
     except (ValueError, RecursionError, ValidationError):
         return None
 
 
-def _allowed(node: object, field: str, depth: int) -> list[str]:
+def _allowed_words(node: object, field: str, depth: int) -> list[str]:
     """Return the words that a schema somewhere in the request allows for a field."""
     if depth > MAX_DEPTH:
         return []
     if isinstance(node, list):
-        return [word for each in node for word in _allowed(each, field, depth + 1)]
+        return [word for each in node for word in _allowed_words(each, field, depth + 1)]
     if not isinstance(node, dict):
         return []
     shape = node.get(field)
     words = shape.get("enum") if isinstance(shape, dict) else None
     here = [word for word in words if isinstance(word, str)] if isinstance(words, list) else []
-    deeper = (_allowed(each, field, depth + 1) for each in node.values())
+    deeper = (_allowed_words(each, field, depth + 1) for each in node.values())
     return [*here, *(word for words in deeper for word in words)]
 
 

@@ -16,7 +16,7 @@ REFUSED = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
+class MockOptions:
     """Say where to listen and how to behave."""
 
     host: str = "127.0.0.1"
@@ -25,7 +25,7 @@ class Options:
     switches: Switches = field(default_factory=Switches)
 
 
-def run(options: Options) -> int:
+def run(options: MockOptions) -> int:
     """Serve; 2 when the address can't be had."""
     family = socket.AF_INET6 if ":" in options.host else socket.AF_INET
     with socket.socket(family, socket.SOCK_STREAM) as ears:
@@ -42,7 +42,7 @@ def run(options: Options) -> int:
     return 0
 
 
-def _serve(options: Options, ears: socket.socket) -> None:
+def _serve(options: MockOptions, ears: socket.socket) -> None:
     """Build the application, say where it is, and run it."""
     app = build(options.switches)
     config = uvicorn.Config(

@@ -94,7 +94,7 @@ async def events(
         if pause_s:
             await asyncio.sleep(pause_s)
         if number == broken_at:
-            for bad in _broken(fault):
+            for bad in _break_stream(fault):
                 yield bad
             return
         yield _event(whole, line_end, delta)
@@ -107,7 +107,7 @@ async def events(
     yield f"data: [DONE]{line_end}{line_end}".encode()
 
 
-def _broken(fault: str | None) -> Iterator[bytes]:
+def _break_stream(fault: str | None) -> Iterator[bytes]:
     if fault == "stream_error":
         yield b'data: {"error":{"message":"the backend failed","code":500}}\n\n'
     elif fault == "stream_garbage":

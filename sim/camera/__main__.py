@@ -17,7 +17,7 @@ import threading
 from pathlib import Path
 
 from sim.camera.camera import SimCamera
-from sim.camera.node import Shell
+from sim.camera.node import CameraNode
 from sim.site import load_home
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
@@ -52,7 +52,7 @@ def _serve(options: argparse.Namespace) -> None:
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     boot_id = f"cam-{secrets.token_hex(4)}"
     with open_session(Party.CAMERA, robot.id, home) as session:
-        shell = Shell(camera, robot.camera, session, boot_id)
+        shell = CameraNode(camera, robot.camera, session, boot_id)
         gc.collect()
         gc.freeze()
         logging.getLogger("camera").info("%s looks at %s", boot_id, options.site)

@@ -1,4 +1,4 @@
-"""Be the simulated camera: a scene in, both pictures out. Owns its noise; knows no wire, no clock.
+"""Turn a scene into a colour and a depth picture with noise. Knows neither wire nor clock.
 
 Two cameras with one seed that see the same scenes take the same pictures.
 """
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sim.camera.camera_faults import Shot, Shutter
+from sim.camera.camera_faults import PicturePair, Shutter
 from sim.camera.frame import Frame
 from sim.camera.noise import spoil
 from sim.camera.pictures import depth_png, jpeg
@@ -32,19 +32,19 @@ class SimCamera:
         self._rng = np.random.default_rng(seed)
         self._shutter = Shutter()
 
-    def take(self, scene: SimScene, now_s: float) -> Shot | None:
-        """Return what leaves the camera now, stamped as the scene was; None where nothing does."""
-        return self._shutter.through(self._shot(scene), now_s, scene.faults)
+    def take(self, scene: SimScene, now_s: float) -> PicturePair | None:
+        """Return the pictures that leave the camera now, or None, with the scene's stamp."""
+        return self._shutter.through(self._take_pictures(scene), now_s, scene.faults)
 
     def frame(self, scene: SimScene) -> Frame:
         """Draw one picture, with the noise of a real one."""
         clean = self._renderer.render(scene.base_in_map, scene.things)
         return spoil(clean, self._rng, self._look.noise)
 
-    def _shot(self, scene: SimScene) -> Shot:
+    def _take_pictures(self, scene: SimScene) -> PicturePair:
         frame = self.frame(scene)
         if SimFault.CAMERA_BLIND in scene.faults:
             frame = Frame(
                 np.zeros_like(frame.color), np.zeros_like(frame.depth_m), frame.ids, frame.facing
             )
-        return Shot(scene.stamp_s, jpeg(frame), depth_png(frame))
+        return PicturePair(scene.stamp_s, jpeg(frame), depth_png(frame))

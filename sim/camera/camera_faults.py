@@ -1,4 +1,4 @@
-"""Keep, repeat or hold back pictures when the camera is broken. Told the time; knows no pixel."""
+"""Repeat, delay or drop pictures when the camera is broken. Pure; told the time."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DELAY_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class Shot:
+class PicturePair:
     """Hold both packed pictures of one instant."""
 
     stamp_s: float
@@ -24,14 +24,16 @@ class Shot:
 
 
 class Shutter:
-    """Pass one camera's shots, one call a period."""
+    """Pass one camera's pictures, one call a period."""
 
     def __init__(self) -> None:
-        self._stuck: Shot | None = None
-        self._late: deque[tuple[float, Shot]] = deque()
+        self._stuck: PicturePair | None = None
+        self._late: deque[tuple[float, PicturePair]] = deque()
 
-    def through(self, shot: Shot, now_s: float, faults: Collection[SimFault]) -> Shot | None:
-        """Take a shot; return the one that leaves the camera now, if any."""
+    def through(
+        self, shot: PicturePair, now_s: float, faults: Collection[SimFault]
+    ) -> PicturePair | None:
+        """Take both pictures; return those that leave the camera now, if any."""
         if SimFault.CAMERA_OFF in faults:
             return None
         if SimFault.CAMERA_STUCK in faults:

@@ -1,11 +1,11 @@
-"""Draw what no detector is asked for but a home has: shelves, a bench, a bath, a rack, a dock."""
+"""Draw fixtures that no detector is asked for: shelves, a bench, a bath, a rack, a dock."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from sim.camera.furniture import cabinet
-from sim.camera.primitives import Part, ball, block, rod, tube
+from sim.camera.primitives import GeomPart, ball, block, rod, tube
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,13 +17,13 @@ _CHINA = (236.0, 238.0, 240.0)
 _WATER = (196.0, 204.0, 208.0)
 
 
-def shelf(size: Size, coat: Coat) -> list[Part]:
+def shelf(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw open shelves between two sides and a back."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     count = max(2, round(top / 0.36))
     boards = [top * index / count for index in range(count + 1)]
     return [
-        block((-x, -x + 0.02), (-y, y), (0.0, top), coat.shaded),
+        block((-x, -x + 0.02), (-y, y), (0.0, top), coat.shade_color),
         *(block((-x, x), side, (0.0, top), coat.main) for side in ((-y, -y + 0.03), (y - 0.03, y))),
         *(
             block((-x, x), (-y, y), (max(0.0, board - 0.03), max(0.03, board)), coat.main)
@@ -32,7 +32,7 @@ def shelf(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def bench(size: Size, coat: Coat) -> list[Part]:
+def bench(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a chest with a cushion."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     return [
@@ -41,7 +41,7 @@ def bench(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def basin(size: Size, _coat: Coat) -> list[Part]:
+def basin(size: Size, _coat: Coat) -> list[GeomPart]:
     """Draw a white block with a hollow: a wash basin, or a bath when it is long."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     rim = 0.06
@@ -52,7 +52,7 @@ def basin(size: Size, _coat: Coat) -> list[Part]:
     ]
 
 
-def toilet(size: Size, _coat: Coat) -> list[Part]:
+def toilet(size: Size, _coat: Coat) -> list[GeomPart]:
     """Draw a cistern, a foot and a round bowl with its lid."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     bowl = min(y, 0.6 * x)
@@ -64,7 +64,7 @@ def toilet(size: Size, _coat: Coat) -> list[Part]:
     ]
 
 
-def rack(size: Size, coat: Coat) -> list[Part]:
+def rack(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a pole on a foot with four hooks."""
     radius, top = min(size[0], size[1]) / 2, size[2]
     hooks = ((1, 0), (0, 1), (-1, 0), (0, -1))
@@ -79,7 +79,7 @@ def rack(size: Size, coat: Coat) -> list[Part]:
     ]  # fmt: skip
 
 
-def dock(size: Size, coat: Coat) -> list[Part]:
+def dock(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a dark plate with two contacts and a green lamp."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     brass = (190.0, 160.0, 80.0)
@@ -90,14 +90,14 @@ def dock(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-FORMS: dict[str, Callable[[Size, Coat], list[Part]]] = {
+FORMS: dict[str, Callable[[Size, Coat], list[GeomPart]]] = {
     "shelf": shelf, "bookshelf": shelf, "bookcase": shelf, "bench": bench, "bathtub": basin,
     "washbasin": basin, "sink": basin, "toilet": toilet, "rack": rack, "station": dock,
 }  # fmt: skip
 """By a word of the id."""
 
 
-def form_of(item_id: str) -> Callable[[Size, Coat], list[Part]]:
+def form_of(item_id: str) -> Callable[[Size, Coat], list[GeomPart]]:
     """Return how to draw a piece of furniture that no class names."""
     named = [FORMS[word] for word in item_id.split("_") if word in FORMS]
     return named[-1] if named else cabinet

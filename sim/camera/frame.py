@@ -1,4 +1,4 @@
-"""Hold one picture: colours, depths and what each pixel shows, with or without noise."""
+"""Hold one picture: colour, depth and instance of each pixel, with or without noise."""
 
 from __future__ import annotations
 

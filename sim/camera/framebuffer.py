@@ -1,4 +1,4 @@
-"""Hold what every ray of one picture has met so far: the nearest part, its distance and normal.
+"""Hold each ray's nearest hit so far: part, distance and normal.
 
 Arrays keep one plane for each of x, y, z: sums along a last axis of three cost ten times as much.
 """
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from sim.camera.view import View
+    from sim.camera.view import CameraView
 
 Floats = NDArray[np.float32]
 
@@ -31,7 +31,7 @@ class Canvas:
     normal: Floats
 
 
-def blank(rays: Floats, view: View) -> Canvas:
+def blank(rays: Floats, view: CameraView) -> Canvas:
     """Return a canvas for the rays of a camera, shape (3, rows, columns), turned as it looks."""
     shape = rays.shape[1:]
     aimed = (view.turn.astype(np.float32) @ rays.reshape(3, -1)).reshape(3, *shape)

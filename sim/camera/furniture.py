@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sim.camera.primitives import Part, ball, block, rod, shade, tube, unlabelled
+from sim.camera.primitives import GeomPart, ball, block, rod, shade, tube, without_labels
 from sim.site.classes import surface_m
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sim.site.classes import Size
 
 
-def _legs(x: float, y: float, top: float, thick: float, coat: Coat) -> list[Part]:
+def _legs(x: float, y: float, top: float, thick: float, coat: Coat) -> list[GeomPart]:
     half = thick / 2
     return [
         block((px - half, px + half), (py - half, py + half), (0.0, top), coat.frame)
@@ -25,7 +25,7 @@ def _legs(x: float, y: float, top: float, thick: float, coat: Coat) -> list[Part
     ]
 
 
-def chair(size: Size, coat: Coat) -> list[Part]:
+def chair(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw seat, four legs and a back of two posts and three slats; wide ones get arms."""
     x, y, seat = size[0] / 2, size[1] / 2, surface_m("chair", size[2])
     if min(size[0], size[1]) > 0.6:
@@ -45,11 +45,11 @@ def chair(size: Size, coat: Coat) -> list[Part]:
     return parts
 
 
-def _armchair(size: Size, coat: Coat) -> list[Part]:
+def _armchair(size: Size, coat: Coat) -> list[GeomPart]:
     x, y, seat = size[0] / 2, size[1] / 2, surface_m("chair", size[2])
     return [
         *_legs(x, y, 0.1, 0.05, coat),
-        block((-x, x), (-y, y), (0.1, seat - 0.12), coat.shaded),
+        block((-x, x), (-y, y), (0.1, seat - 0.12), coat.shade_color),
         block((-x + 0.16, x), (-y + 0.14, y - 0.14), (seat - 0.12, seat), coat.light),
         block((-x, -x + 0.16), (-y, y), (seat - 0.12, size[2]), coat.main),
         *(
@@ -59,7 +59,7 @@ def _armchair(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def sofa(size: Size, coat: Coat) -> list[Part]:
+def sofa(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw base, back, arms and two seat and back cushions."""
     x, y, seat = size[0] / 2, size[1] / 2, surface_m("sofa", size[2])
     arm = min(0.2, 0.12 * size[1])
@@ -67,7 +67,7 @@ def sofa(size: Size, coat: Coat) -> list[Part]:
     halves = ((-y + arm + 0.01, -0.01), (0.01, y - arm - 0.01))
     return [
         *_legs(x - 0.03, y - 0.03, 0.06, 0.06, coat),
-        block((-x, x - 0.02), (-y + 0.02, y - 0.02), (0.06, seat - 0.13), coat.shaded),
+        block((-x, x - 0.02), (-y + 0.02, y - 0.02), (0.06, seat - 0.13), coat.shade_color),
         block((-x, -x + 0.14), (-y + arm, y - arm), (seat - 0.13, size[2]), coat.main),
         *(block((back, x), side, (seat - 0.12, seat), coat.light) for side in halves),
         *(block((-x + 0.14, back), s, (seat - 0.12, size[2] - 0.06), coat.light) for s in halves),
@@ -78,17 +78,19 @@ def sofa(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def table(size: Size, coat: Coat) -> list[Part]:
+def table(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a top on an apron and four legs."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     return [
         block((-x, x), (-y, y), (top - 0.04, top), coat.main),
-        block((-x + 0.06, x - 0.06), (-y + 0.06, y - 0.06), (top - 0.11, top - 0.04), coat.shaded),
+        block(
+            (-x + 0.06, x - 0.06), (-y + 0.06, y - 0.06), (top - 0.11, top - 0.04), coat.shade_color
+        ),
         *_legs(x - 0.03, y - 0.03, top - 0.04, 0.06, coat),
     ]
 
 
-def round_table(size: Size, coat: Coat) -> list[Part]:
+def round_table(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a round top on one column and a foot."""
     radius, top = min(size[0], size[1]) / 2, size[2]
     return [
@@ -98,7 +100,7 @@ def round_table(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def bed(size: Size, coat: Coat) -> list[Part]:
+def bed(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a frame, a white mattress, two pillows, a blanket over the foot and a headboard."""
     x, y, top = size[0] / 2, size[1] / 2, surface_m("bed", size[2])
     white, head = (238.0, 236.0, 230.0), -x + 0.07
@@ -126,13 +128,13 @@ def bed(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def fridge(size: Size, coat: Coat) -> list[Part]:
+def fridge(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a tall body with two doors, the gap between them and two handles."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     split, dark, handle = 0.66 * top, (60.0, 62.0, 66.0), (120.0, 124.0, 130.0)
     face = (x - 0.06, x - 0.03)
     return [
-        block((-x, x - 0.06), (-y, y), (0.0, top), coat.shaded),
+        block((-x, x - 0.06), (-y, y), (0.0, top), coat.shade_color),
         block((x - 0.06, x - 0.045), (-y + 0.01, y - 0.01), (0.06, top), dark),
         block(face, (-y, y), (0.08, split - 0.01), coat.main),
         block(face, (-y, y), (split + 0.01, top), coat.main),
@@ -141,18 +143,18 @@ def fridge(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def tv(size: Size, coat: Coat) -> list[Part]:
+def tv(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a dark screen in a thin frame on a low cabinet; only the screen is the television."""
     base = size[2] if size[2] <= 0.7 else 0.42 * size[2]
     height = 0.62 if size[2] <= 0.7 else size[2] - base
     return [
-        *unlabelled(cabinet((size[0], size[1], base), coat)),
+        *without_labels(cabinet((size[0], size[1], base), coat)),
         *screen((size[0], min(size[1], 1.75 * height), height), coat, base),
     ]
 
 
-def screen(size: Size, coat: Coat, base: float = 0.0) -> list[Part]:
-    """Draw a television without what it stands on: a foot and a screen."""
+def screen(size: Size, coat: Coat, base: float = 0.0) -> list[GeomPart]:
+    """Draw a television without its stand: a foot and a screen."""
     y, low, top = size[1] / 2, base + 0.05, base + size[2]
     foot = min(0.1, size[0] / 2)
     edge = 0.015
@@ -164,7 +166,7 @@ def screen(size: Size, coat: Coat, base: float = 0.0) -> list[Part]:
     ]
 
 
-def plant(size: Size, coat: Coat) -> list[Part]:
+def plant(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a pot with earth, a stem and a bush of leaves in three greens."""
     radius, top = min(size[0], size[1]) / 2, size[2]
     pot = min(0.34 * top, 0.4)
@@ -188,13 +190,13 @@ def plant(size: Size, coat: Coat) -> list[Part]:
     return parts
 
 
-def cabinet(size: Size, coat: Coat) -> list[Part]:
+def cabinet(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a body with doors and knobs: any piece that no class names."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     count = max(1, round(size[1] / 0.55))
     width = size[1] / count
     parts = [
-        block((-x, x - 0.02), (-y, y), (0.0, top - 0.03), coat.shaded),
+        block((-x, x - 0.02), (-y, y), (0.0, top - 0.03), coat.shade_color),
         block((-x, x), (-y, y), (top - 0.03, top), coat.main),
     ]
     for index in range(count):

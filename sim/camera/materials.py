@@ -1,4 +1,4 @@
-"""Choose the colours of one thing: what its home declares, else what such things often have.
+"""Choose the colours of one thing: as its home declares, else as such things often have.
 
 Seeded by appearance and id, so that the same home looks the same every time.
 """
@@ -47,7 +47,7 @@ _POTS: Final[tuple[Rgb, ...]] = ((176, 92, 60), (226, 222, 214), (92, 96, 104), 
 
 @dataclass(frozen=True, slots=True)
 class Coat:
-    """Hold the colours of one thing, by what they are for."""
+    """Hold the colours of one thing, by their use."""
 
     main: Rgb
     frame: Rgb
@@ -62,8 +62,8 @@ class Coat:
     metal: Rgb = (168.0, 170.0, 174.0)
 
     @property
-    def shaded(self) -> Rgb:
-        """Return the main colour a little darker."""
+    def shade_color(self) -> Rgb:
+        """Return the main colour, a little darker."""
         return shade(self.main, 0.82)
 
     @property
@@ -73,7 +73,7 @@ class Coat:
 
     @property
     def cap(self) -> Rgb:
-        """Return what sits on top of a bottle."""
+        """Return the colour of a bottle's cap."""
         return shade(self.main, 0.55)
 
 
@@ -81,27 +81,27 @@ def coat(look: Appearance, thing_id: str, class_id: str, color: str | None) -> C
     """Choose the colours of one thing."""
     random = Random(f"{look.seed} {thing_id}")
     usual = USUAL.get(class_id, _WOODS)
-    main = PAINTS[color] if color is not None else _chosen(look, random, usual)
+    main = PAINTS[color] if color is not None else _choose(look, random, usual)
     bright = sum(main) > 3 * 190
     return Coat(
-        main=_varied(look, random, main),
-        frame=_varied(look, random, _chosen(look, random, _WOODS)),
-        pot=_varied(look, random, _chosen(look, random, _POTS)),
-        leaf=_varied(look, random, (58.0, 128.0, 58.0)),
-        skin=_varied(look, random, _chosen(look, random, _SKINS)),
-        hair=_varied(look, random, _chosen(look, random, _HAIRS)),
-        trousers=_varied(look, random, _chosen(look, random, _TROUSERS)),
+        main=_vary(look, random, main),
+        frame=_vary(look, random, _choose(look, random, _WOODS)),
+        pot=_vary(look, random, _choose(look, random, _POTS)),
+        leaf=_vary(look, random, (58.0, 128.0, 58.0)),
+        skin=_vary(look, random, _choose(look, random, _SKINS)),
+        hair=_vary(look, random, _choose(look, random, _HAIRS)),
+        trousers=_vary(look, random, _choose(look, random, _TROUSERS)),
         band=shade(main, 0.7) if bright else (240.0, 238.0, 232.0),
-        glass=_varied(look, random, (18.0, 20.0, 28.0)),
+        glass=_vary(look, random, (18.0, 20.0, 28.0)),
     )
 
 
-def _chosen(look: Appearance, random: Random, options: tuple[Rgb, ...]) -> Rgb:
+def _choose(look: Appearance, random: Random, options: tuple[Rgb, ...]) -> Rgb:
     drawn = random.choice(options)  # drawn in any case: what follows stays the same
     return drawn if look.mixed else options[0]
 
 
-def _varied(look: Appearance, random: Random, paint: Rgb) -> Rgb:
+def _vary(look: Appearance, random: Random, paint: Rgb) -> Rgb:
     """Vary lightness most, hue a little; a red thing stays red."""
     light = 1.0 + look.spread * random.uniform(-0.25, 0.18)
     red, green, blue = (

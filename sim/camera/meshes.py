@@ -17,17 +17,17 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.camera.primitives import Part
+    from sim.camera.primitives import GeomPart
 
 FAR_M = 60.0
 """Beyond this nothing is drawn."""
 Floats = NDArray[np.float64]
 
 
-class Body:
+class MeshBody:
     """Stand for one thing: its parts, and the box that holds them."""
 
-    def __init__(self, parts: Sequence[Part]) -> None:
+    def __init__(self, parts: Sequence[GeomPart]) -> None:
         geoms = "".join(f"<geom {part.form}/>" for part in parts)
         xml = f'<mujoco><compiler angle="radian"/><worldbody>{geoms}</worldbody></mujoco>'
         # mujoco-core carries no type information: Any ends at this class.

@@ -1,4 +1,4 @@
-"""Run the simulated camera as a process: hear the newest scene, draw, send, at a steady pace.
+"""Run the simulated camera as a process: read the newest scene, draw, send, at a steady pace.
 
 Knows the wire's session and the clock. What the simulator does not say is not drawn: when it is
 gone, so are the pictures. A period that is missed is skipped, never caught up.
@@ -11,14 +11,14 @@ import time
 from typing import TYPE_CHECKING
 
 from sim.camera.view import focal_px
-from sim.rate import Pacer
+from sim.rate import SimPacer
 from wire import ImageHeader, keys
 
 if TYPE_CHECKING:
     import threading
 
     from sim.camera.camera import SimCamera
-    from sim.camera.camera_faults import Shot
+    from sim.camera.camera_faults import PicturePair
     from wire import CameraConfig
     from wire.session import Session
 
@@ -28,7 +28,7 @@ STALE_S = 0.5
 """A scene older than this lay in the socket while this process was frozen; nobody would look."""
 
 
-class Shell:
+class CameraNode:
     """Connect one simulated camera to the wire."""
 
     def __init__(
@@ -42,14 +42,14 @@ class Shell:
 
     def run(self, stopped: threading.Event) -> None:
         """Take pictures until told to stop."""
-        pacer = Pacer(1.0 / self._config.rate_hz, time.monotonic())
+        pacer = SimPacer(1.0 / self._config.rate_hz, time.monotonic())
         while not stopped.wait(max(0.0, pacer.next_s - time.monotonic())):
             pacer.woke(time.monotonic())
             self._turn()
 
     def _turn(self) -> None:
         scene = self._scenes.newest()
-        if scene is None or not self._wanted:
+        if scene is None or not self._has_listener:
             return
         now_s = time.monotonic()
         if not now_s - scene.stamp_s <= STALE_S:
@@ -59,11 +59,11 @@ class Shell:
             self._send(shot)
 
     @property
-    def _wanted(self) -> bool:
-        """Tell whether anybody listens: a picture that nobody gets is not drawn."""
-        return self._color.wanted or self._depth.wanted
+    def _has_listener(self) -> bool:
+        """Return whether anything subscribes: a picture that nothing receives is not drawn."""
+        return self._color.has_listener or self._depth.has_listener
 
-    def _send(self, shot: Shot) -> None:
+    def _send(self, shot: PicturePair) -> None:
         self._seq += 1
         config = self._config
         header = ImageHeader(

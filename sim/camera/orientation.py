@@ -1,4 +1,4 @@
-"""Decide where the front of a thing looks when nobody said so: into the room, or to its table."""
+"""Choose a thing's heading where its home declares none: into the room, or to its table."""
 
 from __future__ import annotations
 

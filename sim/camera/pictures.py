@@ -26,16 +26,16 @@ cv2.setNumThreads(1)  # a picture is too small to be worth a second processor
 def jpeg(frame: Frame) -> bytes:
     """Return the colours as JPEG."""
     turned = cv2.cvtColor(frame.color, cv2.COLOR_RGB2BGR)
-    return _packed(".jpg", turned, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
+    return _encode(".jpg", turned, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
 
 
 def depth_png(frame: Frame) -> bytes:
     """Return the depths [mm] as PNG; 0 is none."""
     scaled = np.minimum(frame.depth_m * np.float32(1000.0) + np.float32(0.5), MAX_MM)
-    return _packed(".png", scaled.astype(np.uint16), [cv2.IMWRITE_PNG_COMPRESSION, COMPRESSION])
+    return _encode(".png", scaled.astype(np.uint16), [cv2.IMWRITE_PNG_COMPRESSION, COMPRESSION])
 
 
-def _packed(kind: str, picture: NDArray[Any], options: list[int]) -> bytes:
+def _encode(kind: str, picture: NDArray[Any], options: list[int]) -> bytes:
     done, data = cv2.imencode(kind, picture, options)
     if not done:
         raise Misconfigured("no_codec", f"this OpenCV cannot write {kind}")

@@ -1,4 +1,4 @@
-"""Be the bricks that every drawn thing is built of: boxes, tubes, balls and rods with a colour.
+"""Make the parts of every drawn thing: boxes, tubes, balls and rods with a colour.
 
 A thing's own frame: origin on the floor under its middle, x where its front looks, y to its left,
 z up; metres. Knows no home and no MuJoCo model beyond how a geom is written.
@@ -13,7 +13,7 @@ Rgb = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class GeomPart:
     """Hold one geom: its form and size as MJCF writes them, and its colour."""
 
     form: str
@@ -24,28 +24,28 @@ class Part:
 
 def block(
     x: tuple[float, float], y: tuple[float, float], z: tuple[float, float], paint: Rgb
-) -> Part:
+) -> GeomPart:
     """Fill a box between two values along each axis."""
     half = [_text((high - low) / 2) for low, high in (x, y, z)]
     middle = [_text((high + low) / 2) for low, high in (x, y, z)]
-    return Part(f'type="box" size="{" ".join(half)}" pos="{" ".join(middle)}"', paint)
+    return GeomPart(f'type="box" size="{" ".join(half)}" pos="{" ".join(middle)}"', paint)
 
 
-def tube(at: tuple[float, float], z: tuple[float, float], radius_m: float, paint: Rgb) -> Part:
+def tube(at: tuple[float, float], z: tuple[float, float], radius_m: float, paint: Rgb) -> GeomPart:
     """Stand a cylinder up."""
     size = f"{_text(radius_m)} {_text((z[1] - z[0]) / 2)}"
     pos = f"{_text(at[0])} {_text(at[1])} {_text((z[0] + z[1]) / 2)}"
-    return Part(f'type="cylinder" size="{size}" pos="{pos}"', paint)
+    return GeomPart(f'type="cylinder" size="{size}" pos="{pos}"', paint)
 
 
 def ball(
     at: tuple[float, float, float], radii_m: tuple[float, float, float] | float, paint: Rgb
-) -> Part:
+) -> GeomPart:
     """Place a ball, or an egg with three radii."""
     radii = radii_m if isinstance(radii_m, tuple) else (radii_m,) * 3
     kind = "ellipsoid" if isinstance(radii_m, tuple) else "sphere"
     size = " ".join(map(_text, radii if kind == "ellipsoid" else radii[:1]))
-    return Part(f'type="{kind}" size="{size}" pos="{" ".join(map(_text, at))}"', paint)
+    return GeomPart(f'type="{kind}" size="{size}" pos="{" ".join(map(_text, at))}"', paint)
 
 
 def rod(
@@ -53,13 +53,13 @@ def rod(
     end: tuple[float, float, float],
     radius_m: float,
     paint: Rgb,
-) -> Part:
+) -> GeomPart:
     """Lay a round-ended rod from one point to another."""
     ends = " ".join(map(_text, (*start, *end)))
-    return Part(f'type="capsule" size="{_text(radius_m)}" fromto="{ends}"', paint)
+    return GeomPart(f'type="capsule" size="{_text(radius_m)}" fromto="{ends}"', paint)
 
 
-def unlabelled(parts: list[Part]) -> list[Part]:
+def without_labels(parts: list[GeomPart]) -> list[GeomPart]:
     """Return them as belonging to the thing but not to its class."""
     return [replace(part, labelled=False) for part in parts]
 

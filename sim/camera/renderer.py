@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from sim.camera.frame import Frame
 from sim.camera.framebuffer import Canvas, blank
-from sim.camera.meshes import Body
+from sim.camera.meshes import MeshBody
 from sim.camera.rooms import SURFACES, Rooms
 from sim.camera.scene import height_m, instances
 from sim.camera.shading import Painter
 from sim.camera.surfaces import Appearance
-from sim.camera.view import View, rays
+from sim.camera.view import CameraView, rays
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -40,20 +40,20 @@ class Renderer:
         look = look or Appearance()
         self._things = instances(home, look)
         self._rooms = Rooms(home)
-        self._bodies = [Body(thing.parts) for thing in self._things]
+        self._bodies = [MeshBody(thing.parts) for thing in self._things]
         self._corners = np.array([body.corners for body in self._bodies])
         counts = [len(thing.parts) for thing in self._things]
         self._first = (SURFACES + np.cumsum([0, *counts])).tolist()
         """The number of each thing's first part."""
         self.labels: dict[int, tuple[str, str]] = {}
         """Instance and class of every id in a frame; class ``none`` where none is named."""
-        self._painter = Painter(home, look, self._things, self._numbered())
+        self._painter = Painter(home, look, self._things, self._number_instances())
         self._rays = rays(camera)
         # The same rays by planes, as the canvas keeps them.
         self._planes = np.moveaxis(self._rays, 2, 0).astype(np.float32, order="C")
 
-    def _numbered(self) -> list[int]:
-        """Give every instance its number; what carries no label of its class gets another."""
+    def _number_instances(self) -> list[int]:
+        """Number every instance; its parts without the label of its class get another number."""
         known: dict[tuple[str, str], int] = {}
         numbers = []
         for thing in self._things:
@@ -72,26 +72,28 @@ class Renderer:
             things: what stands elsewhere than the home declares; pose None is nowhere. Names that
                 this home does not know are passed over.
         """
-        view = View(self._camera, base_in_map)
+        view = CameraView(self._camera, base_in_map)
         canvas = blank(self._planes, view)
         self._rooms.cast(view, canvas)
         self._cast_things(view, canvas, {thing.name: thing.pose for thing in things})
         return self._frame(canvas, view)
 
-    def _cast_things(self, view: View, canvas: Canvas, moved: dict[str, Pose2 | None]) -> None:
-        placed = [self._placed(thing, moved) for thing in self._things]
+    def _cast_things(
+        self, view: CameraView, canvas: Canvas, moved: dict[str, Pose2 | None]
+    ) -> None:
+        placed = [self._place(thing, moved) for thing in self._things]
         present = [index for index, at in enumerate(placed) if at is not None]
         if not present:
             return
         at = np.array([placed[index] for index in present])
-        windows = view.windows(_carried(self._corners[present], at))
+        windows = view.windows(_place_boxes(self._corners[present], at))
         seen = [(w[2], k) for k, w in enumerate(windows) if w is not None]
         for ahead_m, k in sorted(seen):  # nearest first: what they hide is not asked for
             window = windows[k]
             if window is not None:
                 self._cast(view, canvas, present[k], at[k], (window[0], window[1]), ahead_m)
 
-    def _placed(self, thing: Instance, moved: dict[str, Pose2 | None]) -> Placed | None:
+    def _place(self, thing: Instance, moved: dict[str, Pose2 | None]) -> Placed | None:
         pose = None if thing.absent else thing.pose
         if thing.movable and thing.id in moved:
             pose = moved[thing.id]
@@ -101,7 +103,7 @@ class Renderer:
 
     def _cast(
         self,
-        view: View,
+        view: CameraView,
         canvas: Canvas,
         index: int,
         at: NDArray[np.float64],
@@ -125,7 +127,7 @@ class Renderer:
                 casting="same_kind",
             )  # fmt: skip
 
-    def _frame(self, canvas: Canvas, view: View) -> Frame:
+    def _frame(self, canvas: Canvas, view: CameraView) -> Frame:
         camera = self._camera
         depth_m = canvas.range_m * self._planes[0]
         seen = (depth_m >= camera.depth_min_m) & (depth_m <= camera.depth_max_m)
@@ -138,7 +140,7 @@ def _about_z(yaw_rad: float) -> NDArray[np.float64]:
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def _carried(corners: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
+def _place_boxes(corners: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return boxes, shape (n, 8, 3), stood at n places."""
     c, s = np.cos(at[:, 3])[:, None], np.sin(at[:, 3])[:, None]
     x, y, z = np.moveaxis(corners, 2, 0)

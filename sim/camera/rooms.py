@@ -16,7 +16,7 @@ from sim.site.plan import door_edge, walls
 
 if TYPE_CHECKING:
     from sim.camera.framebuffer import Canvas
-    from sim.camera.view import View
+    from sim.camera.view import CameraView
     from sim.site import Home
 
 FLOOR, WALL, CEILING = 0, 1, 2
@@ -32,14 +32,14 @@ Window = tuple[slice, slice]
 
 
 class Rooms:
-    """Hold the walls of a home, and what closes them above each doorway."""
+    """Hold the walls of a home, and the lintel above each doorway."""
 
     def __init__(self, home: Home) -> None:
         self._height_m = home.wall.height_m
         self._boxes = [(np.array(low), np.array(high)) for low, high in _boxes(home)]
         self._corners = np.array([corners(low, high) for low, high in self._boxes])
 
-    def cast(self, view: View, canvas: Canvas) -> None:
+    def cast(self, view: CameraView, canvas: Canvas) -> None:
         """Draw floor and ceiling everywhere, then walls where they are nearer."""
         eye_m, up = np.float32(view.eye[2]), canvas.over[2]
         down = up < 0.0

@@ -1,4 +1,4 @@
-"""Turn a home into what a camera could see of it: every instance with its parts and its place.
+"""List the instances of a home that a camera could see, with their parts and places.
 
 Owns where fronts look and what a class looks like. The walls are the home's own; no instance
 reaches beyond the outline that physics and lidar know.
@@ -14,7 +14,7 @@ from sim.camera.fixtures import form_of
 from sim.camera.furniture import bed, chair, fridge, plant, round_table, screen, sofa, table, tv
 from sim.camera.materials import coat
 from sim.camera.orientation import front_rad
-from sim.camera.primitives import Part, tube
+from sim.camera.primitives import GeomPart, tube
 from sim.camera.small_objects import book, bottle, carton, cup, door, person, toy_ball
 from sim.site.classes import (
     CRATE_M,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from sim.site.classes import Size
     from sim.site.spec import Furniture, Object
 
-    Draw = Callable[[Size, Coat], list[Part]]
+    Draw = Callable[[Size, Coat], list[GeomPart]]
 
 _DRAW: dict[str, Draw] = {
     "person": person, "chair": chair, "sofa": sofa, "table": table, "bed": bed, "fridge": fridge,
@@ -54,7 +54,7 @@ class Instance:
 
     id: str
     class_id: str
-    parts: tuple[Part, ...]
+    parts: tuple[GeomPart, ...]
     pose: Pose2
     z_m: float = 0.0
     movable: bool = False
@@ -78,7 +78,7 @@ def instances(home: Home, look: Appearance) -> list[Instance]:
 
 
 def height_m(home: Home, instance: Instance, pose: Pose2) -> float:
-    """Return how high a thing lies that somebody carried to a pose [m]."""
+    """Return the height of a thing that was carried to a pose [m]."""
     if pose == instance.pose:
         return instance.z_m
     return 0.0 if instance.stays_on_floor else ground_m(home, pose.x_m, pose.y_m)
@@ -116,7 +116,7 @@ def _how(item_id: str, class_id: str, *, round_: bool) -> Draw:
     return _column if round_ and form is form_of("") else form
 
 
-def _column(size: Size, colours: Coat) -> list[Part]:
+def _column(size: Size, colours: Coat) -> list[GeomPart]:
     return [tube((0.0, 0.0), (0.0, size[2]), size[0] / 2, colours.main)]
 
 

@@ -1,4 +1,4 @@
-"""Paint what rays met: each part in its own colour, floors and walls by where they were hit.
+"""Colour each ray's hit: parts in their own colour, floors and walls by the point hit.
 
 Light is one lamp far away, what the ceiling gives back, and the rest evenly; no shadows. Sources:
 Lambert's cosine law; hemisphere lighting is 0.5 + 0.5 n_z.
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.camera.rooms import FLOOR, SURFACES, WALL
-from sim.camera.texture import Plan, Woven
+from sim.camera.texture import TexturePlan, Woven
 from sim.site.plan import room_rects
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ class Painter:
     def __init__(
         self, home: Home, look: Appearance, things: Sequence[Instance], numbers: list[int]
     ) -> None:
-        """Prepare what is looked up by a part's number.
+        """Prepare the tables that are looked up by a part's number.
 
         Args:
             home: whose rooms have floors and walls.
@@ -43,7 +43,7 @@ class Painter:
             numbers: the id of every part.
         """
         self._look = look
-        self._plan = Plan(list(room_rects(home).values()))
+        self._plan = TexturePlan(list(room_rects(home).values()))
         paints = [part.paint for thing in things for part in thing.parts]
         palette = [look.skirting, look.skirting, look.ceiling, *paints]
         self._floors = [_onto(palette, texture) for texture in look.floors]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sim.camera.primitives import Part, ball, block, rod, shade, tube
+from sim.camera.primitives import GeomPart, ball, block, rod, shade, tube
 
 if TYPE_CHECKING:
     from sim.camera.materials import Coat
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 _PAPER = (240.0, 236.0, 222.0)
 
 
-def cup(size: Size, coat: Coat) -> list[Part]:
+def cup(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a mug: body, dark inside, and a handle to the left."""
     radius, top = 0.4 * min(size[0], size[1]), size[2]
     grip = radius + 0.32 * radius
@@ -27,14 +27,14 @@ def cup(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def toy_ball(size: Size, coat: Coat) -> list[Part]:
+def toy_ball(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a ball with a thin light band around it."""
     radius = min(size) / 2
     band = tube((0.0, 0.0), (0.93 * radius, 1.07 * radius), 1.002 * radius, coat.band)
     return [ball((0.0, 0.0, radius), radius, coat.main), band]
 
 
-def bottle(size: Size, coat: Coat) -> list[Part]:
+def bottle(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw body, label, shoulder, neck and cap."""
     radius, top = min(size[0], size[1]) / 2, size[2]
     return [
@@ -46,7 +46,7 @@ def bottle(size: Size, coat: Coat) -> list[Part]:
     ]
 
 
-def book(size: Size, coat: Coat) -> list[Part]:
+def book(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw two covers, a spine and the pages between; it lies, or stands when it is higher."""
     x, y, z = size[0] / 2, size[1] / 2, size[2]
     lid, spine = min(0.006, 0.15 * z), (-y, -y + 0.008)
@@ -61,7 +61,7 @@ def book(size: Size, coat: Coat) -> list[Part]:
     return [*covers, block((-x, x), spine, (0.0, z), coat.main), pages, title]
 
 
-def carton(size: Size, coat: Coat) -> list[Part]:
+def carton(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a box with tape over its middle and a label on its front."""
     x, y, z = size[0] / 2, size[1] / 2, size[2]
     tape = shade(coat.main, 1.45)
@@ -70,11 +70,11 @@ def carton(size: Size, coat: Coat) -> list[Part]:
         block((-x + 0.002, x - 0.002), (-y + 0.002, y - 0.002), (0.0, z - 0.002), coat.main),
         block((-x, x), (-wide, wide), (0.72 * z, z), tape),
         block((x - 0.003, x), (0.25 * y, 0.8 * y), (0.2 * z, 0.5 * z), _PAPER),
-        block((-x + 0.002, x - 0.002), (-0.004, 0.004), (z - 0.002, z + 0.0005), coat.shaded),
+        block((-x + 0.002, x - 0.002), (-0.004, 0.004), (z - 0.002, z + 0.0005), coat.shade_color),
     ]
 
 
-def door(size: Size, coat: Coat) -> list[Part]:
+def door(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw a leaf in its frame, seen from both sides: panels, handles, a dark gap below."""
     x, y, top = size[0] / 2, size[1] / 2, size[2]
     inner, frame = y - 0.06, coat.light
@@ -92,7 +92,7 @@ def door(size: Size, coat: Coat) -> list[Part]:
                     (face[0], face[1]),
                     (-0.72 * inner, 0.72 * inner),
                     (low * top, high * top),
-                    coat.shaded,
+                    coat.shade_color,
                 )
             )
         grip = side * (x + 0.03)
@@ -103,7 +103,7 @@ def door(size: Size, coat: Coat) -> list[Part]:
     return parts
 
 
-def person(size: Size, coat: Coat) -> list[Part]:
+def person(size: Size, coat: Coat) -> list[GeomPart]:
     """Draw shoes, legs, hips, a torso with arms, hands, a neck, a head with hair and a nose."""
     tall, wide = size[2] / 1.7, min(size[0], size[1]) / 0.5
     skin, trousers, shoe = coat.skin, coat.trousers, (48.0, 42.0, 40.0)

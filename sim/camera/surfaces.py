@@ -1,4 +1,4 @@
-"""Say how a home looks apart from what stands in it: light, floors, walls, colours, noise.
+"""Define the look of a home: light, floors, walls, colours, noise.
 
 All that training varies is here, drawn from one seed.
 """

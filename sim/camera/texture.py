@@ -1,4 +1,4 @@
-"""Weave floors and walls: which of a texture's colours lies at a point of its plane.
+"""Texture floors and walls: return the colour at a point of their plane.
 
 Knows no home; colours are numbers on a palette, beginning at a given one.
 """
@@ -50,7 +50,7 @@ class Woven:
         return self._first + shade + _SHADES * (a - row < _SEAM)
 
 
-class Plan:
+class TexturePlan:
     """Know the room of many points at once: a grid of numbers, since a test for each costs more."""
 
     def __init__(self, rooms: list[Rect]) -> None:

@@ -1,4 +1,4 @@
-"""Be the pinhole: where rays go, and which part of the picture a box in space can cover.
+"""Project by a pinhole: directions of rays, and the window of a box in space.
 
 Axes of the camera: x ahead along the optical axis, y left, z up. Knows mathematics only.
 """
@@ -28,7 +28,7 @@ def focal_px(camera: CameraConfig) -> float:
     return camera.width_px / 2 / tan(camera.fov_rad / 2)
 
 
-class View:
+class CameraView:
     """Hold where a camera is and looks, in ``map``."""
 
     def __init__(self, camera: CameraConfig, base_in_map: Pose2) -> None:

@@ -1,4 +1,4 @@
-"""Refuse a home in which a robot could not live: overlaps, narrow doors, cramped or cut-off places.
+"""Refuse a home that a robot can't drive: overlaps, narrow doors, cramped or cut-off places.
 
 Judges what needs several parts of a declaration at once. Every refusal names what came, what was
 expected and, where names are concerned, what exists.
@@ -15,12 +15,12 @@ from sim.site.object_checks import check_things
 from sim.site.objects import uprights
 from sim.site.outline import allowed_rects, area_m2, edge_distance_m, trace
 from sim.site.plan import door_edge, furniture, rect, room_rects, solids, walls
-from sim.site.raster import crowded, draw, inside, reachable
+from sim.site.raster import draw, mark_inside, mark_near, reachable
 from sim.site.shapes import EPS_M, Rect, Solid
 from wire import Misconfigured
 
 if TYPE_CHECKING:
-    from sim.site.spec import Home, Place, PoseDeg, Room
+    from sim.site.spec import Home, HomePlace, PoseDeg, Room
 
 DOOR_M = 0.90
 PLACE_TO_OBSTACLE_M = 0.40
@@ -58,16 +58,16 @@ def _names(home: Home) -> Iterator[Finding]:
     for both in sorted(home.rooms.keys() & home.places.keys()):
         yield "id_taken", f"{both!r} is a room and a place"
     owner: dict[str, str] = {}
-    named: list[tuple[str, Room | Place]] = [*home.rooms.items(), *home.places.items()]
+    named: list[tuple[str, Room | HomePlace]] = [*home.rooms.items(), *home.places.items()]
     for item_id, item in named:
         plain = item_id.replace("_", " ")
         for word in (plain, item.name.en, item.name.zh, *item.aliases.en, *item.aliases.zh):
-            first = owner.setdefault(_folded(word), item_id)
+            first = owner.setdefault(_fold(word), item_id)
             if first != item_id:
                 yield "name_taken", f"{word!r} names both {first!r} and {item_id!r}"
 
 
-def _folded(word: str) -> str:
+def _fold(word: str) -> str:
     return " ".join(unicodedata.normalize("NFKC", word).casefold().split())
 
 
@@ -102,8 +102,8 @@ def _doors(home: Home) -> Iterator[Finding]:
 
 
 def _holds(outer: Rect, inner: Rect) -> bool:
-    return outer.grown(EPS_M).depth(inner.x0, inner.y0) >= 0 and (
-        outer.grown(EPS_M).depth(inner.x1, inner.y1) >= 0
+    return outer.expand(EPS_M).depth(inner.x0, inner.y0) >= 0 and (
+        outer.expand(EPS_M).depth(inner.x1, inner.y1) >= 0
     )
 
 
@@ -116,8 +116,8 @@ def _places(home: Home) -> Iterator[Finding]:
         elif spot_id in rooms and not rooms[spot_id].depth(x_m, y_m) > 0:
             yield "pose_outside_room", f"the pose of {title} lies outside the room"
         else:
-            yield from _cramped(home, title, (x_m, y_m))
-            yield from _fenced(home, title, (x_m, y_m))
+            yield from _check_spare_room(home, title, (x_m, y_m))
+            yield from _check_fence(home, title, (x_m, y_m))
 
 
 def _standing(home: Home) -> list[Solid]:
@@ -125,7 +125,7 @@ def _standing(home: Home) -> list[Solid]:
     return solids(home) + [upright.solid for upright in uprights(home)]
 
 
-def _cramped(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding]:
+def _check_spare_room(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding]:
     nearest = min(_standing(home), key=lambda solid: solid.shape.distance(*at))
     found_m = nearest.shape.distance(*at)
     if not found_m >= PLACE_TO_OBSTACLE_M - EPS_M:
@@ -133,7 +133,7 @@ def _cramped(home: Home, title: str, at: tuple[float, float]) -> Iterator[Findin
         yield "place_near_obstacle", f"{title} is {found}, {PLACE_TO_OBSTACLE_M} m expected"
 
 
-def _fenced(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding]:
+def _check_fence(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding]:
     closed = [rect(area.box) for area in home.fence.keep_outs]
     fence = trace(allowed_rects(home)) + [trace([area])[0] for area in closed]
     found_m = edge_distance_m(fence, *at)
@@ -147,9 +147,9 @@ def _fenced(home: Home, title: str, at: tuple[float, float]) -> Iterator[Finding
 
 def _reach(home: Home) -> Iterator[Finding]:
     grid = draw(home)
-    open_cells = ~crowded(_standing(home), grid, ROBOT_RADIUS_M + SPARE_M)
-    open_cells &= inside(allowed_rects(home), grid)
-    open_cells &= ~inside([rect(area.box) for area in home.fence.keep_outs], grid)
+    open_cells = ~mark_near(_standing(home), grid, ROBOT_RADIUS_M + SPARE_M)
+    open_cells &= mark_inside(allowed_rects(home), grid)
+    open_cells &= ~mark_inside([rect(area.box) for area in home.fence.keep_outs], grid)
     dock = home.places[home.dock].pose
     reached = reachable(open_cells, grid.cell(dock[0], dock[1]))
     for spot_id, (x_m, y_m, _) in spots(home).items():

@@ -1,4 +1,4 @@
-"""Name what things of a home can be, how large they are and where their tops lie.
+"""Define the classes of a home's things, their sizes and the heights of their tops.
 
 The one list of classes and colours for home.yaml, the drawn picture and whoever is taught by it.
 Knows no home and no picture.

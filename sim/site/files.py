@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 from sim.site.outline import Polygon, allowed_rects, area_m2, trace
 from sim.site.plan import rect
-from sim.site.raster import RESOLUTION_M, Grid, draw
+from sim.site.raster import RESOLUTION_M, MapRaster, draw
 from sim.site.shapes import Rect
 from sim.site.spec import pose2
 from wire import map_id
 
 if TYPE_CHECKING:
-    from sim.site.spec import Home, Place, PoseDeg, Room
+    from sim.site.spec import Home, HomePlace, PoseDeg, Room
 
 MAP_YAML, MAP_PGM, PLACES_YAML, FENCE_JSON = "map.yaml", "map.pgm", "places.yaml", "fence.json"
 _HEADER = "# Made from home.yaml by `python -m sim.site`; edit that file instead.\n"
@@ -39,7 +39,7 @@ def site_files(home: Home) -> dict[str, bytes]:
     }
 
 
-def _map_yaml(grid: Grid) -> bytes:
+def _map_yaml(grid: MapRaster) -> bytes:
     text = (
         f"{_HEADER}image: {MAP_PGM}\nmode: trinary\nresolution: {RESOLUTION_M}\n"
         f"origin: [{grid.x0_m}, {grid.y0_m}, 0.0]\nnegate: 0\n"
@@ -48,7 +48,7 @@ def _map_yaml(grid: Grid) -> bytes:
     return text.encode()
 
 
-def _map_pgm(grid: Grid) -> bytes:
+def _map_pgm(grid: MapRaster) -> bytes:
     rows, columns = grid.cells.shape
     # A picture's first row is the northern one; the grid's is the southern one.
     return f"P5\n{columns} {rows}\n255\n".encode() + grid.cells[::-1].tobytes()
@@ -68,22 +68,22 @@ def _places_yaml(home: Home) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def _entry(item_id: str, kind: str, item: Room | Place, pose: PoseDeg) -> list[str]:
+def _entry(item_id: str, kind: str, item: Room | HomePlace, pose: PoseDeg) -> list[str]:
     """Write one entry. JSON strings and lists are YAML, and quote what needs quoting."""
     at = pose2(pose)
     pose_text = f"{{x_m: {at.x_m}, y_m: {at.y_m}, yaw_rad: {round(at.yaw_rad, 6)}}}"
     return [
         f"- id: {item_id}",
         f"  kind: {kind}",
-        f"  name: {{en: {_quoted(item.name.en)}, zh: {_quoted(item.name.zh)}}}",
+        f"  name: {{en: {_quote(item.name.en)}, zh: {_quote(item.name.zh)}}}",
         "  aliases:",
-        f"    en: [{', '.join(map(_quoted, item.aliases.en))}]",
-        f"    zh: [{', '.join(map(_quoted, item.aliases.zh))}]",
+        f"    en: [{', '.join(map(_quote, item.aliases.en))}]",
+        f"    zh: [{', '.join(map(_quote, item.aliases.zh))}]",
         f"  pose: {pose_text}",
     ]
 
 
-def _quoted(text: str) -> str:
+def _quote(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 

@@ -18,7 +18,7 @@ def stale(site_dir: Path) -> list[str]:
 
 
 def write(site_dir: Path) -> list[str]:
-    """Write what is stale and return its names."""
+    """Write the stale files and return their names."""
     differing = _differing(site_dir)
     for name, data in differing.items():
         (site_dir / name).write_bytes(data)
@@ -26,7 +26,7 @@ def write(site_dir: Path) -> list[str]:
 
 
 def check_fresh(site_dir: Path) -> None:
-    """Refuse to simulate a home whose map, places or fence say something else.
+    """Refuse a home whose map, places or fence differ from its declaration.
 
     Raises:
         Misconfigured: ``site_stale``, or what ``load_home`` raises.

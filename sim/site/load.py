@@ -31,7 +31,7 @@ _BOOL = "tag:yaml.org,2002:bool"
 
 
 class _OnceLoader(yaml.SafeLoader):
-    """Build plain values, refusing a repeated key and what is not written out."""
+    """Build plain values; refuse a repeated key and an alias."""
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         """Refuse aliases: ten lines of them name more values than any memory holds."""

@@ -1,4 +1,4 @@
-"""Refuse things that could not be where a home puts them: off their table, in a wall, in the way.
+"""Check a home's objects and people: off their table, in a wall, in the way.
 
 Names every finding; ``check`` decides once.
 """
@@ -26,14 +26,14 @@ FLAT_M = 0.05
 
 
 def check_things(home: Home) -> Iterator[Finding]:
-    """Return what is wrong with objects and people."""
+    """Yield the faults of a home's objects and people."""
     yield from _names(home)
     for object_id, item in home.objects.items():
         title = f"object {object_id!r} at {list(item.at)}"
         if item.class_id == "door":
             yield from _hung(home, title, item)
         elif isinstance(item.on, str):
-            yield from _laid(home, title, item)
+            yield from _check_support(home, title, item)
         else:
             yield from _free_of_walls(home, title, object_outline(item))
             yield from _not_a_trap(title, item)
@@ -48,18 +48,18 @@ def _names(home: Home) -> Iterator[Finding]:
         taken.append(thing_id)
 
 
-def _laid(home: Home, title: str, item: Object) -> Iterator[Finding]:
+def _check_support(home: Home, title: str, item: Object) -> Iterator[Finding]:
     under = home.furniture.get(str(item.on))
     if under is None:
         known = ", ".join(sorted(home.furniture))
         yield "object_on_unknown", f"{title} is on {item.on!r}, no furniture; there is: {known}"
-    elif not _within(furniture_shape(under), object_outline(item)):
+    elif not _contains(furniture_shape(under), object_outline(item)):
         yield "object_off_furniture", f"{title} reaches over the edge of {item.on!r}"
 
 
-def _within(outer: Shape, inner: Shape) -> bool:
+def _contains(outer: Shape, inner: Shape) -> bool:
     if isinstance(outer, Rect):
-        box, whole = inner.bounds, outer.grown(EPS_M)
+        box, whole = inner.bounds, outer.expand(EPS_M)
         return whole.depth(box.x0, box.y0) >= 0.0 and whole.depth(box.x1, box.y1) >= 0.0
     if isinstance(inner, Disc):
         apart = hypot(inner.x - outer.x, inner.y - outer.y)
@@ -69,7 +69,7 @@ def _within(outer: Shape, inner: Shape) -> bool:
 
 
 def _hung(home: Home, title: str, item: Object) -> Iterator[Finding]:
-    """Say when no one wall holds a door in its whole breadth."""
+    """Check that one wall holds a door in its whole breadth."""
     for wall in walls(home):
         area = wall.shape.bounds
         along = (area.x0, area.x1) if area.x1 - area.x0 > area.y1 - area.y0 else (area.y0, area.y1)

@@ -1,4 +1,4 @@
-"""Say where the movable things of a home stand and lie: people, and objects large and small.
+"""Place the movable things of a home: people, and objects large and small.
 
 Owns the rule what of them physics and lidar meet: people, and what stands on the floor higher than
 a lidar may be trusted to see. A small thing on a table is for the camera alone.
@@ -32,12 +32,12 @@ class Upright:
 
     @property
     def solid(self) -> Solid:
-        """Return what it covers: the box or disc itself, or the disc around a turned box."""
+        """Return the solid's outline: the box or disc itself, or the disc around a turned box."""
         return Solid(self.id, outline(self.pose, self.half_m, round_=self.round), self.height_m)
 
 
 def outline(pose: Pose2, half_m: tuple[float, float], *, round_: bool) -> Shape:
-    """Return what a thing covers of the floor, never less: a turned box becomes a disc."""
+    """Return a thing's outline on the floor, never less: a turned box becomes a disc."""
     c, s = abs(cos(pose.yaw_rad)), abs(sin(pose.yaw_rad))
     if round_:
         return Disc(pose.x_m, pose.y_m, max(half_m))
@@ -48,7 +48,7 @@ def outline(pose: Pose2, half_m: tuple[float, float], *, round_: bool) -> Shape:
 
 
 def furniture_class(item_id: str, item: Furniture) -> str:
-    """Return what a camera sees in a piece of furniture; ``none`` where no class names it."""
+    """Return the detector class of a piece of furniture; ``none`` where it has none."""
     return item.class_id or class_of(item_id)
 
 
@@ -58,7 +58,7 @@ def pose_of(at: tuple[float, float], yaw_deg: float) -> Pose2:
 
 
 def object_outline(item: Object) -> Shape:
-    """Return what an object covers of the floor or table."""
+    """Return an object's outline on the floor or table."""
     depth_m, breadth_m, _ = item.size_m
     pose = pose_of(item.at, item.yaw)
     return outline(pose, (depth_m / 2, breadth_m / 2), round_=item.class_id in ROUND)
@@ -83,12 +83,12 @@ def ground_m(home: Home, x_m: float, y_m: float) -> float:
 
 
 def on_floor(item: Object) -> bool:
-    """Say whether an object stands on the floor. A door does not: it is part of its wall."""
+    """Return whether an object stands on the floor. A door does not: it is part of its wall."""
     return item.on == 0.0 and item.class_id != "door"
 
 
 def uprights(home: Home) -> list[Upright]:
-    """Return what of the movable things physics and lidar meet, where it stands as declared."""
+    """Return the movable things that physics and lidar meet, at their declared places."""
     people = [
         Upright(
             person_id, pose_of(person.at, person.yaw), (PERSON_RADIUS_M,) * 2, PERSON_HEIGHT_M, True

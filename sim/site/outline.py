@@ -20,7 +20,7 @@ Polygon = list[Point]
 def allowed_rects(home: Home) -> list[Rect]:
     """Return the rectangles whose union is open to the robot's centre."""
     inset_m = home.wall.thickness_m / 2 + home.fence.inset_m
-    areas = [room.grown(-inset_m) for room in room_rects(home).values()]
+    areas = [room.expand(-inset_m) for room in room_rects(home).values()]
     for door in home.doors:
         edge = door_edge(home, door)
         if edge is not None:
@@ -49,7 +49,7 @@ def trace(areas: list[Rect]) -> list[Polygon]:
         for j in range(len(ys) - 1)
         if any(a.depth((xs[i] + xs[i + 1]) / 2, (ys[j] + ys[j + 1]) / 2) > 0 for a in areas)
     }
-    return [_straightened([(xs[i], ys[j]) for i, j in loop]) for loop in _loops(_edges(full))]
+    return [_straighten([(xs[i], ys[j]) for i, j in loop]) for loop in _loops(_edges(full))]
 
 
 Corner = tuple[int, int]
@@ -94,7 +94,7 @@ def _turn(back: Corner, here: Corner, choices: list[Corner]) -> Corner:
     return max(choices, key=lambda to: dx * (to[1] - here[1]) - dy * (to[0] - here[0]))
 
 
-def _straightened(loop: Polygon) -> Polygon:
+def _straighten(loop: Polygon) -> Polygon:
     """Leave out the points in the middle of a straight edge."""
     kept = []
     for index, (x, y) in enumerate(loop):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 from sim.site.shapes import EPS_M, Disc, Rect, Solid
 
 if TYPE_CHECKING:
-    from sim.site.spec import Door, Furniture, Home
+    from sim.site.spec import Furniture, Home, HomeDoor
 
 Axis = Literal["x", "y"]
 Line = tuple[Axis, float]
@@ -39,7 +39,7 @@ def edges(room: Rect) -> tuple[tuple[Line, Span], ...]:
     )
 
 
-def door_edge(home: Home, door: Door) -> tuple[Line, Span] | None:
+def door_edge(home: Home, door: HomeDoor) -> tuple[Line, Span] | None:
     """Return the line and the span that a door opens; None where its rooms share no such wall."""
     rooms = room_rects(home)
     if not all(room_id in rooms for room_id in door.between):
@@ -50,17 +50,17 @@ def door_edge(home: Home, door: Door) -> tuple[Line, Span] | None:
         span = (along - door.width_m / 2, along + door.width_m / 2)
         for other_line, theirs in edges(there):
             low, high = max(ours[0], theirs[0]), min(ours[1], theirs[1])
-            on_line = _same(line, other_line) and abs(across - line[1]) <= EPS_M
+            on_line = _is_same_line(line, other_line) and abs(across - line[1]) <= EPS_M
             if on_line and low - EPS_M <= span[0] and span[1] <= high + EPS_M:
                 return line, span
     return None
 
 
-def _same(a: Line, b: Line) -> bool:
+def _is_same_line(a: Line, b: Line) -> bool:
     return a[0] == b[0] and abs(a[1] - b[1]) <= EPS_M
 
 
-def _merged(spans: list[Span]) -> list[Span]:
+def _merge(spans: list[Span]) -> list[Span]:
     joined: list[Span] = []
     for low, high in sorted(spans):
         if joined and low <= joined[-1][1] + EPS_M:
@@ -97,11 +97,11 @@ def walls(home: Home) -> list[Solid]:
     doors = [edge for door in home.doors if (edge := door_edge(home, door)) is not None]
     found: list[Solid] = []
     for line, spans in sorted(_lines(home).items()):
-        for span in _merged(spans):
+        for span in _merge(spans):
             holes = [
                 hole
                 for door_line, hole in doors
-                if _same(line, door_line) and span[0] - EPS_M <= hole[0] <= span[1]
+                if _is_same_line(line, door_line) and span[0] - EPS_M <= hole[0] <= span[1]
             ]
             for low, high in _cut(span, holes, half_m):
                 shape = _slab(line, low, high, half_m)

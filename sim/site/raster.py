@@ -31,7 +31,7 @@ OCCUPIED, UNKNOWN, FREE = 0, 205, 254
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Grid:
+class MapRaster:
     """Hold cells [row, column] and the map coordinates of the south-west corner."""
 
     cells: NDArray[np.uint8]
@@ -51,14 +51,14 @@ class Grid:
         return xs, ys
 
 
-def _blank(home: Home) -> Grid:
+def _blank(home: Home) -> MapRaster:
     boxes = [solid.shape.bounds for solid in solids(home)]
     x0 = floor(round((min(b.x0 for b in boxes) - MARGIN_M) / RESOLUTION_M, 6)) * RESOLUTION_M
     y0 = floor(round((min(b.y0 for b in boxes) - MARGIN_M) / RESOLUTION_M, 6)) * RESOLUTION_M
     columns = ceil(round((max(b.x1 for b in boxes) + MARGIN_M - x0) / RESOLUTION_M, 6))
     rows = ceil(round((max(b.y1 for b in boxes) + MARGIN_M - y0) / RESOLUTION_M, 6))
     cells = np.full((rows, columns), UNKNOWN, dtype=np.uint8)
-    return Grid(cells, round(x0, 6), round(y0, 6))
+    return MapRaster(cells, round(x0, 6), round(y0, 6))
 
 
 def distance(shape: Shape, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -70,7 +70,7 @@ def distance(shape: Shape, x: NDArray[np.float64], y: NDArray[np.float64]) -> ND
     return np.hypot(dx, dy)
 
 
-def _touched(grid: Grid, shape: Shape) -> NDArray[np.bool_]:
+def _covered_cells(grid: MapRaster, shape: Shape) -> NDArray[np.bool_]:
     """Mark the cells of which the shape covers some area."""
     xs, ys = grid.centres()
     half = RESOLUTION_M / 2 - EPS_M
@@ -83,22 +83,22 @@ def _touched(grid: Grid, shape: Shape) -> NDArray[np.bool_]:
     return x_hit & y_hit
 
 
-def draw(home: Home) -> Grid:
+def draw(home: Home) -> MapRaster:
     """Draw rooms free, solids occupied and the rest unknown."""
     grid = _blank(home)
     for room in room_rects(home).values():
-        grid.cells[_touched(grid, room)] = FREE
+        grid.cells[_covered_cells(grid, room)] = FREE
     for solid in solids(home):
-        grid.cells[_touched(grid, solid.shape)] = OCCUPIED
+        grid.cells[_covered_cells(grid, solid.shape)] = OCCUPIED
     return grid
 
 
-def crowded(standing: Iterable[Solid], grid: Grid, radius_m: float) -> NDArray[np.bool_]:
-    """Mark the cells whose centre is nearer to a solid than a radius, measured on the shapes."""
+def mark_near(standing: Iterable[Solid], grid: MapRaster, radius_m: float) -> NDArray[np.bool_]:
+    """Mark the cells that are nearer to a solid than a radius, from centre to shape."""
     xs, ys = grid.centres()
     near = np.zeros(grid.cells.shape, dtype=np.bool_)
     for solid in standing:
-        box = solid.shape.bounds.grown(radius_m)
+        box = solid.shape.bounds.expand(radius_m)
         (row0, column0), (row1, column1) = grid.cell(box.x0, box.y0), grid.cell(box.x1, box.y1)
         part = np.s_[max(row0, 0) : row1 + 1, max(column0, 0) : column1 + 1]
         near[part] |= distance(solid.shape, xs[part], ys[part]) < radius_m
@@ -120,7 +120,7 @@ def reachable(open_cells: NDArray[np.bool_], start: tuple[int, int]) -> NDArray[
     return seen
 
 
-def inside(areas: list[Rect], grid: Grid) -> NDArray[np.bool_]:
+def mark_inside(areas: list[Rect], grid: MapRaster) -> NDArray[np.bool_]:
     """Mark the cells whose centre lies in one of the rectangles."""
     xs, ys = grid.centres()
     marked = np.zeros(grid.cells.shape, dtype=np.bool_)

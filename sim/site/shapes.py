@@ -28,13 +28,13 @@ class Rect:
         return min(x_m - self.x0, self.x1 - x_m, y_m - self.y0, self.y1 - y_m)
 
     def overlaps(self, other: Rect) -> bool:
-        """Say whether two rectangles share an area, not only an edge."""
+        """Return whether two rectangles share an area, not only an edge."""
         return (
             min(self.x1, other.x1) - max(self.x0, other.x0) > EPS_M
             and min(self.y1, other.y1) - max(self.y0, other.y0) > EPS_M
         )
 
-    def grown(self, by_m: float) -> Rect:
+    def expand(self, by_m: float) -> Rect:
         """Move every edge outwards (inwards when negative)."""
         return Rect(self.x0 - by_m, self.y0 - by_m, self.x1 + by_m, self.y1 + by_m)
 
@@ -57,7 +57,7 @@ class Disc:
         return max(0.0, hypot(x_m - self.x, y_m - self.y) - self.radius)
 
     def overlaps(self, other: Rect) -> bool:
-        """Say whether disc and rectangle share an area, not only a point."""
+        """Return whether disc and rectangle share an area, not only a point."""
         return other.distance(self.x, self.y) < self.radius - EPS_M
 
     @property
@@ -72,7 +72,7 @@ Shape: TypeAlias = Rect | Disc
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """Stand a shape on the floor: what physics, lidar and map all see."""
+    """Hold a shape that stands on the floor, for physics, lidar and map alike."""
 
     id: str
     shape: Shape

@@ -1,4 +1,4 @@
-"""Say what a home is made of: the one declaration from which world, map, places and fence follow.
+"""Define home.yaml: the one declaration from which world, map, places and fence follow.
 
 Owns the shape of home.yaml (names, units, bounds). Knows no file, no raster and no physics; what
 needs several parts at once (overlaps, reach, clearance) is judged in check.py.
@@ -42,14 +42,14 @@ class Name(Record):
     zh: Words
 
 
-class Aliases(Record):
-    """List what else people call it."""
+class HomeAliases(Record):
+    """List the other names that people use for a room or place."""
 
     en: tuple[Words, ...] = ()
     zh: tuple[Words, ...] = ()
 
 
-def _ordered(box: Box, what: str) -> Box:
+def _check_order(box: Box, what: str) -> Box:
     if not (box[0] < box[2] and box[1] < box[3]):
         raise ValueError(f"{what} {list(box)} is not [x0, y0, x1, y1] with x0 < x1 and y0 < y1")
     return box
@@ -59,17 +59,17 @@ class Room(Record):
     """Give a room between the centre lines of its walls, and where a robot sent there stops."""
 
     name: Name
-    aliases: Aliases = Aliases()
+    aliases: HomeAliases = HomeAliases()
     box: Box
     pose: PoseDeg
 
     @model_validator(mode="after")
     def _has_area(self) -> Room:
-        _ordered(self.box, "box")
+        _check_order(self.box, "box")
         return self
 
 
-class Door(Record):
+class HomeDoor(Record):
     """Cut an opening, centred on the wall that two rooms share."""
 
     between: tuple[Id, Id]
@@ -99,7 +99,7 @@ class Furniture(Record):
         if (self.box is None) == (self.cylinder is None):
             raise ValueError("furniture has either a box or a cylinder")
         if self.box is not None:
-            _ordered(self.box, "box")
+            _check_order(self.box, "box")
         return self
 
 
@@ -122,8 +122,8 @@ class Object(Record):
         return self.size or SIZES_M[self.class_id]
 
 
-class Person(Record):
-    """Let somebody stand in the home. No map shows people: they walk about."""
+class HomePerson(Record):
+    """Place a person in the home. No map shows people: they walk about."""
 
     at: Point
     yaw: Degrees = 0.0
@@ -131,15 +131,15 @@ class Person(Record):
     """Of the clothes."""
 
 
-class Place(Record):
+class HomePlace(Record):
     """Name a pose that people ask for."""
 
     name: Name
-    aliases: Aliases = Aliases()
+    aliases: HomeAliases = HomeAliases()
     pose: PoseDeg
 
 
-class Wall(Record):
+class HomeWall(Record):
     """Build every wall alike, centred on the rooms' edges."""
 
     thickness_m: float = Field(default=0.10, ge=0.05, le=0.5)
@@ -153,7 +153,7 @@ class KeepOut(Record):
     box: Box
 
 
-class SpeedZone(Record):
+class HomeSpeedZone(Record):
     """Slow the robot in an area."""
 
     id: Id
@@ -161,7 +161,7 @@ class SpeedZone(Record):
     max_speed_mps: float = Field(ge=0.05, le=2.0)
 
 
-class Fence(Record):
+class HomeFence(Record):
     """Bound the robot's centre.
 
     The inset is measured from the walls' faces. 0.15 m follows from the two distances that places
@@ -171,7 +171,7 @@ class Fence(Record):
 
     inset_m: float = Field(default=0.15, ge=0.05, le=0.40)
     keep_outs: tuple[KeepOut, ...] = ()
-    speed_zones: tuple[SpeedZone, ...] = ()
+    speed_zones: tuple[HomeSpeedZone, ...] = ()
 
 
 class Home(Record):
@@ -180,16 +180,16 @@ class Home(Record):
     version: Literal[1]
     site: Id
     name: Name
-    wall: Wall = Wall()
-    fence: Fence = Fence()
+    wall: HomeWall = HomeWall()
+    fence: HomeFence = HomeFence()
     dock: Id
     """The place where a run starts and where return_home leads."""
     rooms: dict[Id, Room] = Field(min_length=1)
-    doors: tuple[Door, ...] = ()
+    doors: tuple[HomeDoor, ...] = ()
     furniture: dict[Id, Furniture] = Field(default_factory=dict)
     objects: dict[Id, Object] = Field(default_factory=dict, max_length=MAX_OBJECTS)
-    people: dict[Id, Person] = Field(default_factory=dict, max_length=MAX_PEOPLE)
-    places: dict[Id, Place] = Field(min_length=1)
+    people: dict[Id, HomePerson] = Field(default_factory=dict, max_length=MAX_PEOPLE)
+    places: dict[Id, HomePlace] = Field(min_length=1)
 
 
 def pose2(pose: PoseDeg) -> Pose2:

@@ -49,7 +49,7 @@ def written(
 ) -> list[Path]:  # fmt: skip
     """Write a stream as the writing process would; return the files, oldest first."""
     before = set(folder.glob("*.mcap"))
-    writer = Writer(folder, boot, rotate_bytes, 1 << 40, foxglove_messages.Clock(UNIX_S))
+    writer = Writer(folder, boot, rotate_bytes, 1 << 40, foxglove_messages.UnixClock(UNIX_S))
     for number, (kind, payload) in enumerate(pipe_frames.Splitter().feed(stream)):
         writer.take(kind, payload, UNIX_S)
         if number % beat_every == beat_every - 1:

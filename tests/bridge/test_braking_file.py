@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from bridge.braking_file import UNREADABLE, BrakingKeeper, load_learnt, path_of, write_learnt
-from bridge.core.state_braking import UNLEARNT, Learnt
+from bridge.core.state_motion import UNLEARNT, Learnt
 from wire import RobotDescription
 
 ROBOT = RobotDescription()

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core import initial
-from bridge.core.state_braking import Learnt
+from bridge.core.state_motion import Learnt
 from bridge.replay import replay
 from tests.bridge.core.motion.test_brake_learning import ROBOT, Metal, stop
 from tests.bridge.core.scripted import World, config

@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 
-from bridge.core.state_fence import FenceAsked, FenceDone
+from bridge.core.inbox import FenceDone
+from bridge.core.state_orders import PendingFence
 from bridge.fence_file import load_fence
 from bridge.fence_update import LINGER_S, FenceDesk, Ground, put_in_force
 from wire import Pose2, fingerprint
@@ -24,8 +25,8 @@ def text(allowed: Any = None, **more: Any) -> str:
     return json.dumps({"version": 1, "map_id": MAP, "allowed": allowed or [SQUARE], **more})
 
 
-def asked(content: str, x_m: float = 1.0, y_m: float = 1.0) -> FenceAsked:
-    return FenceAsked("f1", "cli", content, Pose2(x_m, y_m, 0.0))
+def asked(content: str, x_m: float = 1.0, y_m: float = 1.0) -> PendingFence:
+    return PendingFence("f1", "cli", content, Pose2(x_m, y_m, 0.0))
 
 
 @pytest.fixture
@@ -143,10 +144,10 @@ def test_the_desk_serves_one_request_once_and_then_the_bridge_may_leave(ground: 
     done = answered(desk)
     assert (done.id, done.code) == ("f1", "ok")
     assert desk.take() is None
-    assert not desk.over(50.0), "the core has not given its verdict yet"
+    assert not desk.is_over(50.0), "the core has not given its verdict yet"
     desk.note(replace(request, text="", written=True), 60.0)
-    assert not desk.over(60.0 + LINGER_S / 2)
-    assert desk.over(60.0 + LINGER_S)
+    assert not desk.is_over(60.0 + LINGER_S / 2)
+    assert desk.is_over(60.0 + LINGER_S)
     assert desk.close()
 
 
@@ -155,7 +156,7 @@ def test_after_a_refusal_the_next_request_is_served(ground: Ground) -> None:
     desk.note(asked("{}"), 1.0)
     assert answered(desk).code == "fence_invalid"
     desk.note(None, 2.0)
-    assert not desk.over(100.0)
+    assert not desk.is_over(100.0)
     desk.note(asked(text()), 3.0)
     assert answered(desk).code == "ok"
     assert desk.close()

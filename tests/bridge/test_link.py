@@ -14,9 +14,9 @@ from typing import Any
 
 import pytest
 
-from bridge.core import ON_TIME, ArrivedAt, Decision, Inbox, OpArrived, initial
-from bridge.core.state_fence import FenceArrived
-from bridge.link import STOPS_KEPT, Link
+from bridge.core import ON_TIME, ArrivedAt, Decision, Inbox, OperatorArrival, initial
+from bridge.core.inbox import FenceArrival
+from bridge.link import STOPS_KEPT, BridgeLink
 from tests.bridge.ground import core_config, until
 from tests.wire.examples import EXAMPLES, STATUS
 from wire import (
@@ -61,7 +61,7 @@ HOSTILE = (
 class Ends:
     """Hold the bridge's link and, for each of its doors, somebody who may say what it hears."""
 
-    link: Link
+    link: BridgeLink
     others: tuple[Session, ...]
 
     @property
@@ -99,7 +99,7 @@ def ends(home: Path) -> Iterator[Ends]:
         open_session(Party.BUTTON, "r1", home) as button,
         open_session(Party.ROBOT, "r1", home) as robot,
     ):
-        link = Link(bridge, "r1", VIRTUAL_KEY)
+        link = BridgeLink(bridge, "r1", VIRTUAL_KEY)
         ends = Ends(link, (operator, localization, button, robot))
         assert until(lambda: bridge.peers() == len(ends.others))
         for other in ends.others:
@@ -136,7 +136,7 @@ def arrived(inbox: Inbox, key: Key[Any]) -> int:
 def test_every_key_is_heard(ends: Ends, key: Key[Record]) -> None:
     message = EXAMPLES[key.message]
     mouth = ends.mouth(key)
-    handed_on = "FenceArrived(id='fence-1'" if key is FENCE else repr(message)
+    handed_on = "FenceArrival(id='fence-1'" if key is FENCE else repr(message)
 
     def there() -> bool:
         mouth.put(message)
@@ -149,10 +149,10 @@ def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends)
     mouth = ends.other.publisher(FENCE)
     robot_id = core_config().robot.id
 
-    def arrives(request_id: str, proof_of: str) -> FenceArrived:
+    def arrives(request_id: str, proof_of: str) -> FenceArrival:
         proof = sign_fence(VIRTUAL_KEY, robot_id, "n", request_id, proof_of)
         request = FenceRequest(id=request_id, source="cli", fence="{} ", proof=proof)
-        came: list[FenceArrived] = []
+        came: list[FenceArrival] = []
 
         def there() -> bool:
             mouth.put(request)
@@ -163,8 +163,8 @@ def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends)
         assert until(there)
         return came[0]
 
-    assert arrives("f1", "{} ") == FenceArrived("f1", "cli", "n", True, "{} ")
-    assert arrives("f2", "{}") == FenceArrived("f2", "cli", "n", False, "")
+    assert arrives("f1", "{} ") == FenceArrival("f1", "cli", "n", True, "{} ")
+    assert arrives("f2", "{}") == FenceArrival("f2", "cli", "n", False, "")
 
 
 @pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)
@@ -249,12 +249,12 @@ def test_an_operator_request_is_authentic_only_for_its_own_kind(
         request = OpRequest(id=name, source="test", proof=proof)
 
         mouth.put(request)
-        found: list[OpArrived] = []
+        found: list[OperatorArrival] = []
         assert until(partial(collect, ends, found))
-        assert found == [OpArrived(kind, request, authentic=name == "good")]
+        assert found == [OperatorArrival(kind, request, authentic=name == "good")]
 
 
-def collect(ends: Ends, found: list[OpArrived]) -> bool:
+def collect(ends: Ends, found: list[OperatorArrival]) -> bool:
     found.extend(ends.drain().ops)
     return bool(found)
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, cast
 import pytest
 
 from bridge.core import ON_TIME, Decision, step
-from bridge.link import Link
+from bridge.link import BridgeLink
 from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
@@ -94,7 +94,7 @@ class Door:
     def __init__(self, world: World) -> None:
         self.world = world
         self.bus = Bus(1, {})
-        self.link = Link(cast("Session", self.bus.port(Party.BRIDGE)), "r1", VIRTUAL_KEY)
+        self.link = BridgeLink(cast("Session", self.bus.port(Party.BRIDGE)), "r1", VIRTUAL_KEY)
         others = self.bus.port(Party.PLANNER)
         self.publishers = {
             key.path: others.publisher(key) for key, _ in messages(reached("active"))

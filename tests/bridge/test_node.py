@@ -10,9 +10,9 @@ import pytest
 
 from bridge import node as shell_file
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, LoopFacts
-from bridge.core.state_braking import Learnt
-from bridge.node import EXIT_BROKEN, EXIT_LEFT, Parts, Shell
-from bridge.realtime import Pacer, Tick
+from bridge.core.state_motion import Learnt
+from bridge.node import EXIT_BROKEN, EXIT_LEFT, BridgeNode, Parts
+from bridge.realtime import Pacer, PacerTick
 from tests.bridge.ground import FakeClock, core_config
 from wire import DriveCommand, DriveState, Rejected
 
@@ -103,9 +103,9 @@ def diary() -> Diary:
 
 
 @pytest.fixture
-def shell(diary: Diary) -> Shell:
+def shell(diary: Diary) -> BridgeNode:
     parts = Parts(diary, diary, diary, diary, diary, diary, Desk())  # type: ignore[arg-type]  # a Diary is all of them
-    return Shell(CONFIG, parts, 100.0, real_time=True)
+    return BridgeNode(CONFIG, parts, 100.0, real_time=True)
 
 
 def countdown(turns: int) -> Iterator[bool]:
@@ -114,30 +114,30 @@ def countdown(turns: int) -> Iterator[bool]:
         yield True
 
 
-def test_one_tick_is_drain_step_drive_tell_record(shell: Shell, diary: Diary) -> None:
+def test_one_tick_is_drain_step_drive_tell_record(shell: BridgeNode, diary: Diary) -> None:
     before = shell.state
-    shell.tick(Tick(100.01, 0.0, 0), CONFIG.period_s)
+    shell.tick(PacerTick(100.01, 0.0, 0), CONFIG.period_s)
     assert diary.words == ["read", "drain", "write", "publish", "record", "feed"]
     assert shell.state is not before
 
 
-def test_the_core_is_told_how_the_loop_goes(shell: Shell, diary: Diary) -> None:
-    shell.tick(Tick(100.034, 0.004, 2), CONFIG.period_s)
+def test_the_core_is_told_how_the_loop_goes(shell: BridgeNode, diary: Diary) -> None:
+    shell.tick(PacerTick(100.034, 0.004, 2), CONFIG.period_s)
     (inbox,) = diary.inboxes
     assert inbox.loop == LoopFacts(late_s=0.004, missed_ticks=2, record_gaps=3)
     assert inbox.real_time
     assert (inbox.recorder_ok, inbox.recorder_says) == (True, "")
     diary.trouble = "disk_full: no space left"
-    shell.tick(Tick(100.044, 0.0, 0), CONFIG.period_s)
+    shell.tick(PacerTick(100.044, 0.0, 0), CONFIG.period_s)
     inbox = diary.inboxes[-1]
     assert (inbox.recorder_ok, inbox.recorder_says) == (False, "disk_full: no space left")
 
 
 def test_each_tick_is_given_chance_of_its_own_that_nobody_can_foretell(
-    shell: Shell, diary: Diary
+    shell: BridgeNode, diary: Diary
 ) -> None:
     for number in range(100):
-        shell.tick(Tick(100.0 + number * 0.01, 0.0, 0), CONFIG.period_s)
+        shell.tick(PacerTick(100.0 + number * 0.01, 0.0, 0), CONFIG.period_s)
     drawn = [inbox.chance for inbox in diary.inboxes]
     assert len(set(drawn)) == 100
     assert all(re.fullmatch(r"[0-9a-f]{16}", one) for one in drawn)
@@ -145,16 +145,18 @@ def test_each_tick_is_given_chance_of_its_own_that_nobody_can_foretell(
     assert 2_800 < bits < 3_600, "10 sigma of 6 400 fair coins"
 
 
-def test_lateness_of_a_second_counts_skipped_periods(shell: Shell, diary: Diary) -> None:
+def test_lateness_of_a_second_counts_skipped_periods(shell: BridgeNode, diary: Diary) -> None:
     for number in range(101):
-        shell.tick(Tick(100.0 + number * 0.01, 0.001, 1 if number == 50 else 0), CONFIG.period_s)
+        shell.tick(
+            PacerTick(100.0 + number * 0.01, 0.001, 1 if number == 50 else 0), CONFIG.period_s
+        )
     facts = diary.inboxes[-1].loop
     assert facts.late_p50_us == pytest.approx(1_000.0)
     assert facts.late_max_us == pytest.approx(11_000.0)
     assert facts.step_max_us > 0.0
 
 
-def test_the_loop_turns_until_told_and_then_halts(shell: Shell, diary: Diary) -> None:
+def test_the_loop_turns_until_told_and_then_halts(shell: BridgeNode, diary: Diary) -> None:
     turns = countdown(5)
     status = shell.run(Pacer(FakeClock(), CONFIG.period_s), lambda: next(turns))
     assert status == EXIT_LEFT
@@ -165,7 +167,10 @@ def test_the_loop_turns_until_told_and_then_halts(shell: Shell, diary: Diary) ->
 
 
 def test_a_step_that_raises_halts_the_drive_and_says_so(
-    shell: Shell, diary: Diary, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+    shell: BridgeNode,
+    diary: Diary,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
 ) -> None:
     def broken(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
         raise ZeroDivisionError("as if")
@@ -179,7 +184,7 @@ def test_a_step_that_raises_halts_the_drive_and_says_so(
 
 
 def test_a_drive_that_raises_is_halted_too(
-    shell: Shell, diary: Diary, monkeypatch: pytest.MonkeyPatch
+    shell: BridgeNode, diary: Diary, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(_: DriveCommand | None) -> None:
         raise OSError("the cable is out")
@@ -190,7 +195,7 @@ def test_a_drive_that_raises_is_halted_too(
     assert diary.words[-1] == "halt"
 
 
-def test_nothing_of_the_shell_depends_on_the_mode(repository: Path) -> None:
-    text = (repository / "bridge" / "shell.py").read_text()
+def test_nothing_of_the_loop_depends_on_the_mode(repository: Path) -> None:
+    text = (repository / "bridge" / "node.py").read_text()
     for word in ("Mode", ".mode", "Action", "speed", "epoch", "armed"):
         assert word not in text

@@ -14,7 +14,7 @@ import pytest
 
 from bridge.__main__ import _config, main
 from bridge.core import Inbox, initial, step
-from bridge.recording.mcap_reader import BoxReader
+from bridge.recording.mcap_reader import McapReader
 from bridge.replay import replay
 from bridge.warmup import warm_up
 from tests.bridge.fake_robot import FakeRobot
@@ -112,7 +112,7 @@ def arm(watch: Watch, send: Callable[[OpRequest], None]) -> None:
 
 
 def whole(path: Path) -> bool:
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         return box.complete
 
 

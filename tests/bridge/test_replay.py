@@ -11,7 +11,7 @@ import pytest
 
 from bridge.core import initial
 from bridge.recording import pipe_frames
-from bridge.recording.mcap_file import BoxFile
+from bridge.recording.mcap_file import McapFile
 from bridge.recording.topics import topics
 from bridge.replay import BadRecording, replay
 from tests.bridge.core.scripted import World
@@ -222,7 +222,7 @@ def test_a_missing_tick_without_a_state_after_it_is_no_recording(
 
 
 def test_a_file_without_one_record_is_no_recording(tmp_path: Path) -> None:
-    box = BoxFile(tmp_path / "empty.mcap", topics(SCHEMAS))
+    box = McapFile(tmp_path / "empty.mcap", topics(SCHEMAS))
     box.close()
     with pytest.raises(BadRecording, match="recording_empty"):
         replay([box.path])

@@ -22,6 +22,7 @@ from typing import Any
 
 import psutil
 
+from processes.parent_death import child_command, module_in
 from tests.e2e.polling import until
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -69,6 +70,7 @@ class System:
         self._settings = settings
         self.scheme = "https" if settings.get("PONS_TLS") == "1" else "http"
         self.arguments: tuple[str, ...] = ()
+        self.python, self.folder = sys.executable, ROOT
         self.up: subprocess.Popen[bytes] | None = None
 
     @property
@@ -99,16 +101,8 @@ class System:
         self.log.unlink(missing_ok=True)
         with self.log.open("ab") as log:
             self.up = subprocess.Popen(
-                [
-                    sys.executable,
-                    "-m",
-                    "pons.pdeathsig_exec",
-                    str(os.getpid()),
-                    "pons",
-                    "up",
-                    *self.arguments,
-                ],  # dies with us
-                cwd=ROOT,
+                (self.python, *child_command("pons", "up", *self.arguments)[1:]),  # dies with us
+                cwd=self.folder,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
@@ -158,7 +152,7 @@ class System:
         assert self.up is not None
         for process in psutil.Process(self.up.pid).children():
             with contextlib.suppress(psutil.NoSuchProcess, IndexError):
-                if process.cmdline()[2:5:2] == ["pons.pdeathsig_exec", name]:
+                if module_in(process.cmdline()) == name:
                     return process
         return None
 
@@ -221,8 +215,8 @@ class System:
     def pons(self, *words: str, timeout_s: float = 40.0) -> subprocess.CompletedProcess[str]:
         """Run a ``pons`` command as a person in a shell."""
         return subprocess.run(
-            [sys.executable, "-m", "pons", *words],
-            cwd=ROOT,
+            [self.python, "-m", "pons", *words],
+            cwd=self.folder,
             env=self.environment,
             capture_output=True,
             text=True,

@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from localization.interpolation import KEPT, Track, blend
+from localization.interpolation import KEPT, PoseTrack, blend
 from wire import Pose2
 
 
 def test_between_two_stamps_it_goes_straight_and_turns_the_short_way() -> None:
-    track = Track()
+    track = PoseTrack()
     track.add(1.0, Pose2(0.0, 0.0, pi - 0.1))
     track.add(2.0, Pose2(1.0, -2.0, -pi + 0.1))
     middle = track.at(1.5)
@@ -24,7 +24,7 @@ def test_between_two_stamps_it_goes_straight_and_turns_the_short_way() -> None:
 
 
 def test_outside_what_is_held_it_does_not_guess() -> None:
-    track = Track()
+    track = PoseTrack()
     assert (track.at(0.0), track.newest_s) == (None, None)
     track.add(1.0, Pose2(0.0, 0.0, 0.0))
     assert (track.at(0.99), track.at(1.01), track.newest_s) == (None, None, 1.0)
@@ -33,7 +33,7 @@ def test_outside_what_is_held_it_does_not_guess() -> None:
 
 
 def test_what_does_not_rise_in_time_is_ignored() -> None:
-    track = Track()
+    track = PoseTrack()
     track.add(1.0, Pose2(0.0, 0.0, 0.0))
     track.add(1.0, Pose2(5.0, 0.0, 0.0))
     track.add(0.5, Pose2(6.0, 0.0, 0.0))
@@ -42,7 +42,7 @@ def test_what_does_not_rise_in_time_is_ignored() -> None:
 
 
 def test_it_holds_no_more_than_it_says() -> None:
-    track = Track()
+    track = PoseTrack()
     for stamp in range(KEPT + 10):
         track.add(float(stamp), Pose2(float(stamp), 0.0, 0.0))
     assert track.at(9.0) is None

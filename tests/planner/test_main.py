@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-import rank
 from planner.__main__ import _access
+from processes import priority
 from wire import Misconfigured
 
 
@@ -18,7 +18,9 @@ def test_it_takes_its_share_before_it_opens_anything(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     taken: list[tuple[int, list[Path]]] = []
-    monkeypatch.setattr(rank, "nice", lambda steps: taken.append((steps, list(tmp_path.iterdir()))))
+    monkeypatch.setattr(
+        priority, "add_nice", lambda steps: taken.append((steps, list(tmp_path.iterdir())))
+    )
     (tmp_path / "settings.toml").write_text("unknown = 1")
     words = ["--home", str(tmp_path), "--robot", "robot.toml", "--site", "nowhere"]
     monkeypatch.setattr(sys, "argv", ["planner", *words])

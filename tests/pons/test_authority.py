@@ -13,14 +13,16 @@ from pathlib import Path
 import pytest
 from cryptography import x509
 
-from pons.authority import AUTHORITY_LIFE, CERTIFICATE_LIFE, RENEW_BEFORE, Issued, issue
+from pons.authority import AUTHORITY_LIFE, CERTIFICATE_LIFE, RENEW_BEFORE, IssuedCertificate, issue
 from wire import Misconfigured
 
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
 FOUND = ("localhost", "127.0.0.1", "::1", "carrier", "carrier.local", "192.168.1.7", "fd00::2")
 
 
-def issued(home: Path, *asked: str, now: datetime = NOW, machine: str = "carrier") -> Issued:
+def issued(
+    home: Path, *asked: str, now: datetime = NOW, machine: str = "carrier"
+) -> IssuedCertificate:
     return issue(home, machine, asked, FOUND, now)
 
 

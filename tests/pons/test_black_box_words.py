@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.stop_report import Stop
+from bridge.stop_report import StopReport
 from pons import replay, why
 from pons.__main__ import main
 from pons.settings import load
@@ -22,7 +22,7 @@ from tests.bridge.test_replay import taken
 from wire import Mode
 
 SCREEN_LINES = 24
-SHUT = Stop(
+SHUT = StopReport(
     path=Path("x.mcap"),
     at_unix_s=1_700_000_000.0,
     ago_s=1.0,

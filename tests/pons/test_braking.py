@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from bridge.braking_file import path_of, write_learnt
-from bridge.core.state_braking import Learnt
+from bridge.core.state_motion import Learnt
 from pons import braking
 from pons.settings import Settings
 from pons.terminal_text import braking_line, robot_lines

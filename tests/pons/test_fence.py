@@ -10,7 +10,7 @@ import pytest
 
 from pons import fence
 from pons.bridge_client import NoBridge
-from pons.http import PlannerDown, Refused
+from pons.http import PlannerDown, PlannerProblem
 from pons.settings import CHECKOUT, Settings
 from wire import Answer, FenceFile, fingerprint
 from wire.fence import fence_text
@@ -181,7 +181,7 @@ def test_an_order_without_its_object_is_said(
 
 @pytest.mark.parametrize(
     ("trouble", "status"),
-    [(PlannerDown("no planner."), 6), (Refused(404, "unknown_fence_proposal", "none"), 3),
+    [(PlannerDown("no planner."), 6), (PlannerProblem(404, "unknown_fence_proposal", "none"), 3),
      (NoBridge("no_bridge: none."), 6)],
 )  # fmt: skip
 def test_who_does_not_answer_is_said(

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from pons import places
-from pons.http import PlannerDown, Refused
+from pons.http import PlannerDown, PlannerProblem
 from pons.settings import Settings, load
 
 CORNER: dict[str, Any] = {
@@ -86,7 +86,7 @@ def test_each_act_is_one_request(
 @pytest.mark.parametrize(
     ("failure", "status", "said"),
     [
-        (Refused(409, "robot_moving", "x", {"en": "stand", "zh": "停稳"}), 3, "停稳"),
+        (PlannerProblem(409, "robot_moving", "x", {"en": "stand", "zh": "停稳"}), 3, "停稳"),
         (PlannerDown("gone"), 6, "pons up"),
     ],
 )

@@ -13,10 +13,9 @@ from pathlib import Path
 import psutil
 import pytest
 
-from pons.pdeathsig_exec import BEHIND
-from pons.supervisor import FIRST_PAUSE_S, LONGEST_PAUSE_S, STEADY_S, TOKENS, Backoff, Child
+from pons.supervisor import BEHIND, FIRST_PAUSE_S, TOKENS, Child
 from sim.camera.__main__ import NICE
-from tests.rank.standing import leads_its_session, stand_of
+from tests.processes.nice_values import leads_its_session, stand_of
 
 SLEEPER = "import time\nprint('awake', flush=True)\ntime.sleep(60)\n"
 STUBBORN = (
@@ -74,20 +73,6 @@ def wait_for_word(log: Path, word: str) -> None:
             return
         time.sleep(0.02)
     pytest.fail(f"{word!r} never came")
-
-
-def test_pauses_double_up_to_a_bound() -> None:
-    backoff = Backoff()
-    pauses = [backoff.after(0.1) for _ in range(8)]
-    assert pauses[:3] == [FIRST_PAUSE_S, 2 * FIRST_PAUSE_S, 4 * FIRST_PAUSE_S]
-    assert pauses[-1] == LONGEST_PAUSE_S
-
-
-def test_a_steady_life_forgives() -> None:
-    backoff = Backoff()
-    for _ in range(5):
-        backoff.after(0.1)
-    assert backoff.after(STEADY_S) == FIRST_PAUSE_S
 
 
 @pytest.mark.parametrize("child", ["failing"], indirect=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pons.conformance.scheduler_probe import Kept, Pulse
+from pons.conformance.scheduler_probe import HostTiming, Pulse
 from scripts import calm
 
 
@@ -20,18 +20,18 @@ from scripts import calm
 def test_it_waits_and_tells(calm_from_s: float, said: str) -> None:
     now_s = [0.0]
 
-    def look() -> Kept:
+    def look() -> HostTiming:
         began_s = now_s[0]
         now_s[0] += 2.0
-        return Kept(200, 0, 0.003) if began_s >= calm_from_s else Kept(200, 9, 0.3)
+        return HostTiming(200, 0, 0.003) if began_s >= calm_from_s else HostTiming(200, 9, 0.3)
 
-    assert said in calm.waited(look, lambda: now_s[0])
+    assert said in calm.wait_for_calm(look, lambda: now_s[0])
 
 
 def test_it_always_ends_well(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(Pulse, "look", lambda _: Kept(0, 0, 0.0))
+    monkeypatch.setattr(Pulse, "look", lambda _: HostTiming(0, 0, 0.0))
     monkeypatch.setattr(calm, "LIMIT_S", 0.0)
     assert calm.main() == 0
     assert capsys.readouterr().out.startswith("calm: the machine still does not keep time")

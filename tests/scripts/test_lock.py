@@ -79,6 +79,19 @@ def test_development_runs_on_the_versions_that_users_get(repository: Path) -> No
     assert {name: dev.get(name) for name in runtime} == runtime
 
 
+def test_the_extra_of_the_wheel_pins_what_the_lock_pins(repository: Path) -> None:
+    project = tomllib.loads((repository / "pyproject.toml").read_text())["project"]
+    extra = [Requirement(line) for line in project["optional-dependencies"]["locked"]]
+    found: dict[str, list[str]] = {}
+    for one in extra:
+        found.setdefault(one.name, []).append(str(one.specifier).removeprefix("=="))
+    locked = pins(repository / "requirements.lock")
+    del locked["setuptools"]  # builds, and runs nothing
+    assert found == locked
+    asked = {canonicalize_name(one.name) for one in wanted(repository)}
+    assert asked <= set(found), "a dependency that nothing pins"
+
+
 FOR_OTHERS = {
     "httptools": "uvicorn's parser",
     "uvloop": "uvicorn's loop",
@@ -87,7 +100,7 @@ FOR_OTHERS = {
 """What no file of ours imports, and the package that does."""
 COME_ALONG = {"starlette", "pydantic-core", "pons", "pons-robot"}
 """What fastapi and pydantic are faces of, and ourselves."""
-PARTS = ("rank", "wire", "planner", "localization", "bridge", "sim", "pons")
+PARTS = ("processes", "pons_assets", "wire", "planner", "localization", "bridge", "sim", "pons")
 
 
 def test_each_package_that_running_needs_is_imported_or_named_with_its_user(

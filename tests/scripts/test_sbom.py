@@ -11,7 +11,7 @@ import pytest
 from scripts.sbom import (
     EXCEPTIONS,
     PIN,
-    Unlicensed,
+    LicenceUnknown,
     bill,
     is_permissive,
     judge,
@@ -46,25 +46,25 @@ def test_an_expression_is_permissive_where_one_whole_choice_is(
     "licence", ["GPL-3.0-only", "AGPL-3.0-only", "Proprietary", "", "BSD License", "MPL-2.0"]
 )
 def test_what_is_not_permissive_fails_by_name(licence: str) -> None:
-    with pytest.raises(Unlicensed, match="sounddevice"):
+    with pytest.raises(LicenceUnknown, match="sounddevice"):
         judge("sounddevice", licence)
 
 
 def test_exceptions_are_by_name_and_given_no_further() -> None:
     assert judge("certifi", "MPL-2.0") == "MPL-2.0"
     assert judge("lightningcss-linux-x64-gnu", "MPL-2.0") == "MPL-2.0"
-    with pytest.raises(Unlicensed):
+    with pytest.raises(LicenceUnknown):
         judge("certifiable", "MPL-2.0")
     assert all(len(reason) > 20 for reason in EXCEPTIONS.values())
 
 
 def test_a_package_that_is_not_installed_here_keeps_what_was_read_elsewhere() -> None:
     lock = "nowhere-to-be-found==1.0 ; python_version == '3.12' \\\n    --hash=sha256:00\n"
-    with pytest.raises(Unlicensed, match="not installed here"):
+    with pytest.raises(LicenceUnknown, match="not installed here"):
         python_packages(lock, {})
     before = {"pkg:pypi/nowhere-to-be-found@1.0": "MIT"}
     assert [one.licence for one in python_packages(lock, before)] == ["MIT"]
-    with pytest.raises(Unlicensed):
+    with pytest.raises(LicenceUnknown):
         python_packages(lock, {"pkg:pypi/nowhere-to-be-found@1.0": "GPL-3.0-only"})
 
 

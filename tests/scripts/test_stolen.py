@@ -45,7 +45,7 @@ def test_its_exit_status_stands_but_for_stolen_time(
 def test_where_nobody_tells_nothing_was_taken(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert stolen.taken("cpu  5 4 3 2\nintr 1\n") == (0, 14)
+    assert stolen.read_steal("cpu  5 4 3 2\nintr 1\n") == (0, 14)
     monkeypatch.setattr(stolen, "STAT", tmp_path / "none")
     assert stolen.main([sys.executable, "-S", "-c", "raise SystemExit(1)"]) == 1
 

@@ -14,7 +14,7 @@ from sim.site import load_home, solids
 from sim.site.check import spots
 from sim.site.objects import Upright
 from sim.site.shapes import Disc, Solid
-from sim.world import World
+from sim.world import PhysicsWorld
 from wire import Pose2, RobotDescription
 
 RESOLUTION_M = 0.05
@@ -51,7 +51,7 @@ def beams(count: int) -> NDArray[np.float64]:
 def test_rays_end_where_the_map_is_occupied(site_dir: Path) -> None:
     home = load_home(site_dir)
     picture = Picture(site_dir)
-    world = World(solids(home), RobotDescription().base, Hardware(), PERIODS.step_s)
+    world = PhysicsWorld(solids(home), RobotDescription().base, Hardware(), PERIODS.step_s)
     standing = solids(home)
     directions = beams(180)
     for x_m, y_m, _ in spots(home).values():
@@ -105,7 +105,7 @@ def test_every_place_is_reached_by_a_disc_of_the_robots_radius(site_dir: Path) -
 
 def test_a_person_put_into_the_home_is_seen_and_taken_away(repository: Path) -> None:
     home = load_home(repository / "sites" / "two_room")
-    world = World(solids(home), RobotDescription().base, Hardware(), PERIODS.step_s)
+    world = PhysicsWorld(solids(home), RobotDescription().base, Hardware(), PERIODS.step_s)
     ahead = np.array([[0.0, 1.0, 0.0]])
     before = world.rays((1.5, 1.0), ahead, 30.0)[0]
     world.place_obstacle("person_0", 1.5, 2.5, 0.0)
@@ -116,7 +116,7 @@ def test_a_person_put_into_the_home_is_seen_and_taken_away(repository: Path) -> 
 
 def test_the_robot_does_not_see_itself(repository: Path) -> None:
     home = load_home(repository / "sites" / "two_room")
-    world = World(solids(home), RobotDescription().base, Hardware(), PERIODS.step_s)
+    world = PhysicsWorld(solids(home), RobotDescription().base, Hardware(), PERIODS.step_s)
     for yaw in (0.0, 1.0, pi):
         world.place_robot(Pose2(1.5, 1.9, yaw))
         direction = np.array([[cos(yaw), sin(yaw), 0.0]])
@@ -127,5 +127,5 @@ def test_a_home_may_call_its_things_as_the_physics_calls_its_own() -> None:
     names = ("floor", "chassis", "base", "wheel_left", "caster_front", "ballast")
     furniture = [Solid(name, Disc(3.0, 3.0, 0.2), 0.5) for name in (*names, "crate_0")]
     things = [Upright(name, Pose2(-3.0, 3.0, 0.0), (0.2, 0.2), 0.5, round=False) for name in names]
-    world = World(furniture, RobotDescription().base, Hardware(), PERIODS.step_s, things)
+    world = PhysicsWorld(furniture, RobotDescription().base, Hardware(), PERIODS.step_s, things)
     assert set(names) <= set(world.carried)

@@ -8,7 +8,7 @@ import pytest
 from pydantic import Field
 
 from tests.wire.examples import EXAMPLES
-from tools.bench.measure.codec_fuzz import fuzz, within
+from tools.bench.measure.codec_fuzz import fuzz, is_within
 from wire import Stop, Velocity
 
 
@@ -35,11 +35,11 @@ def test_five_thousand_spoilt_messages_are_refused_or_sound() -> None:
     ],
 )
 def test_the_judge_knows_good_from_bad(value: object, kind: object, fits: bool) -> None:
-    assert within(value, kind, ()) is fits
+    assert is_within(value, kind, ()) is fits
 
 
 def test_the_judge_sees_a_field_out_of_bounds() -> None:
     good = EXAMPLES[Velocity]
-    assert within(good, Velocity, ())
-    assert not within(good.model_copy(update={"v_mps": 1e9}), Velocity, ())
-    assert not within(good, Stop, ())
+    assert is_within(good, Velocity, ())
+    assert not is_within(good.model_copy(update={"v_mps": 1e9}), Velocity, ())
+    assert not is_within(good, Stop, ())

@@ -218,17 +218,17 @@ def test_the_newest_picture_comes_whole_with_its_header(tmp_path: Path) -> None:
 def test_a_picture_is_wanted_while_somebody_listens(tmp_path: Path) -> None:
     with open_session(Party.CAMERA, "r1", tmp_path) as camera:
         mouth = camera.image_publisher(CAMERA_COLOR)
-        assert not mouth.wanted
+        assert not mouth.has_listener
         with open_session(Party.PLANNER, "r1", tmp_path) as planner:
             ears = planner.image_subscriber(CAMERA_COLOR)
-            assert until(lambda: mouth.wanted)
+            assert until(lambda: mouth.has_listener)
             assert ears.newest() is None
             ears.close()
-            assert until(lambda: not mouth.wanted)
+            assert until(lambda: not mouth.has_listener)
             again = planner.image_subscriber(CAMERA_COLOR)
-            assert until(lambda: mouth.wanted)
+            assert until(lambda: mouth.has_listener)
             assert again.newest() is None
-        assert until(lambda: not mouth.wanted)
+        assert until(lambda: not mouth.has_listener)
 
 
 def test_the_status_of_whichever_robot_is_there_is_heard(tmp_path: Path) -> None:

@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from tools.attack import contract, decoding, files, roles, slow_clients
-from tools.attack.lab import Lab
-from tools.attack.outcome import Outcome, table
+from tools.attack.lab import AttackLab
+from tools.attack.outcome import AttackOutcome, table
 from tools.bench.context import TROUBLE, line
 from tools.bench.store import Store
 
@@ -42,10 +42,10 @@ def main(arguments: list[str] | None = None) -> int:
     store = Store(home / "results.jsonl", resume=False)
     wanted = [one for one in ALL if not given.names or one.NAME in given.names]
     print(f"{store.machine}; commit {store.commit}; crashes are kept in {home}", flush=True)
-    outcomes: list[Outcome] = []
+    outcomes: list[AttackOutcome] = []
     try:
         for one in wanted:
-            found, took_s = _attack(one, Lab(home, long=given.long, seed=given.seed))
+            found, took_s = _attack(one, AttackLab(home, long=given.long, seed=given.seed))
             for outcome in found:
                 store.append("attack", one.NAME, outcome.record())
             print(f"\n{one.TITLE} ({one.NAME}, {took_s:.0f} s)\n{table(found)}", flush=True)
@@ -53,19 +53,19 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\nattack: interrupted; all processes are ended")
         return INTERRUPTED
-    missed = [outcome for outcome in outcomes if not outcome.met]
+    missed = [outcome for outcome in outcomes if not outcome.is_met]
     print(f"\nall, of seed {given.seed}\n{table(outcomes)}")
     print(f"goals missed: {len(missed)} of {len(outcomes)}")
     return 1 if missed else 0
 
 
-def _attack(one: Attack, lab: Lab) -> tuple[list[Outcome], float]:
+def _attack(one: Attack, lab: AttackLab) -> tuple[list[AttackOutcome], float]:
     """Run one attack; what it could not do is a goal missed and does not end the others."""
     began_s = time.monotonic()
     try:
         found = one.attack(lab)
     except TROUBLE as trouble:
-        found = [Outcome(one.NAME, 0, 0, "could be tried", note=line(trouble))]
+        found = [AttackOutcome(one.NAME, 0, 0, "could be tried", note=line(trouble))]
     named = [replace(outcome, attack=f"{one.NAME}: {outcome.attack}") for outcome in found]
     return named, time.monotonic() - began_s
 

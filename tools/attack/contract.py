@@ -19,13 +19,13 @@ from typing import TYPE_CHECKING, Any
 from pons.settings import CHECKOUT
 from tools.attack import target
 from tools.attack.mutators import mutant
-from tools.attack.outcome import Outcome
+from tools.attack.outcome import AttackOutcome
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from tools.attack.lab import Lab
-    from tools.bench.robot import Robot
+    from tools.attack.lab import AttackLab
+    from tools.bench.robot import BenchRobot
 
 NAME = "contract"
 TITLE = "the HTTP contract: requests by openapi.json, and bodies of no schema"
@@ -57,50 +57,52 @@ BODIES: tuple[dict[str, Any], ...] = (
 )  # fmt: skip
 
 
-def attack(lab: Lab) -> list[Outcome]:
+def attack(lab: AttackLab) -> list[AttackOutcome]:
     """Attack one robot by schema, then by mutants."""
     with target.robot(lab) as running:
         found = _by_schema(lab, running)
         found.append(_by_mutants(lab, running))
         stopped = target.stop_confirmed(running) is not None
-    return [*found, Outcome("stop afterwards", 1, int(not stopped), "confirmed")]
+    return [*found, AttackOutcome("stop afterwards", 1, int(not stopped), "confirmed")]
 
 
-def _by_schema(lab: Lab, running: Robot) -> list[Outcome]:
+def _by_schema(lab: AttackLab, running: BenchRobot) -> list[AttackOutcome]:
     if importlib.util.find_spec("schemathesis") is None:
         note = "schemathesis is not installed: make attack does that"
-        return [Outcome("by schema", 0, 0, "", note=note, skipped=True)]
+        return [AttackOutcome("by schema", 0, 0, "", note=note, skipped=True)]
     before_mb = target.planner_mb(running)
     with lab.folder() as folder:
         said, report = _schemathesis(lab, running, folder)
     after_mb = target.planner_mb(running)
     kept = lab.home / "contract.txt"
     kept.write_text(said, "utf-8")
-    return judged(report, f"all in {kept}", before_mb, after_mb)
+    return judge_report(report, f"all in {kept}", before_mb, after_mb)
 
 
-def judged(
+def judge_report(
     report: dict[str, Any] | None, where: str, before_mb: float, after_mb: float
-) -> list[Outcome]:
+) -> list[AttackOutcome]:
     """Return a line for each check of the tool's report; one that says it never ended without."""
     if report is None or not report.get("complete"):
-        return [Outcome("by schema", 0, 1, "ends", note=f"no whole report; {where}")]
+        return [AttackOutcome("by schema", 0, 1, "ends", note=f"no whole report; {where}")]
     tried = int(report["test_cases"]["generated"])
     failures = {str(failure["type"]): failure for failure in report["failures"]}
-    found: list[Outcome] = []
+    found: list[AttackOutcome] = []
     for check, kind in CHECKS.items():
         failure = failures.pop(kind, {"count": 0, "operations": []})
         wrong, operations = int(failure["count"]), failure["operations"]
         shown = ", ".join(operations[:4]) + (" …" if len(operations) > 4 else "")
         note = f"{shown}; {where}" if wrong else ""
-        found.append(Outcome(check, tried, wrong, "0", note=note))
+        found.append(AttackOutcome(check, tried, wrong, "0", note=note))
     found[0] = replace(found[0], before_mb=before_mb, after_mb=after_mb, growth_mb=GROWTH_MB)
     for kind, failure in failures.items():
-        found.append(Outcome(kind, tried, int(failure["count"]), "0", note=where))
+        found.append(AttackOutcome(kind, tried, int(failure["count"]), "0", note=where))
     return found
 
 
-def _schemathesis(lab: Lab, running: Robot, folder: Path) -> tuple[str, dict[str, Any] | None]:
+def _schemathesis(
+    lab: AttackLab, running: BenchRobot, folder: Path
+) -> tuple[str, dict[str, Any] | None]:
     """Run the tool; return what it said, and its report."""
     count = LONG_EXAMPLES if lab.long else QUICK_EXAMPLES
     limit_s = LONG_LIMIT_S if lab.long else QUICK_LIMIT_S
@@ -124,7 +126,7 @@ def _schemathesis(lab: Lab, running: Robot, folder: Path) -> tuple[str, dict[str
     return done.stdout + done.stderr, told
 
 
-def _by_mutants(lab: Lab, running: Robot) -> Outcome:
+def _by_mutants(lab: AttackLab, running: BenchRobot) -> AttackOutcome:
     """Send mutated bodies of JSON to every route that takes some."""
     paths = [path for path in taking_json() if path != "/v1/stop"]
     seeds, random = (
@@ -141,8 +143,16 @@ def _by_mutants(lab: Lab, running: Robot) -> Outcome:
         if answer is None or (answer.status >= 500 and answer.status != UNAVAILABLE):
             wrong.append(f"{path} {answer.status if answer else 'no answer'} {body[:60]!r}")
     after_mb = target.planner_mb(running)
-    return Outcome("mutated bodies", tried, len(wrong), "0 of 5xx", before_mb, after_mb, GROWTH_MB,
-                   "; ".join(wrong[:3]))  # fmt: skip
+    return AttackOutcome(
+        "mutated bodies",
+        tried,
+        len(wrong),
+        "0 of 5xx",
+        before_mb,
+        after_mb,
+        GROWTH_MB,
+        "; ".join(wrong[:3]),
+    )
 
 
 def taking_json() -> list[str]:

@@ -35,7 +35,7 @@ class Reader:
 
 
 @dataclass(frozen=True, slots=True)
-class Decoder:
+class AttackedDecoder:
     """Describe one decoder."""
 
     name: str
@@ -270,15 +270,15 @@ def _vocabulary() -> Any:
 
 
 DECODERS = (
-    Decoder("codec", seeds.messages, _codec),
-    Decoder("wav", seeds.recordings_of_speech, _wav),
-    Decoder("mcap", seeds.small_recordings, _mcap, 8_192),
-    Decoder("model", seeds.replies, _model),
-    Decoder("image", seeds.pictures, _image),
-    Decoder("fence", seeds.fences, _fence),
-    Decoder("toml", lambda: [*seeds.robots(), *seeds.SETTINGS], _toml),
-    Decoder("yaml", lambda: [*seeds.places(), *seeds.maps()], _yaml),
-    Decoder("language", seeds.texts, _language, 600),
-    Decoder("offline", seeds.texts, _offline, 300),
+    AttackedDecoder("codec", seeds.messages, _codec),
+    AttackedDecoder("wav", seeds.recordings_of_speech, _wav),
+    AttackedDecoder("mcap", seeds.small_recordings, _mcap, 8_192),
+    AttackedDecoder("model", seeds.replies, _model),
+    AttackedDecoder("image", seeds.pictures, _image),
+    AttackedDecoder("fence", seeds.fences, _fence),
+    AttackedDecoder("toml", lambda: [*seeds.robots(), *seeds.SETTINGS], _toml),
+    AttackedDecoder("yaml", lambda: [*seeds.places(), *seeds.maps()], _yaml),
+    AttackedDecoder("language", seeds.texts, _language, 600),
+    AttackedDecoder("offline", seeds.texts, _offline, 300),
 )
 BY_NAME = {decoder.name: decoder for decoder in DECODERS}

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 from tools.attack.decoders import DECODERS
 from tools.attack.lab import side_by_side
-from tools.attack.outcome import Outcome
+from tools.attack.outcome import AttackOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from tools.attack.lab import Ended, Lab
+    from tools.attack.lab import AttackLab, ChildEnd
 
 NAME = "decoding"
 TITLE = "decoders fed with mutants"
@@ -27,63 +27,76 @@ GOAL = "0 crashes, 0 hangs, memory +10 MB at most"
 _RUNS = re.compile(r"stat::number_of_executed_units:\s*(\d+)")
 
 
-def attack(lab: Lab) -> list[Outcome]:
+def attack(lab: AttackLab) -> list[AttackOutcome]:
     """Fuzz each decoder in a process of its own, one a processor."""
     with lab.folder() as folder:
-        found = [*_blind(lab, folder), *_guided(lab, folder)]
+        found = [*_blind(lab, folder), *_run_guided(lab, folder)]
         lab.keep(folder)
     return found
 
 
-def _fuzzed(
-    lab: Lab, folder: Path, module: str, seconds: float, judge: Callable[[str, Ended], Outcome]
-) -> list[Outcome]:
+def _run_fuzzer(
+    lab: AttackLab,
+    folder: Path,
+    module: str,
+    seconds: float,
+    judge: Callable[[str, ChildEnd], AttackOutcome],
+) -> list[AttackOutcome]:
     """Run one fuzzer's module on every decoder, each in a folder of its own."""
     commands = []
     for decoder in DECODERS:
         own = folder / f"{decoder.name}-{module}"  # crashes are kept beside it
         own.mkdir()
         commands.append(lab.child(module, decoder.name, own, seconds, LONG_COUNT))
-    found: dict[int, Outcome] = {}
+    found: dict[int, AttackOutcome] = {}
     for at, ended in side_by_side(commands, seconds + GRACE_S):
         found[at] = judge(DECODERS[at].name, ended)
         lab.say(f"{found[at].attack}: {found[at].n} inputs, {found[at].wrong} wrong")
     return [found[at] for at in sorted(found)]
 
 
-def _blind(lab: Lab, folder: Path) -> list[Outcome]:
-    return _fuzzed(lab, folder, "tools.attack.fuzz", LONG_S if lab.long else QUICK_S, told)
-
-
-def told(name: str, ended: Ended) -> Outcome:
-    """Return what a blind fuzzer told; one that told nothing crashed or hung as a whole."""
-    record = ended.told
-    if record is None:
-        how = "hung" if ended.status is None else f"ended with {ended.status}"
-        note = f"the process {how}: {' '.join(ended.complained.split())[-200:]}"
-        return Outcome(name, 1, 1, GOAL, note=note)
-    wrong = int(record["crashes"]) + int(record["hangs"])
-    kinds = "; ".join(f"{kind} x{count}" for kind, count in record["kinds"].items())
-    taken = f"{record['taken']} taken, slowest {record['slowest_ms']:.0f} ms"
-    return Outcome(name, int(record["n"]), wrong, GOAL, record["before_mb"], record["after_mb"],
-                   note=f"{taken}; {kinds}" if kinds else taken)  # fmt: skip
-
-
-def _guided(lab: Lab, folder: Path) -> list[Outcome]:
-    if importlib.util.find_spec("atheris") is None:
-        note = "atheris is not installed: make attack installs it where it has a wheel"
-        return [Outcome("guided", 0, 0, "0 crashes", note=note, skipped=True)]
-    return _fuzzed(
-        lab, folder, "tools.attack.guided", LONG_S if lab.long else QUICK_GUIDED_S, guided
+def _blind(lab: AttackLab, folder: Path) -> list[AttackOutcome]:
+    return _run_fuzzer(
+        lab, folder, "tools.attack.fuzz", LONG_S if lab.long else QUICK_S, blind_outcome
     )
 
 
-def guided(name: str, ended: Ended) -> Outcome:
+def blind_outcome(name: str, ended: ChildEnd) -> AttackOutcome:
+    """Return what a blind fuzzer told; one that told nothing crashed or hung as a whole."""
+    record = ended.last_record
+    if record is None:
+        how = "hung" if ended.status is None else f"ended with {ended.status}"
+        note = f"the process {how}: {' '.join(ended.complained.split())[-200:]}"
+        return AttackOutcome(name, 1, 1, GOAL, note=note)
+    wrong = int(record["crashes"]) + int(record["hangs"])
+    kinds = "; ".join(f"{kind} x{count}" for kind, count in record["kinds"].items())
+    taken = f"{record['taken']} taken, slowest {record['slowest_ms']:.0f} ms"
+    return AttackOutcome(
+        name,
+        int(record["n"]),
+        wrong,
+        GOAL,
+        record["before_mb"],
+        record["after_mb"],
+        note=f"{taken}; {kinds}" if kinds else taken,
+    )
+
+
+def _run_guided(lab: AttackLab, folder: Path) -> list[AttackOutcome]:
+    if importlib.util.find_spec("atheris") is None:
+        note = "atheris is not installed: make attack installs it where it has a wheel"
+        return [AttackOutcome("guided", 0, 0, "0 crashes", note=note, skipped=True)]
+    return _run_fuzzer(
+        lab, folder, "tools.attack.guided", LONG_S if lab.long else QUICK_GUIDED_S, guided_outcome
+    )
+
+
+def guided_outcome(name: str, ended: ChildEnd) -> AttackOutcome:
     """Return what libFuzzer told at its end; it ends at the first crash."""
     runs = _RUNS.search(ended.complained)
     wrong = int(ended.status != 0)
     words = [line for line in ended.complained.splitlines() if "Error" in line or "Unsound" in line]
     note = " | ".join(words[-2:])[:200] if wrong else "coverage-guided, memory up to 1 GB"
-    return Outcome(
+    return AttackOutcome(
         f"{name}, guided", int(runs[1]) if runs else wrong, wrong, "0 crashes", note=note
     )

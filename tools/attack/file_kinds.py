@@ -134,7 +134,7 @@ def _settings() -> Loaded:
     return lambda folder: load_settings(folder, {}), (Misconfigured,)
 
 
-def _kept() -> Loaded:
+def _load_kept_files() -> Loaded:
     """Read the small JSON files of a home folder: taught places, things seen, brakes, fences."""
     from bridge.braking_file import load_learnt
     from planner.perception.object_store import ThingStore
@@ -265,7 +265,7 @@ KINDS = (
     FileKind("fence.json", "fence.json", seeds.fences, _fence, _fence_bombs),
     FileKind("robot.toml", "robot.toml", seeds.robots, _robot, _toml_bombs),
     FileKind("settings.toml", "settings.toml", lambda: seeds.SETTINGS, _settings, _toml_bombs),
-    FileKind("kept JSON", "kept.json", seeds.kept, _kept, _json_bombs),
+    FileKind("kept JSON", "kept.json", seeds.kept_seeds, _load_kept_files, _json_bombs),
     FileKind("labels", "labels.txt", lambda: [b'["cup", "chair"]', b"cup\nchair\n"], _labels,
              _json_bombs),
 )  # fmt: skip

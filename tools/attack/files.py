@@ -25,13 +25,13 @@ from tools.attack.file_kinds import KINDS, FileKind
 from tools.attack.fuzz import place_of
 from tools.attack.lab import side_by_side
 from tools.attack.mutators import mutant
-from tools.attack.outcome import Outcome
+from tools.attack.outcome import AttackOutcome
 from tools.bench.processes import rss_mb
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from tools.attack.lab import Ended, Lab
+    from tools.attack.lab import AttackLab, ChildEnd
 
 NAME = "files"
 TITLE = "files of every kind, damaged and hostile"
@@ -47,7 +47,7 @@ GRACE_S = 180.0
 FINE = frozenset({"read", "refused"})
 
 
-def attack(lab: Lab) -> list[Outcome]:
+def attack(lab: AttackLab) -> list[AttackOutcome]:
     """Try each kind in a process of its own, one a processor."""
     count, seconds = (LONG_COUNT, LONG_S) if lab.long else (QUICK_COUNT, QUICK_S)
     with lab.folder() as folder:
@@ -56,26 +56,26 @@ def attack(lab: Lab) -> list[Outcome]:
             own = folder / f"{at}" / "two_room"  # home.yaml must lie in a folder of its name
             own.mkdir(parents=True)
             commands.append(lab.child("tools.attack.files", str(at), own, seconds, count))
-        found: dict[int, Outcome] = {}
+        found: dict[int, AttackOutcome] = {}
         for at, ended in side_by_side(commands, seconds + GRACE_S):
-            found[at] = told(KINDS[at], ended)
+            found[at] = file_outcome(KINDS[at], ended)
             lab.say(f"{found[at].attack}: {found[at].n} files, {found[at].wrong} wrong")
             lab.keep(folder / f"{at}")
     return [found[at] for at in sorted(found)]
 
 
-def told(kind: FileKind, ended: Ended) -> Outcome:
+def file_outcome(kind: FileKind, ended: ChildEnd) -> AttackOutcome:
     """Return what the process of one kind told."""
     goal = f"read or refused by code in {LIMIT_S} s and {kind.bound_mb:.0f} MB"
-    record = ended.told
+    record = ended.last_record
     if record is None:
         note = f"the process ended with {ended.status}: {ended.complained.strip()[-200:]}"
-        return Outcome(kind.name, 1, 1, goal, note=note)
+        return AttackOutcome(kind.name, 1, 1, goal, note=note)
     counts: dict[str, int] = record["counts"]
     wrong = sum(count for what, count in counts.items() if what not in FINE)
     note = "; ".join(f"{what} {count}" for what, count in sorted(counts.items()))
     peak = f"most {record['most_mb']:.0f} MB, {record['slowest_s']:.1f} s"
-    return Outcome(kind.name, sum(counts.values()), wrong, goal, note=f"{note}; {peak}")
+    return AttackOutcome(kind.name, sum(counts.values()), wrong, goal, note=f"{note}; {peak}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -90,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     kind = KINDS[given.kind]
     read, refusals = kind.load()
     kind.beside(given.folder)
-    told = Told(kind, given.folder)
+    told = FileCounts(kind, given.folder)
     seeds = list(kind.seeds())
     for data in (*seeds, *kind.bombs()):
         told.take(data, read, refusals)
@@ -103,7 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 @dataclass
-class Told:
+class FileCounts:
     """Count what came of the files of one kind."""
 
     kind: FileKind
@@ -172,7 +172,7 @@ def _read_in_fork(
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
         resource.setrlimit(resource.RLIMIT_CPU, (limit_s, limit_s + 1))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        what = _judged(read, refusals)
+        what = _judge(read, refusals)
         peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
         said = json.dumps([what, max(0.0, peak_mb - before_mb)])
         os.write(answers, said.encode())
@@ -181,7 +181,7 @@ def _read_in_fork(
         os._exit(status)
 
 
-def _judged(read: Callable[[], object], refusals: tuple[type[Exception], ...]) -> str:
+def _judge(read: Callable[[], object], refusals: tuple[type[Exception], ...]) -> str:
     try:
         read()
     except refusals as refusal:

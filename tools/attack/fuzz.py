@@ -19,7 +19,7 @@ from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING
 
-from tools.attack.decoders import BY_NAME, Decoder, Reader
+from tools.attack.decoders import BY_NAME, AttackedDecoder, Reader
 from tools.attack.mutators import mutant
 from tools.bench.processes import rss_mb
 
@@ -56,7 +56,7 @@ class Tally:
     """Crashes by exception and the line that raised it."""
 
 
-def fuzz(decoder: Decoder, folder: Path, *, seed: int, count: int, seconds: float) -> Tally:
+def fuzz(decoder: AttackedDecoder, folder: Path, *, seed: int, count: int, seconds: float) -> Tally:
     """Try so many mutants, or as many as there is time for.
 
     Args:

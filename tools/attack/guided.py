@@ -44,10 +44,10 @@ def main() -> None:
         "-print_final_stats=1", "-verbosity=0",
     ]  # fmt: skip
 
-    def once(data: bytes) -> None:
+    def feed_once(data: bytes) -> None:
         reader.takes(data)
 
-    atheris.Setup(options, once)
+    atheris.Setup(options, feed_once)
     atheris.Fuzz()
 
 

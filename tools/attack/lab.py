@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from tools.attack.outcome import Outcome
+    from tools.attack.outcome import AttackOutcome
 
 MEMORY = Path("/dev/shm")
 
@@ -28,12 +28,12 @@ class Attack(Protocol):
     TITLE: str
 
     @staticmethod
-    def attack(lab: Lab) -> list[Outcome]:
+    def attack(lab: AttackLab) -> list[AttackOutcome]:
         """Attack and return the lines of a table."""
 
 
 @dataclass(frozen=True)
-class Lab:
+class AttackLab:
     """Serve one attack."""
 
     home: Path
@@ -66,7 +66,7 @@ class Lab:
 
 
 @dataclass(frozen=True)
-class Ended:
+class ChildEnd:
     """Hold how a child ended."""
 
     status: int | None
@@ -75,7 +75,7 @@ class Ended:
     complained: str
 
     @property
-    def told(self) -> dict[str, Any] | None:
+    def last_record(self) -> dict[str, Any] | None:
         """Return the JSON of the last line it said; None where that is none."""
         try:
             found = json.loads(self.said.splitlines()[-1])
@@ -84,7 +84,9 @@ class Ended:
         return found if isinstance(found, dict) else None
 
 
-def side_by_side(commands: Sequence[Sequence[str]], limit_s: float) -> Iterator[tuple[int, Ended]]:
+def side_by_side(
+    commands: Sequence[Sequence[str]], limit_s: float
+) -> Iterator[tuple[int, ChildEnd]]:
     """Run Python modules in child processes, one a processor; yield each as it ends.
 
     Args:
@@ -99,7 +101,7 @@ def side_by_side(commands: Sequence[Sequence[str]], limit_s: float) -> Iterator[
             yield running[done], done.result()
 
 
-def _run(words: Sequence[str], limit_s: float) -> Ended:
+def _run(words: Sequence[str], limit_s: float) -> ChildEnd:
     command = [sys.executable, "-m", *words]
     with subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -112,4 +114,4 @@ def _run(words: Sequence[str], limit_s: float) -> Ended:
             os.killpg(child.pid, signal.SIGKILL)
             said, complained = child.communicate()
             status = None
-    return Ended(status, said.decode("utf-8", "replace"), complained.decode("utf-8", "replace"))
+    return ChildEnd(status, said.decode("utf-8", "replace"), complained.decode("utf-8", "replace"))

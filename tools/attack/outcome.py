@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from tools.bench.figures import NONE_SEEN_95
-from tools.bench.report import aligned
+from tools.bench.report import align_columns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -17,7 +17,7 @@ GROWTH_MB = 10.0
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class AttackOutcome:
     """Hold one line of the table."""
 
     attack: str
@@ -35,7 +35,7 @@ class Outcome:
     """The tool for it is missing here, which is said and is no failure."""
 
     @property
-    def met(self) -> bool:
+    def is_met(self) -> bool:
         """Return whether something was tried, nothing went wrong and memory stayed flat."""
         if self.skipped:
             return True
@@ -54,16 +54,16 @@ class Outcome:
         if self.before_mb is not None and self.after_mb is not None:
             grown = f"{self.before_mb:.0f} -> {self.after_mb:.0f}"
         rate = f"{NONE_SEEN_95 / self.n:.1e}" if self.n and not self.wrong else ""
-        met = "skipped" if self.skipped else "yes" if self.met else "NO"
+        met = "skipped" if self.skipped else "yes" if self.is_met else "NO"
         return (
             self.attack, f"{self.n}", f"{self.wrong}", rate, grown, self.goal, met, self.note
         )  # fmt: skip
 
     def record(self) -> dict[str, Any]:
         """Return the line as JSON can hold it."""
-        return {**asdict(self), "met": self.met}
+        return {**asdict(self), "met": self.is_met}
 
 
-def table(outcomes: Iterable[Outcome]) -> str:
+def table(outcomes: Iterable[AttackOutcome]) -> str:
     """Return outcomes as an aligned table."""
-    return aligned(HEAD, [outcome.cells() for outcome in outcomes])
+    return align_columns(HEAD, [outcome.cells() for outcome in outcomes])

@@ -15,13 +15,13 @@ from websockets.sync.client import connect
 
 from pons.settings import CHECKOUT
 from tools.attack import target
-from tools.attack.outcome import Outcome
+from tools.attack.outcome import AttackOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tools.attack.lab import Lab
-    from tools.bench.robot import Robot
+    from tools.attack.lab import AttackLab
+    from tools.bench.robot import BenchRobot
 
 NAME = "roles"
 TITLE = "every route as every asker"
@@ -37,7 +37,7 @@ ASKERS = {
 REFUSED = frozenset({401, 403})
 
 
-def attack(lab: Lab) -> list[Outcome]:
+def attack(lab: AttackLab) -> list[AttackOutcome]:
     """Ask with every method for every path, and open the event socket."""
     with target.robot(lab, tokens=True) as running:
         before_mb = target.planner_mb(running)
@@ -45,29 +45,31 @@ def attack(lab: Lab) -> list[Outcome]:
         stopped = target.stop_confirmed(running, target.VIEWER) is not None
         after_mb = target.planner_mb(running)
     note = "a viewer's stop afterwards"
-    last = Outcome("stop", 1, int(not stopped), "confirmed", before_mb, after_mb, 30.0, note)
+    last = AttackOutcome("stop", 1, int(not stopped), "confirmed", before_mb, after_mb, 30.0, note)
     return [*found, last]
 
 
-def _ask_as(running: Robot, asker: str) -> Outcome:
+def _ask_as(running: BenchRobot, asker: str) -> AttackOutcome:
     wrong: list[str] = []
     tried = 0
-    for method, path in asked():
+    for method, path in all_requests():
         answer = target.ask(running, method, path, token=ASKERS[asker], body=b"{}",
                             kind=kind_of(path), source=target.another_address())  # fmt: skip
         tried += 1
         status = answer.status if answer is not None else 0
-        if not fits(expected(asker, method, path), status):
+        if not fits(expected_status(asker, method, path), status):
             wrong.append(f"{method} {path} {status}")
     opened = _socket_opens(running, ASKERS[asker])
     if opened is not (asker in ("viewer", "operator")):
         wrong.append(f"/v1/events {'opened' if opened else 'refused'}")
     goal = {"nobody": "401", "wrong token": "401", "viewer": "looks, stops; else 403"}
     note = "; ".join(wrong[:6])
-    return Outcome(asker, tried + 1, len(wrong), goal.get(asker, "no 401, 403, 5xx"), note=note)
+    return AttackOutcome(
+        asker, tried + 1, len(wrong), goal.get(asker, "no 401, 403, 5xx"), note=note
+    )
 
 
-def asked() -> Iterator[tuple[str, str]]:
+def all_requests() -> Iterator[tuple[str, str]]:
     """Yield every method with every path, a name in place of what the path leaves open."""
     contract = json.loads((CHECKOUT / "openapi.json").read_text("utf-8"))
     for template in sorted(contract["paths"]):
@@ -75,7 +77,7 @@ def asked() -> Iterator[tuple[str, str]]:
         yield from ((method, path) for method in METHODS)
 
 
-def expected(asker: str, method: str, path: str) -> int | None:
+def expected_status(asker: str, method: str, path: str) -> int | None:
     """Return the status by which an asker is refused; None where it may ask."""
     if asker in ("nobody", "wrong token"):
         return 401
@@ -96,7 +98,7 @@ def kind_of(path: str) -> str:
     return "audio/wav" if path == "/v1/voice" else "application/json"
 
 
-def _socket_opens(running: Robot, token: str | None) -> bool:
+def _socket_opens(running: BenchRobot, token: str | None) -> bool:
     """Return whether the event socket takes a token, given as a browser does."""
     url = f"ws://{running.settings.host}:{running.settings.port}/v1/events"
     offers = ["pons.v1"]

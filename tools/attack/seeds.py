@@ -103,13 +103,15 @@ def recordings() -> tuple[bytes, ...]:
 
 def small_recordings() -> list[bytes]:
     """Return a black box of two small chunks, closed and cut short, for many tries a second."""
-    from bridge.recording.mcap_file import BoxFile
-    from bridge.recording.topics import Topic
+    from bridge.recording.mcap_file import McapFile
+    from bridge.recording.topics import RecordedTopic
 
-    topics = {name: Topic("a", "jsonschema", b"{}", "json") for name in ("/scan", "/log", "/pose")}
+    topics = {
+        name: RecordedTopic("a", "jsonschema", b"{}", "json") for name in ("/scan", "/log", "/pose")
+    }
     with TemporaryDirectory(prefix="pa-") as folder:
         path = Path(folder) / "small.mcap"
-        box = BoxFile(path, topics)
+        box = McapFile(path, topics)
         for number, name in enumerate((*topics, *topics)):
             box.add(name, number, number, b'{"n": %d}' % number)
             if number == 2:
@@ -160,7 +162,7 @@ def places() -> list[bytes]:
     return _of_sites("places.yaml")
 
 
-def kept() -> list[bytes]:
+def kept_seeds() -> list[bytes]:
     """Return the small JSON files of a home folder."""
     name = {"en": "charger", "zh": "充电桩"}
     pose = {"x_m": 1.0, "y_m": 1.0, "yaw_rad": 0.0}

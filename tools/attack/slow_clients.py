@@ -12,15 +12,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tools.attack import target
-from tools.attack.outcome import Outcome
+from tools.attack.outcome import AttackOutcome
 from tools.bench.figures import percentile
 
 if TYPE_CHECKING:
     import socket
     from collections.abc import Callable, Iterator, Sequence
 
-    from tools.attack.lab import Lab
-    from tools.bench.robot import Robot
+    from tools.attack.lab import AttackLab
+    from tools.bench.robot import BenchRobot
 
 NAME = "slow_clients"
 TITLE = "slow and endless clients, and stop beside them"
@@ -44,7 +44,7 @@ _SNAPSHOT = b"\x81\x92\x00\x00\x00\x00" + b'{"snapshot": true}'
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class SlowWay:
     """Describe one way of being slow or endless."""
 
     name: str
@@ -59,32 +59,32 @@ class Way:
 
 
 WAYS = (
-    Way("silent connections", 1_050, b""),
-    Way("half a request line", 1_050, b"GET"),
-    Way("trickled headers", 300, b"GET /v1/robot HTTP/1.1\r\n" + _HOST + b"X-A: ", b"a"),
-    Way("trickled bodies", 300, _POST + b"Content-Length: 100000\r\n\r\n", b" "),
-    Way("endless headers", 3, b"GET / HTTP/1.1\r\n" + _HOST, b"X-A: b\r\n" * 8_000,
+    SlowWay("silent connections", 1_050, b""),
+    SlowWay("half a request line", 1_050, b"GET"),
+    SlowWay("trickled headers", 300, b"GET /v1/robot HTTP/1.1\r\n" + _HOST + b"X-A: ", b"a"),
+    SlowWay("trickled bodies", 300, _POST + b"Content-Length: 100000\r\n\r\n", b" "),
+    SlowWay("endless headers", 3, b"GET / HTTP/1.1\r\n" + _HOST, b"X-A: b\r\n" * 8_000,
         30_000_000, 0.0),
-    Way("one endless header", 2, b"GET / HTTP/1.1\r\n" + _HOST + b"X-A: ", b"a" * 64_000,
+    SlowWay("one endless header", 2, b"GET / HTTP/1.1\r\n" + _HOST + b"X-A: ", b"a" * 64_000,
         30_000_000, 0.0),
-    Way("endless chunked bodies", 4, _POST + b"Transfer-Encoding: chunked\r\n\r\n",
+    SlowWay("endless chunked bodies", 4, _POST + b"Transfer-Encoding: chunked\r\n\r\n",
         b"1\r\na\r\n" * 8_000, 30_000_000, 0.0),
-    Way("endless chunk extension", 2, _POST + b"Transfer-Encoding: chunked\r\n\r\n1;",
+    SlowWay("endless chunk extension", 2, _POST + b"Transfer-Encoding: chunked\r\n\r\n1;",
         b"a" * 64_000, 30_000_000, 0.0),
-    Way("pipelined requests", 4, b"", (b"GET /v1/goals HTTP/1.1\r\n" + _HOST + b"\r\n") * 50,
+    SlowWay("pipelined requests", 4, b"", (b"GET /v1/goals HTTP/1.1\r\n" + _HOST + b"\r\n") * 50,
         1_000_000, 0.0),
-    Way("WebSockets that never read", 200, _UPGRADE, _SNAPSHOT, 50_000),
+    SlowWay("WebSockets that never read", 200, _UPGRADE, _SNAPSHOT, 50_000),
 )  # fmt: skip
 
 
-def attack(lab: Lab) -> list[Outcome]:
+def attack(lab: AttackLab) -> list[AttackOutcome]:
     """Try each way on one robot, one after the other."""
-    with _limited(lab) as running:
+    with _robot_with_few_files(lab) as running:
         return [_try(lab, running, way) for way in WAYS]
 
 
 @contextmanager
-def _limited(lab: Lab) -> Iterator[Robot]:
+def _robot_with_few_files(lab: AttackLab) -> Iterator[BenchRobot]:
     """Run a robot whose processes have the usual limit of open files; this one takes more."""
     with ExitStack() as stack:
         with target.users_files():
@@ -92,7 +92,7 @@ def _limited(lab: Lab) -> Iterator[Robot]:
         yield running
 
 
-def _try(lab: Lab, running: Robot, way: Way) -> Outcome:
+def _try(lab: AttackLab, running: BenchRobot, way: SlowWay) -> AttackOutcome:
     before_mb = peak_mb = target.planner_mb(running)
     times: list[float] = []
     lost = 0
@@ -110,8 +110,16 @@ def _try(lab: Lab, running: Robot, way: Way) -> Outcome:
     missed = STOPS - len(times)  # one that found no time to be tried is none that was confirmed
     note = f"{many} connections opened; stop {_times(times)}"
     lab.say(f"{way.name}: {len(times)} of {STOPS} stops confirmed")
-    return Outcome(way.name, STOPS, missed, f"each of {STOPS} stops confirmed", before_mb, peak_mb,
-                   GROWTH_MB, note)  # fmt: skip
+    return AttackOutcome(
+        way.name,
+        STOPS,
+        missed,
+        f"each of {STOPS} stops confirmed",
+        before_mb,
+        peak_mb,
+        GROWTH_MB,
+        note,
+    )
 
 
 def _times(times: Sequence[float]) -> str:
@@ -122,7 +130,7 @@ def _times(times: Sequence[float]) -> str:
 
 
 @contextmanager
-def _slow(running: Robot, way: Way) -> Iterator[Callable[[], int]]:
+def _slow(running: BenchRobot, way: SlowWay) -> Iterator[Callable[[], int]]:
     """Be slow beside the body of the ``with``; yields how many connections have been opened."""
     ended = threading.Event()
     opened: list[int] = []
@@ -139,14 +147,14 @@ def _slow(running: Robot, way: Way) -> Iterator[Callable[[], int]]:
         crowd.join()
 
 
-def _crowd(running: Robot, way: Way, ended: threading.Event, opened: list[int]) -> None:
+def _crowd(running: BenchRobot, way: SlowWay, ended: threading.Event, opened: list[int]) -> None:
     """Open connections, say what a way says, and let go at the end."""
     sockets: dict[socket.socket, int] = {}
     source = target.another_address()
     try:
         while not ended.is_set():
             if len(opened) < way.connections:
-                made = target.connected(running, source)
+                made = target.connect(running, source)
                 opened.append(1)
                 if made is not None:
                     sockets[made] = _send(made, way.first)

@@ -18,12 +18,12 @@ from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from tools.bench.processes import rss_mb
-from tools.bench.robot import Robot
+from tools.bench.robot import BenchRobot
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from tools.attack.lab import Lab
+    from tools.attack.lab import AttackLab
 
 OPERATOR, VIEWER = "an operator's token of the attack", "a viewer's token of the attack"
 USERS_FILES = 1_024
@@ -32,7 +32,7 @@ _ADDRESSES = count()
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class TargetAnswer:
     """Hold an answer of the planner."""
 
     status: int
@@ -48,14 +48,14 @@ class Answer:
 
 
 @contextmanager
-def robot(lab: Lab, *, tokens: bool = False) -> Iterator[Robot]:
+def robot(lab: AttackLab, *, tokens: bool = False) -> Iterator[BenchRobot]:
     """Run a simulated robot, ready and armed, its processes limited as users' are.
 
     Raises:
         Missed: it was not ready in time.
     """
     given = {"PONS_OPERATOR_TOKEN": OPERATOR, "PONS_VIEWER_TOKEN": VIEWER} if tokens else {}
-    with lab.folder() as home, _environment(given), Robot(home, "two_room") as running:
+    with lab.folder() as home, _environment(given), BenchRobot(home, "two_room") as running:
         running.make_ready(120.0)
         yield running
 
@@ -85,13 +85,13 @@ def _environment(given: Mapping[str, str]) -> Iterator[None]:
                 os.environ[name] = value
 
 
-def planner_mb(running: Robot) -> float:
+def planner_mb(running: BenchRobot) -> float:
     """Return the planner's resident memory [MB]."""
     return rss_mb(running.pid("planner"))
 
 
 def ask(
-    running: Robot,
+    running: BenchRobot,
     method: str,
     path: str,
     *,
@@ -100,7 +100,7 @@ def ask(
     kind: str = "application/json",
     source: str = "127.0.0.1",
     timeout_s: float = 5.0,
-) -> Answer | None:
+) -> TargetAnswer | None:
     """Return the planner's answer; None where none came."""
     headers = {"Content-Type": kind} if body is not None else {}
     if token is not None:
@@ -111,14 +111,14 @@ def ask(
     try:
         connection.request(method, path, body, headers)
         answer = connection.getresponse()
-        return Answer(answer.status, answer.read(4_000_000))
+        return TargetAnswer(answer.status, answer.read(4_000_000))
     except (OSError, http.client.HTTPException):
         return None
     finally:
         connection.close()
 
 
-def stop_confirmed(running: Robot, token: str | None = None) -> float | None:
+def stop_confirmed(running: BenchRobot, token: str | None = None) -> float | None:
     """Stop as a new client; return the time until the bridge's word came [s], or None."""
     began_s = time.monotonic()
     answer = ask(running, "POST", "/v1/stop", token=token, body=b'{"source": "attack"}')
@@ -127,7 +127,7 @@ def stop_confirmed(running: Robot, token: str | None = None) -> float | None:
     return time.monotonic() - began_s
 
 
-def connected(running: Robot, source: str, timeout_s: float = 2.0) -> socket.socket | None:
+def connect(running: BenchRobot, source: str, timeout_s: float = 2.0) -> socket.socket | None:
     """Return a connection from an address of this machine; None where it is refused."""
     address = (running.settings.host, running.settings.port)
     try:

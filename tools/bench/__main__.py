@@ -15,10 +15,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tools.bench.context import TROUBLE, Lab, Measure, line
-from tools.bench.machine import pace
+from pons.machine import pace
+from tools.bench.context import TROUBLE, BenchLab, Measure, line
 from tools.bench.measure import ALL
-from tools.bench.report import Row, table
+from tools.bench.report import ReportRow, table
 from tools.bench.store import Store
 
 if TYPE_CHECKING:
@@ -43,20 +43,20 @@ def main(arguments: list[str] | None = None) -> int:
     failed = 0
     try:
         for one in wanted:
-            failed += _take(one, Lab(store, given.long, one.NAME, end_s))
+            failed += _take(one, BenchLab(store, given.long, one.NAME, end_s))
     except KeyboardInterrupt:
         print("\nbench: interrupted; all processes are ended, what was measured is kept")
         return INTERRUPTED
     return 1 if failed else 0
 
 
-def _take(one: Measure, lab: Lab) -> int:
+def _take(one: Measure, lab: BenchLab) -> int:
     """Run one measurement; what can't be measured is said and does not end the others."""
     began_s, paces = time.monotonic(), [pace()]
     try:
         rows = one.measure(lab)
     except TROUBLE as trouble:
-        rows = [Row(one.NAME, "", "", value="not measured", note=line(trouble), valid=False)]
+        rows = [ReportRow(one.NAME, "", "", value="not measured", note=line(trouble), valid=False)]
     paces.append(pace())
     for row in rows:
         lab.store.append("row", one.NAME, {**row.record(), "pace": paces})

@@ -18,6 +18,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from pons.settings import CHECKOUT
+from pons.supervisor import BEHIND
+from processes.parent_death import child_command
 from tools.bench.chaos.house import MS_BIND, MS_REC, mount, private_mounts, unmount
 
 UNITS_MASK = 0o077
@@ -31,17 +33,19 @@ def main(arguments: list[str]) -> None:
     parent_pid = os.getppid()
     uid, groups = int(arguments[0]), [int(one) for one in arguments[1].split(",")]
     words = arguments[2:]
+    command = (sys.executable, "-m", *words)
     os.chdir(CHECKOUT)
     show(Path(sys.base_prefix), Path(sys.prefix), CHECKOUT)
     if words[0] in OURS:
-        words = ["pons.pdeathsig_exec", str(parent_pid), *words]
-        _give_rights(arguments[2])
+        behind = BEHIND.get(words[0], 0)
+        command = child_command(*words, session_nice=behind, parent_pid=parent_pid)
+        _give_rights(words[0])
     os.environ["HOME"] = os.environ.get("PONS_HOME", "/")
     os.umask(UNITS_MASK)
     os.setgroups(groups)
     os.setresgid(groups[0], groups[0], groups[0])
     os.setresuid(uid, uid, uid)
-    os.execv(sys.executable, [sys.executable, "-m", *words])
+    os.execv(sys.executable, command)
 
 
 def _give_rights(name: str) -> None:

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import CHECKOUT
-from tools.bench.context import Missed
+from tools.bench.context import MeasurementFailure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -56,7 +56,7 @@ def by_page(settings: Settings) -> Iterator[Stop]:
     try:
         socket = connect(url, max_queue=None, open_timeout=SHELL_S)
     except (OSError, WebSocketException) as trouble:
-        raise Missed(f"the page's socket: {trouble}") from None
+        raise MeasurementFailure(f"the page's socket: {trouble}") from None
 
     def stop() -> float | None:
         with suppress(TimeoutError):  # a page has read what came before
@@ -71,14 +71,14 @@ def by_page(settings: Settings) -> Iterator[Stop]:
                 return time.monotonic() - began_s if confirmed else None
         return None
 
-    def heard() -> float | None:
+    def confirm() -> float | None:
         try:
             return stop()
         except (OSError, WebSocketException):  # closed, or silent for too long
             return None
 
     with socket:
-        yield heard
+        yield confirm
 
 
 WAYS: dict[str, Callable[[Settings], AbstractContextManager[Stop]]] = {
@@ -93,7 +93,7 @@ def stopped_by_http(settings: Settings, source: str = "bench") -> float | None:
     began_s = time.monotonic()
     try:
         answer = call(settings, "POST", "/v1/stop", {"source": source}, LIMIT_S)
-    except (PlannerDown, Refused):
+    except (PlannerDown, PlannerProblem):
         return None
     return time.monotonic() - began_s if answer.get("confirmed") else None
 

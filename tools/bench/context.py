@@ -12,9 +12,9 @@ from subprocess import SubprocessError
 from tempfile import TemporaryDirectory
 from typing import Any, Protocol
 
-from pons.http import PlannerDown, Refused
-from tools.bench.parallel import taken
-from tools.bench.report import Row
+from pons.http import PlannerDown, PlannerProblem
+from tools.bench.parallel import take_in_parallel
+from tools.bench.report import ReportRow
 from tools.bench.store import Store
 from wire import Misconfigured
 
@@ -27,20 +27,20 @@ class Measure(Protocol):
     LONG_ONLY: bool
 
     @staticmethod
-    def measure(lab: Lab) -> list[Row]:
+    def measure(lab: BenchLab) -> list[ReportRow]:
         """Measure and return the rows of a table."""
 
 
-class Missed(Exception):
+class MeasurementFailure(Exception):
     """What a measurement waited for did not come."""
 
 
-TROUBLE = (Missed, Misconfigured, PlannerDown, Refused, OSError, SubprocessError)
+TROUBLE = (MeasurementFailure, Misconfigured, PlannerDown, PlannerProblem, OSError, SubprocessError)
 """What a slice may end in without being a defect of the bench."""
 
 
 @dataclass
-class Lab:
+class BenchLab:
     """Serve one run of the benches."""
 
     store: Store
@@ -91,7 +91,7 @@ class Lab:
         name = f"{self.name}.{what}"
         known = self.store.slices(name)
         yield from (known[index] for index in range(count) if index in known)
-        for done in taken(take, self._missing(what, count, known)):
+        for done in take_in_parallel(take, self._missing(what, count, known)):
             if done.trouble is not None:
                 self.lost.append(f"{what} {done.index + 1}: {line(done.trouble)}")
                 continue
@@ -124,7 +124,7 @@ def until(done: Callable[[], object], limit_s: float, what: str, pause_s: float 
     end_s = time.monotonic() + limit_s
     while not done():
         if time.monotonic() > end_s:
-            raise Missed(f"{what}: not within {limit_s:.1f} s")
+            raise MeasurementFailure(f"{what}: not within {limit_s:.1f} s")
         time.sleep(pause_s)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import os
 import resource
 import subprocess
 import sys
@@ -19,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 from websockets.asyncio.client import connect
 from websockets.exceptions import WebSocketException
 
-from tools.bench.context import Missed
+from processes.parent_death import child_command
+from tools.bench.context import MeasurementFailure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -37,13 +37,13 @@ AGAIN_S = 1.0
 HOST = "127.0.0.1"
 
 
-class Crowd:
+class CrowdProcess:
     """Hold such a process."""
 
     def __init__(self, port: int, kind: str) -> None:
         """Describe it; entering the context starts it."""
         words = ["tools.bench.crowd", str(port), kind]
-        self._command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        self._command = child_command(*words)
 
     def __enter__(self) -> Self:
         self._process = subprocess.Popen(
@@ -53,7 +53,7 @@ class Crowd:
         if said.strip() != b"ready":
             self._process.kill()
             self._process.communicate()
-            raise Missed(f"the crowd said {said!r} instead of ready")
+            raise MeasurementFailure(f"the crowd said {said!r} instead of ready")
         return self
 
     def end(self) -> dict[str, Any]:

@@ -29,18 +29,18 @@ from planner.mission.site_view import vocabulary_of
 from planner.plan import Language
 from planner.settings import ModelSettings
 from planner.site import Site
-from pons.http import Refused, call
+from pons.http import PlannerProblem, call
 from pons.settings import CHECKOUT
 from pons.supervisor import Child
 from tools.bench.context import until
 from tools.bench.instant_llm_process import counts, hang, instant
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot, free_port
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot, free_port
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "endpoint"
 TITLE = "a model behind an endpoint"
@@ -55,7 +55,7 @@ PATIENCE_S = 4.0
 LOOK_S = 0.1
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take the call, the planner's record, the prompt, and the stops."""
     alone = list(lab.slices("plan", lab.count(1, 5), lambda _: _plans(lab)))
     whole = list(lab.slices("robot", lab.count(1, 3), lambda _: _robot(lab)))
@@ -74,8 +74,8 @@ def measure(lab: Lab) -> list[Row]:
         row_of("what thinking adds", "ms", "", added, "pair by pair"),
         row_of("accepted -> validated plan, in the planner", "ms", "p50 <= 8, p99 <= 25", inside,
                "by the goal's own record", valid=valid),
-        Row("model calls per goal", "", "1", value=", ".join(f"{one:.2f}" for one in calls)),
-        Row("prompt, default site", "tokens", "<= 1500", value=str(prompt_tokens())),
+        ReportRow("model calls per goal", "", "1", value=", ".join(f"{one:.2f}" for one in calls)),
+        ReportRow("prompt, default site", "tokens", "<= 1500", value=str(prompt_tokens())),
         row_of(f"stop -> cmd/stop, model hangs, {QUEUED} goals", "ms", "p99 <= 50", stops, said,
                valid=valid),
     ]  # fmt: skip
@@ -110,7 +110,7 @@ def _answers(port: int) -> bool:
         return False
 
 
-def _plans(lab: Lab) -> dict[str, list[float]]:
+def _plans(lab: BenchLab) -> dict[str, list[float]]:
     with lab.folder() as home, instant(home) as url:
         return asyncio.run(_pairs(home, url))
 
@@ -142,13 +142,13 @@ async def _pairs(home: Path, url: str) -> dict[str, list[float]]:
     return took
 
 
-def _robot(lab: Lab) -> dict[str, Any]:
+def _robot(lab: BenchLab) -> dict[str, Any]:
     """Measure in the real system."""
     with ExitStack() as stack:
         home = stack.enter_context(lab.folder())
         url = stack.enter_context(instant(home))
         stack.enter_context(_environment(PONS_MODEL_URL=url, PONS_MODEL="mock"))
-        robot = Robot(home, "two_room")
+        robot = BenchRobot(home, "two_room")
         bridge = robot.children["bridge"]
         bridge.arguments = ["tools.bench.stop_probe", *bridge.arguments[1:]]
         stack.enter_context(robot)
@@ -179,7 +179,7 @@ def _robot(lab: Lab) -> dict[str, Any]:
     }
 
 
-def _planned_ms(robot: Robot) -> float:
+def _planned_ms(robot: BenchRobot) -> float:
     """Give a goal that waits for a yes; return what its record says of the time until then."""
     given = {"text": ORDER.replace("first ", ""), "confirm": True}
     goal_id = str(call(robot.settings, "POST", "/v1/goals", given)["id"])
@@ -193,20 +193,20 @@ def _planned_ms(robot: Robot) -> float:
     return (updated - created).total_seconds() * 1e3
 
 
-def _fill(robot: Robot) -> int:
+def _fill(robot: BenchRobot) -> int:
     """Give more goals than are taken while the model hangs; return how many were refused."""
     refused = 0
     for _ in range(QUEUED):
         try:
             call(robot.settings, "POST", "/v1/goals", {"text": ORDER})
-        except Refused as full:
+        except PlannerProblem as full:
             if full.code != "queue_full":
                 raise
             refused += 1
     return refused
 
 
-def _empty(robot: Robot) -> None:
+def _empty(robot: BenchRobot) -> None:
     for goal in call(robot.settings, "GET", "/v1/goals?limit=60")["goals"]:
         if goal["state"] in ("paused", "queued", "planning"):
             robot.cancel(goal["id"])

@@ -32,7 +32,7 @@ from planner.mission.event_hub import Hub
 from planner.navigation import RoutePoint, RouteRequest, RouteResult
 from planner.plan import ENDED, Ask, GoalState, Move, Say, StepPlan, Turn
 from planner.site import Site
-from tools.bench.minimal_sim import Body, PaperBridge
+from tools.bench.minimal_sim import MinimalBody, PaperBridge
 from tools.lockstep.scene import SITES
 from wire import OpRequest, RobotDescription
 
@@ -63,7 +63,7 @@ class ByText(ScriptedBrain):
         return Thought(plan=StepPlan(steps=PLANS[request.text]), brain=self.tag)
 
 
-class Straight:
+class StraightFlight:
     """Route in straight lines."""
 
     async def route(self, request: RouteRequest) -> RouteResult:
@@ -107,7 +107,7 @@ class Diary:
         return [json.loads(line) for line in self.path.read_text("utf-8").splitlines()]
 
 
-def die_at(write: int | None, late_s: float | None, body: Body) -> None:
+def die_at(write: int | None, late_s: float | None, body: MinimalBody) -> None:
     """Count this process's writes, and end it at one of them."""
 
     def wrote(*_: object, **__: object) -> None:
@@ -128,7 +128,7 @@ def die_at(write: int | None, late_s: float | None, body: Body) -> None:
     sa.event.listen(sa.engine.Engine, "commit", wrote)
 
 
-def live(folder: Path, life: int, body: Body) -> int:
+def live(folder: Path, life: int, body: MinimalBody) -> int:
     """Be one planner and one person until every goal has ended."""
     diary = Diary(folder / "diary", life)
     whole = Hub.publish
@@ -143,14 +143,14 @@ def live(folder: Path, life: int, body: Body) -> int:
     return 0
 
 
-async def _live(folder: Path, life: int, body: Body, diary: Diary) -> None:
+async def _live(folder: Path, life: int, body: MinimalBody, diary: Diary) -> None:
     bridge = PaperBridge.of(body, diary.leg)
     robot, numbers = RobotDescription(), count(1)
     missions = Missions(
         site=Site.load(SITES / SITE),
         robot=robot,
         link=Link(bridge, robot, clock=bridge.now_s),
-        router=Straight(),
+        router=StraightFlight(),
         brain=ByText(["-"]),
         journal=MissionJournal.in_home(folder),
         planner_id=f"planner-{life}",
@@ -206,7 +206,7 @@ def fork(life: Callable[[], int], limit_s: float = LIFE_S) -> int:
 
 def story(folder: Path, random: Random, writes: int, most: int) -> dict[str, Any]:
     """Kill a planner ``most`` times at random writes, let the last live to its end, and judge."""
-    body, killed, crashed = Body(), 0, []
+    body, killed, crashed = MinimalBody(), 0, []
     for life in range(most + 1):
         at = random.randint(1, writes) if life < most else None
         late_s = random.choice((None, random.uniform(0.0, LATE_S)))
@@ -227,7 +227,7 @@ def story(folder: Path, random: Random, writes: int, most: int) -> dict[str, Any
             **judge(Diary(folder / "diary", -1).lines(), folder, body)}  # fmt: skip
 
 
-def judge(lines: list[list[Any]], folder: Path, body: Body) -> dict[str, Any]:
+def judge(lines: list[list[Any]], folder: Path, body: MinimalBody) -> dict[str, Any]:
     """Count accepted goals that are lost and side effects that came twice."""
     kept = {m.id: m for m in MissionJournal.in_home(folder).load().missions}
     accepted = {line[3] for line in lines if line[1] == "accepted"}

@@ -17,12 +17,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tools.bench.context import until
-from tools.bench.robot import Robot
+from tools.bench.robot import BenchRobot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 PRIORITY = 60
 SETTLE_S = 0.5
@@ -38,7 +38,7 @@ def rt_cpu() -> int:
 
 
 @contextmanager
-def stressed(on: bool) -> Iterator[None]:
+def stress_cores(on: bool) -> Iterator[None]:
     """Load every core and the memory with stress-ng, if asked; it ends with the context."""
     if not on:
         yield
@@ -56,11 +56,11 @@ def stressed(on: bool) -> Iterator[None]:
         load.wait()
 
 
-def bridge_late_us(lab: Lab, seconds: float, *, stress: bool) -> list[float]:
+def bridge_late_us(lab: BenchLab, seconds: float, *, stress: bool) -> list[float]:
     """Run the bridge alone: no robot, no planner, its loop turning in SELFTEST."""
-    with lab.folder() as home, Robot(home, "two_room", tapped=True, only=("bridge",)) as robot:
+    with lab.folder() as home, BenchRobot(home, "two_room", tapped=True, only=("bridge",)) as robot:
         until(lambda: robot.status is not None, 20.0, "the bridge's first status")
-        with stressed(stress):
+        with stress_cores(stress):
             time.sleep(seconds)
             late_us: list[float] = robot.end_bridge()["late_us"]
         return late_us[-round(seconds * 100) :]
@@ -93,7 +93,7 @@ def cyclictest(
     quiet = subprocess.DEVNULL
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=quiet, text=True) as running:
         try:
-            yield lambda: _counted(running.communicate()[0])
+            yield lambda: _expand_histogram(running.communicate()[0])
         finally:
             running.kill()
 
@@ -107,7 +107,7 @@ def may_take(priority: int) -> bool:
     )
 
 
-def _counted(histogram: str) -> list[float]:
+def _expand_histogram(histogram: str) -> list[float]:
     samples: list[float] = []
     for line in histogram.splitlines():
         found = _BUCKET.match(line.strip())
@@ -132,22 +132,22 @@ def cpp_late_us(loop: Path | None, seconds: float, period_us: int) -> list[float
     if loop is None:
         return []
     count = max(1, round(seconds * 1e6 / period_us))
-    return _printed([str(loop), str(period_us), str(count), str(PRIORITY), str(rt_cpu())])
+    return _run_and_read([str(loop), str(period_us), str(count), str(PRIORITY), str(rt_cpu())])
 
 
 def pacer_late_us(seconds: float, period_us: int) -> list[float]:
     """Run the bridge's pacer with nothing to do."""
     count = max(1, round(seconds * 1e6 / period_us))
-    return _printed(
+    return _run_and_read(
         [sys.executable, "-m", "tools.bench.pacer", str(period_us), str(count), str(PRIORITY)]
     )
 
 
-def _printed(words: list[str]) -> list[float]:
+def _run_and_read(words: list[str]) -> list[float]:
     done = subprocess.run(words, capture_output=True, text=True, check=True)
     return [float(line) for line in done.stdout.split()]
 
 
-def missed(late_us: list[float], period_us: int) -> int:
+def count_missed(late_us: list[float], period_us: int) -> int:
     """Count the whole periods that wake-ups came too late."""
     return sum(int(late // period_us) for late in late_us)

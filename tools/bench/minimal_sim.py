@@ -21,7 +21,7 @@ TEXT = 256
 """Bytes of text behind the numbers."""
 
 
-class Body:
+class MinimalBody:
     """Hold where the robot is and how far it came, in memory that forked processes share."""
 
     def __init__(self) -> None:
@@ -57,11 +57,11 @@ class Body:
 class PaperBridge(FakeBridge):
     """Follow straight ways and spins; each poll is one status, and time goes with it."""
 
-    body: Body = field(default_factory=Body)
+    body: MinimalBody = field(default_factory=MinimalBody)
     on_leg: Callable[[str, int], None] = lambda mission, leg: None
 
     @classmethod
-    def of(cls, body: Body, on_leg: Callable[[str, int], None]) -> PaperBridge:
+    def of(cls, body: MinimalBody, on_leg: Callable[[str, int], None]) -> PaperBridge:
         """Return a bridge that was up before this planner: what comes now is another brain."""
         bridge = cls(body=body, on_leg=on_leg, seq=int(body.seq), last_owner="before")
         if (leg := body.leg) is not None:

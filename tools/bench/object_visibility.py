@@ -36,7 +36,7 @@ def in_sight(
     wanted = [number for number, (name, _) in renderer.labels.items() if name in names]
     spots = [home.objects[name].at for name in names]
     for _ in range(poses):
-        pose, at = views.drawn(random), random.choice(spots)
+        pose, at = views.draw_pose(random), random.choice(spots)
         ahead_m, left_m = at[0] - pose.x_m, at[1] - pose.y_m
         if hypot(ahead_m, left_m) > FAR_M:
             continue

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import sys
 
-from bridge.realtime import Collector, MonotonicClock, Pacer, lock_memory, pin, take_fifo
+from bridge.realtime import MonotonicClock, Pacer, SlackCollector, lock_memory, pin, take_fifo
 
 
 def main(arguments: list[str]) -> int:
     """Take the bridge's own rights, in its order, and sleep."""
     period_us, count, priority = (int(word) for word in arguments)
-    Collector().freeze()
+    SlackCollector().freeze()
     for right in (lock_memory(), pin(None), take_fifo(priority)):
         if not right.granted:
             print(f"{right.name}: {right.detail}", file=sys.stderr)

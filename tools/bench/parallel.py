@@ -25,7 +25,7 @@ CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os
 
 
 @dataclass(frozen=True, slots=True)
-class Done:
+class SliceResult:
     """Hold what became of one slice: what was taken, or why nothing was."""
 
     index: int
@@ -33,9 +33,9 @@ class Done:
     trouble: str | None = None
 
 
-def taken(
+def take_in_parallel(
     take: Callable[[int], Any], indices: Iterable[int], at_once: int = CORES
-) -> Iterator[Done]:
+) -> Iterator[SliceResult]:
     """Yield what each index comes to, in the order in which they are done.
 
     Whoever stops asking, by Ctrl-C too, ends the processes.
@@ -51,31 +51,31 @@ def taken(
         try:
             while True:
                 while len(running) < at_once and (index := next(left, None)) is not None:
-                    process = _begun(take, index)
+                    process = _begin(take, index)
                     running[process] = index
                     ears.register(cast("IO[str]", process.stdout), EVENT_READ, process)
                 if not running:
                     return
                 for key, _ in ears.select():
                     ears.unregister(key.fileobj)
-                    yield _heard(key.data, running.pop(key.data))
+                    yield _read_result(key.data, running.pop(key.data))
         finally:
             for process in running:
                 process.kill()
                 process.communicate()
 
 
-def _begun(take: Callable[[int], Any], index: int) -> Popen[str]:
+def _begin(take: Callable[[int], Any], index: int) -> Popen[str]:
     words = [sys.executable, "-m", __name__, take.__module__, take.__qualname__, str(index)]
     return Popen(words, cwd=CHECKOUT, stdout=PIPE, text=True)
 
 
-def _heard(process: Popen[str], index: int) -> Done:
+def _read_result(process: Popen[str], index: int) -> SliceResult:
     """Read the one line, which is begun when the process is done."""
     said, _ = process.communicate()
     if process.returncode == 0:
-        return Done(index, **json.loads(said))
-    return Done(index, trouble=f"its process ended with {process.returncode}")
+        return SliceResult(index, **json.loads(said))
+    return SliceResult(index, trouble=f"its process ended with {process.returncode}")
 
 
 def main(arguments: list[str]) -> int:

@@ -30,7 +30,7 @@ ROBOT = Path(__file__).resolve().parents[2] / "robot.toml"
 
 
 @dataclass
-class Driver:
+class StubDriver:
     """Follow leg after leg of one mission."""
 
     mission: str
@@ -66,7 +66,7 @@ def main(arguments: list[str]) -> int:
     if not task:
         return 0  # never needed
     legs = [LegPath.of([RoutePoint(*point) for point in leg]) for leg in task["legs"]]
-    driver = Driver(task["mission"], legs)
+    driver = StubDriver(task["mission"], legs)
     with open_session(Party.PLANNER, robot.id, home) as session:
         _speak(WireBus(session), identity, driver)
     return 0
@@ -77,7 +77,7 @@ def _identity(robot: RobotDescription, site: Path, planner_id: str) -> Identity:
     return Identity(planner_id, robot.hash, fence_hash, read_map_id(site))
 
 
-def _speak(bus: WireBus, identity: Identity, driver: Driver) -> None:
+def _speak(bus: WireBus, identity: Identity, driver: StubDriver) -> None:
     state = OwnerState()
     while True:
         status = bus.status()

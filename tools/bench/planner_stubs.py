@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
-import sys
 from math import inf
 from typing import TYPE_CHECKING
 
 from planner.navigation import RouteLimits, RouteRequest
 from planner.navigation.router import Router
 from planner.site import Site
-from tools.bench.context import Missed
+from processes.parent_death import child_command
+from tools.bench.context import MeasurementFailure
 from wire import load_robot
 
 if TYPE_CHECKING:
-    from tools.bench.robot import Robot
+    from tools.bench.robot import BenchRobot
     from wire import Pose2
 
 Leg = list[tuple[float, float, float]]
@@ -27,11 +26,11 @@ ROUNDS = 12
 class Stub:
     """Hold one stub process, bound to this one."""
 
-    def __init__(self, robot: Robot, planner_id: str) -> None:
+    def __init__(self, robot: BenchRobot, planner_id: str) -> None:
         """Start it; it warms up and waits for ``go``."""
         settings = robot.settings
         words = ["tools.bench.planner_stub", str(settings.home), str(settings.site), planner_id]
-        command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        command = child_command(*words)
         with (settings.home / "logs" / "stub.log").open("ab") as log:
             self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=log, stdout=log)
 
@@ -42,7 +41,7 @@ class Stub:
             Missed: it is gone.
         """
         if self._process.stdin is None or self._process.poll() is not None:
-            raise Missed("the stub ended before it was asked for anything")
+            raise MeasurementFailure("the stub ended before it was asked for anything")
         self._process.stdin.write(json.dumps({"mission": mission, "legs": legs}).encode() + b"\n")
         self._process.stdin.flush()
 
@@ -69,7 +68,7 @@ class Stub:
 class Legs:
     """Make legs between two places of a site, over and over."""
 
-    def __init__(self, robot: Robot, fastest_mps: float = inf) -> None:
+    def __init__(self, robot: BenchRobot, fastest_mps: float = inf) -> None:
         self._fastest_mps = fastest_mps
         self._site = Site.load(robot.settings.site)
         self._router = Router(self._site, RouteLimits.of(load_robot(robot.settings.robot)))
@@ -89,5 +88,5 @@ class Legs:
     def _place(self, place_id: str) -> Pose2:
         place = self._site.place(place_id)
         if place is None:
-            raise Missed(f"no place {place_id!r} in {self._site.folder}")
+            raise MeasurementFailure(f"no place {place_id!r} in {self._site.folder}")
         return place.pose

@@ -12,7 +12,7 @@ HEAD = ("what", "n", "p50", "p99", "spread p25-p75", "min", "max", "unit", "goal
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ReportRow:
     """Hold one measured quantity."""
 
     what: str
@@ -41,11 +41,13 @@ class Row:
 
 def row_of(
     what: str, unit: str, goal: str, samples: Sequence[float], note: str = "", *, valid: bool = True
-) -> Row:
+) -> ReportRow:
     """Make a row of samples; without any, a row that says so."""
     if not samples:
-        return Row(what, unit, goal, value="none", note=note or "nothing was measured", valid=False)
-    return Row(what, unit, goal, Figures.of(samples), note=note, valid=valid)
+        return ReportRow(
+            what, unit, goal, value="none", note=note or "nothing was measured", valid=False
+        )
+    return ReportRow(what, unit, goal, Figures.of(samples), note=note, valid=valid)
 
 
 def number(value: float) -> str:
@@ -56,12 +58,12 @@ def number(value: float) -> str:
     return f"{value:.{decimals}f}"
 
 
-def table(rows: Iterable[Row]) -> str:
+def table(rows: Iterable[ReportRow]) -> str:
     """Return rows as an aligned table."""
-    return aligned(HEAD, [row.cells() for row in rows])
+    return align_columns(HEAD, [row.cells() for row in rows])
 
 
-def aligned(head: Sequence[str], body: Sequence[Sequence[str]]) -> str:
+def align_columns(head: Sequence[str], body: Sequence[Sequence[str]]) -> str:
     """Return lines of cells under a head, each column as wide as its widest cell."""
     lines = [head, *body]
     widths = [max(len(line[column]) for line in lines) for column in range(len(head))]

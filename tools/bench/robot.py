@@ -1,7 +1,7 @@
 """Run the real processes in a home folder of their own, watch them as a judge, end them all.
 
-Every child dies with this process: ``pons.pdeathsig_exec`` binds it to its parent, and leaving the
-ends whole process groups.
+Every child dies with this process: ``processes.parent_death`` binds it to its parent, and leaving
+the context ends whole process groups.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import CHECKOUT, Settings
 from pons.supervisor import Child
 from sim import PERIODS
-from tools.bench.context import Missed, until
+from tools.bench.context import MeasurementFailure, until
 from wire import VIRTUAL_KEY, Mode, OpKind, SimTruth, Status, load_robot, signed_request
 from wire.keys import OPS, SIM_TRUTH, STATUS, Party
 from wire.session import open_session
@@ -40,7 +40,7 @@ SLOW = 0.95
 """A simulator below this share of real time makes a run invalid."""
 
 
-class Robot:
+class BenchRobot:
     """Be one running robot."""
 
     def __init__(
@@ -65,7 +65,11 @@ class Robot:
         """
         self._before = before
         self.settings = Settings(
-            home, described(home, limits), CHECKOUT / "sites" / site, "127.0.0.1", free_port()
+            home,
+            write_description(home, limits),
+            CHECKOUT / "sites" / site,
+            "127.0.0.1",
+            free_port(),
         )
         common = ["--home", str(home), "--robot", str(self.settings.robot)]
         common += ["--site", str(self.settings.site)]
@@ -135,7 +139,9 @@ class Robot:
         """
         process = self.children[name].process
         if process is None or process.poll() is not None:
-            raise Missed(f"{name} does not run; its log ends:\n{self.children[name].last_words()}")
+            raise MeasurementFailure(
+                f"{name} does not run; its log ends:\n{self.children[name].last_words()}"
+            )
         return process.pid
 
     def make_ready(self, limit_s: float = 60.0) -> None:
@@ -147,11 +153,11 @@ class Robot:
         try:
             if "planner" in self.children:
                 self.await_planner(limit_s)
-            until(lambda: self._in(Mode.DISARMED, Mode.HOLD), limit_s, "self test", 0.02)
-            until(self._armed, limit_s, "arming", 0.2)
-        except Missed as missed:
+            until(lambda: self._is_mode(Mode.DISARMED, Mode.HOLD), limit_s, "self test", 0.02)
+            until(self._try_to_arm, limit_s, "arming", 0.2)
+        except MeasurementFailure as missed:
             logs = "\n".join(f"{c.name}: {c.last_words(3)}" for c in self.children.values())
-            raise Missed(f"{missed}; {self.describe()}\n{logs}") from None
+            raise MeasurementFailure(f"{missed}; {self.describe()}\n{logs}") from None
 
     def await_planner(self, limit_s: float = 60.0) -> None:
         """Wait until the planner is ready. Raises Missed."""
@@ -166,7 +172,7 @@ class Robot:
         """End a goal over HTTP; one that has ended already is no error."""
         try:
             call(self.settings, "POST", f"/v1/goals/{goal_id}/cancel", {})
-        except Refused as refused:
+        except PlannerProblem as refused:
             if refused.code != "bad_state":
                 raise
 
@@ -218,29 +224,29 @@ class Robot:
         self.pid("planner")
         try:
             call(self.settings, "GET", "/readyz", timeout_s=1.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         return True
 
-    def _in(self, *modes: Mode) -> bool:
+    def _is_mode(self, *modes: Mode) -> bool:
         self.pid("bridge")
         status = self.status
         return status is not None and status.mode in modes
 
-    def _armed(self) -> bool:
+    def _try_to_arm(self) -> bool:
         """Ask once and look; the verdict may be a no for a moment longer."""
-        if not self._in(Mode.HOLD):
+        if not self._is_mode(Mode.HOLD):
             self.operate("arm")
-        return self._in(Mode.HOLD)
+        return self._is_mode(Mode.HOLD)
 
 
-def described(home: Path, limits: Mapping[str, float]) -> Path:
+def write_description(home: Path, limits: Mapping[str, float]) -> Path:
     """Write the checkout's robot.toml into a folder, some values changed; return its path."""
     text = (CHECKOUT / "robot.toml").read_text("utf-8")
     for key, value in limits.items():
         text, found = re.subn(rf"(?m)^{key} = \S+", f"{key} = {value}", text)
         if found != 1:
-            raise Missed(f"robot.toml has {found} lines that set {key!r}, expected 1")
+            raise MeasurementFailure(f"robot.toml has {found} lines that set {key!r}, expected 1")
     made = home / "robot.toml"
     made.write_text(text, "utf-8")
     return made

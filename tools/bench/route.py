@@ -58,7 +58,7 @@ def wavefront(cost: NDArray[np.float64], goal: int, width: int) -> NDArray[np.fl
     return best
 
 
-def timed(work: Callable[[], T]) -> tuple[T, float, float]:
+def measure_silence(work: Callable[[], T]) -> tuple[T, float, float]:
     """Return the result, its time and the longest silence of another thread [ms]."""
     silences, done = [0.0], threading.Event()
 
@@ -105,7 +105,7 @@ def searches(costmap: Costmap) -> dict[str, list[tuple[float, float]]]:
     table: dict[str, list[tuple[float, float]]] = {}
     for _ in range(PAIRS):
         start, goal = chance.sample(cells, 2)
-        known, *slow = timed(partial(costs_to, lattice, goal))
+        known, *slow = measure_silence(partial(costs_to, lattice, goal))
         table.setdefault("costs to a goal", []).append((slow[0], slow[1]))
         candidates: dict[str, Callable[[], object]] = {
             "A*": partial(find_path, lattice, start, goal),
@@ -113,7 +113,7 @@ def searches(costmap: Costmap) -> dict[str, list[tuple[float, float]]]:
             "numpy wavefront": partial(wavefront, flat, goal, width),
         }
         for name, work in candidates.items():
-            table.setdefault(name, []).append(timed(work)[1:])
+            table.setdefault(name, []).append(measure_silence(work)[1:])
     return table
 
 

@@ -35,7 +35,7 @@ WORDS = (
 QUALITY = 85
 
 
-def shown(color: NDArray[np.uint8], words: str | None, rng: Random) -> bytes:
+def draw_sign(color: NDArray[np.uint8], words: str | None, rng: Random) -> bytes:
     """Return a picture (h, w, 3; RGB) as a JPEG, with a board in it that holds these words.
 
     Raises:

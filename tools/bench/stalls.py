@@ -12,6 +12,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from bridge.realtime import MonotonicClock, Pacer, lock_memory, pin, take_fifo
+from processes.parent_death import child_command
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -32,14 +33,7 @@ class Stalls:
 
     def __enter__(self) -> Self:
         for cpu in sorted(os.sched_getaffinity(0)):
-            words = [
-                sys.executable,
-                "-m",
-                "pons.pdeathsig_exec",
-                str(os.getpid()),
-                "tools.bench.stalls",
-                str(cpu),
-            ]
+            words = child_command("tools.bench.stalls", str(cpu))
             self._watchers.append(
                 subprocess.Popen(
                     words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True

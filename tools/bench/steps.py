@@ -1,8 +1,7 @@
 """Time each core step of one drive in lockstep: ``python -m tools.bench.steps INDEX``; prints JSON.
 
-A process of its own, because a process has one core: the compiled one if there is one of these
-sources, the plain source with ``PONS_CORE=plain``. The garbage collector is kept out, as in the
-bridge. Thread CPU time, so that other work on the machine does not count.
+The garbage collector is kept out, as in the bridge. Thread CPU time, so that other work on the
+machine counts only by what it pushes out of the caches.
 """
 
 from __future__ import annotations
@@ -13,6 +12,9 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
+from bridge.core import step
+from tools.lockstep import Together
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -22,7 +24,7 @@ WARM_TICKS = 200
 MOST_TICKS = 4_000
 
 
-class Timed:
+class TimedStep:
     """Be the core's step and note what each call costs while the robot drives."""
 
     def __init__(self, step: Callable[[CoreConfig, BridgeState, Inbox, float], Decision]) -> None:
@@ -43,18 +45,12 @@ class Timed:
 
 def main(index: int) -> int:
     """Drive between rooms and print what each step cost."""
-    from bridge.compiled import use
-
-    core = use()  # before anything imports the core
-    print(json.dumps({"core": core.text, **_drive(index)}))
+    print(json.dumps(_drive(index)))
     return 0
 
 
 def _drive(index: int) -> dict[str, Any]:
-    from bridge.core import step
-    from tools.lockstep import Together
-
-    timed = Timed(step)
+    timed = TimedStep(step)
     world = Together(site="home", seed=index + 1, step=timed)
     gc.collect()
     gc.freeze()

@@ -25,7 +25,7 @@ EARS: list[Any] = []
 """Kept here: a subscriber is undeclared with its last reference."""
 
 
-def arrived(_: Any) -> None:
+def note_arrival(_: Any) -> None:
     """Note a stop's arrival, from the transport's own thread."""
     ARRIVALS_S.append(time.monotonic())
 
@@ -34,7 +34,7 @@ def listening_session(party: Party, robot_id: str, home: Path) -> Session:
     """Open the bridge's session and listen to its stops a second time, with a callback."""
     session = open_session(party, robot_id, home)
     links = session.links_inward(STOP)  # the loop's own ring can't be stamped at arrival
-    EARS.extend(link.declare_subscriber(STOP.expression(robot_id), arrived) for link in links)
+    EARS.extend(link.declare_subscriber(STOP.expression(robot_id), note_arrival) for link in links)
     return session
 
 

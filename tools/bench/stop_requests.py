@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from websockets.sync.client import connect
 
-from tools.bench.robot import PATIENCE_S, Robot
+from tools.bench.robot import PATIENCE_S, BenchRobot
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -37,14 +37,14 @@ _CLI = (
 """``pons stop`` itself, waiting for a word when all is loaded and nothing is sent."""
 
 
-def noting(home: Path) -> Robot:
+def noting(home: Path) -> BenchRobot:
     """Return a robot whose bridge notes its commands."""
-    robot = Robot(home, "two_room")
+    robot = BenchRobot(home, "two_room")
     robot.children["bridge"].arguments[0] = "tools.bench.command_probe"
     return robot
 
 
-def notes_of(robot: Robot) -> list[Note]:
+def notes_of(robot: BenchRobot) -> list[Note]:
     """End the bridge of such a robot and return what it noted."""
     robot.children["bridge"].stop(PATIENCE_S)
     text = (robot.settings.home / "commands.json").read_text("utf-8")
@@ -52,18 +52,18 @@ def notes_of(robot: Robot) -> list[Note]:
 
 
 @contextmanager
-def by_api(robot: Robot) -> Iterator[Stop]:
+def by_api(robot: BenchRobot) -> Iterator[Stop]:
     """Yield a stop by ``POST /v1/stop``."""
     yield lambda: _post(robot, "/v1/stop", {"source": "bench"})
 
 
 @contextmanager
-def by_sentence(robot: Robot) -> Iterator[Stop]:
+def by_sentence(robot: BenchRobot) -> Iterator[Stop]:
     """Yield a stop by words that the stop lane must find in a sentence, given as a goal."""
     yield lambda: _post(robot, "/v1/goals", {"text": SENTENCE})
 
 
-def _post(robot: Robot, path: str, body: dict[str, str]) -> float:
+def _post(robot: BenchRobot, path: str, body: dict[str, str]) -> float:
     """POST on a connection of its own, made on the spot: the planner closes idle ones."""
     connection = HTTPConnection(robot.settings.host, robot.settings.port, timeout=LIMIT_S)
     try:
@@ -78,7 +78,7 @@ def _post(robot: Robot, path: str, body: dict[str, str]) -> float:
 
 
 @contextmanager
-def by_cli(robot: Robot) -> Iterator[Stop]:
+def by_cli(robot: BenchRobot) -> Iterator[Stop]:
     """Run ``pons stop``; the moment is when its process, loaded, is about to speak."""
     ours = {"PONS_HOME": str(robot.settings.home), "PONS_PORT": str(robot.settings.port)}
     process = subprocess.Popen(
@@ -103,7 +103,7 @@ def by_cli(robot: Robot) -> Iterator[Stop]:
 
 
 @contextmanager
-def by_socket(robot: Robot) -> Iterator[Stop]:
+def by_socket(robot: BenchRobot) -> Iterator[Stop]:
     """Say it over an open event socket, as the page does first."""
     url = f"ws://{robot.settings.host}:{robot.settings.port}/v1/events"
     with connect(url, max_queue=None) as socket:  # all that comes meanwhile is kept, none read
@@ -119,7 +119,7 @@ def by_socket(robot: Robot) -> Iterator[Stop]:
         yield stop
 
 
-WAYS: dict[str, Callable[[Robot], AbstractContextManager[Stop]]] = {
+WAYS: dict[str, Callable[[BenchRobot], AbstractContextManager[Stop]]] = {
     "API": by_api,
     "sentence": by_sentence,
     "CLI": by_cli,

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tools.bench.machine import commit, machine, today
+from pons.machine import commit, machine, today
 
 
 @dataclass
@@ -35,7 +35,7 @@ class Store:
         found: dict[int, Any] = {}
         if self.resume and self.path.is_file():
             for line in self.path.read_text("utf-8").splitlines():
-                entry = _parsed(line)
+                entry = _parse_line(line)
                 if self._ours(entry, name):
                     found[entry["index"]] = entry["data"]
         return found
@@ -45,7 +45,7 @@ class Store:
         return same and entry.get("kind") == "slice" and entry.get("name") == name
 
 
-def _parsed(line: str) -> dict[str, Any]:
+def _parse_line(line: str) -> dict[str, Any]:
     try:
         entry = json.loads(line)
     except ValueError:  # the last line of a run that was cut off

@@ -18,7 +18,7 @@ import bridge.__main__ as bridge_main
 import bridge.node as bridge_shell
 from bridge.core import step
 from bridge.drive import SimDrive
-from bridge.link import Link
+from bridge.link import BridgeLink
 from bridge.realtime import Pacer
 from wire import Mode, Waypoints, decode
 from wire.keys import WAYPOINTS
@@ -26,7 +26,7 @@ from wire.session import open_session
 
 if TYPE_CHECKING:
     from bridge.core import BridgeState, CoreConfig, Decision, Inbox
-    from bridge.realtime import Tick
+    from bridge.realtime import PacerTick
     from wire import DriveCommand
     from wire.keys import Party
     from wire.session import Session
@@ -50,7 +50,7 @@ class Tap:
         self.ears: Any = None
         """Kept here: a subscriber is undeclared with its last reference."""
 
-    def arrived(self, sample: Any) -> None:
+    def note_arrival(self, sample: Any) -> None:
         """Note a horizon's arrival, from the transport's own thread."""
         self.arrivals.append((time.monotonic(), sample.payload.to_bytes()))
 
@@ -72,7 +72,7 @@ TAP = Tap()
 class TappedPacer(Pacer):
     """Note when each tick was due and how late it began."""
 
-    def wait(self) -> Tick:
+    def wait(self) -> PacerTick:
         tick = super().wait()
         TAP.due_s = tick.now_s - tick.late_s
         if len(TAP.late_us) < KEPT_TICKS:
@@ -80,7 +80,7 @@ class TappedPacer(Pacer):
         return tick
 
 
-class TappedLink(Link):
+class TappedLink(BridgeLink):
     """Note which ticks carry waypoints."""
 
     def drain(self, *arguments: Any, **named: Any) -> Inbox:
@@ -130,7 +130,7 @@ def tapped_session(party: Party, robot_id: str, home: Path) -> Session:
     """Open the bridge's session and listen to its waypoints a second time, with a callback."""
     session = open_session(party, robot_id, home)
     (inner,) = session.links_inward(WAYPOINTS)  # the loop's own ring can't be stamped at arrival
-    TAP.ears = inner.declare_subscriber(WAYPOINTS.expression(robot_id), TAP.arrived)
+    TAP.ears = inner.declare_subscriber(WAYPOINTS.expression(robot_id), TAP.note_arrival)
     return session
 
 
@@ -139,7 +139,7 @@ def main(arguments: list[str]) -> int:
     home = Path(arguments[arguments.index("--home") + 1])
     with (
         patch.object(bridge_main, "Pacer", TappedPacer),
-        patch.object(bridge_main, "Link", TappedLink),
+        patch.object(bridge_main, "BridgeLink", TappedLink),
         patch.object(bridge_main, "SimDrive", TappedDrive),
         patch.object(bridge_main, "open_session", tapped_session),
         patch.object(bridge_shell, "step", tapped_step),

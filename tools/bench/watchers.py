@@ -7,14 +7,14 @@ Run as ``python -m tools.bench.watchers URL COUNT``: opens the sockets, reads al
 from __future__ import annotations
 
 import asyncio
-import os
 import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 from websockets.asyncio.client import ClientConnection, connect
 
-from tools.bench.context import Missed
+from processes.parent_death import child_command
+from tools.bench.context import MeasurementFailure
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -29,7 +29,7 @@ class Watchers:
     def __init__(self, url: str, count: int) -> None:
         """Describe it; entering the context starts it."""
         words = ["tools.bench.watchers", url, str(count)]
-        self._command = [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words]
+        self._command = child_command(*words)
 
     def __enter__(self) -> Self:
         self._process = subprocess.Popen(
@@ -38,7 +38,7 @@ class Watchers:
         said = self._process.stdout.readline() if self._process.stdout else b""
         if said.strip() != b"ready":
             self._end()
-            raise Missed(f"the watchers said {said!r} instead of ready")
+            raise MeasurementFailure(f"the watchers said {said!r} instead of ready")
         return self
 
     def __exit__(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, cast
 
 from bridge.core import ON_TIME, BridgeState, CoreConfig, Decision, Inbox, initial
 from bridge.drive import SimDrive
-from bridge.link import Link
+from bridge.link import BridgeLink
 from wire import VIRTUAL_KEY, DriveCommand, Event, Status
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class BridgeProcess:
         self.reasons: tuple[str, ...] = ()
         self._step = step
         session = cast("Session", port)  # a port has a session's publishers and subscribers
-        self._link = Link(session, config.robot.id, VIRTUAL_KEY)
+        self._link = BridgeLink(session, config.robot.id, VIRTUAL_KEY)
         self._drive = SimDrive(session, config.boot)
 
     def turn(self, now_s: float) -> Decision:

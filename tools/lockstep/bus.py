@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from tools.lockstep.disturbance import QUIET, Disturbance
 from wire import Record, Rejected, decode, encode
-from wire.session import Drained
+from wire.session import Arrivals
 
 if TYPE_CHECKING:
     from wire.keys import Key, Party
@@ -186,13 +186,13 @@ class PortSubscriber(Generic[M]):
             here.append(coming.popleft()[1])
         return here[-self._key.ring :]
 
-    def drain(self) -> Drained[M]:
+    def drain(self) -> Arrivals[M]:
         """Take all that is here, parse at most the 4 newest, in order of arrival."""
         payloads = self.drain_bytes()
         if not payloads:
-            return Drained((), 0)
+            return Arrivals((), 0)
         newest = payloads[-PARSED_PER_DRAIN:]
-        return Drained(tuple(decode(self._key, raw) for raw in newest), len(payloads))
+        return Arrivals(tuple(decode(self._key, raw) for raw in newest), len(payloads))
 
     def newest(self) -> M | None:
         """Take all that is here and return the newest.

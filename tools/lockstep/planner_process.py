@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, cast
 
 from planner.bridge_client import Identity, WireBus
 from planner.bridge_client.scan_to_map import points_in_map
-from planner.language.identification import language_of
+from planner.language.utterance import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.effects import (
     AskBrain,
@@ -28,7 +28,7 @@ from planner.mission.events import Cancel, Event, Restarted, Sighted, Stopped, S
 from planner.mission.known_places import KnownPlaces
 from planner.mission.plan_request import thinker
 from planner.mission.planner_commands import PlannerCommands
-from planner.mission.reception import read_utterance, receive
+from planner.mission.reception import receive
 from planner.mission.site_view import facts_of
 from planner.mission.skills import Answer, Eyesight, Way
 from planner.mission.state import Mission, MissionState
@@ -152,8 +152,9 @@ class PlannerProcess:
 
     def say(self, goal_id: str, text: str, language: Language | None, now_s: float) -> None:
         """Take a sentence by the planner's own door: stop lane first, then missions."""
-        given = Submitted(goal_id, text, language or language_of(text))
-        heard = receive(self.engine.book, read_utterance(text), given, now_s)
+        said = parse(text)
+        given = Submitted(goal_id, text, language or said.language)
+        heard = receive(self.engine.book, said, given, now_s)
         if heard.stops:
             self.order_stop("api", now_s)
             self.event(heard.given, now_s)

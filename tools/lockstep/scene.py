@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from bridge.core.sensing.fence import Fence
+from bridge.core.geometry.fence import FenceGrid
 from bridge.fence_file import load_fence
 from planner.mission.site_view import vocabulary_of
 from planner.navigation import RouteLimits
@@ -26,7 +26,7 @@ class Scene:
     robot: RobotDescription
     site: Site
     vocabulary: Vocabulary
-    fence: Fence
+    fence: FenceGrid
     fence_hash: str
     router: Router
 

@@ -155,7 +155,7 @@ def _furniture(home: Home) -> Iterator[Shown]:
 
 def _objects(sim: SimRobot) -> Iterator[Shown]:
     for name, item in sim.home.objects.items():
-        pose = sim.things.where(name) if item.class_id != "door" else None
+        pose = sim.things.pose_of(name) if item.class_id != "door" else None
         if pose is None:
             continue
         moved = (pose.x_m, pose.y_m) != tuple(item.at)
@@ -170,7 +170,7 @@ def _people(sim: SimRobot) -> Iterator[Shown]:
     people |= {name: None for name in sim.things.declared if name.startswith("person_")}
     breadth_m = 2 * PERSON_RADIUS_M
     for who, color in people.items():
-        pose = sim.things.where(who)
+        pose = sim.things.pose_of(who)
         if pose is not None:
             at = pose.x_m, pose.y_m, 0.0
             yield Shown(who, "person", color, *at, breadth_m, breadth_m, PERSON_HEIGHT_M)

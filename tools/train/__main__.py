@@ -22,7 +22,7 @@ REFUSED, INTERRUPTED = 2, 130
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class TrainingPlan:
     """Hold what is trained with what."""
 
     run: Path
@@ -120,7 +120,7 @@ def commit() -> str:
         return ""
 
 
-def _plan(arguments: list[str] | None) -> Plan:
+def _plan(arguments: list[str] | None) -> TrainingPlan:
     home = Path(os.environ.get("PONS_HOME") or ROOT / ".pons").absolute() / "train"
     parser = argparse.ArgumentParser(prog="python -m tools.train", description=__doc__)
     parser.add_argument("--frames", type=int, default=FRAMES)
@@ -130,7 +130,9 @@ def _plan(arguments: list[str] | None) -> Plan:
     parser.add_argument("--learn", type=Path, default=home / "venv" / "bin" / "python")
     parser.add_argument("--model", type=Path, default=MODEL)
     given = parser.parse_args(arguments)
-    return Plan(given.run, given.learn, given.model, given.frames, given.epochs, given.cores)
+    return TrainingPlan(
+        given.run, given.learn, given.model, given.frames, given.epochs, given.cores
+    )
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ def _area(box: Tensor) -> Tensor:
     return (box[..., 2:] - box[..., :2]).clamp(min=0).prod(-1)
 
 
-def within(middles: Tensor, boxes: Tensor, least_px: float) -> Tensor:
+def middles_within(middles: Tensor, boxes: Tensor, least_px: float) -> Tensor:
     """Say (M, N) which middles (2, N) lie in which boxes (M, 4), tiny ones widened."""
     centre = (boxes[:, :2] + boxes[:, 2:]) / 2
     half = ((boxes[:, 2:] - boxes[:, :2]) / 2).clamp(min=least_px)
@@ -60,7 +60,7 @@ def assign(
     count = len(boxes)
     overlaps = overlap(boxes[:, None], said[None])  # (M, N)
     worth = scores.T[labels].pow(SCORE_POWER) * overlaps.pow(OVERLAP_POWER) + TINY
-    worth = worth * within(middles, boxes, NEAR_PX)
+    worth = worth * middles_within(middles, boxes, NEAR_PX)
     best, cell = worth.topk(CELLS_A_BOX, 1)
     chosen = torch.zeros_like(worth).scatter_(1, cell, (best > 0).float()) > 0
     # A cell that two boxes want answers for the one that it overlaps more.

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.random import Generator
     from numpy.typing import NDArray
 
-    from tools.train.store import Framed
+    from tools.train.store import StoredFrame
 
     Picture = NDArray[np.uint8]
     Things = NDArray[np.float32]
@@ -31,7 +31,7 @@ FILL = 114
 """Grey beyond the picture's edge, as a letterbox has it."""
 
 
-def decoded(jpeg: bytes, size: tuple[int, int] = WHOLE) -> Picture:
+def decode(jpeg: bytes, size: tuple[int, int] = WHOLE) -> Picture:
     """Return a picture (height, width, 3) of that size in RGB.
 
     Raises:
@@ -44,34 +44,34 @@ def decoded(jpeg: bytes, size: tuple[int, int] = WHOLE) -> Picture:
     return np.ascontiguousarray(picture[:, :, ::-1]).astype(np.uint8, copy=False)
 
 
-def augmented(
-    frame: Framed, random: Generator, size: tuple[int, int] = WHOLE, *, plain: bool = False
+def augment(
+    frame: StoredFrame, random: Generator, size: tuple[int, int] = WHOLE, *, plain: bool = False
 ) -> tuple[Picture, Things]:
     """Return a frame as one epoch sees it, in a size (width, height) [px].
 
     A plain one is mirrored at most.
     """
-    picture, things = decoded(frame.jpeg), frame.things
+    picture, things = decode(frame.jpeg), frame.things
     if size != WHOLE:
         picture, things = shrunk(picture, things, size)
     if random.random() < 0.5:
-        picture, things = mirrored(picture, things)
+        picture, things = mirror(picture, things)
     if plain:
         return picture, things
     if random.random() < 0.6:
-        picture, things = moved(picture, things, random)
+        picture, things = zoom_and_shift(picture, things, random)
     if random.random() < 0.8:
-        picture = lit(picture, random)
+        picture = change_light(picture, random)
     if random.random() < 0.15:
         picture = np.asarray(cv2.GaussianBlur(picture, (3, 3), 0), np.uint8)
     if random.random() < 0.2:
-        picture = grained(picture, random)
+        picture = add_grain(picture, random)
     if random.random() < 0.25:
-        picture = squeezed(picture, int(random.integers(40, 90)))
+        picture = recompress(picture, int(random.integers(40, 90)))
     return picture, things
 
 
-def mirrored(picture: Picture, things: Things) -> tuple[Picture, Things]:
+def mirror(picture: Picture, things: Things) -> tuple[Picture, Things]:
     """Swap left and right."""
     swapped = things.copy()
     wide = picture.shape[1]
@@ -79,7 +79,7 @@ def mirrored(picture: Picture, things: Things) -> tuple[Picture, Things]:
     return np.ascontiguousarray(picture[:, ::-1]), swapped
 
 
-def moved(picture: Picture, things: Things, random: Generator) -> tuple[Picture, Things]:
+def zoom_and_shift(picture: Picture, things: Things, random: Generator) -> tuple[Picture, Things]:
     """Zoom and shift; most of the picture stays in view."""
     zoom = float(np.exp(random.uniform(*np.log(ZOOM))))
     # Zoomed in, the window stays within the picture; zoomed out, the picture within the window.
@@ -88,10 +88,12 @@ def moved(picture: Picture, things: Things, random: Generator) -> tuple[Picture,
     down = (1 - zoom) * size[1] * random.random()
     matrix = np.array([[zoom, 0.0, right], [0.0, zoom, down]], np.float64)
     shifted = cv2.warpAffine(picture, matrix, size, borderValue=(FILL, FILL, FILL))
-    return np.asarray(shifted, np.uint8), clipped(things, zoom, (right, down), size)
+    return np.asarray(shifted, np.uint8), clip_boxes(things, zoom, (right, down), size)
 
 
-def clipped(things: Things, zoom: float, off: tuple[float, float], size: tuple[int, int]) -> Things:
+def clip_boxes(
+    things: Things, zoom: float, off: tuple[float, float], size: tuple[int, int]
+) -> Things:
     """Move boxes along and cut them at the edge; what loses most of itself is not judged."""
     new = things.copy()
     new[:, 1:5] = things[:, 1:5] * zoom + np.array([*off, *off], np.float32)
@@ -113,7 +115,7 @@ def shrunk(picture: Picture, things: Things, size: tuple[int, int]) -> tuple[Pic
     return np.asarray(less, np.uint8), new
 
 
-def lit(picture: Picture, random: Generator) -> Picture:
+def change_light(picture: Picture, random: Generator) -> Picture:
     """Change brightness, contrast, gamma and each colour's share a little."""
     ramp = np.arange(256, dtype=np.float64)[:, None] / 255
     ramp = ramp ** np.exp(random.uniform(-0.35, 0.35))
@@ -123,7 +125,7 @@ def lit(picture: Picture, random: Generator) -> Picture:
     return np.asarray(cv2.LUT(picture, table[None]), np.uint8)
 
 
-def grained(picture: Picture, random: Generator) -> Picture:
+def add_grain(picture: Picture, random: Generator) -> Picture:
     """Add a sensor's noise."""
     noise = random.standard_normal(picture.shape, np.float32)
     noise *= np.float32(random.uniform(1.0, 7.0))
@@ -131,7 +133,7 @@ def grained(picture: Picture, random: Generator) -> Picture:
     return np.clip(noise + np.float32(0.5), 0, 255).astype(np.uint8)
 
 
-def squeezed(picture: Picture, quality: int) -> Picture:
+def recompress(picture: Picture, quality: int) -> Picture:
     """Encode as JPEG once more."""
     _, data = cv2.imencode(".jpg", picture[:, :, ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])
-    return decoded(data.tobytes(), (picture.shape[1], picture.shape[0]))
+    return decode(data.tobytes(), (picture.shape[1], picture.shape[0]))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tools.train.augment import WHOLE, augmented
+from tools.train.augment import WHOLE, augment
 from tools.train.budget import SMALL_PX
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from tools.train.budget import Schedule
-    from tools.train.store import Framed
+    from tools.train.store import StoredFrame
 
 WARM_SHARE = 0.25
 """A short run warms up for no more than this share of its steps."""
@@ -37,7 +37,7 @@ class Batch:
 class Feeder:
     """Give the batch of any step."""
 
-    def __init__(self, frames: Sequence[Framed], schedule: Schedule) -> None:
+    def __init__(self, frames: Sequence[StoredFrame], schedule: Schedule) -> None:
         if len(frames) < schedule.batch:
             raise ValueError(f"{len(frames)} frames do not fill a batch of {schedule.batch}")
         self._frames = frames
@@ -56,11 +56,11 @@ class Feeder:
         seen = []
         for index in order[at * size : (at + 1) * size]:
             random = np.random.default_rng([seed, epoch, int(index), 1])
-            seen.append(augmented(self._frames[index], random, (wide, high), plain=plain))
+            seen.append(augment(self._frames[index], random, (wide, high), plain=plain))
         pictures = np.empty((size, high, wide, 3), np.float32)
         for i, (picture, _) in enumerate(seen):
             np.multiply(picture, np.float32(1 / 255), out=pictures[i])
-        return Batch(pictures, padded([things for _, things in seen]))
+        return Batch(pictures, pad([things for _, things in seen]))
 
     def is_plain(self, step: int) -> bool:
         """Say whether a step is one of the last, which see frames as they were drawn."""
@@ -77,7 +77,7 @@ class Feeder:
         return float(schedule.peak_rate * share)
 
 
-def padded(things: Sequence[NDArray[np.float32]]) -> NDArray[np.float32]:
+def pad(things: Sequence[NDArray[np.float32]]) -> NDArray[np.float32]:
     """Return the things of some pictures (B, M, 6) with rows of zeros where one holds fewer."""
     most = max(1, *(len(rows) for rows in things))
     out = np.zeros((len(things), most, 6), np.float32)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from sim.camera.primitives import Part
+    from sim.camera.primitives import GeomPart
     from sim.camera.scene import Instance
     from wire import CameraConfig
 
@@ -70,7 +70,7 @@ def hulls(things: Iterable[Instance]) -> dict[str, Hull]:
     return found
 
 
-def _bounds(part: Part) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _bounds(part: GeomPart) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return a part's lowest and highest corner in its thing's frame [m]."""
     said = dict(NUMBER.findall(part.form))
     size = np.array(said["size"].split(), np.float64)
@@ -122,12 +122,12 @@ def boxes(
             continue
         down, across = np.nonzero(ids == number)
         box = (across.min(), down.min(), across.max() + 1, down.max() + 1)
-        asked = len(down) >= LEAST_PIXELS and _enough(box, whole(instance))
+        asked = len(down) >= LEAST_PIXELS and _is_enough(box, whole(instance))
         rows.append((CLASSES.index(class_id), *map(float, box), 1.0 if asked else -1.0))
     return np.array(rows, np.float32).reshape(-1, 6)
 
 
-def _enough(box: Sequence[float], whole: Box | None) -> bool:
+def _is_enough(box: Sequence[float], whole: Box | None) -> bool:
     wide, high = box[2] - box[0], box[3] - box[1]
     if min(wide, high) < LEAST_SIDE_PX:
         return False

@@ -62,11 +62,11 @@ def _read(path: Path) -> Facts:
 def card(facts: Facts) -> str:
     """Return the card."""
     return "\n".join(
-        [_what(facts), _how(facts["fit"], facts["export"]), _score(facts["judge"]), LIMITS]
+        [_card_text(facts), _how(facts["fit"], facts["export"]), _score(facts["judge"]), LIMITS]
     )
 
 
-def _what(facts: Facts) -> str:
+def _card_text(facts: Facts) -> str:
     fit, export = facts["fit"], facts["export"]
     took = f"{(facts['drawn']['seconds'] + fit['seconds']) / 60:.0f} min"
     return f"""# pons_home: the detector that comes with Pons

@@ -24,7 +24,7 @@ SHAPES = 12
 Array = Any
 
 
-class ExportRefused(Exception):
+class ExportRefusal(Exception):
     """What would be written is not what was fitted, or too large."""
 
 
@@ -38,18 +38,18 @@ def compare(net: Net, data: bytes) -> float:
     random = np.random.default_rng(0)
     worst, boxes = 0.0, 0
     for _ in range(PICTURES):
-        picture = drawn(random)
+        picture = draw_picture(random)
         told = session.run(None, {"images": picture[None, :, :, ::-1].copy()})[0]
-        worst = max(worst, difference(told, fitted(net, picture)))
+        worst = max(worst, difference(told, fitted_rows(net, picture)))
         boxes += told.shape[1]
     if not worst <= TOLERANCE:
-        raise ExportRefused(f"the file differs from the network by {worst:.1e}")
+        raise ExportRefusal(f"the file differs from the network by {worst:.1e}")
     if boxes < ENOUGH:
-        raise ExportRefused(f"{boxes} boxes in {PICTURES} pictures: too few to compare")
+        raise ExportRefusal(f"{boxes} boxes in {PICTURES} pictures: too few to compare")
     return worst
 
 
-def drawn(random: np.random.Generator) -> Array:
+def draw_picture(random: np.random.Generator) -> Array:
     """Return a picture (height, width, 3) of bytes, red green blue: oblongs and a little noise."""
     picture = np.empty((HEIGHT_PX, WIDTH_PX, 3), np.float32)
     picture[:] = random.uniform(60, 220, 3)
@@ -61,7 +61,7 @@ def drawn(random: np.random.Generator) -> Array:
     return picture.clip(0, 255).astype(np.uint8)
 
 
-def fitted(net: Net, picture: Array) -> Array:
+def fitted_rows(net: Net, picture: Array) -> Array:
     """Return the rows that the network as it was fitted makes of a picture, red green blue."""
     planes = torch.from_numpy(picture).permute(2, 0, 1)[None].to(torch.float32) / 255
     with torch.no_grad():

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import onnxruntime
 
-from tools.train.augment import decoded
+from tools.train.augment import decode
 from tools.train.budget import BARE_FRAMES, CLASSES, MIN_SCORE
-from tools.train.score import Found, There, false_in_empty, mean_average_precision, scores
+from tools.train.score import ScoredThing, TrueThing, false_in_empty, mean_average_precision, scores
 from tools.train.store import NoFrames, read_all
 
 if TYPE_CHECKING:
@@ -28,15 +28,15 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from tools.train.score import Picture
-    from tools.train.store import Framed
+    from tools.train.store import StoredFrame
 
-    Detect = Callable[[bytes], list[Found]]
+    Detect = Callable[[bytes], list[ScoredThing]]
 
 KEY = "min_scores"
 """In a file's metadata: the least score of each class that is believed."""
 
 
-class Model:
+class ScoredModel:
     """Ask an exported model about frames."""
 
     def __init__(self, path: Path) -> None:
@@ -51,32 +51,32 @@ class Model:
         self.seconds: list[float] = []
         """How long each picture took, from its bytes to finished boxes."""
 
-    def detect(self, jpeg: bytes) -> list[Found]:
+    def detect(self, jpeg: bytes) -> list[ScoredThing]:
         """Return what is found, down to a low score."""
-        picture = np.ascontiguousarray(decoded(jpeg)[None, :, :, ::-1])  # blue green red
+        picture = np.ascontiguousarray(decode(jpeg)[None, :, :, ::-1])  # blue green red
         began_s = time.perf_counter()
         rows = self._session.run(None, {"images": picture})[0]
         self.seconds.append(time.perf_counter() - began_s)
-        return found(rows[0])
+        return read_detections(rows[0])
 
 
-def found(rows: NDArray[np.float32]) -> list[Found]:
+def read_detections(rows: NDArray[np.float32]) -> list[ScoredThing]:
     """Return detections from (n, 6): left, top, right, bottom [px], score, class."""
     return [
-        Found(CLASSES[int(number)], score, (left, top, right, bottom))
+        ScoredThing(CLASSES[int(number)], score, (left, top, right, bottom))
         for left, top, right, bottom, score, number in rows.tolist()
     ]
 
 
-def pictures(frames: Sequence[Framed], detect: Detect) -> list[Picture]:
+def pictures(frames: Sequence[StoredFrame], detect: Detect) -> list[Picture]:
     """Return what is in each frame beside what is found in it."""
     return [(truth(frame), detect(frame.jpeg)) for frame in frames]
 
 
-def truth(frame: Framed) -> list[There]:
+def truth(frame: StoredFrame) -> list[TrueThing]:
     """Return what is in a frame."""
     return [
-        There(CLASSES[int(row[0])], (row[1], row[2], row[3], row[4]), row[5] > 0)
+        TrueThing(CLASSES[int(row[0])], (row[1], row[2], row[3], row[4]), row[5] > 0)
         for row in frame.things.tolist()
     ]
 
@@ -87,7 +87,7 @@ def least_of(told: str | None) -> dict[str, float]:
     return dict(zip(CLASSES, given, strict=True))
 
 
-def judged(
+def judge_model(
     seen: Sequence[Picture], empty: Sequence[Picture], least: Mapping[str, float]
 ) -> dict[str, Any]:
     """Return every number that the card states of a model."""
@@ -117,9 +117,9 @@ def main(arguments: list[str] | None = None) -> int:
     except NoFrames as error:
         print(f"tools.train.evaluation: {error}", file=sys.stderr)
         return 2
-    model = Model(given.model)
+    model = ScoredModel(given.model)
     seen = pictures(unseen, model.detect)
-    result = judged(seen, pictures(bare, model.detect), model.least)
+    result = judge_model(seen, pictures(bare, model.detect), model.least)
     result["ms_p50"] = 1e3 * float(np.median(model.seconds))
     print(table(result))
     if given.out is not None:

@@ -16,10 +16,10 @@ import onnx
 import torch
 
 from tools.train.budget import CLASSES, HEIGHT_PX, MAX_BYTES, STRIDES, WIDTH_PX
-from tools.train.compare import ExportRefused, compare
+from tools.train.compare import ExportRefusal, compare
 from tools.train.learner import CHECKPOINT
 from tools.train.model import Net
-from tools.train.shipped_graph import Shipped
+from tools.train.shipped_graph import ShippedNet
 
 OPSET = 17
 
@@ -38,9 +38,9 @@ def main(arguments: list[str] | None = None) -> int:
     net.load_state_dict(state["average"])
     net.eval()
     try:
-        data = exported(Shipped(net).eval(), metadata(given.commit))
+        data = export_bytes(ShippedNet(net).eval(), metadata(given.commit))
         worst = compare(net, data)
-    except ExportRefused as error:
+    except ExportRefusal as error:
         print(f"tools.train.export: {error}", file=sys.stderr)
         return 2
     given.model.parent.mkdir(parents=True, exist_ok=True)
@@ -78,7 +78,7 @@ def metadata(commit: str) -> dict[str, str]:
     }
 
 
-def exported(shipped: Shipped, facts: dict[str, str]) -> bytes:
+def export_bytes(shipped: ShippedNet, facts: dict[str, str]) -> bytes:
     """Return the file's bytes.
 
     Raises:
@@ -101,7 +101,7 @@ def exported(shipped: Shipped, facts: dict[str, str]) -> bytes:
     onnx.checker.check_model(model, full_check=True)
     data: bytes = model.SerializeToString()
     if not len(data) <= MAX_BYTES:
-        raise ExportRefused(f"{len(data)} bytes; at most {MAX_BYTES} are shipped")
+        raise ExportRefusal(f"{len(data)} bytes; at most {MAX_BYTES} are shipped")
     return data
 
 

@@ -27,7 +27,7 @@ from sim.camera.scene import instances
 from tools.train.boxes import boxes, hulls, whole_box
 from tools.train.budget import FRAMES_A_HOME, HEIGHT_PX, HOMES_A_SHARD, WIDTH_PX
 from tools.train.homes import Kind, drawn_home
-from tools.train.store import Framed, OtherRecipe, claim, missing, write
+from tools.train.store import OtherRecipe, StoredFrame, claim, missing, write
 from tools.train.views import Views, camera
 
 if TYPE_CHECKING:
@@ -93,27 +93,27 @@ def recipe(kind: Kind) -> dict[str, Any]:
 
 def draw_shard(folder: Path, kind: Kind, index: int) -> int:
     """Draw the homes of one shard and write it."""
-    frames: list[Framed] = []
+    frames: list[StoredFrame] = []
     for seed in range(index * HOMES_A_SHARD, (index + 1) * HOMES_A_SHARD):
         frames += home_frames(drawn_home(kind, seed), f"{kind} {seed}", FRAMES_A_HOME[kind])
     write(folder, index, frames)
     return index
 
 
-def home_frames(home: Home, name: str, count: int) -> list[Framed]:
+def home_frames(home: Home, name: str, count: int) -> list[StoredFrame]:
     """Draw one home, in one light and from one camera, from many places."""
     random = Random(f"frames {name}")
     rng = np.random.default_rng(random.getrandbits(64))
     mounted, look = camera(random), Appearance.random(random.getrandbits(32))
     renderer, views = Renderer(home, mounted, look), Views(home)
     bounds = hulls(instances(home, look))
-    frames: list[Framed] = []
+    frames: list[StoredFrame] = []
     for _ in range(count):
-        base_in_map = views.drawn(random)
+        base_in_map = views.draw_pose(random)
         clean = renderer.render(base_in_map)
         things = boxes(clean.ids, renderer.labels, partial(_whole, bounds, mounted, base_in_map))
         color = spoil(clean, rng, look.noise).color
-        frames.append(Framed(_jpeg(color, random.randint(60, 95)), things))
+        frames.append(StoredFrame(_jpeg(color, random.randint(60, 95)), things))
     return frames
 
 

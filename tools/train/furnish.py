@@ -118,7 +118,7 @@ class Floor:
         """Take an area if it lies inside and is free; say whether."""
         box = self.inside
         holds = box.x0 <= area.x0 and box.y0 <= area.y0 and area.x1 <= box.x1 and area.y1 <= box.y1
-        if not holds or any(area.grown(gap_m).overlaps(other) for other in self.taken):
+        if not holds or any(area.expand(gap_m).overlaps(other) for other in self.taken):
             return False
         self.taken.append(area)
         return True
@@ -128,7 +128,7 @@ Named = tuple[str, dict[str, Any]]
 """The piece's name, whose words say how it is drawn, and what a home declares of it."""
 
 
-def furnished(random: Random, kind: str, floor: Floor, *, bare: bool) -> list[Named]:
+def furnish(random: Random, kind: str, floor: Floor, *, bare: bool) -> list[Named]:
     """Return a room's furniture.
 
     Args:
@@ -141,11 +141,11 @@ def furnished(random: Random, kind: str, floor: Floor, *, bare: bool) -> list[Na
     for name, chance in ROOMS[kind]:
         piece = PIECES[name]
         if random.random() < chance and not (bare and piece.class_id != "none"):
-            placed += _placed(random, piece, floor)
+            placed += _place(random, piece, floor)
     return placed
 
 
-def _placed(random: Random, piece: Piece, floor: Floor) -> list[Named]:
+def _place(random: Random, piece: Piece, floor: Floor) -> list[Named]:
     depth, breadth, height = (
         random.uniform(*span) for span in (piece.depth_m, piece.breadth_m, piece.height_m)
     )
@@ -159,7 +159,7 @@ def _placed(random: Random, piece: Piece, floor: Floor) -> list[Named]:
             area = _at_wall(area, floor.inside, side)
         if floor.take(area):
             chairs = _chairs(random, SEATED.get(piece.name, 0), area, floor)
-            return [declared(random, piece, area, height), *chairs]
+            return [declare_piece(random, piece, area, height), *chairs]
     return []
 
 
@@ -195,11 +195,11 @@ def _chairs(random: Random, at_most: int, table: Rect, floor: Floor) -> list[Nam
         y = {"south": table.y0 - off - size, "north": table.y1 + off}.get(side, y)
         area = Rect(x, y, x + size, y + size)
         if floor.take(area, gap_m=0.0):
-            placed.append(declared(random, piece, area, height))
+            placed.append(declare_piece(random, piece, area, height))
     return placed
 
 
-def declared(random: Random, piece: Piece, area: Rect, height_m: float) -> Named:
+def declare_piece(random: Random, piece: Piece, area: Rect, height_m: float) -> Named:
     """Return a piece as a home declares it."""
     numbers = [round(value, 3) for value in (area.x0, area.y0, area.x1, area.y1)]
     item: dict[str, Any] = {"class": piece.class_id, "height_m": round(height_m, 3)}

@@ -11,7 +11,7 @@ from random import Random
 from typing import Any, Literal
 
 from sim.site import Home, Rect, parse_home
-from tools.train.furnish import CLEAR_M, ROOMS, Floor, furnished
+from tools.train.furnish import CLEAR_M, ROOMS, Floor, furnish
 from tools.train.scatter import color, door, on_floor, on_furniture, people
 from wire import Misconfigured
 
@@ -35,7 +35,9 @@ def drawn_home(kind: Kind, seed: int) -> Home:
     random = Random(f"{kind} home {seed}")
     refused: Misconfigured | None = None
     for _ in range(TRIES):
-        home = _declared(random, seed, bare=kind == "bare" or random.random() < BARE_SHARE[kind])
+        home = _declare_home(
+            random, seed, bare=kind == "bare" or random.random() < BARE_SHARE[kind]
+        )
         try:
             return parse_home(json.dumps(home), f"a drawn home ({kind} {seed})")
         except Misconfigured as error:
@@ -43,14 +45,14 @@ def drawn_home(kind: Kind, seed: int) -> Home:
     raise refused or Misconfigured("no_home", "nothing was drawn")
 
 
-def _declared(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
+def _declare_home(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
     rooms, doors, floors = _plan(random)
     furniture: dict[str, Any] = {}
     objects: list[dict[str, Any]] = []
     folk: list[dict[str, Any]] = []
     for name, floor in floors.items():
         kind = str(rooms[name].pop("kind"))
-        for words, item in furnished(random, kind, floor, bare=bare):
+        for words, item in furnish(random, kind, floor, bare=bare):
             furniture[f"{words}_{len(furniture)}"] = item | color(random, 0.6)
         if not bare:
             objects += on_floor(random, floor, random.choice((0, 1, 1, 2, 2, 3)))
@@ -92,8 +94,8 @@ def _plan(
         words = f"room {index}"
         rooms[name] = {"name": {"en": words, "zh": words}, "box": box, "pose": pose}
         rooms[name]["kind"] = random.choice(tuple(ROOMS))
-        middle = Rect(pose[0], pose[1], pose[0], pose[1]).grown(CLEAR_M)
-        floors[name] = Floor(Rect(*box).grown(-HALF_WALL_M), [middle])
+        middle = Rect(pose[0], pose[1], pose[0], pose[1]).expand(CLEAR_M)
+        floors[name] = Floor(Rect(*box).expand(-HALF_WALL_M), [middle])
         if index:
             at = [box[0], round(random.uniform(1.0, deep - 1.0), 2)]
             width = round(random.uniform(0.9, 1.4), 2)

@@ -11,7 +11,7 @@ from typing import Any
 import torch
 from torch.nn.functional import binary_cross_entropy_with_logits
 
-from tools.train.assign import TINY, assign, overlap, within
+from tools.train.assign import TINY, assign, middles_within, overlap
 from tools.train.model import corners
 
 Tensor = Any
@@ -45,7 +45,7 @@ def loss(
             answers.append(said[i][answering])
             trues.append(boxes[owner[answering]])
             weights.append(wanted[i][answering].sum(-1))
-        spared = within(middles, rows[rows[:, 5] < 0, 1:5], 0.0).any(0) & ~answering
+        spared = middles_within(middles, rows[rows[:, 5] < 0, 1:5], 0.0).any(0) & ~answering
         judged[i, spared] = 0.0
     whole = wanted.sum().clamp(min=1.0)
     told = binary_cross_entropy_with_logits(logits, wanted, reduction="none")

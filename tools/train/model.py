@@ -44,7 +44,7 @@ class Pair(nn.Module):
         return x + self.found(x)
 
 
-class Stage(nn.Module):
+class NetStage(nn.Module):
     """Refine half of the channels step by step and mix all that was found on the way."""
 
     def __init__(self, cin: int, cout: int, pairs: int) -> None:
@@ -100,9 +100,9 @@ class Net(nn.Module):
         super().__init__()
         a, b, c, d = WIDTHS
         self.to4 = nn.Sequential(unit(3, a, 3, 2), unit(a, b, 3, 2))
-        self.to8 = nn.Sequential(unit(b, c, 3, 2), Stage(c, c, 2))
-        self.to16 = nn.Sequential(unit(c, d, 3, 2), Stage(d, d, 2), Around(d))
-        self.back8 = Stage(c + d, c, 1)
+        self.to8 = nn.Sequential(unit(b, c, 3, 2), NetStage(c, c, 2))
+        self.to16 = nn.Sequential(unit(c, d, 3, 2), NetStage(d, d, 2), Around(d))
+        self.back8 = NetStage(c + d, c, 1)
         self.less8 = unit(c, b, 1)
         self.back4 = unit(b, b)
         self.heads = nn.ModuleList(Head(width) for width in (b, c, d))
@@ -110,12 +110,12 @@ class Net(nn.Module):
 
     def forward(self, pictures: Tensor) -> tuple[Tensor, Tensor]:
         """Return class logits (B, 14, N) and boxes (B, 4, N): left, top, right, bottom [px]."""
-        spoken = [head(x) for head, x in zip(self.heads, self.seen(pictures), strict=True)]
+        spoken = [head(x) for head, x in zip(self.heads, self.features(pictures), strict=True)]
         logits = torch.cat([what for what, _ in spoken], 2)
         sides = torch.cat([where for _, where in spoken], 2)
         return logits, sides
 
-    def seen(self, pictures: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+    def features(self, pictures: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Return what the heads speak of, at strides 4, 8 and 16."""
         at4 = self.to4(pictures)
         at8 = self.to8(at4)

@@ -58,7 +58,7 @@ def on_furniture(
         class_id = random.choice(ON_TOP)
         if furniture[name]["class"] == "none" and random.random() < 0.08:
             class_id = "tv"
-        thing = _laid(random, class_id, name, furniture[name], taken.setdefault(name, []))
+        thing = _lay(random, class_id, name, furniture[name], taken.setdefault(name, []))
         if thing is not None:
             laid.append(thing)
     return laid
@@ -68,7 +68,7 @@ def _is_top(item: Mapping[str, Any]) -> bool:
     return item["class"] in {"table", "none", "sofa", "bed"} and item["height_m"] <= TOP_M
 
 
-def _laid(
+def _lay(
     random: Random, class_id: str, name: str, under: Mapping[str, Any], taken: list[Rect]
 ) -> dict[str, Any] | None:
     sides = size(random, class_id)
@@ -128,7 +128,7 @@ def people(random: Random, floor: Floor, count: int) -> list[dict[str, Any]]:
 
 
 def _free(random: Random, floor: Floor, half: float) -> tuple[float, float] | None:
-    room = floor.inside.grown(-half - EDGE_M)
+    room = floor.inside.expand(-half - EDGE_M)
     x, y = random.uniform(room.x0, room.x1), random.uniform(room.y0, room.y1)
     return (x, y) if floor.take(Rect(x - half, y - half, x + half, y + half)) else None
 

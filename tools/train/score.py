@@ -16,7 +16,7 @@ ENOUGH = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class There:
+class TrueThing:
     """Hold one thing that is in a picture."""
 
     label: str
@@ -25,7 +25,7 @@ class There:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class ScoredThing:
     """Hold one thing that a detector says is in a picture."""
 
     label: str
@@ -33,7 +33,7 @@ class Found:
     box: Box
 
 
-Picture = tuple[Sequence[There], Sequence[Found]]
+Picture = tuple[Sequence[TrueThing], Sequence[ScoredThing]]
 Least = Mapping[str, float]
 
 
@@ -85,7 +85,9 @@ def scores(pictures: Sequence[Picture], least: Least) -> dict[str, ClassScore]:
     }
 
 
-def verdicts(true: Sequence[There], found: Iterable[Found]) -> Iterable[tuple[str, float, bool]]:
+def verdicts(
+    true: Sequence[TrueThing], found: Iterable[ScoredThing]
+) -> Iterable[tuple[str, float, bool]]:
     """Yield class, score and verdict of each detection; none for what is not judged.
 
     The surest first, each takes the free thing of its class that it overlaps most, by one half.

@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING
 import onnx
 
 from tools.train.budget import BARE_FRAMES, CLASSES, GHOST_SHARE, MIN_SCORE, MOST_SCORE
-from tools.train.evaluation import KEY, Model
+from tools.train.evaluation import KEY, ScoredModel
 from tools.train.store import NoFrames, read_all
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from tools.train.score import Found
+    from tools.train.score import ScoredThing
 
 STEP = 0.01
 
@@ -39,8 +39,8 @@ def main(arguments: list[str] | None = None) -> int:
     except NoFrames as error:
         print(f"tools.train.score_calibration: {error}", file=sys.stderr)
         return 2
-    model = Model(given.model)
-    least = settled([model.detect(frame.jpeg) for frame in frames])
+    model = ScoredModel(given.model)
+    least = settle_scores([model.detect(frame.jpeg) for frame in frames])
     file = onnx.load(given.model)
     facts = {entry.key: entry.value for entry in file.metadata_props}
     onnx.helper.set_model_props(file, {**facts, KEY: str(least)})
@@ -50,17 +50,17 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def settled(bare: Sequence[Sequence[Found]]) -> list[float]:
+def settle_scores(bare: Sequence[Sequence[ScoredThing]]) -> list[float]:
     """Return the least score of each class, given what was found in frames that hold nothing."""
     allowed = int(GHOST_SHARE * len(bare))
-    return [_settled(sorted(_scores(bare, label), reverse=True), allowed) for label in CLASSES]
+    return [_settle_class(sorted(_scores(bare, label), reverse=True), allowed) for label in CLASSES]
 
 
-def _scores(bare: Sequence[Sequence[Found]], label: str) -> list[float]:
+def _scores(bare: Sequence[Sequence[ScoredThing]], label: str) -> list[float]:
     return [it.score for found in bare for it in found if it.label == label]
 
 
-def _settled(ghosts: list[float], allowed: int) -> float:
+def _settle_class(ghosts: list[float], allowed: int) -> float:
     """Return a score that only so many ghosts reach, a step above the next. The surest first."""
     if len(ghosts) <= allowed:
         return MIN_SCORE

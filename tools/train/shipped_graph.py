@@ -21,7 +21,7 @@ APART_PX = 4096.0
 """Boxes of two classes never overlap once shifted by this: none reaches 900 px out of a picture."""
 
 
-class Shipped(nn.Module):
+class ShippedNet(nn.Module):
     """See bytes (1, 240, 320, 3), blue green red; speak rows (1, n, 6), the surest first.
 
     A row is left, top, right, bottom [px], score, class.
@@ -31,16 +31,16 @@ class Shipped(nn.Module):
         super().__init__()
         self.net = deepcopy(net)
         self.net.to4[0][0] = on_strip(self.net.to4[0][0])
-        self.heads = nn.ModuleList(joined(head) for head in self.net.heads)
+        self.heads = nn.ModuleList(join_heads(head) for head in self.net.heads)
         self.register_buffer("cells", torch.cat(cells())[None])
 
     def forward(self, pictures: Tensor) -> Tensor:
-        return rows(self.said(pictures), self.cells)
+        return rows(self.raw_rows(pictures), self.cells)
 
-    def said(self, pictures: Tensor) -> Tensor:
+    def raw_rows(self, pictures: Tensor) -> Tensor:
         """Return what every cell says, (1, 14 + 4, N): class logits and sides."""
         strip = pictures.reshape(1, 1, HEIGHT_PX, 3 * WIDTH_PX).to(torch.float32)
-        seen = zip(self.heads, self.net.seen(strip), strict=True)
+        seen = zip(self.heads, self.net.features(strip), strict=True)
         return torch.cat([head(x).flatten(2) for head, x in seen], 2)
 
 
@@ -56,7 +56,7 @@ def on_strip(conv: nn.Conv2d) -> nn.Conv2d:
     return made
 
 
-def joined(head: Head) -> nn.Sequential:
+def join_heads(head: Head) -> nn.Sequential:
     """Return a head that says with one convolution what is there and where."""
     conv = nn.Conv2d(head.what.in_channels, COUNT + 4, 1)
     conv.weight = nn.Parameter(torch.cat([head.what.weight, head.where.weight]).detach())
@@ -72,11 +72,11 @@ def rows(said: Tensor, where: Tensor) -> Tensor:
     scores = surest.sigmoid()[:, None]
     classes = said[:, :COUNT].argmax(1, keepdim=True).to(torch.float32)
     apart = (boxes + classes * APART_PX).transpose(1, 2)
-    kept = Suppressed.apply(apart, scores)[:, 2]
+    kept = SuppressOverlaps.apply(apart, scores)[:, 2]
     return torch.cat([boxes, scores, classes], 1).transpose(1, 2).index_select(1, kept)
 
 
-class Suppressed(torch.autograd.Function):
+class SuppressOverlaps(torch.autograd.Function):
     """Choose the surest of each heap of boxes: ONNX has an operator for that, PyTorch has none."""
 
     @staticmethod

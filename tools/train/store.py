@@ -30,7 +30,7 @@ class OtherRecipe(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Framed:
+class StoredFrame:
     """Hold one frame."""
 
     jpeg: bytes
@@ -62,7 +62,7 @@ def missing(folder: Path, count: int) -> list[int]:
     return [index for index in range(count) if not shard_path(folder, index).exists()]
 
 
-def write(folder: Path, index: int, frames: Sequence[Framed]) -> None:
+def write(folder: Path, index: int, frames: Sequence[StoredFrame]) -> None:
     """Write a shard whole, or leave nothing of it."""
     ends = np.cumsum([len(frame.jpeg) for frame in frames], dtype=np.int64)
     whose = [np.full((len(frame.things), 1), i, np.float32) for i, frame in enumerate(frames)]
@@ -78,18 +78,18 @@ def write(folder: Path, index: int, frames: Sequence[Framed]) -> None:
     part.replace(shard_path(folder, index))
 
 
-def read(path: Path) -> list[Framed]:
+def read(path: Path) -> list[StoredFrame]:
     """Read a shard."""
     with np.load(path) as shard:
         jpeg, ends, rows = shard["jpeg"].tobytes(), shard["ends"].tolist(), shard["things"]
     begins = [0, *ends[:-1]]
     return [
-        Framed(jpeg[begin:end], rows[rows[:, 0] == i][:, 1:].copy())
+        StoredFrame(jpeg[begin:end], rows[rows[:, 0] == i][:, 1:].copy())
         for i, (begin, end) in enumerate(zip(begins, ends, strict=True))
     ]
 
 
-def read_all(folder: Path) -> list[Framed]:
+def read_all(folder: Path) -> list[StoredFrame]:
     """Read every shard of a folder, in order; 20 000 frames take some 200 MB.
 
     Raises:

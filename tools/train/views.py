@@ -29,7 +29,7 @@ TRIES = 40
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
+class ViewTarget:
     """Name a thing to look at."""
 
     class_id: str
@@ -37,16 +37,16 @@ class Target:
     y_m: float
 
 
-def targets(home: Home) -> list[Target]:
+def targets(home: Home) -> list[ViewTarget]:
     """Return all that has a class of ours."""
     found = [
-        Target(class_id, (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2)
+        ViewTarget(class_id, (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2)
         for item_id, item in home.furniture.items()
         if (class_id := furniture_class(item_id, item)) != "none"
         for box in (furniture_shape(item).bounds,)
     ]
-    found += [Target(item.class_id, *item.at) for item in home.objects.values()]
-    return found + [Target("person", *person.at) for person in home.people.values()]
+    found += [ViewTarget(item.class_id, *item.at) for item in home.objects.values()]
+    return found + [ViewTarget("person", *person.at) for person in home.people.values()]
 
 
 def camera(random: Random) -> CameraConfig:
@@ -66,11 +66,11 @@ class Views:
     def __init__(self, home: Home) -> None:
         self._rooms = list(home.rooms.values())
         self._solid: list[Solid] = [*solids(home), *(thing.solid for thing in uprights(home))]
-        self._by_class: dict[str, list[Target]] = {}
+        self._by_class: dict[str, list[ViewTarget]] = {}
         for target in targets(home):
             self._by_class.setdefault(target.class_id, []).append(target)
 
-    def drawn(self, random: Random) -> Pose2:
+    def draw_pose(self, random: Random) -> Pose2:
         """Return a pose where a robot can stand.
 
         Raises:
@@ -78,7 +78,7 @@ class Views:
         """
         for _ in range(TRIES):
             aimed = self._by_class and random.random() < LOOKED_AT
-            pose = self._aimed(random) if aimed else self._anyhow(random)
+            pose = self._aim(random) if aimed else self._anyhow(random)
             if pose is not None:
                 return pose
         raise ValueError("no free floor was found")
@@ -88,7 +88,7 @@ class Views:
         x, y = random.uniform(room.box[0], room.box[2]), random.uniform(room.box[1], room.box[3])
         return Pose2(x, y, random.uniform(-pi, pi)) if self._free(x, y) else None
 
-    def _aimed(self, random: Random) -> Pose2 | None:
+    def _aim(self, random: Random) -> Pose2 | None:
         target = random.choice(self._by_class[random.choice(sorted(self._by_class))])
         for _ in range(TRIES):
             pose = self._anyhow(random)
@@ -101,7 +101,7 @@ class Views:
                 return Pose2(pose.x_m, pose.y_m, wrap(bearing + random.gauss(0.0, AIM_RAD)))
         return None
 
-    def _same_room(self, pose: Pose2, target: Target) -> bool:
+    def _same_room(self, pose: Pose2, target: ViewTarget) -> bool:
         return any(
             room.box[0] <= pose.x_m <= room.box[2]
             and room.box[1] <= pose.y_m <= room.box[3]

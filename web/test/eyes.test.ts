@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { PERIOD_MS, Puller } from "../src/eyes/pull";
-import { boxed, rows, things } from "../src/eyes/sight";
-import { knownWords, lookWords, orderTo } from "../src/eyes/words";
+import { blindFor, boxed, rows, things } from "../src/eyes/sight";
+import { knownWords, lookWords, orderTo, pictureAgeWords } from "../src/eyes/words";
 import { language } from "../src/i18n";
 import { moment } from "../src/state/moment";
 import { learnThings, now, receive } from "../src/state/store";
@@ -105,6 +105,30 @@ describe("things", () => {
     expect(boxed(drawn, "camera_unusable", later(0))).toBeNull();
     expect(boxed({ look: { ...drawn.look, age_s: NaN }, at }, null, later(0))).toBeNull();
     expect(boxed(null, null, at)).toBeNull();
+  });
+
+  it("are blind since when this page heard so, anew for each reason", () => {
+    const later = (s: number) => {
+      const at = moment();
+      return { monotonicMs: at.monotonicMs + 1000 * s, wallMs: at.wallMs };
+    };
+    const tell = (seq: number, blind: string | null) =>
+      receive(JSON.stringify({ seq, kind: "sight", sight: { ...sight, look: null, blind } }));
+    receive(JSON.stringify(snapshot(1)));
+    expect(blindFor.value).toBe("");
+    tell(2, "camera_silent");
+    now.value = later(7.9);
+    expect(blindFor.value).toBe("For at least 7 s.");
+    tell(3, "camera_silent"); // told again: it lasts
+    expect(blindFor.value).toBe("For at least 7 s.");
+    now.value = later(235);
+    expect(blindFor.value).toBe("For at least 3 min.");
+    tell(4, "camera_frozen");
+    now.value = later(1.2);
+    expect(blindFor.value).toBe("For at least 1 s.");
+    expect(pictureAgeWords(12.3)).toBe("This picture is 12 s old.");
+    tell(5, null);
+    expect(blindFor.value).toBe("");
   });
 
   it("are told of in both languages", () => {

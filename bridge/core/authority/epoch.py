@@ -1,19 +1,24 @@
-"""Change the epoch: nothing that was meant for the old one is obeyed afterwards."""
+"""Change the epoch: nothing that was meant for the old one is obeyed afterwards.
+
+The only writer of ``epoch_no`` and ``held``. What an epoch voids is voided by each record's own
+module, in the order below.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.state_orders import MAX_MISSIONS, MissionLeft, Stick
+from bridge.core.authority import external_velocity, stick
+from bridge.core.authority.grants import end_grant
+from bridge.core.authority.leg_tracking import forget_horizon, forget_refusal
+from bridge.core.authority.ownership import restart_numbers
 from wire import Held, HeldReason
 
 if TYPE_CHECKING:
-    from bridge.core.state_orders import Grants
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 
-def turn(tick: Tick, why: str, *, keep_stick: bool = False) -> None:
+def new_epoch(tick: TickContext, why: str, *, keep_stick: bool = False) -> None:
     """Mint the next epoch: sequence numbers restart, grant, horizon and stick are void.
 
     Args:
@@ -21,26 +26,27 @@ def turn(tick: Tick, why: str, *, keep_stick: bool = False) -> None:
         why: stable code for the event.
         keep_stick: the hand that takes over goes on; every other change needs it released again.
     """
-    s = tick.s
-    s.epoch_no += 1
-    s.ownership = replace(s.ownership, waypoints_seq=None, external_seq=None)
-    s.grants = shelved(s.grants)
-    s.leg = replace(s.leg, horizon=None, path=None, refusal=None)
-    s.external = None
-    s.stick = replace(s.stick, seq=-1) if keep_stick else Stick()
+    tick.s.epoch_no += 1
+    restart_numbers(tick)
+    end_grant(tick)
+    forget_refusal(tick)
+    external_velocity.forget(tick)
+    stick.restart(tick, keeps_hand=keep_stick)
     tick.say("epoch", why)
 
 
-def hold(tick: Tick, reason: HeldReason, held_id: str) -> None:
+def hold(tick: TickContext, reason: HeldReason, held_id: str) -> None:
     """Refuse every grant from now on, until arm or resume."""
     tick.s.held = Held(reason=reason, id=held_id)
     tick.say("held", f"{reason.value} {held_id}")
 
 
-def shelved(grants: Grants) -> Grants:
-    """Put the granted mission's remainder in the book; nothing is granted any more."""
-    if grants.mission is None:
-        return grants
-    left = MissionLeft(grants.mission, grants.metres, grants.seconds)
-    book = (*(item for item in grants.book if item.mission != left.mission), left)
-    return replace(grants, mission=None, metres=0.0, seconds=0.0, book=book[-MAX_MISSIONS:])
+def revoke(tick: TickContext) -> None:
+    """End what is granted and followed now; its remainder stays in the book for another grant."""
+    end_grant(tick)
+    forget_horizon(tick)
+
+
+def release(tick: TickContext) -> None:
+    """Let grants count again: a person has armed or resumed."""
+    tick.s.held = None

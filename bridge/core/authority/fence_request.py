@@ -10,22 +10,21 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.request_answers import settle, verdict_on
-from bridge.core.modes.operator import bad_proof, use_nonce
-from bridge.core.state_fence import FenceAsked
+from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict_on
+from bridge.core.state_orders import PendingFence
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.state_fence import FenceArrived, FenceDone
-    from bridge.core.tick_context import Tick
+    from bridge.core.inbox import FenceArrival, FenceDone
+    from bridge.core.tick_context import TickContext
 
 KIND = "fence"
 STANDING_S = 0.5
 
 
-def hear_fence(tick: Tick, arrived: FenceArrived) -> None:
+def hear_fence(tick: TickContext, arrived: FenceArrival) -> None:
     """Take one request, or give it its verdict; one id gets one verdict."""
     asked = tick.s.fence_asked
     if verdict_on(tick, KIND, arrived.id) is not None:
@@ -39,11 +38,11 @@ def hear_fence(tick: Tick, arrived: FenceArrived) -> None:
         settle(tick, KIND, arrived.id, code, detail)
         return
     use_nonce(tick, KIND, arrived.id)
-    tick.s.fence_asked = FenceAsked(arrived.id, arrived.source, arrived.text, here)
+    tick.s.fence_asked = PendingFence(arrived.id, arrived.source, arrived.text, here)
     tick.say("fence_asked", f"by {arrived.source}")
 
 
-def hear_done(tick: Tick, done: FenceDone) -> None:
+def hear_done(tick: TickContext, done: FenceDone) -> None:
     """Give the verdict on what was being written."""
     asked = tick.s.fence_asked
     if asked is None or asked.id != done.id or asked.written:
@@ -57,7 +56,7 @@ def hear_done(tick: Tick, done: FenceDone) -> None:
         tick.say("fence_refused", f"{done.code}: {done.detail}")
 
 
-def _against(tick: Tick, arrived: FenceArrived) -> Iterator[tuple[str, str]]:
+def _against(tick: TickContext, arrived: FenceArrival) -> Iterator[tuple[str, str]]:
     """Yield code and detail of what speaks against a request, the first one decides."""
     if tick.stopped:
         yield "stopped", "a stop came in the same tick; ask again"

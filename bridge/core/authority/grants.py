@@ -9,17 +9,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import shelved
-from bridge.core.authority.ownership import of_owner
-from bridge.core.authority.request_answers import refuse_openly, settle_openly
-from bridge.core.faults.fault_latch import clear_on_grant
-from bridge.core.modes.mode_table import POWERED
+from bridge.core.authority.ownership import sent_at_if_owner
+from bridge.core.authority.requests import refuse_openly, settle_openly
 from bridge.core.state_orders import Grants
 from wire import Mode
 
 if TYPE_CHECKING:
     from bridge.core.state import BridgeState
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Grant
 
 OPERATOR_METRES = 500.0
@@ -32,22 +29,26 @@ METERED = frozenset({"W", "X"})
 """Whose motion is metered by mission; a hand on the stick is metered by itself."""
 
 
-def hear_grant(tick: Tick, grant: Grant) -> None:
-    """Allow a mission of the owner to move, unless held, unpowered or spent."""
-    sent_s = of_owner(tick, grant.planner_id, grant.epoch, grant.seen)
+def hear_grant(tick: TickContext, grant: Grant) -> str | None:
+    """Allow a mission of the owner to move, unless held, unpowered or spent.
+
+    Returns:
+        What to say of a new grant, once rows that it ends are let go; None where nothing is new.
+    """
+    sent_s = sent_at_if_owner(tick, grant.planner_id, grant.epoch, grant.seen)
     if sent_s is None or tick.s.grants.mission == grant.mission:
-        return
+        return None
     jumped_s = tick.s.pose.jumped_s
     if jumped_s is not None and not sent_s > jumped_s:
         tick.drop("grant_before_jump")
-        return
-    metres, seconds = _left(tick.s.grants, grant)
+        return None
+    metres, seconds = _rest_of(tick.s.grants, grant)
     refusal = _refusal(tick, metres, seconds)
     if refusal is not None:
         refuse_openly(tick, "grant", grant.mission, *refusal)
-        return
+        return None
     settle_openly(tick, "grant", grant.mission)
-    grants = shelved(tick.s.grants)
+    grants = tick.s.grants.return_budget()
     book = tuple(item for item in grants.book if item.mission != grant.mission)
     tick.s.grants = replace(
         grants,
@@ -57,14 +58,13 @@ def hear_grant(tick: Tick, grant: Grant) -> None:
         book=book,
         since_arm=True,
     )
-    clear_on_grant(tick)
-    tick.say("granted", f"{grant.mission} {metres:.1f} m {seconds:.0f} s")
+    return f"{grant.mission} {metres:.1f} m {seconds:.0f} s"
 
 
-def operator_acted(grants: Grants) -> Grants:
+def renew_budgets(tick: TickContext) -> None:
     """Refill what may be driven between two acts of a person."""
-    return replace(
-        grants,
+    tick.s.grants = replace(
+        tick.s.grants,
         operator_metres=OPERATOR_METRES,
         operator_seconds=OPERATOR_SECONDS,
         hand_metres=HAND_METRES,
@@ -72,7 +72,17 @@ def operator_acted(grants: Grants) -> Grants:
     )
 
 
-def meter(tick: Tick, before: BridgeState) -> None:
+def end_grant(tick: TickContext) -> None:
+    """End the grant; what it had left stays in the book for another grant of the same mission."""
+    tick.s.grants = tick.s.grants.return_budget()
+
+
+def forget_arming(tick: TickContext) -> None:
+    """Count no grant as given since arming: the brain's death alone then does not disarm."""
+    tick.s.grants = replace(tick.s.grants, since_arm=False)
+
+
+def meter(tick: TickContext, before: BridgeState) -> None:
     """Take one tick's way and time off what is left to who caused it.
 
     The way of a stop counts too, or a planner that is stopped again and again would go further than
@@ -105,7 +115,7 @@ def meter(tick: Tick, before: BridgeState) -> None:
     )
 
 
-def _meter_hand(tick: Tick, before: BridgeState) -> None:
+def _meter_hand(tick: TickContext, before: BridgeState) -> None:
     """Meter a hand on the stick; its ramp to standstill counts as the ways of other stops do."""
     grants, s = tick.s.grants, tick.s
     counts = OUTSIDE_COUNTS if s.watch.outside else 1.0
@@ -118,40 +128,18 @@ def _meter_hand(tick: Tick, before: BridgeState) -> None:
     )
 
 
-def hand_spent(grants: Grants) -> str | None:
-    """Name what a hand on the stick has used up; None if nothing is."""
-    if not grants.hand_metres > 0.0:
-        return "hand's metres"
-    return None if grants.hand_seconds > 0.0 else "hand's seconds"
-
-
-def spent(grants: Grants) -> str | None:
-    """Name what is used up while a mission is granted; None if nothing is."""
-    if grants.mission is None:
-        return None
-    for name, left in (
-        ("mission's metres", grants.metres),
-        ("mission's seconds", grants.seconds),
-        ("operator's metres", grants.operator_metres),
-        ("operator's seconds", grants.operator_seconds),
-    ):
-        if not left > 0.0:
-            return name
-    return None
-
-
-def _left(grants: Grants, grant: Grant) -> tuple[float, float]:
+def _rest_of(grants: Grants, grant: Grant) -> tuple[float, float]:
     for item in grants.book:
         if item.mission == grant.mission:
             return item.metres, item.seconds
     return grant.metres, grant.seconds
 
 
-def _refusal(tick: Tick, metres: float, seconds: float) -> tuple[str, str] | None:
+def _refusal(tick: TickContext, metres: float, seconds: float) -> tuple[str, str] | None:
     s = tick.s
     if s.held is not None:
         return "held", f"{s.held.reason.value} {s.held.id}; arm or resume first"
-    if s.mode not in POWERED:
+    if not tick.is_powered:
         return "not_armed", f"mode is {s.mode.value}"
     if not (metres > 0.0 and seconds > 0.0):
         return "budget", f"left for this mission: {metres:.2f} m, {seconds:.1f} s"

@@ -13,7 +13,7 @@ from wire.bounded_types import MAX_POINTS
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from bridge.core.sensing.fence import Fence
+    from bridge.core.geometry.fence import FenceGrid
     from wire.commands import Waypoint
     from wire.geometry import Pose2
 
@@ -33,7 +33,7 @@ def check_horizon(
     points: Sequence[Waypoint],
     robot_in_map: Pose2,
     max_speed_mps: float,
-    fence: Fence | None,
+    fence: FenceGrid | None,
 ) -> tuple[str, ...]:
     """Return every reason to refuse a horizon; none means that it may be followed.
 
@@ -51,11 +51,11 @@ def check_horizon(
     checks = (
         ("too_many_points", len(points) <= MAX_POINTS),
         ("first_point_far", _starts_here(points[0], robot_in_map)),
-        ("bad_spacing", _spaced(gaps)),
+        ("bad_spacing", _is_well_spaced(gaps)),
         ("mixed_direction", _one_direction(speeds)),
         ("bad_speed", _speeds_fit(speeds, max_speed_mps)),
         ("heading_not_last", not [p for p in points[:-1] if p.heading_rad is not None]),
-        ("fence_crossed", fence is not None and _inside(xs, ys, gaps, robot_in_map, fence)),
+        ("fence_crossed", fence is not None and _keeps_inside(xs, ys, gaps, robot_in_map, fence)),
     )
     return tuple([code for code, fits in checks if not fits])
 
@@ -64,7 +64,7 @@ def _starts_here(first: Waypoint, robot_in_map: Pose2) -> bool:
     return hypot(first.x_m - robot_in_map.x_m, first.y_m - robot_in_map.y_m) <= FIRST_WITHIN_M
 
 
-def _spaced(gaps: list[float]) -> bool:
+def _is_well_spaced(gaps: list[float]) -> bool:
     """Tell whether all points lie well apart; the first and the last gap may be small."""
     low, most = MIN_GAP_M - GAP_TOLERANCE_M, MAX_GAP_M + GAP_TOLERANCE_M
     least = MIN_END_GAP_M - GAP_TOLERANCE_M
@@ -87,8 +87,8 @@ def _all_within(values: Iterable[float], low: float, high: float) -> bool:
     return not [value for value in values if not low <= value <= high]
 
 
-def _inside(
-    xs: list[float], ys: list[float], gaps: list[float], robot_in_map: Pose2, fence: Fence
+def _keeps_inside(
+    xs: list[float], ys: list[float], gaps: list[float], robot_in_map: Pose2, fence: FenceGrid
 ) -> bool:
     """Test every segment, and the way to the first point unless the robot is already outside.
 

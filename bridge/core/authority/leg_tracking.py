@@ -11,18 +11,17 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority.horizon_checks import check_horizon
 from bridge.core.authority.message_score import bad, good
-from bridge.core.authority.ownership import of_owner
-from bridge.core.geometry.path_profile import prepare
-from bridge.core.motion.pursuit import NEW, residuals
+from bridge.core.authority.ownership import note_waypoints, sent_at_if_owner
+from bridge.core.geometry.path_profile import prepare, residuals
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Waypoint, Waypoints
 
 
-def hear_waypoints(tick: Tick, new: Waypoints) -> None:
+def hear_waypoints(tick: TickContext, new: Waypoints) -> None:
     """Follow this horizon from now on, or name why not."""
-    sent_s = of_owner(tick, new.planner_id, new.epoch, new.seen)
+    sent_s = sent_at_if_owner(tick, new.planner_id, new.epoch, new.seen)
     if sent_s is None:
         return
     s = tick.s
@@ -36,11 +35,11 @@ def hear_waypoints(tick: Tick, new: Waypoints) -> None:
         else:
             tick.drop("repeated")
         return
-    s.ownership = replace(s.ownership, waypoints_seq=new.seq)
+    note_waypoints(tick, new.seq)
     if s.leg.mission == new.mission and new.leg < s.leg.leg:
         tick.drop("old_leg")
         return
-    refusal = _late(tick, new, sent_s)
+    refusal = _lateness(tick, new, sent_s)
     if refusal is not None:
         tick.drop(refusal)
         _name_leg(tick, new, refusal)
@@ -59,7 +58,7 @@ def hear_waypoints(tick: Tick, new: Waypoints) -> None:
     _take(tick, new, sent_s)
 
 
-def judge_arrival(tick: Tick, *, at_end: bool) -> bool:
+def has_arrived(tick: TickContext, *, at_end: bool) -> bool:
     """Tell whether the leg, or a horizon of no points, is at its end and the robot stands."""
     s = tick.s
     horizon = s.leg.horizon
@@ -74,7 +73,7 @@ def judge_arrival(tick: Tick, *, at_end: bool) -> bool:
     return False
 
 
-def residual(tick: Tick) -> tuple[float, float]:
+def residual(tick: TickContext) -> tuple[float, float]:
     """Return how far the robot is from where the leg ends: metres, radians; 0 where unknown."""
     goal = tick.s.leg.goal
     if goal is None or tick.robot_in_map is None:
@@ -82,19 +81,7 @@ def residual(tick: Tick) -> tuple[float, float]:
     return residuals(goal.x_m, goal.y_m, goal.heading_rad, tick.robot_in_map)
 
 
-def callable_horizon(tick: Tick) -> bool:
-    """Tell whether there is a fresh horizon that asks the robot to move."""
-    leg = tick.s.leg
-    return (
-        leg.horizon is not None
-        and bool(leg.horizon.points)
-        and not leg.reached
-        and leg.horizon.mission == tick.s.grants.mission
-        and tick.now_s - leg.sent_s <= leg.horizon.ttl_s
-    )
-
-
-def _late(tick: Tick, new: Waypoints, sent_s: float) -> str | None:
+def _lateness(tick: TickContext, new: Waypoints, sent_s: float) -> str | None:
     jumped_s = tick.s.pose.jumped_s
     if not tick.now_s - sent_s <= new.ttl_s:
         return "too_old"
@@ -103,7 +90,7 @@ def _late(tick: Tick, new: Waypoints, sent_s: float) -> str | None:
     return None
 
 
-def _faults(tick: Tick, new: Waypoints) -> tuple[str, ...]:
+def _faults(tick: TickContext, new: Waypoints) -> tuple[str, ...]:
     if new.map_id != tick.config.map_id:
         return ("wrong_map",)
     if not new.points:
@@ -114,7 +101,7 @@ def _faults(tick: Tick, new: Waypoints) -> tuple[str, ...]:
     return check_horizon(new.points, tick.robot_in_map, limits.max_speed_mps, tick.config.fence)
 
 
-def _name_leg(tick: Tick, new: Waypoints, refusal: str | None) -> None:
+def _name_leg(tick: TickContext, new: Waypoints, refusal: str | None) -> None:
     """Make this the newest leg of its mission; ``reached`` belongs to the leg that earned it."""
     leg = tick.s.leg
     if leg.mission == new.mission and leg.leg == new.leg:
@@ -133,9 +120,9 @@ def _name_leg(tick: Tick, new: Waypoints, refusal: str | None) -> None:
     )
 
 
-def _take(tick: Tick, new: Waypoints, sent_s: float) -> None:
+def _take(tick: TickContext, new: Waypoints, sent_s: float) -> None:
     s = tick.s
-    before, follow = s.leg, s.motion.follow
+    before = s.leg
     goal: Waypoint | None = new.points[-1] if new.points and new.final else before.goal
     s.leg = replace(
         before,
@@ -144,11 +131,13 @@ def _take(tick: Tick, new: Waypoints, sent_s: float) -> None:
         path=prepare(new.points, tick.config.robot.limits),
         sent_s=sent_s,
     )
-    # Within a leg each horizon is the same way cut anew: what was learnt on it stays, and at its
-    # end the place that was settled stays settled.
-    if before.horizon is None:
-        s.motion.follow = NEW
-    elif goal is not None and goal == before.goal:
-        s.motion.follow = replace(follow, along_m=0.0)
-    else:
-        s.motion.follow = replace(NEW, turning=follow.turning)
+
+
+def forget_horizon(tick: TickContext) -> None:
+    """Follow no horizon until another one comes; leg and ``reached`` stay known."""
+    tick.s.leg = replace(tick.s.leg, horizon=None, path=None)
+
+
+def forget_refusal(tick: TickContext) -> None:
+    """Show no refusal of what was said in an epoch that is over; its horizon is void, too."""
+    tick.s.leg = replace(tick.s.leg, horizon=None, path=None, refusal=None)

@@ -8,10 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.faults.fault_latch import sources
-
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 DRAIN_S = 0.5
 """The bucket loses one per good message, and one in this time."""
@@ -21,26 +19,26 @@ FULL = 10.0
 _KEYS = {"cmd/waypoints": "W", "cmd/external": "X", "cmd/teleop": "T"}
 
 
-def drain(tick: Tick) -> None:
+def drain(tick: TickContext) -> None:
     """Let the bucket empty with time."""
     if tick.s.bad_bucket > 0.0:
         tick.s.bad_bucket = max(0.0, tick.s.bad_bucket - tick.dt_s / DRAIN_S)
 
 
-def bad(tick: Tick, code: str) -> None:
+def bad(tick: TickContext, code: str) -> None:
     """Score one bad message and drop it."""
     tick.drop(code)
     tick.s.bad_bucket = min(FULL, tick.s.bad_bucket + 1.0)
 
 
-def good(tick: Tick) -> None:
+def good(tick: TickContext) -> None:
     """Score one good message."""
     tick.s.bad_bucket = max(0.0, tick.s.bad_bucket - 1.0)
 
 
-def hear_rejected(tick: Tick) -> None:
+def hear_rejected(tick: TickContext) -> None:
     """Count what was no message; score it where its key's owner is in charge."""
-    letters = sources(tick.s) if tick.inbox.rejected else ""
+    letters = tick.s.sources() if tick.inbox.rejected else ""
     for item in tick.inbox.rejected:
         if _KEYS.get(item.key, "-") in letters:
             bad(tick, f"rejected_{item.why.code}")

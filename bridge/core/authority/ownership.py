@@ -1,4 +1,4 @@
-"""Decide who owns the robot: by hello, standing, and only while nobody alive owns it.
+"""Keep who owns the robot, and tell whether that owner lives. The only writer of ``ownership``.
 
 Alive means that the newest status the owner has shown to have seen was sent at most 300 ms ago.
 """
@@ -8,24 +8,17 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import hold, turn
-from bridge.core.authority.request_answers import refuse_openly, settle_openly
 from bridge.core.geometry.message_age import sent_at
-from wire import PROTOCOL, HeldReason, Owner
+from wire import Owner
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from bridge.core.tick_context import Tick
-    from wire import Heartbeat, Hello
+    from bridge.core.tick_context import TickContext
+    from wire import Heartbeat
 
 LIVE_S = 0.3
 
 
-_ANEW = "its {0} is not this bridge's; start the bridge and its owner anew with the same {0}"
-
-
-def alive(tick: Tick) -> bool:
+def is_alive(tick: TickContext) -> bool:
     """Tell whether there is an owner who has shown to live."""
     ownership = tick.s.ownership
     return (
@@ -35,45 +28,17 @@ def alive(tick: Tick) -> bool:
     )
 
 
-def free_the_lost(tick: Tick) -> None:
-    """Take the robot from an owner who fell silent, in a new epoch."""
-    ownership = tick.s.ownership
-    if ownership.owner is not None and not alive(tick):
-        lost = ownership.owner.planner_id
-        tick.s.ownership = replace(ownership, owner=None)
-        turn(tick, "brain_lost")
-        tick.say("owner_lost", lost)
-
-
-def hear_hello(tick: Tick, hello: Hello) -> None:
-    """Answer one hello: owner now, owner already, or refused with the reason."""
-    ownership = tick.s.ownership
-    sent_s = _sent(tick, hello.seen)
-    if sent_s is None or not tick.now_s - sent_s <= LIVE_S:
-        tick.drop("hello_stale")
-        return
-    if ownership.owner is not None and ownership.owner.planner_id == hello.planner_id:
-        _echo(tick, sent_s)
-        return
-    refusal = next(_against(tick, hello), None)
-    if refusal is not None:
-        refuse_openly(tick, "hello", hello.planner_id, *refusal)
-        return
-    settle_openly(tick, "hello", hello.planner_id)
-    _own(tick, hello, sent_s)
-
-
-def hear_heartbeat(tick: Tick, heartbeat: Heartbeat) -> None:
+def hear_heartbeat(tick: TickContext, heartbeat: Heartbeat) -> None:
     """Note that the owner lives and which status its mission loop last used."""
-    if of_owner(tick, heartbeat.planner_id, heartbeat.epoch, heartbeat.seen) is None:
+    if sent_at_if_owner(tick, heartbeat.planner_id, heartbeat.epoch, heartbeat.seen) is None:
         return
-    used_s = _sent(tick, heartbeat.used)
+    used_s = sent_when(tick, heartbeat.used)
     ownership = tick.s.ownership
     if used_s is not None and (ownership.used_s is None or used_s > ownership.used_s):
         tick.s.ownership = replace(ownership, used_s=used_s)
 
 
-def of_owner(tick: Tick, sender: str, epoch: str, seen: int) -> float | None:
+def sent_at_if_owner(tick: TickContext, sender: str, epoch: str, seen: int) -> float | None:
     """Return when the status this message has seen was sent; None where it must not be obeyed.
 
     An old epoch, another sender or a status nobody remembers: dropped and counted, never scored.
@@ -85,55 +50,55 @@ def of_owner(tick: Tick, sender: str, epoch: str, seen: int) -> float | None:
     if epoch != tick.epoch:
         tick.drop("old_epoch")
         return None
-    sent_s = _sent(tick, seen)
+    sent_s = sent_when(tick, seen)
     if sent_s is None:
         tick.drop("seen_unknown")
         return None
-    _echo(tick, sent_s)
+    note_echo(tick, sent_s)
     return sent_s
 
 
-def _sent(tick: Tick, seen: int) -> float | None:
+def sent_when(tick: TickContext, seen: int) -> float | None:
+    """Return when the status that a message has seen was sent; None where that is unknown."""
     voice = tick.s.voice
     return sent_at(voice.ring, voice.status_seq, seen)
 
 
-def _echo(tick: Tick, sent_s: float) -> None:
+def note_echo(tick: TickContext, sent_s: float) -> None:
+    """Remember the newest status that the owner has shown to have seen."""
     ownership = tick.s.ownership
     if ownership.echo_s is None or sent_s > ownership.echo_s:
         tick.s.ownership = replace(ownership, echo_s=sent_s)
 
 
-def _against(tick: Tick, hello: Hello) -> Iterator[tuple[str, str]]:
-    """Yield code and detail of everything that speaks against this owner-to-be."""
-    config = tick.config
-    for code, came, expected, to_do in (
-        ("protocol_mismatch", hello.protocol, PROTOCOL, "run both of one version"),
-        ("robot_mismatch", hello.robot_hash, config.robot_hash, _ANEW.format("robot.toml")),
-        ("fence_mismatch", hello.fence_hash, config.fence_hash, _ANEW.format("fence.json")),
-        ("map_mismatch", hello.map_id, config.map_id, _ANEW.format("map")),
-    ):
-        if came != expected:
-            yield code, f"came {came}, expected {expected}: {to_do}"
-    if alive(tick):
-        owner = tick.s.ownership.owner
-        yield "owner_alive", f"owner is {owner.planner_id if owner else 'nobody'}"
-    if not tick.still_for(0.0):
-        yield "not_standing", "ownership changes only while the robot stands"
-
-
-def _own(tick: Tick, hello: Hello, sent_s: float) -> None:
-    before = tick.s.ownership
-    if before.last_owner_id not in {None, hello.planner_id}:
-        turn(tick, "owner_changed")
-        hold(tick, HeldReason.NEW_PLANNER, hello.planner_id)
+def begin_ownership(tick: TickContext, owner: Owner, sent_s: float) -> None:
+    """Give the robot to an owner whose hello has seen the status sent at that time."""
     tick.s.ownership = replace(
         tick.s.ownership,
-        owner=Owner(planner_id=hello.planner_id, kind=hello.kind),
-        last_owner_id=hello.planner_id,
+        owner=owner,
+        last_owner_id=owner.planner_id,
         echo_s=sent_s,
         used_s=sent_s,
         waypoints_seq=None,
         external_seq=None,
     )
-    tick.say("owner", f"{hello.kind} {hello.planner_id}")
+
+
+def end_ownership(tick: TickContext) -> None:
+    """Take the robot from its owner; what it has shown to have seen stays known."""
+    tick.s.ownership = replace(tick.s.ownership, owner=None)
+
+
+def note_waypoints(tick: TickContext, seq: int) -> None:
+    """Remember the number of the owner's newest waypoints."""
+    tick.s.ownership = replace(tick.s.ownership, waypoints_seq=seq)
+
+
+def note_external(tick: TickContext, seq: int) -> None:
+    """Remember the number of the owner's newest velocity."""
+    tick.s.ownership = replace(tick.s.ownership, external_seq=seq)
+
+
+def restart_numbers(tick: TickContext) -> None:
+    """Let the owner's messages count from any number once more: a new epoch begins."""
+    tick.s.ownership = replace(tick.s.ownership, waypoints_seq=None, external_seq=None)

@@ -10,13 +10,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from bridge.core.geometry.debounce import filled
-from bridge.core.state_detectors import Flood
+from bridge.core.geometry.debounce import fill
+from bridge.core.state_senses import Flood
 
 if TYPE_CHECKING:
-    from bridge.core.faults.fault_latch import Dirty
     from bridge.core.inbox import Inbox
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 RATES_HZ = {
     "cmd/waypoints": 10.0,
@@ -37,34 +36,27 @@ _NONE = (0,) * len(_KEYS)
 _FIELDS = ("waypoints", "teleop", "external", "grants", "heartbeats", "hellos")
 
 
-def thinned(tick: Tick) -> Inbox:
+def rate_limited(tick: TickContext) -> Inbox:
     """Return this tick's inbox without what came too fast; remember the counts."""
     inbox, flood = tick.inbox, tick.s.flood
     goes_on = not flood.counts or tick.now_s - flood.half_since_s < WINDOW_S / 2
     if goes_on and not inbox.arrived and flood.level_s == 0.0:
         return inbox
-    counts, before, half_s = _turned(flood, tick.now_s)
+    counts, before, half_s = _half_windows(flood, tick.now_s)
     if inbox.arrived:
         came = {item.key: item.count for item in inbox.arrived}
         counts = tuple(n + came.get(key, 0) for n, key in zip(counts, _KEYS, strict=True))
     over = [
         index for index, limit in enumerate(_LIMITS) if not counts[index] + before[index] <= limit
     ]
-    level_s = filled(flood.level_s, tick.dt_s, FULL_S, dirty=bool(over))
+    level_s = fill(flood.level_s, tick.dt_s, FULL_S, dirty=bool(over))
     key = _KEYS[over[0]] if over else flood.key
     quiet = counts == _NONE and before == _NONE
     tick.s.flood = Flood(half_s, () if quiet else counts, () if quiet else before, level_s, key)
-    return _without(tick, inbox, over) if over else inbox
+    return _drop_keys(tick, inbox, over) if over else inbox
 
 
-def judge(tick: Tick, dirty: Dirty) -> None:
-    """Call it a flood once it has lasted for four windows."""
-    flood = tick.s.flood
-    if not flood.level_s < FULL_S:
-        dirty.append(("CMD_FLOOD.0", f"more than allowed on {flood.key}"))
-
-
-def _turned(flood: Flood, now_s: float) -> tuple[tuple[int, ...], tuple[int, ...], float]:
+def _half_windows(flood: Flood, now_s: float) -> tuple[tuple[int, ...], tuple[int, ...], float]:
     """Begin a new half window when it is time to."""
     counts, before = flood.counts or _NONE, flood.before or _NONE
     passed_s = now_s - flood.half_since_s
@@ -73,7 +65,7 @@ def _turned(flood: Flood, now_s: float) -> tuple[tuple[int, ...], tuple[int, ...
     return _NONE, (counts if passed_s < WINDOW_S else _NONE), now_s
 
 
-def _without(tick: Tick, inbox: Inbox, over: list[int]) -> Inbox:
+def _drop_keys(tick: TickContext, inbox: Inbox, over: list[int]) -> Inbox:
     for index in over:
         for _ in getattr(inbox, _FIELDS[index]):
             tick.drop("flood")

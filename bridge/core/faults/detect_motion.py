@@ -2,41 +2,45 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import shelved
-from bridge.core.authority.leg_tracking import callable_horizon
-from bridge.core.faults.detect_senses import ENC_S
-from bridge.core.geometry.debounce import filled
+from bridge.core.geometry.debounce import fill
 from bridge.core.geometry.message_age import sensor_age_s
-from bridge.core.state_detectors import Sent
+from bridge.core.state_senses import SentBounds
 from wire import STILL, Mode, wrap
 
 if TYPE_CHECKING:
     from bridge.core.faults.fault_latch import Dirty
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Twist2
     from wire.robot import Base
 
 SLACK_MPS = 0.15
-RUNAWAY_S, RUNAWAY_LONG_S = 0.1, 0.25
+RUNAWAY_S = 0.1
+RUNAWAY_LONG_S = 0.25
 FOLLOWS_S = 0.2
 """Beyond the drive's lag, as long as something sent may still show."""
 BUCKET_S = 0.05
 
-ASKED_MPS, MOVED_MPS, MOVED_SHARE = 0.10, 0.03, 0.2
-ASKED_RADPS, TURNED_RADPS = 0.2, 0.05
+ASKED_MPS = 0.10
+MOVED_MPS = 0.03
+MOVED_SHARE = 0.2
+ASKED_RADPS = 0.2
+TURNED_RADPS = 0.05
 STUCK_S = 1.0
-PROGRESS_M, PROGRESS_RAD, PROGRESS_S = 0.02, 0.05, 5.0
-TIMES, WITHIN_S = 3, 300.0
+PROGRESS_M = 0.02
+PROGRESS_RAD = 0.05
+PROGRESS_S = 5.0
+TIMES = 3
+WITHIN_S = 300.0
 
-YAW_RADPS, YAW_S = 0.3, 0.5
+YAW_RADPS = 0.3
+YAW_S = 0.5
 GYRO_OLD_S = 0.25
 
 
-def runaway(tick: Tick, dirty: Dirty) -> None:
+def runaway(tick: TickContext, dirty: Dirty) -> None:
     """Judge whether a wheel turns faster, or the other way, than anything sent of late."""
     s = tick.s
     watch, drive = s.watch, s.drive
@@ -48,10 +52,10 @@ def runaway(tick: Tick, dirty: Dirty) -> None:
         return  # nothing is measured: row ENC_STALE
     side = real.w_radps * half_m
     left, right = real.v_mps - side, real.v_mps + side
-    wild = tick.powered and not _fits(watch.sent, left, right)
+    wild = tick.is_powered and not _fits(watch.sent, left, right)
     if not wild and watch.runaway_s == 0.0:
         return
-    watch.runaway_s = filled(watch.runaway_s, tick.dt_s, RUNAWAY_LONG_S, dirty=wild)
+    watch.runaway_s = fill(watch.runaway_s, tick.dt_s, RUNAWAY_LONG_S, dirty=wild)
     if wild and watch.runaway_s >= RUNAWAY_S:
         evidence = f"wheels at {left:.2f} and {right:.2f} m/s, sent {sent.v_mps:.2f} m/s"
         dirty.append(("RUNAWAY.0", evidence))
@@ -59,22 +63,22 @@ def runaway(tick: Tick, dirty: Dirty) -> None:
             dirty.append(("RUNAWAY.1", evidence))
 
 
-def _fits(sent: tuple[Sent, ...], left: float, right: float) -> bool:
+def _fits(sent: tuple[SentBounds, ...], left: float, right: float) -> bool:
     """Tell whether wheels do what was sent, or stand, or something between; with the slack."""
     fits_left, fits_right = abs(left) <= SLACK_MPS, abs(right) <= SLACK_MPS
     for bounds in reversed(sent):  # the newest most often settles it
         if fits_left and fits_right:
             return True
-        fits_left = fits_left or _within(left, bounds.left_low, bounds.left_high)
-        fits_right = fits_right or _within(right, bounds.right_low, bounds.right_high)
+        fits_left = fits_left or _is_between(left, bounds.left_low, bounds.left_high)
+        fits_right = fits_right or _is_between(right, bounds.right_low, bounds.right_high)
     return fits_left and fits_right
 
 
-def _within(speed: float, low: float, high: float) -> bool:
+def _is_between(speed: float, low: float, high: float) -> bool:
     return min(0.0, low) - SLACK_MPS <= speed <= max(0.0, high) + SLACK_MPS
 
 
-def _remember(tick: Tick, left: float, right: float) -> None:
+def _remember(tick: TickContext, left: float, right: float) -> None:
     """Widen the newest bounds by what was sent, or begin new ones; forget what can't show."""
     watch, now_s = tick.s.watch, tick.now_s
     newest = watch.sent[-1] if watch.sent else None
@@ -83,12 +87,12 @@ def _remember(tick: Tick, left: float, right: float) -> None:
         kept = watch.sent
         while len(kept) > 1 and kept[1].since_s <= old_s:
             kept = kept[1:]
-        watch.sent = (*kept, Sent(now_s, left, left, right, right))
+        watch.sent = (*kept, SentBounds(now_s, left, left, right, right))
     elif not (
         newest.left_low <= left <= newest.left_high
         and newest.right_low <= right <= newest.right_high
     ):
-        wider = Sent(
+        wider = SentBounds(
             newest.since_s,
             min(newest.left_low, left),
             max(newest.left_high, left),
@@ -98,13 +102,13 @@ def _remember(tick: Tick, left: float, right: float) -> None:
         watch.sent = (*watch.sent[:-1], wider)
 
 
-def stuck(tick: Tick, dirty: Dirty) -> None:
-    """Judge whether the robot gets on; where it doesn't, end the grant of who asked for it."""
-    s, watch = tick.s, tick.s.watch
-    if not tick.moving and watch.stuck_s == 0.0:
+def progress(tick: TickContext, dirty: Dirty) -> None:
+    """Judge whether the robot gets on; where it does not, whatever asked for it loses its grant."""
+    watch = tick.s.watch
+    if not tick.is_moving and watch.stuck_s == 0.0:
         watch.progress_at = None
         return
-    evidence = _unmoved(tick) or _no_progress(tick)
+    evidence = _standing_evidence(tick) or _no_progress(tick)
     if evidence is None:
         return
     watch.stuck_s, watch.progress_at = 0.0, None
@@ -112,20 +116,18 @@ def stuck(tick: Tick, dirty: Dirty) -> None:
     dirty.append(("STUCK.0", evidence))
     if len(watch.stuck_at_s) == TIMES and tick.now_s - watch.stuck_at_s[0] <= WITHIN_S:
         dirty.append(("STUCK.1", f"{TIMES} times within {WITHIN_S:.0f} s"))
-    s.grants = shelved(s.grants)
-    s.leg = replace(s.leg, horizon=None, path=None)
 
 
-def _unmoved(tick: Tick) -> str | None:
+def _standing_evidence(tick: TickContext) -> str | None:
     s, watch = tick.s, tick.s.watch
-    sent, real = (s.motion.limiter.sent if tick.moving else STILL), s.odometry.measured
+    sent, real = (s.motion.limiter.sent if tick.is_moving else STILL), s.odometry.measured
     v_mps, w_radps = abs(sent.v_mps), abs(sent.w_radps)
     held_v = v_mps > ASKED_MPS and abs(real.v_mps) < min(MOVED_MPS, MOVED_SHARE * v_mps)
     held_w = w_radps > ASKED_RADPS and abs(real.w_radps) < TURNED_RADPS
     held = held_v or held_w or _wheel_held(sent, real, tick.config.robot.base)
     if not held and watch.stuck_s == 0.0:
         return None
-    watch.stuck_s = filled(watch.stuck_s, tick.dt_s, STUCK_S, dirty=held)
+    watch.stuck_s = fill(watch.stuck_s, tick.dt_s, STUCK_S, dirty=held)
     if not (held and watch.stuck_s >= STUCK_S):
         return None
     return f"sent {sent.v_mps:.2f} m/s {sent.w_radps:.2f} rad/s, measured {real.v_mps:.2f} m/s"
@@ -142,10 +144,15 @@ def _wheel_held(sent: Twist2, real: Twist2, base: Base) -> bool:
     return False
 
 
-def _no_progress(tick: Tick) -> str | None:
+def _no_progress(tick: TickContext) -> str | None:
     s, watch = tick.s, tick.s.watch
     shut = s.gate.blocked or s.gate.shut_since_s is not None
-    if s.mode is not Mode.ACTIVE or s.source != "W" or shut or not callable_horizon(tick):
+    if (
+        s.mode is not Mode.ACTIVE
+        or s.source != "W"
+        or shut
+        or not tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s)
+    ):
         watch.progress_at = None
         return None
     here, last = s.odometry.base_in_odom, watch.progress_at
@@ -160,7 +167,7 @@ def _no_progress(tick: Tick) -> str | None:
     return None if waited_s < PROGRESS_S else f"no progress for {waited_s:.1f} s"
 
 
-def yaw(tick: Tick, dirty: Dirty) -> None:
+def yaw(tick: TickContext, dirty: Dirty) -> None:
     """Judge whether wheels and gyro tell the same turn. Where no gyro is wired nobody can tell."""
     s = tick.s
     if not tick.config.robot.inputs.imu:
@@ -179,6 +186,9 @@ def yaw(tick: Tick, dirty: Dirty) -> None:
             evidence = "" if off_radps <= YAW_RADPS else f"{off_radps:.2f} rad/s apart"
     if not evidence and s.watch.yaw_s == 0.0:
         return
-    s.watch.yaw_s = filled(s.watch.yaw_s, tick.dt_s, YAW_S, dirty=bool(evidence))
+    s.watch.yaw_s = fill(s.watch.yaw_s, tick.dt_s, YAW_S, dirty=bool(evidence))
     if evidence and s.watch.yaw_s >= YAW_S:
         dirty.append(("YAW_DISAGREE.0", evidence))
+
+
+ENC_S = 0.08

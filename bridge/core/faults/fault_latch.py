@@ -8,35 +8,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bridge.core.faults.fault_table import ALL, STAGES, Clears
-from bridge.core.motion.brake_learning import weak_share
 from bridge.core.state import RowUp
 from wire import SEVERITY, Action, Mode
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from bridge.core.faults.fault_table import Stage
-    from bridge.core.state import BridgeState
-    from bridge.core.tick_context import Tick
+    from bridge.core.faults.fault_table import FaultStage
+    from bridge.core.tick_context import TickContext
 
 Dirty = list[tuple[str, str]]
 """Stage names whose trouble is seen in this tick, each with the evidence."""
 
 
-def sources(s: BridgeState) -> str:
-    """Return the letters of who moves the robot or holds a grant."""
-    owner = s.ownership.owner
-    if s.grants.mission is None or owner is None:
-        return s.source
-    return s.source + ("W" if owner.kind == "planner" else "X")
-
-
-def binds(stage: Stage, letters: str) -> bool:
+def binds(stage: FaultStage, letters: str) -> bool:
     """Tell whether a stage acts on these sources."""
     return stage.binds == ALL or any(letter in stage.binds for letter in letters)
 
 
-def update(tick: Tick, dirty: Dirty) -> None:
+def update(tick: TickContext, dirty: Dirty) -> None:
     """Raise what is dirty, let go what has been clean for long enough."""
     rows = tick.s.rows
     if not (rows or dirty):
@@ -57,7 +47,7 @@ def update(tick: Tick, dirty: Dirty) -> None:
     tick.s.rows = kept
 
 
-def _clean(tick: Tick, stage: Stage, for_s: float) -> bool:
+def _clean(tick: TickContext, stage: FaultStage, for_s: float) -> bool:
     """Tell whether a stage whose trouble is over ends by itself.
 
     BRAIN_LOST ends with an owner's return where nothing moves: without a grant nothing will. It is
@@ -69,13 +59,13 @@ def _clean(tick: Tick, stage: Stage, for_s: float) -> bool:
     return stage.clears is Clears.AUTO and for_s >= stage.clean_s
 
 
-def worst(tick: Tick) -> tuple[Action, str, bool]:
+def worst(tick: TickContext) -> tuple[Action, str, bool]:
     """Return the worst action that binds, its row in lower case, and whether it needs a reset.
 
     ESTOP is left out: it is a mode of its own, entered by request.
     """
     action, why, reset_needed = Action.NONE, "", False
-    letters = sources(tick.s)
+    letters = tick.s.sources()
     for name in tick.s.rows:
         stage = STAGES[name]
         if stage.row == "ESTOP" or not binds(stage, letters):
@@ -86,17 +76,17 @@ def worst(tick: Tick) -> tuple[Action, str, bool]:
     return action, why, reset_needed
 
 
-def cap(tick: Tick) -> tuple[float, str]:
+def cap(tick: TickContext) -> tuple[float, str]:
     """Return the factor on robot.toml's limits that CAP rows leave, and the row that sets it.
 
     Brakes learnt to be weak cap as a row does; they are no row (docs/adr/0018-learned-braking.md).
     """
-    factor, by = weak_share(tick.s.learnt), "robot"
+    factor, by = tick.s.learnt.speed_share(), "robot"
     if factor < 1.0:
         by = "weak_brakes"
     if not tick.s.rows:
         return factor, by
-    letters = sources(tick.s)
+    letters = tick.s.sources()
     fastest = tick.config.robot.limits.max_speed_mps
     for name in tick.s.rows:
         stage = STAGES[name]
@@ -110,12 +100,12 @@ def cap(tick: Tick) -> tuple[float, str]:
     return factor, by
 
 
-def clear_on_grant(tick: Tick) -> None:
+def clear_on_grant(tick: TickContext) -> None:
     """Let go what a new grant ends; a detector that is still dirty raises it again at once."""
     _let_go(tick, lambda stage: stage.clears is Clears.ON_GRANT)
 
 
-def clear_on_arm(tick: Tick) -> None:
+def clear_on_arm(tick: TickContext) -> None:
     """Let go what arming ends.
 
     What needs a reset and rose while the drive was off never made a FAULT that could be reset: the
@@ -124,12 +114,12 @@ def clear_on_arm(tick: Tick) -> None:
     _let_go(tick, lambda stage: stage.clears not in {Clears.AUTO, Clears.REBOOT})
 
 
-def clear_on_reset(tick: Tick) -> None:
+def clear_on_reset(tick: TickContext) -> None:
     """Let go what a reset ends; the caller has seen that it was clean for 2 s."""
     _let_go(tick, lambda stage: stage.clears is Clears.ON_RESET)
 
 
-def _let_go(tick: Tick, ended: Callable[[Stage], bool]) -> None:
+def _let_go(tick: TickContext, ended: Callable[[FaultStage], bool]) -> None:
     rows = tick.s.rows
     gone = [name for name in rows if ended(STAGES[name])]
     if gone:

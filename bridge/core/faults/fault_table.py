@@ -35,7 +35,7 @@ ALL = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Stage:
+class FaultStage:
     """Give one threshold of a row and what it does."""
 
     name: str
@@ -55,23 +55,23 @@ class Stage:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class FaultRow:
     """Give one row: its stages mildest first, and its words."""
 
     id: str
     detector: str
     en: str
     zh: str
-    stages: tuple[Stage, ...]
+    stages: tuple[FaultStage, ...]
 
 
-def _row(row: str, detector: str, *stages: Mapping[str, object]) -> Row:
+def _row(row: str, detector: str, *stages: Mapping[str, object]) -> FaultRow:
     en, zh = WORDS[row]
     made = tuple(
-        Stage(name=f"{row}.{index}", row=row, **stage)  # type: ignore[arg-type]  # keys are Stage's
+        FaultStage(name=f"{row}.{index}", row=row, **stage)  # type: ignore[arg-type]  # keys are Stage's
         for index, stage in enumerate(stages)
     )
-    return Row(row, detector, en, zh, made)
+    return FaultRow(row, detector, en, zh, made)
 
 
 def _do(
@@ -84,7 +84,7 @@ _CAP, _HOLD2, _STOP1 = Action.CAP, Action.HOLD2, Action.STOP1
 _FAST1, _CUT0 = Action.FAST1, Action.CUT0
 _REARM, _RESET, _GRANT = Clears.ON_REARM, Clears.ON_RESET, Clears.ON_GRANT
 
-ROWS: tuple[Row, ...] = (
+ROWS: tuple[FaultRow, ...] = (
     _row("BRAIN_LATE", "the newest status that the owner has shown to have seen was sent; an "
          "external brain's too, because its velocity leads on as blindly as a horizon",
          _do("over 150 ms ago", _CAP, "WX", cap_factor=0.5)),
@@ -164,4 +164,4 @@ ROWS: tuple[Row, ...] = (
          _do("at once", _FAST1, ALL, _RESET)),
 )  # fmt: skip
 
-STAGES: dict[str, Stage] = {stage.name: stage for row in ROWS for stage in row.stages}
+STAGES: dict[str, FaultStage] = {stage.name: stage for row in ROWS for stage in row.stages}

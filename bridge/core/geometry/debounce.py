@@ -10,7 +10,7 @@ LONGEST_S = 0.05
 """What one tick may add: a loop that slept has not watched."""
 
 
-def filled(level_s: float, dt_s: float, top_s: float, *, dirty: bool) -> float:
+def fill(level_s: float, dt_s: float, top_s: float, *, dirty: bool) -> float:
     """Return the window's new level [s], from 0 to ``top_s``."""
     step_s = min(max(dt_s, 0.0), LONGEST_S)
     level_s = level_s + step_s if dirty else max(0.0, level_s - DRAIN * step_s)

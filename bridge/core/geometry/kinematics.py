@@ -21,7 +21,7 @@ _WHEEL = Field(ge=-1_000.0, le=1_000.0)
 
 
 @value
-class Wheels:
+class WheelSpeeds:
     """Give both wheel speeds [rad/s], positive forwards."""
 
     left_radps: Annotated[float, _WHEEL]
@@ -29,7 +29,7 @@ class Wheels:
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-STOPPED = Wheels(0.0, 0.0)
+STOPPED = WheelSpeeds(0.0, 0.0)
 
 
 def rim_speeds(twist: Twist2, separation_m: float) -> tuple[float, float]:
@@ -43,12 +43,12 @@ def fastest_rim(twist: Twist2, separation_m: float) -> float:
     return abs(twist.v_mps) + abs(twist.w_radps) * separation_m / 2
 
 
-def wheels_of(twist: Twist2, base: Base) -> Wheels:
+def wheels_of(twist: Twist2, base: Base) -> WheelSpeeds:
     """Return the wheel speeds of a body velocity: (v -+ w L / 2) / r; standstill if not finite."""
     left, right = rim_speeds(twist, base.wheel_separation_m)
     left, right = left / base.wheel_radius_m, right / base.wheel_radius_m
     if isfinite(left) and isfinite(right):
-        return Wheels(left, right)
+        return WheelSpeeds(left, right)
     return STOPPED
 
 
@@ -63,7 +63,7 @@ def twist_of(left_radps: float, right_radps: float, base: Base) -> Twist2:
     v, w = (left + right) / 2, (right - left) / base.wheel_separation_m
     if not (isfinite(v) and isfinite(w)):
         return STILL
-    return Twist2(_held(v, MAX_SPEED_MPS), _held(w, MAX_TURN_RADPS))
+    return Twist2(_clamp(v, MAX_SPEED_MPS), _clamp(w, MAX_TURN_RADPS))
 
 
 def saturate(twist: Twist2, base: Base, limits: Limits, cap: float = 1.0) -> Twist2:
@@ -92,10 +92,10 @@ def saturate(twist: Twist2, base: Base, limits: Limits, cap: float = 1.0) -> Twi
         _ratio(limits.max_wheel_radps * base.wheel_radius_m, rim_mps),
         sqrt(_ratio(limits.max_lateral_mps2, v * w)),
     )
-    return scaled(twist, factor)
+    return scale_twist(twist, factor)
 
 
-def scaled(twist: Twist2, factor: float) -> Twist2:
+def scale_twist(twist: Twist2, factor: float) -> Twist2:
     """Scale a body velocity along its curve; 1 returns it unchanged, bit for bit."""
     if factor == 1.0:
         return twist
@@ -107,5 +107,5 @@ def _ratio(limit: float, value: float) -> float:
     return 1.0 if value <= limit else limit / value
 
 
-def _held(value: float, most: float) -> float:
+def _clamp(value: float, most: float) -> float:
     return value if -most <= value <= most else (most if value > 0 else -most)

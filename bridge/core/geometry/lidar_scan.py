@@ -37,7 +37,7 @@ class Sector:
     """Every direction of it lies within the lidar's field."""
 
     @property
-    def known(self) -> bool:
+    def is_known(self) -> bool:
         """Tell whether at least half of the beams came back, so that silence means free."""
         return self.beams > 0 and 2 * self.returned >= self.beams
 
@@ -146,7 +146,7 @@ class ScanPicture:
         """Return the runs of beam numbers within a range of directions, none counted twice."""
         count, step = self.beams, self.step_rad
         width = min(max(half_rad, 0.0), pi - 1e-9)
-        start = _turned(middle_rad - width - self.first_rad)
+        start = _wrap_turn(middle_rad - width - self.first_rad)
         runs = []
         for turn in (-tau, 0.0, tau):  # a field may begin anywhere and be longer than one turn
             begin = start + turn
@@ -163,7 +163,7 @@ class ScanPicture:
         if self.whole:
             return True
         field = self.beams * self.step_rad
-        start = _turned(middle_rad - half_rad - self.first_rad + self.step_rad)
+        start = _wrap_turn(middle_rad - half_rad - self.first_rad + self.step_rad)
         return start + 2 * half_rad <= field + self.step_rad
 
 
@@ -207,7 +207,7 @@ def _rays(
     return tuple(map(cos, angles)), tuple(map(sin, angles))
 
 
-def _turned(angle_rad: float) -> float:
+def _wrap_turn(angle_rad: float) -> float:
     """Bring an angle into [0, 2 pi); what is not a number becomes 0."""
     turned = angle_rad % tau if -1e6 <= angle_rad <= 1e6 else 0.0
     return turned if turned < tau else 0.0

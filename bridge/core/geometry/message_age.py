@@ -9,7 +9,7 @@ from __future__ import annotations
 from wire import STATUS_RING
 
 
-def remembered(ring: tuple[float, ...], sent_s: float) -> tuple[float, ...]:
+def append_sent(ring: tuple[float, ...], sent_s: float) -> tuple[float, ...]:
     """Return the ring of sending times with one more, the oldest let go."""
     return (*ring[-(STATUS_RING - 1) :], sent_s)
 

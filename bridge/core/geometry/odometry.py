@@ -64,24 +64,24 @@ def advance(
         jumped = not (abs(left_m) <= MAX_STEP_M and abs(right_m) <= MAX_STEP_M)
     if jumped:
         left_m = right_m = 0.0
-    pose = rolled(state.base_in_odom, left_m, right_m, base.wheel_separation_m)
+    pose = roll(state.base_in_odom, left_m, right_m, base.wheel_separation_m)
     return OdometryState(
         base_in_odom=pose,
         measured=measured,
-        left_rad=_kept(drive.left_rad),
-        right_rad=_kept(drive.right_rad),
+        left_rad=_valid_angle(drive.left_rad),
+        right_rad=_valid_angle(drive.right_rad),
         travelled_m=min(state.travelled_m + abs(left_m + right_m) / 2, 1e12),
         turned_rad=min(state.turned_rad + abs(right_m - left_m) / base.wheel_separation_m, 1e12),
         jumps=state.jumps + jumped,
     )
 
 
-def _kept(angle_rad: float) -> float | None:
+def _valid_angle(angle_rad: float) -> float | None:
     """Keep an angle that the wire may say; another is no zero to go on from."""
     return angle_rad if abs(angle_rad) <= _MAX_ANGLE_RAD else None
 
 
-def rolled(pose: Pose2, left_m: float, right_m: float, separation_m: float) -> Pose2:
+def roll(pose: Pose2, left_m: float, right_m: float, separation_m: float) -> Pose2:
     """Roll a pose along the exact arc of two wheel paths [m]; an impossible end moves nothing."""
     turn = (right_m - left_m) / separation_m
     return along_arc(pose, (left_m + right_m) / 2, turn)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
-from wire.geometry import wrap
+from wire.geometry import Pose2, wrap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,7 +52,7 @@ class Path:
         return self.along_m[-1] if self.along_m else 0.0
 
 
-def regulated(speed_mps: float, curve_per_m: float, radius_m: float, slowest_mps: float) -> float:
+def regulate(speed_mps: float, curve_per_m: float, radius_m: float, slowest_mps: float) -> float:
     """Slow down on a curve tighter than ``radius_m``, in proportion, never below ``slowest_mps``.
 
     Source: regulated pure pursuit (Macenski and others, 2023).
@@ -76,7 +76,7 @@ def prepare(points: Sequence[Waypoint], limits: Limits) -> Path:
     exits = list(speeds)
     if not sum(turns) * TURN_RADIUS_M <= (1.0 - _ROUNDING) * 2 * _CORNER_M:  # or no curve is tight
         exits = [
-            regulated(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
+            regulate(speed, curve, TURN_RADIUS_M, max(SLOWEST_MPS, SLOWEST_SHARE * speed))
             for speed, curve in zip(speeds, _curves(turns, along), strict=True)
         ]
     _brake(exits, gaps, PLANNED_DECEL * limits.max_decel_mps2)
@@ -127,3 +127,13 @@ def _curves(turns: list[float], along: list[float]) -> list[float]:
             low += 1
         curves.append(max(0.0, turned) / (2 * _CORNER_M))
     return curves
+
+
+def residuals(
+    x_m: float, y_m: float, heading_rad: float | None, robot_in_map: Pose2
+) -> tuple[float, float]:
+    """Return distance [m] and turn [rad] from a robot to an end point; no heading, no turn."""
+    away = hypot(x_m - robot_in_map.x_m, y_m - robot_in_map.y_m)
+    if heading_rad is None:
+        return away, 0.0
+    return away, abs(wrap(heading_rad - robot_in_map.yaw_rad))

@@ -6,22 +6,22 @@ from typing import TYPE_CHECKING
 
 from bridge.core.faults.fault_table import ALL, STAGES, Clears
 from bridge.core.modes.mode_table import LATCHED
+from bridge.core.sensing.sensor_update import recorder_lack
+from bridge.core.sensing.stop_inputs import pressed_input
 from wire import SEVERITY, Action, Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.inbox import Inbox
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 STANDING_S = 0.5
 CLEAN_S = 2.0
 STICK_S = 0.25
 _OF_THE_BRAIN = "BRAIN_GONE"
-_UNPROVEN = frozenset({Mode.BOOT, Mode.SELFTEST})
 
 
-def arm_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
+def arm_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
     """Yield code and detail of each thing that keeps the robot disarmed."""
     if tick.s.mode is not Mode.DISARMED:
         yield "not_disarmed", f"mode is {tick.s.mode.value}; arming starts from DISARMED"
@@ -29,7 +29,7 @@ def arm_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
     yield from ready_lacks(tick)
 
 
-def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
+def ready_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
     """Yield the conditions of arming that do not depend on the mode."""
     s = tick.s
     if s.fence_asked is not None:
@@ -57,7 +57,7 @@ def ready_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
         yield recorder_lack(tick.inbox)
 
 
-def strayed(tick: Tick) -> bool:
+def is_outside_fence(tick: TickContext) -> bool:
     """Tell whether the robot is known to stand where its fence allows nobody.
 
     It is said, and keeps nobody from arming: a stick that is to bring it back needs torque.
@@ -66,20 +66,14 @@ def strayed(tick: Tick) -> bool:
     return fence is not None and here is not None and not fence.allows(here.x_m, here.y_m)
 
 
-def recorder_lack(inbox: Inbox) -> tuple[str, str]:
-    """Return code and sentence of why this run is not being recorded."""
-    code, _, detail = inbox.recorder_says.partition(": ")
-    return code or "recorder_down", detail or "the tick recorder takes no records"
-
-
-def reset_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
+def reset_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
     """Yield code and detail of each thing that keeps a latched mode latched."""
     s = tick.s
     if s.mode not in LATCHED:
         yield "not_latched", f"mode is {s.mode.value}; only ESTOPPED and FAULT are reset"
         return
-    if pressed(tick) is not None:
-        yield "estop_pressed", pressed(tick) or ""
+    if pressed_input(tick) is not None:
+        yield "estop_pressed", pressed_input(tick) or ""
     pressed_s = s.buttons.pressed_s
     if pressed_s is not None and not tick.now_s - pressed_s >= CLEAN_S:
         yield "estop_just_released", f"the input must have been free for {CLEAN_S} s"
@@ -90,22 +84,3 @@ def reset_lacks(tick: Tick) -> Iterator[tuple[str, str]]:
         latched = stage.clears is Clears.ON_RESET and stage.row != "ESTOP"
         if latched and not tick.now_s - up.dirty_s >= CLEAN_S:
             yield stage.row.lower(), f"its detector must be clean for {CLEAN_S} s"
-
-
-def pressed(tick: Tick) -> str | None:
-    """Name the protective-stop input that is pressed now; None if none is."""
-    drive, buttons = tick.s.drive.newest, tick.s.buttons
-    if drive is not None and drive.estop_pressed is not False:
-        if drive.estop_pressed is not None:
-            return "the drive's stop input is pressed"
-        if tick.s.mode not in _UNPROVEN:  # until then the self test waits for it
-            return "the drive does not tell its stop input"
-    if tick.config.robot.inputs.estop_link and buttons.link_received_s is not None:
-        if buttons.link_pressed:
-            return "the stop button's link says pressed"
-        if not tick.now_s - buttons.link_received_s <= LINK_SILENT_S:
-            return "the stop button's link is silent"
-    return None
-
-
-LINK_SILENT_S = 0.5

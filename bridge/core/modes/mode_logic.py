@@ -6,52 +6,25 @@ Rows are evaluated here and never from callbacks.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.authority import rate_limit
-from bridge.core.authority.epoch import hold, shelved
-from bridge.core.authority.leg_tracking import callable_horizon, judge_arrival
+from bridge.core.authority import external_velocity
+from bridge.core.authority.epoch import hold, revoke
+from bridge.core.authority.grants import end_grant
+from bridge.core.authority.leg_tracking import forget_horizon, has_arrived
 from bridge.core.faults import (
-    detect_brain,
-    detect_coverage,
-    detect_loop,
-    detect_motion,
-    detect_power,
-    detect_senses,
     fault_latch,
 )
-from bridge.core.modes import external_velocity, selftest, stop_monitor
+from bridge.core.faults.detectors import DETECTORS
+from bridge.core.modes import selftest, stop_monitor
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.operator import estop
 from bridge.core.modes.transition import escalate, go
-from bridge.core.state import Gate
 from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
-DETECTORS = (
-    detect_brain.brain,
-    detect_brain.commands,
-    detect_brain.hand,
-    rate_limit.judge,
-    detect_senses.lidar,
-    detect_coverage.blind,
-    detect_coverage.no_range,
-    detect_senses.pose,
-    detect_coverage.zone,
-    detect_senses.drive,
-    detect_motion.runaway,
-    detect_motion.stuck,
-    detect_motion.yaw,
-    detect_power.current,
-    detect_power.battery,
-    detect_senses.buttons,
-    detect_loop.loop,
-    detect_loop.rights,
-)
-"""Each takes the tick and a list to which it adds what it sees. Adding a row adds one here."""
 
 REVOKED_S = 30.0
 """A mission that a HOLD2 has kept waiting for so long needs a person to go on."""
@@ -61,7 +34,7 @@ _FOLLOWS = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.TELEOP})
 _HOLD2 = SEVERITY[Action.HOLD2]
 
 
-def detect(tick: Tick) -> None:
+def detect(tick: TickContext) -> None:
     """Run every detector and keep what it saw as long as its row says."""
     dirty: fault_latch.Dirty = []
     for detector in DETECTORS:
@@ -71,13 +44,15 @@ def detect(tick: Tick) -> None:
         if name == "ESTOP.0":
             estop(tick, "estop")
             tick.reasons.append(evidence)
+        elif name == "STUCK.0":
+            revoke(tick)  # whatever pushes on would go on for the next grant, too
 
 
-def decide(tick: Tick) -> None:
+def decide(tick: TickContext) -> None:
     """Bring the mode up to date."""
     s = tick.s
     if s.mode is Mode.BOOT:
-        go(tick, Fact.UP, "up")
+        selftest.enter(tick, Fact.UP, "up")
     selftest.run(tick)
     action, why, reset_needed = fault_latch.worst(tick)
     if s.gate.blocked and s.mode is Mode.ACTIVE and not SEVERITY[action] >= _HOLD2:
@@ -86,14 +61,14 @@ def decide(tick: Tick) -> None:
     if must_stop and s.mode in _FOLLOWS:
         go(tick, action, why, reset_needed=reset_needed)
     elif must_stop and s.mode is Mode.STOPPING:
-        _worsen(tick, action, why, reset_needed=reset_needed)
+        escalate_stop(tick, action, why, reset_needed=reset_needed)
     stop_monitor.judge(tick)
-    _tire(tick, must_stop=must_stop)
+    expire_holding(tick, must_stop=must_stop)
     if not must_stop:
-        _call(tick)
+        activate(tick)
 
 
-def _tire(tick: Tick, *, must_stop: bool) -> None:
+def expire_holding(tick: TickContext, *, must_stop: bool) -> None:
     """While holding: forget a horizon grown old, and revoke a mission that waits for too long.
 
     A stale horizon matters while it moves the robot; a standing one just needs another.
@@ -108,35 +83,38 @@ def _tire(tick: Tick, *, must_stop: bool) -> None:
     elif tick.now_s - s.waits_since_s >= (REVOKED_S if must_stop else REVOKED_BLOCKED_S):
         why = fault_latch.worst(tick)[1] if must_stop else s.gate.by
         tick.say("mission_revoked", f"{s.grants.mission} {why}")
-        s.grants = shelved(s.grants)
+        end_grant(tick)
         s.waits_since_s = None
         hold(tick, HeldReason.FAULT, why)
-    if s.mode is Mode.HOLD and s.leg.horizon is not None and not callable_horizon(tick):
-        s.leg = replace(s.leg, horizon=None, path=None)
-    if blocked and s.grants.mission is None:
-        s.gate = Gate()
+    if (
+        s.mode is Mode.HOLD
+        and s.leg.horizon is not None
+        and not tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s)
+    ):
+        forget_horizon(tick)
 
 
-def _worsen(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> None:
+def escalate_stop(tick: TickContext, action: Action, why: str, *, reset_needed: bool) -> None:
+    """Answer a row that is worse than the stop in progress: cut the torque, or brake harder."""
     if action is Action.CUT0:
         go(tick, action, why)
     else:
         escalate(tick, action, why, reset_needed=reset_needed)
 
 
-def arrive(tick: Tick, *, at_end: bool) -> None:
+def arrive(tick: TickContext, *, at_end: bool) -> None:
     """Leave ACTIVE when what was asked is done and the robot stands."""
     s = tick.s
     if s.mode is not Mode.ACTIVE:
         return
     if s.source == "X":
-        if not external_velocity.calls(tick) and tick.still_for(0.0):
+        if not external_velocity.asks_to_move(tick) and tick.still_for(0.0):
             go(tick, Fact.ARRIVED, "released")
-    elif judge_arrival(tick, at_end=at_end):
+    elif has_arrived(tick, at_end=at_end):
         go(tick, Fact.ARRIVED, "reached" if s.leg.reached else "no_points")
 
 
-def _call(tick: Tick) -> None:
+def activate(tick: TickContext) -> None:
     """Go to ACTIVE where somebody with a grant asks for motion and nothing forbids it."""
     s = tick.s
     if s.mode is Mode.STOPPING and s.stopping is not None and s.stopping.resumes:
@@ -147,11 +125,10 @@ def _call(tick: Tick) -> None:
         return
     if s.held is not None or s.grants.mission is None or s.gate.blocked or tick.stopped:
         return
-    if callable_horizon(tick):
+    if tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s):
         source = "W"
-    elif external_velocity.calls(tick):
+    elif external_velocity.asks_to_move(tick):
         source = "X"
     else:
         return
-    go(tick, fact, s.grants.mission)  # the table has both
-    s.source = source
+    go(tick, fact, s.grants.mission, source=source)  # the table has both

@@ -11,7 +11,7 @@ from enum import StrEnum
 from wire import Action, Mode
 
 
-class Request(StrEnum):
+class RequestCause(StrEnum):
     """Name what a person can ask for. ARM and RESET mean: asked, proven and all conditions met."""
 
     ARM = "arm"
@@ -40,22 +40,20 @@ class Fact(StrEnum):
     UNPROVEN_RESET = "reset before the self test has passed"
 
 
-Cause = Action | Request | Fact
+Cause = Action | RequestCause | Fact
 
 _M = Mode
-POWERED = frozenset({_M.HOLD, _M.ACTIVE, _M.TELEOP, _M.STOPPING})
-MOVING = frozenset({_M.ACTIVE, _M.TELEOP})
 LATCHED = frozenset({_M.ESTOPPED, _M.FAULT})
 
 TRANSITIONS: dict[tuple[Mode, Cause], Mode] = {
     (_M.BOOT, Fact.UP): _M.SELFTEST,
     (_M.SELFTEST, Fact.PROVEN): _M.DISARMED,
     (_M.SELFTEST, Fact.WRONG): _M.FAULT,
-    (_M.DISARMED, Request.ARM): _M.HOLD,
+    (_M.DISARMED, RequestCause.ARM): _M.HOLD,
     (_M.HOLD, Fact.CALLED): _M.ACTIVE,
     (_M.ACTIVE, Fact.ARRIVED): _M.HOLD,
-    (_M.HOLD, Request.TELEOP): _M.TELEOP,
-    (_M.ACTIVE, Request.TELEOP): _M.TELEOP,
+    (_M.HOLD, RequestCause.TELEOP): _M.TELEOP,
+    (_M.ACTIVE, RequestCause.TELEOP): _M.TELEOP,
     (_M.TELEOP, Fact.RELEASED): _M.HOLD,
     # Any powered mode stops for a row; HOLD already stands, or ramps, for HOLD2.
     (_M.HOLD, Action.STOP1): _M.STOPPING,
@@ -71,12 +69,12 @@ TRANSITIONS: dict[tuple[Mode, Cause], Mode] = {
     (_M.TELEOP, Action.CUT0): _M.FAULT,
     (_M.STOPPING, Action.CUT0): _M.FAULT,
     # A stop by a person: a moving robot ramps and keeps torque, a standing one stays.
-    (_M.ACTIVE, Request.STOP): _M.STOPPING,
-    (_M.TELEOP, Request.STOP): _M.STOPPING,
-    (_M.HOLD, Request.DISARM): _M.STOPPING,
-    (_M.ACTIVE, Request.DISARM): _M.STOPPING,
-    (_M.TELEOP, Request.DISARM): _M.STOPPING,
-    (_M.STOPPING, Request.DISARM): _M.STOPPING,
+    (_M.ACTIVE, RequestCause.STOP): _M.STOPPING,
+    (_M.TELEOP, RequestCause.STOP): _M.STOPPING,
+    (_M.HOLD, RequestCause.DISARM): _M.STOPPING,
+    (_M.ACTIVE, RequestCause.DISARM): _M.STOPPING,
+    (_M.TELEOP, RequestCause.DISARM): _M.STOPPING,
+    (_M.STOPPING, RequestCause.DISARM): _M.STOPPING,
     (_M.STOPPING, Fact.STOOD_HOLD): _M.HOLD,
     (_M.STOPPING, Fact.STOOD_DISARM): _M.DISARMED,
     (_M.STOPPING, Fact.STOOD_FAULT): _M.FAULT,
@@ -84,9 +82,9 @@ TRANSITIONS: dict[tuple[Mode, Cause], Mode] = {
     (_M.STOPPING, Fact.TOO_SLOW): _M.FAULT,
     # After teleop is let go, HOLD ramps: the same check watches it.
     (_M.HOLD, Fact.TOO_SLOW): _M.FAULT,
-    **{(mode, Request.ESTOP): _M.ESTOPPED for mode in _M if mode is not _M.ESTOPPED},
-    (_M.ESTOPPED, Request.RESET): _M.DISARMED,
-    (_M.FAULT, Request.RESET): _M.DISARMED,
+    **{(mode, RequestCause.ESTOP): _M.ESTOPPED for mode in _M if mode is not _M.ESTOPPED},
+    (_M.ESTOPPED, RequestCause.RESET): _M.DISARMED,
+    (_M.FAULT, RequestCause.RESET): _M.DISARMED,
     # A protective stop or a fault during the self test must not be a way around it.
     (_M.ESTOPPED, Fact.UNPROVEN_RESET): _M.SELFTEST,
     (_M.FAULT, Fact.UNPROVEN_RESET): _M.SELFTEST,

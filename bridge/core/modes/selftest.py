@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.transition import go
 from bridge.core.sensing.sensor_update import BASELINE_SCANS, sees
+from bridge.core.state import SelfTest
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bridge.core.tick_context import Tick
+    from bridge.core.modes.mode_table import Cause
+    from bridge.core.tick_context import TickContext
 
 FRESH_S = 0.25
 STILL_S = 0.5
@@ -29,7 +31,7 @@ PATIENCE_S = 0.3
 ECHO, WITHHOLD, RETURN, DONE = "echo", "withhold", "return", "done"
 
 
-def run(tick: Tick) -> None:
+def run(tick: TickContext) -> None:
     """Take the self test one tick further."""
     s = tick.s
     if s.mode is not Mode.SELFTEST:
@@ -44,12 +46,18 @@ def run(tick: Tick) -> None:
         go(tick, Fact.PROVEN, "selftest")
 
 
-def withholds(tick: Tick) -> bool:
+def enter(tick: TickContext, cause: Cause, why: str) -> None:
+    """Begin the self test anew, by the mode table."""
+    if go(tick, cause, why):
+        tick.s.selftest = SelfTest(since_s=tick.now_s)
+
+
+def withholds(tick: TickContext) -> bool:
     """Tell whether this tick sends no command, so that the drive's own dead-man shows itself."""
     return tick.s.mode is Mode.SELFTEST and tick.s.selftest.phase == WITHHOLD
 
 
-def waits_for(tick: Tick) -> Iterator[str]:
+def waits_for(tick: TickContext) -> Iterator[str]:
     """Yield a code for each thing that has not arrived or is not yet proven."""
     s = tick.s
     if not _reports(tick):
@@ -70,7 +78,7 @@ def waits_for(tick: Tick) -> Iterator[str]:
         yield "estop_link"
 
 
-def _untold(tick: Tick) -> Iterator[str]:
+def _untold(tick: TickContext) -> Iterator[str]:
     """Yield a code for inputs of the drive that nobody can read: they count as pressed."""
     state = tick.s.drive.newest
     if state is None:
@@ -81,12 +89,12 @@ def _untold(tick: Tick) -> Iterator[str]:
         yield "contact_inputs"
 
 
-def _reports(tick: Tick) -> bool:
+def _reports(tick: TickContext) -> bool:
     received_s = tick.s.drive.received_s
     return received_s is not None and tick.now_s - received_s <= FRESH_S
 
 
-def _wrong(tick: Tick) -> str | None:
+def _wrong(tick: TickContext) -> str | None:
     fence, drive = tick.config.fence, tick.s.drive
     if fence is None:
         return "fence_missing"
@@ -102,7 +110,7 @@ def _wrong(tick: Tick) -> str | None:
     return None
 
 
-def _prove_dead_man(tick: Tick) -> None:
+def _prove_dead_man(tick: TickContext) -> None:
     s = tick.s
     state = s.drive.newest
     if state is None or not _reports(tick):
@@ -118,7 +126,7 @@ def _prove_dead_man(tick: Tick) -> None:
         _phase(tick, DONE)
 
 
-def _phase(tick: Tick, phase: str) -> None:
+def _phase(tick: TickContext, phase: str) -> None:
     test = tick.s.selftest
     if test.phase not in {phase, DONE}:
         tick.s.selftest = replace(test, phase=phase, since_s=tick.now_s)

@@ -7,52 +7,51 @@ to judge: such a stop ends with the torque off when its time is over (row ENC_ST
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.faults.detect_senses import ENC_LONG_S
-from bridge.core.geometry.debounce import filled
+from bridge.core.faults.detectors import ENC_LONG_S
+from bridge.core.geometry.debounce import fill
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.stop_profile import too_long, too_slow
-from bridge.core.modes.transition import go
+from bridge.core.modes.transition import forget_stop, go, note_slow
 from wire import STILL, Action, Mode
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 DWELL_S = 0.2
 SLOW_S = 0.15
 
 
-def judge(tick: Tick) -> None:
+def judge(tick: TickContext) -> None:
     """End the stop in progress if it is over or fails."""
     s = tick.s
     stop = s.stopping
     if stop is None:
         return
     if tick.still_for(DWELL_S) and s.motion.limiter.sent == STILL:
-        _stood(tick)
+        _end_stop(tick)
         return
-    if _unmeasured(tick):
+    if _is_unmeasured(tick):
         if too_long(stop.plan, tick.now_s - stop.since_s, tick.config.robot.drive.lag_s):
             tick.say("stop_unmeasured", stop.cause)
-            _stood(tick)
+            _end_stop(tick)
         return
     failure = _failure(tick)
     if failure is None:
         return
     if s.mode is Mode.ESTOPPED:
-        s.stopping = None  # latched already: what is left to do is to cut the torque
+        forget_stop(tick)  # latched already: what is left to do is to cut the torque
         tick.say("stop_failed", failure)
     else:
         go(tick, Fact.TOO_SLOW, failure)
 
 
-def _stood(tick: Tick) -> None:
+def _end_stop(tick: TickContext) -> None:
     s = tick.s
     stop = s.stopping
     if stop is None or s.mode is not Mode.STOPPING:
-        s.stopping = None  # HOLD after teleop, or ESTOPPED: the ramp is over, the mode stays
+        forget_stop(tick)  # HOLD after teleop, or ESTOPPED: the ramp is over, the mode stays
     elif stop.reset_needed:
         go(tick, Fact.STOOD_FAULT, stop.cause)
     elif stop.action is Action.HOLD2:
@@ -61,13 +60,13 @@ def _stood(tick: Tick) -> None:
         go(tick, Fact.STOOD_DISARM, stop.cause)
 
 
-def _unmeasured(tick: Tick) -> bool:
+def _is_unmeasured(tick: TickContext) -> bool:
     """Tell whether the drive has been silent for so long that ENC_STALE takes the torque away."""
     received_s = tick.s.drive.received_s
     return received_s is None or not tick.now_s - received_s <= ENC_LONG_S
 
 
-def _failure(tick: Tick) -> str | None:
+def _failure(tick: TickContext) -> str | None:
     s = tick.s
     stop = s.stopping
     if stop is None:
@@ -76,8 +75,7 @@ def _failure(tick: Tick) -> str | None:
     lag_s, elapsed_s = robot.drive.lag_s, tick.now_s - stop.since_s
     slow = too_slow(stop.plan, s.odometry.measured, elapsed_s, lag_s, robot.base)
     if slow or stop.slow_s > 0.0:
-        stop = replace(stop, slow_s=filled(stop.slow_s, tick.dt_s, SLOW_S, dirty=slow))
-        s.stopping = stop
+        stop = note_slow(tick, stop, fill(stop.slow_s, tick.dt_s, SLOW_S, dirty=slow))
         if slow and stop.slow_s >= SLOW_S:
             return "stop_too_slow"
     if not tick.still_for(0.0) and too_long(stop.plan, elapsed_s, lag_s):

@@ -6,14 +6,11 @@ mode table compare what is measured with it. Knows no wall clock; elapsed time i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import sqrt
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING
 
-from pydantic import ConfigDict, Field
-
-from bridge.core.geometry.kinematics import fastest_rim, scaled
-from bridge.core.motion.limiter import LimiterState, Profile
+from bridge.core.geometry.kinematics import fastest_rim, scale_twist
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, StopPlan
 from wire.geometry import STILL, Twist2
 
 if TYPE_CHECKING:
@@ -22,32 +19,6 @@ if TYPE_CHECKING:
 GRACE_S = 0.2
 """Beyond the drive's lag, what a loop tick, a state message and friction may take."""
 SLACK_MPS = 0.10
-_Part = Annotated[float, Field(ge=0.0, le=1e6)]
-
-
-@dataclass(frozen=True, slots=True)
-class StopPlan:
-    """Hold a stop: deceleration rises from ``first`` to ``peak``, stays, and fades to nothing.
-
-    Speeds are those of the faster rim [m/s]; both wheels keep their ratio all the way down.
-    """
-
-    start: Twist2
-    rim_mps: _Part
-    first_mps2: _Part
-    peak_mps2: _Part
-    rise_s: _Part
-    flat_s: _Part
-    fall_s: _Part
-    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-    @property
-    def duration_s(self) -> float:
-        """Return how long the ramp lasts, without any lag of the drive."""
-        return self.rise_s + self.flat_s + self.fall_s
-
-
-NO_STOP = StopPlan(STILL, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def plan_stop(memory: LimiterState, base: Base, limits: Limits, profile: Profile) -> StopPlan:
@@ -81,11 +52,11 @@ def _against(speed: float, accel: float) -> float:
     return -accel if speed > 0.0 else accel if speed < 0.0 else 0.0
 
 
-def planned(plan: StopPlan, elapsed_s: float) -> Twist2:
+def planned_twist(plan: StopPlan, elapsed_s: float) -> Twist2:
     """Return what is to be sent ``elapsed_s`` after the stop began; before it, the start."""
     if not plan.rim_mps > 0.0:
         return STILL
-    return scaled(plan.start, planned_rim_mps(plan, elapsed_s) / plan.rim_mps)
+    return scale_twist(plan.start, planned_rim_mps(plan, elapsed_s) / plan.rim_mps)
 
 
 def planned_rim_mps(plan: StopPlan, elapsed_s: float) -> float:

@@ -10,19 +10,21 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import hold
-from bridge.core.modes.mode_table import MOVING, POWERED, Request, after
+from bridge.core.modes.mode_table import RequestCause, after
 from bridge.core.modes.stop_profile import plan_stop
-from bridge.core.motion.limiter import LimiterState, Profile
-from bridge.core.state import SelfTest, Stopping
-from wire import SEVERITY, STILL, Action, HeldReason, Mode
+from bridge.core.state_motion import Stopping, profile_of
+from bridge.core.tick_context import MOVING, POWERED
+from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
     from bridge.core.modes.mode_table import Cause
-    from bridge.core.modes.stop_profile import StopPlan
-    from bridge.core.tick_context import Tick
+    from bridge.core.state_motion import StopPlan
+    from bridge.core.tick_context import TickContext
 
 
-def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> bool:
+def go(
+    tick: TickContext, cause: Cause, why: str, *, reset_needed: bool = False, source: str = ""
+) -> bool:
     """Follow the table; tell whether the mode is now what the cause leads to.
 
     Args:
@@ -30,6 +32,7 @@ def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> boo
         cause: what happened.
         why: row, order or code, in lower case, for events and the stop's record.
         reset_needed: the stop that begins ends in FAULT, because its row clears by reset alone.
+        source: the letter of what moves the robot from now on, where the cause leads to motion.
     """
     s = tick.s
     before = s.mode
@@ -44,6 +47,7 @@ def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> boo
         _stand(tick, before, why)
     elif to in MOVING:
         s.stopping = None
+        s.source = source
     else:
         _power_down(tick, to, why)
     s.mode = to
@@ -53,7 +57,7 @@ def go(tick: Tick, cause: Cause, why: str, *, reset_needed: bool = False) -> boo
     return True
 
 
-def escalate(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> None:
+def escalate(tick: TickContext, action: Action, why: str, *, reset_needed: bool) -> None:
     """Make the stop in progress end harder, never milder; a harder ramp is planned anew."""
     s = tick.s
     stop = s.stopping
@@ -75,23 +79,31 @@ def escalate(tick: Tick, action: Action, why: str, *, reset_needed: bool) -> Non
     tick.say("stop_escalated", f"{action.value} {why}")
 
 
-def profile_of(action: Action) -> Profile:
-    """Return the ramp that an action means."""
-    return Profile.FASTEST if action is Action.FAST1 else Profile.STOP
+def forget_stop(tick: TickContext) -> None:
+    """End the record of a stop whose ramp is over, or has failed, while the mode stays."""
+    tick.s.stopping = None
+
+
+def note_slow(tick: TickContext, stop: Stopping, slow_s: float) -> Stopping:
+    """Remember for how long the stop in progress has been measured to be too slow."""
+    noted = tick.s.stopping = replace(stop, slow_s=slow_s)
+    return noted
 
 
 def _stop_action(cause: Cause) -> Action:
     if isinstance(cause, Action):
         return cause
-    return Action.STOP1 if cause is Request.DISARM else Action.HOLD2
+    return Action.STOP1 if cause is RequestCause.DISARM else Action.HOLD2
 
 
-def _plan(tick: Tick, action: Action) -> StopPlan:
+def _plan(tick: TickContext, action: Action) -> StopPlan:
     robot = tick.config.robot
     return plan_stop(tick.s.motion.limiter, robot.base, robot.limits, profile_of(action))
 
 
-def _begin_stop(tick: Tick, action: Action, why: str, cause: Cause, *, reset_needed: bool) -> None:
+def _begin_stop(
+    tick: TickContext, action: Action, why: str, cause: Cause, *, reset_needed: bool
+) -> None:
     s = tick.s
     by_row = isinstance(cause, Action)
     if s.mode is Mode.STOPPING:
@@ -108,19 +120,19 @@ def _begin_stop(tick: Tick, action: Action, why: str, cause: Cause, *, reset_nee
     )
 
 
-def _begin_estop(tick: Tick, why: str) -> None:
+def _begin_estop(tick: TickContext, why: str) -> None:
     s = tick.s
     if s.mode in POWERED:
         action = Action.FAST1
         s.stopping = Stopping(action, why, tick.now_s, _plan(tick, action), s.source, resumes=False)
     else:
         s.stopping = None
-        s.motion.limiter = LimiterState()
+        s.motion.forget_sent()
     s.source = ""
     _hold_for_fault(tick, why)
 
 
-def _stand(tick: Tick, before: Mode, why: str) -> None:
+def _stand(tick: TickContext, before: Mode, why: str) -> None:
     """Enter HOLD. After teleop the robot may still move: that ramp is judged like a stop."""
     s = tick.s
     if before is Mode.TELEOP:
@@ -129,28 +141,25 @@ def _stand(tick: Tick, before: Mode, why: str) -> None:
     else:
         s.stopping = None
     s.source = ""
-    s.motion.asked = STILL
 
 
-def _power_down(tick: Tick, to: Mode, why: str) -> None:
+def _power_down(tick: TickContext, to: Mode, why: str) -> None:
     s = tick.s
     if to is Mode.FAULT:
         s.fault = why
         _hold_for_fault(tick, why)
-    elif to is Mode.DISARMED and s.stopping is not None and s.stopping.cause != Request.DISARM:
+    elif to is Mode.DISARMED and s.stopping is not None and s.stopping.cause != RequestCause.DISARM:
         _hold_for_fault(tick, s.stopping.cause)
     elif to is Mode.SELFTEST:
-        s.selftest = SelfTest(since_s=tick.now_s)
         s.fault = None
     if to is Mode.DISARMED:
         s.fault = None
     s.stopping = None
     s.source = ""
-    s.motion.asked = STILL
-    s.motion.limiter = LimiterState()
+    s.motion.forget_sent()
 
 
-def _hold_for_fault(tick: Tick, why: str) -> None:
+def _hold_for_fault(tick: TickContext, why: str) -> None:
     """Hold for what needs a person, unless somebody already asked for one."""
     if tick.s.held is None:
         hold(tick, HeldReason.FAULT, why)

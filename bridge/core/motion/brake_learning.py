@@ -22,12 +22,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import fastest_rim
-from bridge.core.motion.braking import AS_CONFIGURED, Braking
-from bridge.core.state_braking import LEAST_SHARE, MOST_LAG_S, MOST_STOPS, Learnt, Ramp
+from bridge.core.state_motion import (
+    LEAST_SHARE,
+    MOST_LAG_S,
+    MOST_STOPS,
+    Learnt,
+    Ramp,
+)
 
 if TYPE_CHECKING:
     from bridge.core.state import BridgeState
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import RobotDescription
 
 BEGIN_MPS = 0.10
@@ -48,7 +53,6 @@ WEAKER = 0.85
 LAG_GRAIN_S = 0.01
 """One tick: less is the loop's own grain."""
 SHARE_GRAIN = 0.05
-WEAK_SHARE = 0.5
 WILD_MPS = 0.15
 """A wheel so much faster than the ramp's beginning runs away; nothing about brakes is learnt."""
 BETTER_STOPS = 50
@@ -57,23 +61,7 @@ was learnt is let go only by 50 better ones in a row, each from nearly the speed
 ALIKE = 0.8
 
 
-def in_force(learnt: Learnt) -> Braking:
-    """Return what gates may count on."""
-    if learnt.lag_more_s == 0.0 and learnt.decel_share == 1.0:
-        return AS_CONFIGURED
-    return Braking(learnt.lag_more_s, learnt.decel_share)
-
-
-def weak_share(learnt: Learnt) -> float:
-    """Return the factor on the limits that weak brakes leave; 1 where they are not weak.
-
-    With the same share of speed as of deceleration a stop takes as long as robot.toml plans, so
-    that "too slow" and "too long" go on judging it by the plan.
-    """
-    return 1.0 if learnt.decel_share >= WEAK_SHARE else learnt.decel_share
-
-
-def watch(tick: Tick, before: BridgeState) -> None:
+def watch(tick: TickContext, before: BridgeState) -> None:
     """Follow the ramp under way by one tick; called once what is sent is decided."""
     s = tick.s
     ramp, now = s.ramp, s.motion.limiter.sent
@@ -95,12 +83,12 @@ def watch(tick: Tick, before: BridgeState) -> None:
         _follow(tick, ramp, sent)
 
 
-def _measures(tick: Tick) -> bool:
+def _measures(tick: TickContext) -> bool:
     received_s = tick.s.drive.received_s
     return received_s is not None and tick.now_s - received_s <= OLD_S and tick.dt_s <= OLD_S
 
 
-def _follow(tick: Tick, ramp: Ramp, sent: float) -> None:
+def _follow(tick: TickContext, ramp: Ramp, sent: float) -> None:
     """Add one tick: what is measured now is what the command of the last tick did."""
     s = tick.s
     robot, dt_s = tick.config.robot, tick.dt_s
@@ -119,10 +107,10 @@ def _follow(tick: Tick, ramp: Ramp, sent: float) -> None:
         ramp.sent_m + ramp.sent_mps * dt_s,
         ramp.real_m + real * dt_s,
         ramp.rise_mps + max(0.0, sent - ramp.sent_mps),
-        _crossed(ramp.sent_high_s, ramp.sent_mps, sent, high, now_s, dt_s),
-        _crossed(ramp.sent_low_s, ramp.sent_mps, sent, low, now_s, dt_s),
-        _crossed(ramp.real_high_s, ramp.real_mps, real, high, now_s, dt_s),
-        _crossed(ramp.real_low_s, ramp.real_mps, real, low, now_s, dt_s),
+        _crossing_s(ramp.sent_high_s, ramp.sent_mps, sent, high, now_s, dt_s),
+        _crossing_s(ramp.sent_low_s, ramp.sent_mps, sent, low, now_s, dt_s),
+        _crossing_s(ramp.real_high_s, ramp.real_mps, real, high, now_s, dt_s),
+        _crossing_s(ramp.real_low_s, ramp.real_mps, real, low, now_s, dt_s),
     )
     if sent == 0.0 and s.drive.still_since_s is not None:
         _take(tick, followed, after_stop(s.learnt, followed, robot))
@@ -130,7 +118,7 @@ def _follow(tick: Tick, ramp: Ramp, sent: float) -> None:
         s.ramp = followed
 
 
-def _crossed(
+def _crossing_s(
     at_s: float | None, before: float, after: float, mark: float, now_s: float, dt_s: float
 ) -> float | None:
     """Return when a speed first fell below a mark, between two ticks by proportion."""
@@ -194,7 +182,7 @@ def _with_slope(known: Learnt, ramp: Ramp, robot: RobotDescription) -> Learnt:
     return _with_weaker(known, share, ramp.from_mps) if later_s >= LATER * late_s else known
 
 
-def _take(tick: Tick, ramp: Ramp, after: Learnt) -> None:
+def _take(tick: TickContext, ramp: Ramp, after: Learnt) -> None:
     """Put what one stop showed to what is known; say so where that changes what gates count on."""
     s = tick.s
     before, s.learnt, s.ramp = s.learnt, after, None

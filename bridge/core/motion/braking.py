@@ -10,10 +10,8 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import fastest_rim
-from wire.value import value
 
 if TYPE_CHECKING:
-    from bridge.core.motion.free_distance import FreeLength
     from wire.geometry import Twist2
     from wire.robot import Base, Limits
 
@@ -22,19 +20,6 @@ CREEP_MPS, CREEP_RADPS = 0.1, 0.3
 STANDING_MPS = 0.02
 TURNING_MPS = 1e-4
 """Slower than this is turning in place, which sweeps nothing but the disc itself."""
-
-
-@value
-class Braking:
-    """Say how much worse than robot.toml the robot brakes, as its own stops have shown."""
-
-    lag_more_s: float = 0.0
-    """Lag beyond ``drive.lag_s``."""
-    decel_share: float = 1.0
-    """Deceleration as a share of ``limits.max_decel_mps2``, in (0, 1]."""
-
-
-AS_CONFIGURED = Braking()
 
 
 def reaction_s(scan_age_s: float, scan_s: float, lag_s: float, limits: Limits) -> float:
@@ -72,24 +57,27 @@ def speed_within(s_m: float, decel_mps2: float, reaction: float) -> float:
 
 
 def speed_scale(
-    free: FreeLength,
+    free_m: float,
     twist: Twist2,
     base: Base,
     limits: Limits,
     reaction: float,
     share: float = 1.0,
+    *,
+    touching: bool = False,
 ) -> float:
     """Return the factor in [0, 1] that lets a motion stop within its free length.
 
+    Where something touches the margin already and the motion loses no clearance to it, it creeps.
     A speed below what counts as standing is none: the gate is then shut, not creeping.
     """
     v, w = abs(twist.v_mps), abs(twist.w_radps)
     creep = min(_ratio(CREEP_MPS, v), _ratio(CREEP_RADPS, w))
     if v < TURNING_MPS:
-        return creep if free.touching else 1.0
-    allowed = speed_within(free.s_m, path_decel_mps2(twist, base, limits, share), reaction)
+        return creep if touching else 1.0
+    allowed = speed_within(free_m, path_decel_mps2(twist, base, limits, share), reaction)
     scale = _ratio(allowed, v)
-    if free.touching:
+    if touching:
         return min(creep, scale)
     return 0.0 if scale < 1.0 and allowed < STANDING_MPS else scale
 

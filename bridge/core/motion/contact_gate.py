@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.kinematics import scaled
+from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.motion.braking import CREEP_MPS, CREEP_RADPS
 from wire.geometry import Twist2
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from wire import DriveState
 
 
-def touched(state: DriveState | None, v_mps: float) -> str | None:
+def touched_input(state: DriveState | None, v_mps: float) -> str | None:
     """Name the input that forbids going on in this direction; None if none does."""
     if state is None:
         return None
@@ -32,8 +32,8 @@ def contact_gate(state: DriveState | None, twist: Twist2) -> Twist2:
     """Return what passes of a motion while the newest drive state shows a contact or a cliff."""
     if state is None or state.bumper_front is state.bumper_rear is state.cliff is False:
         return twist
-    if touched(state, twist.v_mps) is not None:
+    if touched_input(state, twist.v_mps) is not None:
         return Twist2(0.0, min(max(twist.w_radps, -CREEP_RADPS), CREEP_RADPS))
     v, w = abs(twist.v_mps), abs(twist.w_radps)
     share = min(1.0, CREEP_MPS / v if v > 0.0 else 1.0, CREEP_RADPS / w if w > 0.0 else 1.0)
-    return scaled(twist, share)
+    return scale_twist(twist, share)

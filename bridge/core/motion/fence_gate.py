@@ -14,7 +14,7 @@ from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import STANDING_MPS, TURNING_MPS, stop_length_m
 
 if TYPE_CHECKING:
-    from bridge.core.sensing.fence import Fence
+    from bridge.core.geometry.fence import FenceGrid
     from wire.geometry import Pose2, Twist2
     from wire.robot import Base, Limits
 
@@ -28,7 +28,7 @@ _HALVINGS = 5
 
 
 def fence_scale(
-    fence: Fence,
+    fence: FenceGrid,
     base_in_map: Pose2,
     twist: Twist2,
     base: Base,
@@ -62,7 +62,7 @@ def fence_scale(
 
 
 def _largest(
-    fence: Fence,
+    fence: FenceGrid,
     base_in_map: Pose2,
     twist: Twist2,
     whole: float,
@@ -85,7 +85,7 @@ def _largest(
     return low if low * speed >= STANDING_MPS else 0.0
 
 
-def _clear_m(fence: Fence, start: Pose2, twist: Twist2, whole: float, here: float) -> float:
+def _clear_m(fence: FenceGrid, start: Pose2, twist: Twist2, whole: float, here: float) -> float:
     """Return how much of a motion's way keeps the margin all along [m], at most ``whole``.
 
     Distance changes by no more than the way gone, so that what is left beyond the margin may be
@@ -106,7 +106,7 @@ def _clear_m(fence: Fence, start: Pose2, twist: Twist2, whole: float, here: floa
     return clear  # what is further off has not been looked at
 
 
-def _edge_m(fence: Fence, start: Pose2, twist: Twist2, clear: float, shut: float) -> float:
+def _edge_m(fence: FenceGrid, start: Pose2, twist: Twist2, clear: float, shut: float) -> float:
     """Return where the margin is left between a clear and a shut place, to a micrometre [m]."""
     while shut - clear > _EDGE_M:
         middle = (clear + shut) / 2
@@ -117,13 +117,13 @@ def _edge_m(fence: Fence, start: Pose2, twist: Twist2, clear: float, shut: float
     return clear
 
 
-def _margin_m(fence: Fence, start: Pose2, twist: Twist2, gone: float) -> float:
+def _margin_m(fence: FenceGrid, start: Pose2, twist: Twist2, gone: float) -> float:
     """Return the distance to the fence after a way along a motion's arc [m]."""
     flow = twist.w_radps / abs(twist.v_mps)
     place = along_arc(start, gone if twist.v_mps > 0.0 else -gone, flow * gone)
     return fence.margin_m(place.x_m, place.y_m)
 
 
-def _inward(fence: Fence, start: Pose2, twist: Twist2, here: float) -> bool:
+def _inward(fence: FenceGrid, start: Pose2, twist: Twist2, here: float) -> bool:
     """Tell whether going on gains distance from the fence, or comes in from outside."""
     return _margin_m(fence, start, twist, _STEP_M) > here

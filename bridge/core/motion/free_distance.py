@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, ClassVar
 from pydantic import ConfigDict
 
 from bridge.core.geometry.odometry import along_arc, arc_end
-from bridge.core.motion.braking import TURNING_MPS, reaction_s, speed_scale
+from bridge.core.motion.braking import TURNING_MPS
+from bridge.core.sensing.look_distance import MARGIN_M, REACH_M
 from wire.geometry import Pose2, between, wrap
 from wire.value import value
 
@@ -20,11 +21,6 @@ if TYPE_CHECKING:
     from bridge.core.geometry.lidar_scan import Points, ScanPicture
     from wire.geometry import Twist2
 
-__all__ = ["FreeLength", "free_length", "reaction_s", "speed_scale"]
-
-MARGIN_M = 0.05
-REACH_M = 2.0
-"""Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
 SECTOR_M = 2.0
 """How far the sector reaches in which beams must have come back, however far one looks."""
 MOVED_M = 1.0
@@ -86,7 +82,7 @@ def free_length(
     if not abs(curve) <= _TIGHTEST_PER_M:
         return NOTHING_KNOWN
     start = robot if v > 0.0 else Pose2(robot.x_m, robot.y_m, robot.yaw_rad + pi)
-    known, covered = _seen(picture, start, curve, disc, moved)
+    known, covered = _sector_state(picture, start, curve, disc, moved)
     if not covered:
         return FreeLength(0.0, known, False, False)
     # No place on the arc is further from its start than the path, or than the circle is wide.
@@ -105,7 +101,7 @@ def free_length(
     return FreeLength(s, known, True, touching)
 
 
-def _seen(
+def _sector_state(
     picture: ScanPicture, start: Pose2, curve: float, disc: float, moved: float
 ) -> tuple[bool, bool]:
     """Tell whether the sector that the arc sweeps came back, and whether the lidar covers it.
@@ -125,7 +121,7 @@ def _seen(
         half = asin(disc / away) if away > disc else pi / 2
         low, high = min(low, toward - half), max(high, toward + half)
     sector = picture.sector(start.yaw_rad + (low + high) / 2, (high - low) / 2)
-    return sector.known, sector.covered
+    return sector.is_known, sector.covered
 
 
 def _few_missing(picture: ScanPicture, disc: float, moved: float) -> bool:

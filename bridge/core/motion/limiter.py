@@ -13,43 +13,16 @@ more than the room there is. Knows no modes and no time but the tick's length.
 
 from __future__ import annotations
 
-from enum import StrEnum
 from math import sqrt
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING
 
-from pydantic import ConfigDict, Field
-
+from bridge.core.config import PERIOD_S
 from bridge.core.geometry.kinematics import fastest_rim, rim_speeds, saturate
+from bridge.core.state_motion import LimiterState, Profile
 from wire.geometry import STILL, Twist2
-from wire.value import value
 
 if TYPE_CHECKING:
     from wire.robot import Base, Limits
-
-PERIOD_S = 0.01
-
-_Accel = Annotated[float, Field(ge=-1e6, le=1e6)]
-
-
-class Profile(StrEnum):
-    """Say how the output may move."""
-
-    NORMAL = "NORMAL"
-    """Follow the target."""
-    STOP = "STOP"
-    """Ramp to zero with the ordinary deceleration, whatever the target."""
-    FASTEST = "FASTEST"
-    """Ramp to zero with the hardest deceleration and no jerk limit, whatever the target."""
-
-
-@value
-class LimiterState:
-    """Remember what was sent last, and how each wheel's speed was changing [m/s2]."""
-
-    sent: Twist2 = STILL
-    left_mps2: _Accel = 0.0
-    right_mps2: _Accel = 0.0
-    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
 def shape(

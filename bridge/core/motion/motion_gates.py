@@ -10,22 +10,22 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.debounce import filled
-from bridge.core.geometry.kinematics import saturate, scaled
+from bridge.core.geometry.debounce import fill
+from bridge.core.geometry.kinematics import saturate, scale_twist
 from bridge.core.geometry.message_age import sensor_age_s
-from bridge.core.motion.brake_learning import in_force
 from bridge.core.motion.braking import reaction_s
-from bridge.core.motion.contact_gate import contact_gate, touched
+from bridge.core.motion.contact_gate import contact_gate, touched_input
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
 from bridge.core.motion.free_distance import free_length
-from bridge.core.motion.obstacle_gate import FREE_M, look_m, obstacle_gate
-from bridge.core.state import Gate
+from bridge.core.motion.obstacle_gate import obstacle_gate
+from bridge.core.sensing.look_distance import FREE_M, look_m
+from bridge.core.state_motion import Gate
 from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
 from wire import STILL, Mode, Twist2, wrap
 
 if TYPE_CHECKING:
     from bridge.core.motion.free_distance import FreeLength
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 SHUT_S = 0.5
 TURNED_RAD = 0.05
@@ -38,7 +38,7 @@ UNKNOWN_MPS = 0.2
 """Where fewer than half of the beams came back, silence may be a mirror or a black sofa."""
 
 
-def through(tick: Tick, twist: Twist2) -> Twist2:
+def apply(tick: TickContext, twist: Twist2) -> Twist2:
     """Return what may pass of a command; remember how free its way is, and the room to stop in."""
     s = tick.s
     motion, picture = s.motion, s.lidar.picture
@@ -57,7 +57,7 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
         s.odometry.measured,
         scan_age_s(tick),
         tick.config.robot,
-        in_force(s.learnt),
+        s.learnt.in_force(),
     )
     motion.free_m, tick.room_m = way.free_m, way.room_m
     if way.scale < 1.0:
@@ -66,7 +66,7 @@ def through(tick: Tick, twist: Twist2) -> Twist2:
     fastest = abs(passed.v_mps)
     if not way.known and fastest > UNKNOWN_MPS:
         motion.bound_by = "unseen"
-        passed = scaled(passed, UNKNOWN_MPS / fastest)
+        passed = scale_twist(passed, UNKNOWN_MPS / fastest)
     inside = _inside_fence(tick, passed)
     felt = contact_gate(s.drive.newest, inside)
     if felt != inside:
@@ -94,7 +94,7 @@ def _shut(asked: Twist2, passed: Twist2) -> bool:
     return abs(asked.w_radps) >= STANDING_RADPS > abs(passed.w_radps)
 
 
-def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
+def _inside_fence(tick: TickContext, twist: Twist2) -> Twist2:
     """Scale a motion so that it stops clear of the fence; a hand on the stick may cross, slowly."""
     fence, here = tick.config.fence, tick.robot_in_map
     if fence is None:
@@ -117,10 +117,10 @@ def _inside_fence(tick: Tick, twist: Twist2) -> Twist2:
     tick.s.motion.bound_by = "fence"
     if tick.s.mode is Mode.TELEOP:
         scale = max(scale, min(1.0, TELEOP_FENCE_MPS / max(abs(twist.v_mps), 1e-9)))
-    return scaled(twist, scale)
+    return scale_twist(twist, scale)
 
 
-def _tell_crossing(tick: Tick, margin_m: float) -> None:
+def _tell_crossing(tick: TickContext, margin_m: float) -> None:
     """Say once that a hand moves the robot outside the fence.
 
     Said anew only once it has been inside by the margin: the pose's noise is far smaller.
@@ -133,7 +133,13 @@ def _tell_crossing(tick: Tick, margin_m: float) -> None:
         tick.say("outside_fence", "a hand on the stick moves the robot outside the fence")
 
 
-def scan_age_s(tick: Tick) -> float:
+def forget_block(tick: TickContext) -> None:
+    """Forget a blocked way once nothing is granted: the next mission asks for another way."""
+    if tick.s.gate.blocked and tick.s.grants.mission is None:
+        tick.s.gate = Gate()
+
+
+def scan_age_s(tick: TickContext) -> float:
     """Return the age of the newest scan [s], as its row judges it."""
     scan, received_s = tick.s.lidar.newest, tick.s.lidar.received_s
     if scan is None or received_s is None:
@@ -142,17 +148,17 @@ def scan_age_s(tick: Tick) -> float:
     return max(0.0, sensor_age_s(tick.now_s, received_s, scan.stamp_s, same_host=same_host))
 
 
-def look(tick: Tick, twist: Twist2) -> FreeLength | None:
+def look(tick: TickContext, twist: Twist2) -> FreeLength | None:
     """Return how far the arc of a motion is free, as far as one looks; None where no scan says."""
     picture, robot = tick.s.lidar.picture, tick.config.robot
     if picture is None:
         return None
     here = tick.s.odometry.base_in_odom
-    reach_m = look_m(robot, in_force(tick.s.learnt))
+    reach_m = look_m(robot, tick.s.learnt.in_force())
     return free_length(picture, here, twist, robot.base.radius_m, reach_m)
 
 
-def reconsider(tick: Tick, asked: Twist2) -> None:
+def reconsider(tick: TickContext, asked: Twist2) -> None:
     """Judge a blocked robot once per scan, on the arc that its owner asks, by all three gates."""
     gate, scan = tick.s.gate, tick.s.lidar.newest
     if not gate.blocked or scan is None or scan.seq == gate.judged_scan:
@@ -161,7 +167,7 @@ def reconsider(tick: Tick, asked: Twist2) -> None:
         return
     free = look(tick, asked) if asked != STILL else None
     clear = free is not None and free.s_m >= FREE_M
-    clear = clear and touched(tick.s.drive.newest, asked.v_mps) is None
+    clear = clear and touched_input(tick.s.drive.newest, asked.v_mps) is None
     robot = tick.config.robot
     wish = saturate(asked, robot.base, robot.limits)
     clear = clear and not _shut(wish, _inside_fence(tick, wish))
@@ -173,7 +179,7 @@ def reconsider(tick: Tick, asked: Twist2) -> None:
         tick.s.gate = replace(gate, free_scans=count, judged_scan=scan.seq)
 
 
-def _note(tick: Tick, shut_by: str) -> None:
+def _note(tick: TickContext, shut_by: str) -> None:
     """Call it blocked after 0.5 s; a robot that turns away meanwhile is given the time anew.
 
     The follower's wish sways with the pose's noise, so a turn to and fro is no turning away, and a
@@ -189,7 +195,7 @@ def _note(tick: Tick, shut_by: str) -> None:
     gate = replace(
         gate,
         shut_since_s=since_s if shut else None,
-        shut_s=filled(0.0 if begins else gate.shut_s, tick.dt_s, SHUT_S, dirty=shut),
+        shut_s=fill(0.0 if begins else gate.shut_s, tick.dt_s, SHUT_S, dirty=shut),
         shut_yaw_rad=yaw_rad if begins else gate.shut_yaw_rad,
     )
     if shut and s.mode is Mode.ACTIVE and not gate.blocked and gate.shut_s >= SHUT_S:

@@ -12,19 +12,18 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
-from bridge.core.geometry.kinematics import scaled
+from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.motion.braking import (
-    AS_CONFIGURED,
     CREEP_RADPS,
     STANDING_MPS,
-    Braking,
     path_decel_mps2,
     reaction_s,
     speed_scale,
     speed_within,
 )
-from bridge.core.motion.free_distance import MARGIN_M, REACH_M, FreeLength, free_length
-from bridge.core.motion.limiter import PERIOD_S
+from bridge.core.motion.free_distance import FreeLength, free_length
+from bridge.core.sensing.look_distance import REACH_M, ROUNDING_M, look_m
+from bridge.core.state_motion import AS_CONFIGURED, Braking
 from wire.geometry import STILL, Pose2, Twist2
 from wire.value import value
 
@@ -32,12 +31,7 @@ if TYPE_CHECKING:
     from bridge.core.geometry.lidar_scan import ScanPicture
     from wire.robot import RobotDescription
 
-FREE_M = 0.3
-"""So much free way ends a block."""
 _SAME_CURVE_PER_M = 0.05
-_FRESH_S = 0.15
-"""No scan is older where each comes in time and is on its way for half a period."""
-_ROUNDING_M = 1e-3
 
 
 @value
@@ -88,7 +82,7 @@ def obstacle_gate(
     usual, speed = look_m(robot, braking), abs(asked.v_mps)
     reach = _reach_m(usual, speed, asked, robot, reaction, share)
     free = free_length(picture, base_in_odom_now, asked, base.radius_m, reach)
-    scale = speed_scale(free, asked, base, limits, reaction, share)
+    scale = speed_scale(free.s_m, asked, base, limits, reaction, share, touching=free.touching)
     room, known = free.s_m, free.known
     if abs(measured.v_mps) > STANDING_MPS and not _same_curve(asked, measured):
         reach = _reach_m(usual, speed, measured, robot, reaction, share)
@@ -113,29 +107,6 @@ def weak_m(measured: Twist2, robot: RobotDescription, share: float) -> float:
     return measured.v_mps * measured.v_mps * (1.0 - share) / (2 * decel) if decel > 0.0 else 0.0
 
 
-def look_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
-    """Return how far along an arc one looks as a rule: all that a robot in its limits can need [m].
-
-    That is the path in which it stands still from its fastest, by the gate's law and by the
-    limiter's, which wants it besides what the drive's lag takes (see :func:`stopping_m`).
-    """
-    base, limits = robot.base, robot.limits
-    v, d, j = limits.max_speed_mps, limits.max_decel_mps2, limits.stop_jerk_mps3
-    lag_s = robot.drive.lag_s + braking.lag_more_s
-    turning = limits.max_turn_radps * base.wheel_separation_m / 2
-    rim = min(v + turning, limits.max_wheel_radps * base.wheel_radius_m)
-    gate_s = _FRESH_S + robot.lidar.scan_s + lag_s
-    limiter_m = 2 * v * (PERIOD_S + lag_s) + d * d * d / (24 * j * j)
-    stop = v * d / (2 * j) + v * rim / (2 * d * braking.decel_share) + max(v * gate_s, limiter_m)
-    return min(REACH_M, max(stop, FREE_M) + _ROUNDING_M)
-
-
-def sight_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
-    """Return how far from the robot at the scan a point may be that a tick will need [m]."""
-    moved_m = robot.limits.max_speed_mps * _FRESH_S
-    return look_m(robot, braking) + robot.base.radius_m + MARGIN_M + moved_m + 2 * _ROUNDING_M
-
-
 def _reach_m(
     usual: float,
     speed: float,
@@ -153,7 +124,7 @@ def _reach_m(
     if not (decel > 0.0 and abs(along.v_mps) <= 2 * robot.limits.max_speed_mps):
         return REACH_M
     stop = speed * reaction + speed * speed / (2 * decel)
-    return usual if stop + _ROUNDING_M <= usual else REACH_M
+    return usual if stop + ROUNDING_M <= usual else REACH_M
 
 
 def _same_curve(a: Twist2, b: Twist2) -> bool:
@@ -181,7 +152,7 @@ def _carried_on(
 
 def _passes(asked: Twist2, scale: float) -> Twist2:
     if scale > 0.0:
-        return scaled(asked, scale)
+        return scale_twist(asked, scale)
     if abs(asked.w_radps) <= CREEP_RADPS:
         return Twist2(0.0, asked.w_radps)
     if asked.w_radps > 0.0:

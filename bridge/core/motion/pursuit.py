@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from math import atan2, cos, hypot, inf, pi, sin, sqrt
-from typing import TYPE_CHECKING, ClassVar
-
-from pydantic import ConfigDict
+from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import saturate
 from bridge.core.geometry.path_profile import (
@@ -19,9 +17,11 @@ from bridge.core.geometry.path_profile import (
     SLOWEST_MPS,
     TURN_RADIUS_M,
     Path,
-    regulated,
+    regulate,
+    residuals,
 )
 from bridge.core.motion.braking import speed_within
+from bridge.core.state_motion import FollowState
 from wire.geometry import MAX_COORDINATE_M, STILL, Pose2, Twist2, wrap
 from wire.value import value
 
@@ -44,23 +44,7 @@ _STOP_FIRST_MPS = 0.1
 
 
 @value
-class FollowState:
-    """Remember how far along one path the robot is.
-
-    A new leg begins with :data:`NEW`, the next horizon of a leg with :func:`carried`.
-    """
-
-    along_m: float = 0.0
-    turning: bool = False
-    settled: bool = False
-    """The place is as good as it gets; only a heading may be left."""
-    heading_done: bool = False
-    tries: int = 0
-    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-@value
-class Follow:
+class PursuitCommand:
     """Answer one tick of following."""
 
     state: FollowState
@@ -73,25 +57,12 @@ class Follow:
     """Within what counts as reached. Whether the robot stands is for the caller to see."""
 
 
-NEW = FollowState()
-
-
-def carried(state: FollowState) -> FollowState:
+def carry_over(state: FollowState) -> FollowState:
     """Return the state for the next horizon of the same leg: progress anew, the rest goes on."""
     return FollowState(0.0, state.turning, state.settled, state.heading_done, state.tries)
 
 
-def residuals(
-    x_m: float, y_m: float, heading_rad: float | None, robot_in_map: Pose2
-) -> tuple[float, float]:
-    """Return distance [m] and turn [rad] from a robot to an end point; no heading, no turn."""
-    away = hypot(x_m - robot_in_map.x_m, y_m - robot_in_map.y_m)
-    if heading_rad is None:
-        return away, 0.0
-    return away, abs(wrap(heading_rad - robot_in_map.yaw_rad))
-
-
-def reached(residual_m: float, residual_rad: float) -> bool:
+def is_reached(residual_m: float, residual_rad: float) -> bool:
     """Tell whether residuals count as reached; what is not a number does not."""
     return residual_m <= REACHED_M and residual_rad <= REACHED_RAD
 
@@ -112,7 +83,7 @@ def follow(
     base: Base,
     limits: Limits,
     lag_s: float,
-) -> Follow:
+) -> PursuitCommand:
     """Return what velocity the path asks for, within robot.toml's limits.
 
     Args:
@@ -126,7 +97,7 @@ def follow(
     """
     here = abs(robot_in_map.x_m) + abs(robot_in_map.y_m) + abs(robot_in_map.yaw_rad)
     if not (path.xs_m and here <= 3 * MAX_COORDINATE_M):
-        return Follow(state, STILL, 0.0, 0.0, False)
+        return PursuitCommand(state, STILL, 0.0, 0.0, False)
     along = max(state.along_m, _progress(path, state.along_m, robot_in_map))
     away, residual_rad = residuals(path.xs_m[-1], path.ys_m[-1], path.heading_rad, robot_in_map)
     residual_m = max(away, path.length_m - along)
@@ -142,12 +113,12 @@ def follow(
         target = _turn(view.aside_rad, sent, base, limits, reaction)
     else:
         target = _drive(path, view, along, limits, reaction)
-    return Follow(
+    return PursuitCommand(
         moved,
         saturate(target, base, limits),
         residual_m,
         residual_rad,
-        reached(residual_m, residual_rad),
+        is_reached(residual_m, residual_rad),
     )
 
 
@@ -203,7 +174,7 @@ def _drive(path: Path, view: _View, along: float, limits: Limits, reaction: floa
     curve = 2 * sin(view.aside_rad) / max(view.aim_m, LOOK_MIN_M)
     speed = _speed(path, along, limits)
     slowest = min(speed, SLOWEST_MPS)
-    speed = regulated(speed, curve, TURN_RADIUS_M, slowest) * max(0.25, cos(view.aside_rad))
+    speed = regulate(speed, curve, TURN_RADIUS_M, slowest) * max(0.25, cos(view.aside_rad))
     speed = min(speed, speed_within(view.rest_m, PLANNED_DECEL * limits.max_decel_mps2, reaction))
     return Twist2(-speed if path.backwards else speed, speed * curve)
 

@@ -6,45 +6,82 @@ other mode the target is zero and the output ramps to it, or the torque is off.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from bridge.core.authority import external_velocity
 from bridge.core.faults.fault_latch import cap
 from bridge.core.geometry.kinematics import saturate, wheels_of
-from bridge.core.modes import external_velocity, teleop
-from bridge.core.modes.mode_table import POWERED
-from bridge.core.modes.transition import profile_of
+from bridge.core.modes import teleop
+from bridge.core.modes.mode_logic import arrive
 from bridge.core.motion import motion_gates
-from bridge.core.motion.limiter import LimiterState, Profile, shape, tick_length
-from bridge.core.motion.pursuit import follow
-from bridge.core.motion.wheel_control import AT_REST, turned
+from bridge.core.motion.limiter import shape, tick_length
+from bridge.core.motion.pursuit import carry_over, follow
+from bridge.core.motion.wheel_control import control_wheel
+from bridge.core.state_motion import AT_REST, NEW, LimiterState, Profile, profile_of
+from bridge.core.tick_context import POWERED
 from wire import STILL, DriveCommand, Mode, Twist2
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.motion.pursuit import PursuitCommand
+    from bridge.core.state_orders import LegMemory
+    from bridge.core.tick_context import TickContext
 
 STALE = "ENC_STALE.0"
 """The row that says that nothing is measured: no feedback, so feed-forward alone."""
 
 
-def wanted(tick: Tick) -> tuple[Twist2, bool]:
+def move(tick: TickContext) -> None:
+    """Follow the source in charge, as far as caps, gates and limits let pass.
+
+    What is asked is noted before the gates judge it, since they name it where they shut the way.
+    """
+    motion = tick.s.motion
+    asked, at_end = requested_twist(tick)
+    arrive(tick, at_end=at_end)
+    if tick.s.gate.blocked:
+        _reconsider(tick)
+    motion.asked = asked if tick.is_moving else STILL
+    motion.limiter = limit(tick, motion.asked)
+
+
+def _reconsider(tick: TickContext) -> None:
+    """Judge a blocked way on what its owner asks now: a velocity still fresh, or the follower.
+
+    What the follower would remember of it is not kept: a blocked robot stands and follows nothing.
+    """
+    owner = tick.s.ownership.owner
+    if owner is not None and owner.kind == "external":
+        fresh = external_velocity.asks_to_move(tick)
+        motion_gates.reconsider(tick, external_velocity.requested_twist(tick) if fresh else STILL)
+        return
+    answer = follow_horizon(tick)
+    motion_gates.reconsider(tick, STILL if answer is None else answer.target)
+
+
+def requested_twist(tick: TickContext) -> tuple[Twist2, bool]:
     """Return what the source in charge asks for, and whether it is at its leg's end."""
     s = tick.s
     if s.mode is Mode.TELEOP:
-        return teleop.wanted(tick), False
-    if s.mode is Mode.ACTIVE and s.source == "X":
-        return external_velocity.wanted(tick), False
-    if s.mode is Mode.ACTIVE:
-        return followed(tick)
-    return STILL, False
+        return teleop.requested_twist(tick), False
+    if s.mode is not Mode.ACTIVE:
+        return STILL, False
+    if s.source == "X":
+        return external_velocity.requested_twist(tick), False
+    answer = follow_horizon(tick)
+    if answer is None:
+        return STILL, False
+    s.motion.follow = answer.state
+    return answer.target, answer.at_end
 
 
-def followed(tick: Tick) -> tuple[Twist2, bool]:
-    """Return what following the horizon asks for, and whether the robot is at its end."""
+def follow_horizon(tick: TickContext) -> PursuitCommand | None:
+    """Return what following the horizon asks for; None without a horizon or a place in ``map``."""
     s = tick.s
     if s.leg.path is None or tick.robot_in_map is None:
-        return STILL, False
+        return None
     robot = tick.config.robot
-    answer = follow(
+    return follow(
         s.motion.follow,
         s.leg.path,
         tick.robot_in_map,
@@ -53,11 +90,31 @@ def followed(tick: Tick) -> tuple[Twist2, bool]:
         robot.limits,
         robot.drive.lag_s,
     )
-    s.motion.follow = answer.state
-    return answer.target, answer.at_end
 
 
-def forget_after_gap(tick: Tick) -> None:
+def take_horizon(tick: TickContext, before: LegMemory) -> None:
+    """Begin to follow a horizon that was just taken, or go on where the one before it was left.
+
+    Within a leg each horizon is the same way cut anew: what was learnt on it stays, and at its
+    end the place that was settled stays settled.
+
+    Args:
+        tick: the tick in the making.
+        before: the leg as it was before the waypoints were heard.
+    """
+    leg, motion = tick.s.leg, tick.s.motion
+    if leg.horizon is None or leg.horizon is before.horizon:
+        return  # refused: nothing was taken
+    same_leg = before.mission == leg.mission and before.leg == leg.leg
+    if before.horizon is None or not same_leg:
+        motion.follow = NEW
+    elif leg.goal is not None and leg.goal == before.goal:
+        motion.follow = carry_over(motion.follow)
+    else:
+        motion.follow = replace(NEW, turning=motion.follow.turning)
+
+
+def forget_after_gap(tick: TickContext) -> None:
     """Begin at zero after a gap in which the drive has timed out: it stands, or is coming to.
 
     A loop that was frozen for seconds would otherwise ramp down a speed that nobody has any more.
@@ -67,7 +124,7 @@ def forget_after_gap(tick: Tick) -> None:
         tick.s.motion.left = tick.s.motion.right = AT_REST
 
 
-def shaped(tick: Tick, asked: Twist2) -> LimiterState:
+def limit(tick: TickContext, asked: Twist2) -> LimiterState:
     """Return what is sent: asked, then caps, gate and rates. Zero is the target unless moving."""
     s = tick.s
     robot = tick.config.robot
@@ -78,8 +135,8 @@ def shaped(tick: Tick, asked: Twist2) -> LimiterState:
         return LimiterState()
     target, profile = STILL, Profile.STOP
     s.motion.cap, s.motion.bound_by = cap(tick)
-    if tick.moving:
-        target = motion_gates.through(tick, saturate(asked, robot.base, robot.limits, s.motion.cap))
+    if tick.is_moving:
+        target = motion_gates.apply(tick, saturate(asked, robot.base, robot.limits, s.motion.cap))
         profile = Profile.NORMAL
     elif s.stopping is not None:
         profile = profile_of(s.stopping.action)
@@ -95,7 +152,7 @@ def shaped(tick: Tick, asked: Twist2) -> LimiterState:
     )
 
 
-def command(tick: Tick) -> DriveCommand:
+def command(tick: TickContext) -> DriveCommand:
     """Write down what both wheels are told, so that they turn as what is sent means.
 
     Behind the limiter's memory, which keeps what was meant: rates and stopping stay true.
@@ -116,7 +173,7 @@ def command(tick: Tick) -> DriveCommand:
     )
 
 
-def _control(tick: Tick) -> None:
+def _control(tick: TickContext) -> None:
     """Take both wheels one tick further. Readings of a drive that is not to be trusted are none."""
     s, robot = tick.s, tick.config.robot
     motion, drive, report = s.motion, s.drive, s.drive.newest
@@ -127,8 +184,8 @@ def _control(tick: Tick) -> None:
         trusted = drive.reborn_s != tick.now_s
         if drive.received_s == tick.now_s:
             left_radps, right_radps = report.left_radps, report.right_radps
-    moving, limiter = tick.moving, motion.limiter
-    motion.left = turned(
+    moving, limiter = tick.is_moving, motion.limiter
+    motion.left = control_wheel(
         motion.left,
         meant.left_radps,
         limiter.left_mps2,
@@ -138,7 +195,7 @@ def _control(tick: Tick) -> None:
         trusted=trusted,
         stopping=not moving,
     )
-    motion.right = turned(
+    motion.right = control_wheel(
         motion.right,
         meant.right_radps,
         limiter.right_mps2,

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wire.value import value
+from bridge.core.state_motion import AT_REST, Wheel
 
 if TYPE_CHECKING:
     from wire.robot import DriveConfig, RobotDescription
@@ -30,28 +30,7 @@ reversed or misread: no motor like the one described. It is fed forward alone un
 the detectors of such faults see it as if nobody controlled it."""
 
 
-@value
-class Wheel:
-    """Remember one wheel's control between two ticks."""
-
-    integral: float = 0.0
-    """What has been learnt of this motor since it began to turn, as a share of the bound, with the
-    sign of the speed meant: +0.5 is half of what may be added. So it shrinks with the speed."""
-    push: float = 0.0
-    """Proportional and integral part of the newest reading together, likewise."""
-    expected_radps: float = 0.0
-    """What the motor of the description turns at when this tick's command has worked."""
-    due_radps: float = 0.0
-    """That of the tick before: what the newest reading should show."""
-    told_radps: float = 0.0
-    doubt_s: float = 0.0
-    """How long readings have been further off than any motor explains; DOUBT_S stays."""
-
-
-AT_REST = Wheel()
-
-
-def turned(
+def control_wheel(
     wheel: Wheel,
     meant_radps: float,
     by_mps2: float,
@@ -81,9 +60,9 @@ def turned(
     dead_zone, lag_s = drive.dead_zone_radps, min(drive.response_s, drive.lag_s)
     sign = 1.0 if meant_radps > 0.0 else -1.0
     if not wheel.told_radps * sign > 0.0:
-        wheel = _begun(reading_radps if trusted else None, most_radps)
+        wheel = _begin_turning(reading_radps if trusted else None, most_radps)
     meant, expected = meant_radps * sign, wheel.expected_radps
-    ahead = _held(meant + lag_s * by_mps2 * sign / radius_m, most_radps)
+    ahead = _clamp_speed(meant + lag_s * by_mps2 * sign / radius_m, most_radps)
     bound = min(dead_zone + drive.max_correction * meant, CORRECTION_MPS / radius_m)
     integral, push, doubt_s = wheel.integral, wheel.push, wheel.doubt_s
     if not trusted:
@@ -95,13 +74,13 @@ def turned(
         had = 0.0 if stopping else integral
         integral = push = 0.0
         if doubt_s < DOUBT_S and bound > 0.0:
-            integral, push = _corrected(had, off / bound, spare / bound, dt_s, drive)
+            integral, push = _correct(had, off / bound, spare / bound, dt_s, drive)
     if stopping:
         integral, push = 0.0, min(0.0, push)
-        told = _held(ahead + dead_zone + push * bound, meant + dead_zone)
+        told = _clamp_speed(ahead + dead_zone + push * bound, meant + dead_zone)
         told = min(told, wheel.told_radps * sign)
     else:
-        told = _held(ahead + dead_zone + push * bound, most_radps)
+        told = _clamp_speed(ahead + dead_zone + push * bound, most_radps)
     return Wheel(
         integral,
         push,
@@ -112,7 +91,7 @@ def turned(
     )
 
 
-def _begun(reading_radps: float | None, most_radps: float) -> Wheel:
+def _begin_turning(reading_radps: float | None, most_radps: float) -> Wheel:
     """Begin anew with a wheel that stood, or turned the other way: from what it turns, if known."""
     if reading_radps is not None and -most_radps <= reading_radps <= most_radps:
         return Wheel(expected_radps=reading_radps, due_radps=reading_radps)
@@ -126,7 +105,7 @@ def _doubt_s(doubt_s: float, off: float, most: float, dt_s: float) -> float:
     return 0.0 if abs(off) <= most else doubt_s + dt_s
 
 
-def _corrected(
+def _correct(
     integral: float, off: float, spare: float, dt_s: float, drive: DriveConfig
 ) -> tuple[float, float]:
     """Return integral and whole correction after a reading that is ``off``, as shares of the bound.
@@ -147,6 +126,6 @@ def _corrected(
     return grown, whole
 
 
-def _held(speed: float, most: float) -> float:
+def _clamp_speed(speed: float, most: float) -> float:
     """Hold a speed between standing and the most; what is no number stands."""
     return speed if 0.0 <= speed <= most else most if speed > most else 0.0

@@ -9,13 +9,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.message_age import remembered
+from bridge.core.geometry.message_age import append_sent
 from bridge.core.reporting.status import build
 from wire import Event, Odometry
 
 if TYPE_CHECKING:
     from bridge.core.state import BridgeState
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
     from wire import Status
 
 EVERY_S = 0.05
@@ -26,10 +26,12 @@ _DETAIL = 400
 _ODOM_TICKS = 2
 
 
-def status_of(tick: Tick, before: BridgeState) -> Status | None:
+def status_of(tick: TickContext, before: BridgeState) -> Status | None:
     """Return the status if one is due, and remember when it was sent."""
     s = tick.s
-    pending = s.voice.pending or _changed(before, s)
+    if tick.dropped:
+        s.voice = replace(s.voice, dropped=s.voice.dropped + tick.dropped)
+    pending = s.voice.pending or _has_news(before, s)
     last_s = s.voice.status_s
     wait_s = AT_LEAST_S if pending else EVERY_S
     if last_s is not None and tick.now_s - last_s < wait_s - _EARLY_S:
@@ -41,12 +43,12 @@ def status_of(tick: Tick, before: BridgeState) -> Status | None:
         status_seq=s.voice.status_seq + 1,
         status_s=tick.now_s,
         pending=False,
-        ring=remembered(s.voice.ring, tick.now_s),
+        ring=append_sent(s.voice.ring, tick.now_s),
     )
     return build(tick)
 
 
-def odometry_of(tick: Tick) -> Odometry | None:
+def odometry_of(tick: TickContext) -> Odometry | None:
     """Return odometry every other tick, stamped when the drive measured it."""
     s = tick.s
     newest = s.drive.newest
@@ -64,7 +66,7 @@ def odometry_of(tick: Tick) -> Odometry | None:
     )
 
 
-def events_of(tick: Tick) -> tuple[Event, ...]:
+def events_of(tick: TickContext) -> tuple[Event, ...]:
     """Number this tick's events."""
     if not tick.events:
         return ()
@@ -85,7 +87,7 @@ def events_of(tick: Tick) -> tuple[Event, ...]:
     )
 
 
-def _changed(old: BridgeState, new: BridgeState) -> bool:
+def _has_news(old: BridgeState, new: BridgeState) -> bool:
     """Tell whether something changed that must be told at once."""
     return (
         old.mode is not new.mode

@@ -6,15 +6,15 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.leg_tracking import residual
-from bridge.core.authority.request_answers import shown
-from bridge.core.faults.fault_latch import binds, sources, worst
+from bridge.core.authority.requests import answers_to_echo, nonce_text
+from bridge.core.faults.fault_latch import binds, worst
 from bridge.core.faults.fault_table import STAGES
-from bridge.core.modes.arming import arm_lacks, recorder_lack, strayed
-from bridge.core.modes.mode_table import POWERED
-from bridge.core.modes.operator import nonce_text
+from bridge.core.modes.arming import arm_lacks, is_outside_fence
 from bridge.core.modes.selftest import waits_for
 from bridge.core.motion.limiter import stopping_m
 from bridge.core.motion.obstacle_gate import weak_m
+from bridge.core.sensing.sensor_update import recorder_lack
+from bridge.core.tick_context import POWERED
 from wire import (
     PROTOCOL,
     SEVERITY,
@@ -30,14 +30,14 @@ from wire import (
 )
 
 if TYPE_CHECKING:
-    from bridge.core.tick_context import Tick
+    from bridge.core.tick_context import TickContext
 
 _EVIDENCE = 400
 _MOST_S = 1e9
 _MOST_US = 1e9
 
 
-def build(tick: Tick) -> Status:
+def build(tick: TickContext) -> Status:
     """Return the status of this tick."""
     s, config = tick.s, tick.config
     action = s.stopping.action if s.stopping is not None else worst(tick)[0]
@@ -62,7 +62,7 @@ def build(tick: Tick) -> Status:
         measured=s.odometry.measured,
         limits=_limits(tick),
         rows=_rows(tick),
-        answers=shown(tick),
+        answers=answers_to_echo(tick),
         waiting_for=tuple(islice(_waiting(tick), 8)),
         blocked=s.gate.blocked,
         robot_hash=config.robot_hash,
@@ -76,14 +76,14 @@ def build(tick: Tick) -> Status:
     )
 
 
-def _grant(tick: Tick) -> GrantLeft | None:
+def _grant(tick: TickContext) -> GrantLeft | None:
     grants = tick.s.grants
     if grants.mission is None:
         return None
     return GrantLeft(mission=grants.mission, metres=grants.metres, seconds=grants.seconds)
 
 
-def _leg(tick: Tick) -> LegReport | None:
+def _leg(tick: TickContext) -> LegReport | None:
     leg = tick.s.leg
     if leg.mission is None:
         return None
@@ -101,7 +101,7 @@ def _leg(tick: Tick) -> LegReport | None:
     )
 
 
-def _limits(tick: Tick) -> LimitsInForce:
+def _limits(tick: TickContext) -> LimitsInForce:
     motion, robot, learnt = tick.s.motion, tick.config.robot, tick.s.learnt
     margin_m = None
     if motion.free_m is not None:
@@ -119,9 +119,9 @@ def _limits(tick: Tick) -> LimitsInForce:
     )
 
 
-def _rows(tick: Tick) -> tuple[RowReport, ...]:
+def _rows(tick: TickContext) -> tuple[RowReport, ...]:
     """Show each row once, by its worst stage."""
-    letters = sources(tick.s)
+    letters = tick.s.sources()
     worst_of: dict[str, str] = {}
     for name in tick.s.rows:
         stage = STAGES[name]
@@ -145,13 +145,13 @@ def _rank(name: str, letters: str) -> tuple[bool, int]:
     return binds(stage, letters), SEVERITY[stage.action]
 
 
-def _waiting(tick: Tick) -> tuple[str, ...]:
+def _waiting(tick: TickContext) -> tuple[str, ...]:
     s = tick.s
     if s.mode is Mode.SELFTEST:
         return tuple(waits_for(tick))
     if s.mode is Mode.FAULT and s.fault is not None:
         return (s.fault,)
-    outside = ("fence_excludes_robot",) if strayed(tick) else ()
+    outside = ("fence_excludes_robot",) if is_outside_fence(tick) else ()
     if s.mode is Mode.DISARMED:
         return (*outside, *dict.fromkeys(code for code, _ in arm_lacks(tick)))
     if s.mode not in POWERED:
@@ -161,7 +161,7 @@ def _waiting(tick: Tick) -> tuple[str, ...]:
     return outside
 
 
-def _drive(tick: Tick) -> DriveReport:
+def _drive(tick: TickContext) -> DriveReport:
     s, drive = tick.s, tick.config.robot.drive
     newest = s.drive.newest
     return DriveReport(
@@ -175,7 +175,7 @@ def _drive(tick: Tick) -> DriveReport:
     )
 
 
-def _braking(tick: Tick) -> BrakingReport:
+def _braking(tick: TickContext) -> BrakingReport:
     robot, learnt = tick.config.robot, tick.s.learnt
     return BrakingReport(
         lag_s=robot.drive.lag_s + learnt.lag_more_s,
@@ -186,7 +186,7 @@ def _braking(tick: Tick) -> BrakingReport:
     )
 
 
-def _ticks(tick: Tick) -> TickStats:
+def _ticks(tick: TickContext) -> TickStats:
     facts = tick.inbox.loop
     return TickStats(
         ticks=tick.s.tick,

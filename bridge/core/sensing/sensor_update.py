@@ -9,13 +9,11 @@ from dataclasses import replace
 from math import hypot, radians
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.epoch import shelved
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.geometry.odometry import advance
-from bridge.core.modes.arming import recorder_lack
-from bridge.core.motion.brake_learning import in_force
-from bridge.core.motion.obstacle_gate import sight_m
+from bridge.core.sensing.look_distance import sight_m
+from bridge.core.sensing.stop_inputs import hear_link
 from bridge.core.state_senses import Drift, PoseMemory
 from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
 from wire import compose, wrap
@@ -23,7 +21,8 @@ from wire.geometry import MAX_COORDINATE_M
 
 if TYPE_CHECKING:
     from bridge.core.geometry.odometry import OdometryState
-    from bridge.core.tick_context import Tick
+    from bridge.core.inbox import Inbox
+    from bridge.core.tick_context import TickContext
     from wire import DriveState, Localization, Pose2, Scan
 
 POOR_QUALITY = 0.5
@@ -43,6 +42,9 @@ DRIVE_LOST_S, SCAN_LOST_S = 0.25, 0.25
 """So long a silence holds the robot by a row of its own; what comes then may count anew."""
 SEQ_AHEAD = 1_000
 """No sender that lives skips so many: who does counts for itself."""
+LATE_S, LATES = 0.005, 5
+"""A tick that begins later than this is late; so many of them are remembered."""
+GAP_S, GAPS = 0.1, 3
 BASELINE_SCANS = 20
 SEES_SHARE = 0.1
 """In homes nine beams of ten come back, under a cover next to none: fewer teach nothing normal."""
@@ -50,7 +52,7 @@ _TRAIL = 24
 """Readings kept to place a scan: 0.24 s, as old as a scan may be."""
 
 
-def sense(tick: Tick) -> None:
+def sense(tick: TickContext) -> None:
     """Take in all readings of this tick."""
     inbox, s = tick.inbox, tick.s
     for state in inbox.drive:
@@ -69,29 +71,47 @@ def sense(tick: Tick) -> None:
             pose.drift,
         )
     if inbox.estop_link is not None:
-        s.buttons = replace(
-            s.buttons, link_pressed=inbox.estop_link.pressed, link_received_s=tick.now_s
-        )
+        hear_link(tick, inbox.estop_link)
     changed = s.loop.recorder_ok != inbox.recorder_ok
     if changed and s.tick > 1:
         code, detail = ("recorder_up", "") if inbox.recorder_ok else recorder_lack(inbox)
         tick.say(code, detail)
     if changed or s.loop.real_time != inbox.real_time:
         s.loop = replace(s.loop, real_time=inbox.real_time, recorder_ok=inbox.recorder_ok)
+    facts = inbox.loop
+    if facts.missed_ticks or facts.late_s > LATE_S or not tick.dt_s <= GAP_S:
+        note_lateness(tick)
 
 
-def locate(tick: Tick) -> None:
-    """Take in localization, and say where the robot is in ``map`` if that may be trusted."""
+def note_lateness(tick: TickContext) -> None:
+    """Remember ticks that began late, ticks missed, and gaps, as the shell measured them."""
+    facts, s = tick.inbox.loop, tick.s
+    if facts.missed_ticks:
+        s.loop = replace(s.loop, missed=s.loop.missed + facts.missed_ticks)
+    if facts.late_s > LATE_S:
+        s.loop = replace(s.loop, late_at_s=(*s.loop.late_at_s[-(LATES - 1) :], tick.now_s))
+    if s.tick > 1 and not tick.dt_s <= GAP_S:
+        s.loop = replace(s.loop, gaps_at_s=(*s.loop.gaps_at_s[-(GAPS - 1) :], tick.now_s))
+
+
+def locate(tick: TickContext) -> bool:
+    """Take in localization, and say where the robot is in ``map`` if that may be trusted.
+
+    Returns:
+        Whether localization has displaced the robot: what was granted before is void.
+    """
     s = tick.s
+    displaced = False
     if tick.inbox.localization is not None:
-        _hear_localization(tick, tick.inbox.localization)
+        displaced = _hear_localization(tick, tick.inbox.localization)
     if pose_trouble(tick) is None and s.pose.localization is not None:
         here = compose(s.pose.localization.odom_in_map, s.odometry.base_in_odom)
         if abs(here.x_m) <= MAX_COORDINATE_M and abs(here.y_m) <= MAX_COORDINATE_M:
             tick.robot_in_map = here  # anywhere else is no place, and POSE_LOST
+    return displaced
 
 
-def pose_trouble(tick: Tick) -> str | None:
+def pose_trouble(tick: TickContext) -> str | None:
     """Say why the pose in ``map`` is not to be trusted; None if it is."""
     pose = tick.s.pose
     if pose.localization is None or pose.received_s is None:
@@ -106,7 +126,7 @@ def pose_trouble(tick: Tick) -> str | None:
     return None
 
 
-def _hear_drive(tick: Tick, state: DriveState) -> None:
+def _hear_drive(tick: TickContext, state: DriveState) -> None:
     s = tick.s
     drive = s.drive
     last = drive.newest
@@ -140,7 +160,7 @@ def _hear_drive(tick: Tick, state: DriveState) -> None:
     s.trail = (*s.trail[-(_TRAIL - 1) :], (stamp_s, s.odometry.base_in_odom))
 
 
-def _hear_scan(tick: Tick, scan: Scan) -> None:
+def _hear_scan(tick: TickContext, scan: Scan) -> None:
     s = tick.s
     lidar = s.lidar
     last = lidar.newest
@@ -152,8 +172,8 @@ def _hear_scan(tick: Tick, scan: Scan) -> None:
     equal = last is not None and last.ranges_m == scan.ranges_m
     taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
     robot = tick.config.robot
-    seen_m = sight_m(robot, in_force(s.learnt))
-    picture = ScanPicture.from_scan(scan, _where(tick, taken_s), robot.lidar, seen_m)
+    seen_m = sight_m(robot, s.learnt.in_force())
+    picture = ScanPicture.from_scan(scan, _place_at(tick, taken_s), robot.lidar, seen_m)
     learns = lidar.baseline_scans < BASELINE_SCANS and sees(picture)
     scans = lidar.baseline_scans + 1 if learns else lidar.baseline_scans
     mean = lidar.baseline_returns
@@ -189,7 +209,7 @@ def sees(picture: ScanPicture) -> bool:
     return picture.beams > 0 and picture.returns >= SEES_SHARE * picture.beams
 
 
-def _where(tick: Tick, at_s: float) -> Pose2:
+def _place_at(tick: TickContext, at_s: float) -> Pose2:
     """Return where odometry says the robot was; the oldest known place for anything older."""
     trail = tick.s.trail
     for stamp_s, base_in_odom in reversed(trail):
@@ -198,22 +218,21 @@ def _where(tick: Tick, at_s: float) -> Pose2:
     return trail[0][1] if trail else tick.s.odometry.base_in_odom
 
 
-def _hear_localization(tick: Tick, new: Localization) -> None:
+def _hear_localization(tick: TickContext, new: Localization) -> bool:
     s = tick.s
     if new.odom_id != tick.config.boot or new.map_id != tick.config.map_id:
         tick.drop("localization_foreign")
-        return
+        return False
     last = s.pose.good
     s.pose = replace(s.pose, localization=new, received_s=tick.now_s)
     if not new.quality >= POOR_QUALITY:
-        return
+        return False
     s.pose = replace(s.pose, good=new)
-    if last is not None:
-        _judge_jump(tick, last, new)
+    return last is not None and _is_jump(tick, last, new)
 
 
-def _judge_jump(tick: Tick, last: Localization, new: Localization) -> None:
-    """See whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p.
+def _is_jump(tick: TickContext, last: Localization, new: Localization) -> bool:
+    """Tell whether the robot is displaced in ``map`` against the last good one: T_new p, T_old p.
 
     By one message, or by many that add up to more than odometry may have been wrong.
     """
@@ -222,26 +241,27 @@ def _judge_jump(tick: Tick, last: Localization, new: Localization) -> None:
     before, after = compose(last.odom_in_map, here), compose(new.odom_in_map, here)
     x_m, y_m = after.x_m - before.x_m, after.y_m - before.y_m
     yaw_rad = wrap(after.yaw_rad - before.yaw_rad)
-    drift = _drifted(s.pose.drift, x_m, y_m, yaw_rad, s.odometry)
+    drift = _add_drift(s.pose.drift, x_m, y_m, yaw_rad, s.odometry)
     jump_m, drift_m = hypot(x_m, y_m), hypot(drift.x_m, drift.y_m)
     small = jump_m <= JUMP_M and abs(yaw_rad) <= JUMP_RAD
     if small and drift_m <= DRIFT_M and abs(drift.yaw_rad) <= DRIFT_RAD:
         s.pose = replace(s.pose, drift=drift)
-        return
+        return False
     at_s = s.pose.drift.jumps_at_s
     if s.grants.mission is not None:
         at_s = (*at_s[-(JUMPS - 1) :], tick.now_s)
     settled = replace(drift, x_m=0.0, y_m=0.0, yaw_rad=0.0, jumps_at_s=at_s)
     s.pose = replace(s.pose, jumped_s=tick.now_s, drift=settled)
-    s.grants = shelved(s.grants)
-    s.leg = replace(s.leg, horizon=None, path=None)
     if small:
         tick.say("pose_drift", f"{drift_m:.2f} m {abs(drift.yaw_rad):.2f} rad bit by bit")
     else:
         tick.say("pose_jump", f"{jump_m:.2f} m {abs(yaw_rad):.2f} rad")
+    return True
 
 
-def _drifted(had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState) -> Drift:
+def _add_drift(
+    had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState
+) -> Drift:
     """Add one correction, and forgive what odometry may have been wrong since the last."""
     moved_m = odometry.travelled_m - had.travelled_m
     turned_rad = odometry.turned_rad - had.turned_rad
@@ -258,3 +278,9 @@ def _drifted(had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: Odome
         odometry.turned_rad,
         had.jumps_at_s,
     )
+
+
+def recorder_lack(inbox: Inbox) -> tuple[str, str]:
+    """Return code and sentence of why this run is not being recorded."""
+    code, _, detail = inbox.recorder_says.partition(": ")
+    return code or "recorder_down", detail or "the tick recorder takes no records"

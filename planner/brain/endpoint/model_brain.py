@@ -20,7 +20,8 @@ from planner.brain.prompt import Prompt
 from planner.brain.schema import schema_of
 from planner.brain.streamed_draft import Hear
 from planner.brain.usage_meter import Meter
-from planner.plan import PLAN, Bilingual, BrainTag, Code, Refuse, Vocabulary, message, same
+from planner.language.catalogue import message, say
+from planner.plan import PLAN, BrainTag, Code, Refuse, Vocabulary, same
 from planner.settings import ModelSettings
 
 if TYPE_CHECKING:
@@ -142,6 +143,6 @@ class EndpointBrain:
 def _declined(words: str, request: ThinkRequest) -> Refuse:
     """Take a model's own refusal as one: the offline brain must not do what a model would not."""
     told = clean(words)[:200]
-    rule = Bilingual(en=f"the model declined: {told}", zh=f"模型拒绝了：{told}")
+    rule = say("model.declined", told=told)
     said = message(Code.UNSAFE, part=same(clean(request.text)[:60]), rule=rule)
     return Refuse(code=Code.UNSAFE, reason=said)

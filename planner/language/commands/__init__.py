@@ -17,7 +17,6 @@ from planner.language.commands.command import (
     Where,
 )
 from planner.language.commands.parser import intent_of
-from planner.language.commands.reserved_names import name_reads_as_order
 
 __all__ = [
     "Cancel",
@@ -32,5 +31,4 @@ __all__ = [
     "Slower",
     "Where",
     "intent_of",
-    "name_reads_as_order",
 ]

@@ -27,7 +27,7 @@ from planner.language.commands.command import (
     Slower,
     Where,
 )
-from planner.language.folding import fold_script, fold_width
+from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.stop import is_stop
 
 MAX_READ = 300
@@ -41,7 +41,6 @@ _SIMPLE: tuple[tuple[str, Intent], ...] = (
     ("SLOWER", Slower()),
     ("FASTER", Faster()),
 )
-_CJK = re.compile(r"[\u3400-\u9fff]")
 _END = " .!,;:。~…"
 _QUOTES = "\"'「」『』“”‘’《》"
 _APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
@@ -68,7 +67,7 @@ def intent_of(text: str) -> Intent | None:
     if not text.strip() or len(text) > MAX_READ or any(map(_unseen, text)):
         return None
     said = _said(text)
-    if not _CJK.search(said.folded):
+    if not has_chinese(said.folded):
         return _read(said, english)
     heard = _read(said, chinese)
     return heard or (_read(said, english) if said.folded[0].isascii() else None)
@@ -148,7 +147,7 @@ def _taught(said: _Said, grammar: ModuleType) -> Intent | None:
 def _name(said: _Said) -> str | None:
     """Return a name without quotes and determiners, or None where the words are no name."""
     said = said.stripped(" " + _QUOTES + _END)
-    grammar = chinese if _CJK.search(said.folded) else english
+    grammar = chinese if has_chinese(said.folded) else english
     found = grammar.DETERMINER.match(said.folded)
     if found is not None:
         said = said.part(found.end(), len(said.folded))

@@ -13,8 +13,9 @@ from re import Match, Pattern
 
 from pydantic import ValidationError
 
+from planner.language.grammar.names import go_to
 from planner.language.grammar.numbers import seconds
-from planner.language.grammar.object_targets import several_of, up_to
+from planner.language.grammar.objects import several_of, up_to
 from planner.language.grammar.parse_result import (
     About,
     Clause,
@@ -24,7 +25,6 @@ from planner.language.grammar.parse_result import (
     Steps,
     read_by,
 )
-from planner.language.grammar.place_names import go_to
 from planner.language.grammar.small_talk import Topic, topic_of
 from planner.language.grammar.step_builders import ASIDE, look, one_at_a_time
 from planner.plan import Code, ComeBack, GoTo, Patrol, ReturnHome, Say, Wait

@@ -14,7 +14,7 @@ from functools import lru_cache
 from rapidfuzz.distance import OSA
 from rapidfuzz.fuzz import ratio
 
-from planner.language.grammar.normalisation import squash
+from planner.language.grammar.sentence_text import squash
 from planner.plan import Bilingual, Entry, Vocabulary
 
 FIRST_MARK = 0xE000

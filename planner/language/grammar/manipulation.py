@@ -8,8 +8,8 @@ from re import Match
 from planner.language.grammar.en.words import PERSON, WORD, loc
 from planner.language.grammar.grammar import where
 from planner.language.grammar.lexicon import MARK, NAME
+from planner.language.grammar.objects import several
 from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
-from planner.language.grammar.quantifiers import several
 from planner.language.grammar.step_builders import label_of, meet, place_of
 from planner.plan import Code, Find, GoTo, Step
 

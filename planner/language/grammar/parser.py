@@ -12,16 +12,16 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from itertools import chain
 
+from planner.language.catalogue import message
+from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.clause_order import in_order
-from planner.language.grammar.denial import withholds_offers
+from planner.language.grammar.checks import TAMPERING, broken_rule, vetoed, withholds_offers
+from planner.language.grammar.clauses import Heard, at_each, in_order, take_quotes
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.grammar import Grammar
-from planner.language.grammar.input_checks import EXAMPLE, refuse_bad_text
 from planner.language.grammar.lexicon import MARK, Marked, lexicon_of
-from planner.language.grammar.multi_place import Heard, at_each
-from planner.language.grammar.normalisation import normalise
+from planner.language.grammar.names import mark_people
 from planner.language.grammar.parse_result import (
     About,
     Meaning,
@@ -31,16 +31,18 @@ from planner.language.grammar.parse_result import (
     Steps,
     read_by,
 )
-from planner.language.grammar.person_names import mark_people
 from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
-from planner.language.grammar.quoted_speech import take_quotes
-from planner.language.grammar.refused_orders import TAMPERING, broken_rule
-from planner.language.grammar.typos import mend, words_of
-from planner.language.grammar.vetoes import vetoed
+from planner.language.grammar.sentence_text import (
+    EXAMPLE,
+    mend,
+    normalise,
+    refuse_bad_text,
+    words_of,
+)
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
-from planner.language.identification import language_of
-from planner.language.stop import is_stop
+from planner.language.stop import StopReading
+from planner.language.utterance import parse
 from planner.plan import (
     NEEDS_CAMERA,
     RUNNABLE,
@@ -56,10 +58,9 @@ from planner.plan import (
     StepPlan,
     Vocabulary,
     lacking,
-    message,
 )
 
-_OTHER = rf"(?:{MARK}|[\u3400-\u9fff])"
+_OTHER = rf"(?:{MARK}|[{HAN}])"
 _SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
 _BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
 _LATIN = re.compile(r"[a-z]")
@@ -88,7 +89,8 @@ def plan(
     refused = refuse_bad_text(text)
     if refused is not None:
         return refused
-    if is_stop(text):  # the stop lane comes first; should one get here, it stays a stop
+    # The stop lane comes first; should a stop get here, it stays a stop.
+    if parse(text).reading is StopReading.ORDER:
         return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
     apart, quotes = take_quotes(text)
     said = normalise(apart)
@@ -142,7 +144,7 @@ def _understood(
     text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
     marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
-    language = context.language or language_of(text)
+    language = context.language or parse(text).language
     offers = offers and not withholds_offers(marked.text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers)
     vetoed = _vetoed(marked, setting)

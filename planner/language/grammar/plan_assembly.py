@@ -10,11 +10,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
+from planner.language.catalogue import list_names, message, say
+from planner.language.grammar.checks import Veto
 from planner.language.grammar.lexicon import Lexicon, Marked
 from planner.language.grammar.parse_result import About, Meaning, Problem, Steps
 from planner.language.grammar.small_talk import Topic, told
 from planner.language.grammar.step_text import option, sentence
-from planner.language.grammar.vetoes import Veto
+from planner.language.place_lists import known_places
 from planner.plan import (
     DRIVES,
     MAX_STEPS,
@@ -35,7 +37,6 @@ from planner.plan import (
     Step,
     StepPlan,
     Vocabulary,
-    message,
     same,
 )
 
@@ -53,11 +54,8 @@ _RANK = (
 )
 _LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA, Code.NO_DETECTOR})
 _SHOWN = 60  # characters of the sentence that a message repeats
-_SPAN = Bilingual(en="a wait is at most 600 seconds", zh="等待时间最多 600 秒")
-_ONLY = Bilingual(en=" Shall I do only this: {order}?", zh="要不要只做这些：{order}？")
-_NO_ROOM = Bilingual(en="I don't know where I am yet.", zh="我还不知道自己在哪里。")
-_I_KNOW = Bilingual(en="I can drive to: {names}.", zh="我可以去：{names}。")
-_I_AM_IN = Bilingual(en="I am in the {name}.", zh="我在{name}。")
+_SPAN = say("grammar.wait_too_long")
+_NO_ROOM = say("grammar.room_unknown")
 
 Plan = StepPlan | Answer | Clarify | Refuse
 
@@ -129,10 +127,7 @@ def _joined(steps: Sequence[Step]) -> tuple[Step, ...]:
 
 def _checked(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
     if len(steps) > MAX_STEPS:
-        why = Bilingual(
-            en=f"{len(steps)} steps; at most {MAX_STEPS}",
-            zh=f"{len(steps)} 步，最多 {MAX_STEPS} 步",
-        )
+        why = say("grammar.too_many_steps", count=len(steps), limit=MAX_STEPS)
         return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=why))
     drives = (step for step in steps if step.kind in DRIVES or isinstance(step, Count))
     first = next(drives, None)
@@ -168,10 +163,7 @@ def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Pla
     if not _drives(offered) or not setting.offers:
         return Refuse(code=worst.code, reason=said)
     order = sentence(offered, setting.vocabulary, setting.lexicon)
-    question = Bilingual(
-        en=said.en + _ONLY.en.format(order=order.en),
-        zh=said.zh + _ONLY.zh.format(order=order.zh),
-    )
+    question = say("grammar.only", said=said, order=order)
     return Clarify(code=worst.code, question=question, options=(setting.button(offered),))
 
 
@@ -189,27 +181,20 @@ def _ask(problem: Problem, options: tuple[Option, ...], setting: Setting) -> Cla
 def _unknown(problem: Problem, setting: Setting) -> Bilingual:
     vocabulary = setting.vocabulary
     names = [vocabulary.name(place) for place in problem.places if setting.offers]
-    near = Bilingual(
-        en=f" Did you mean {', '.join(name.en for name in names)}?" if names else "",
-        zh=f"您是指{'、'.join(name.zh for name in names)}吗？" if names else "",
-    )
-    return message(problem.code, name=_cut(problem.name), near=near, known=vocabulary.known())
+    near = say("grammar.did_you_mean", names=list_names(names)) if names else same("")
+    return message(problem.code, name=_cut(problem.name), near=near, known=known_places(vocabulary))
 
 
 def _answer(topic: Topic, setting: Setting) -> Answer:
     if topic is Topic.PLACES:
-        names = setting.vocabulary.known()
-        return Answer(text=_filled(_I_KNOW, "names", names))
+        names = known_places(setting.vocabulary)
+        return Answer(text=say("grammar.places", names=names))
     words = told(topic, setting.now)
     if words is not None:
         return Answer(text=words)
     if setting.room is None:
         return Answer(text=_NO_ROOM)
-    return Answer(text=_filled(_I_AM_IN, "name", setting.vocabulary.name(setting.room)))
-
-
-def _filled(text: Bilingual, key: str, fact: Bilingual) -> Bilingual:
-    return Bilingual(en=text.en.format(**{key: fact.en}), zh=text.zh.format(**{key: fact.zh}))
+    return Answer(text=say("grammar.in_room", name=setting.vocabulary.name(setting.room)))
 
 
 def _steps_of(

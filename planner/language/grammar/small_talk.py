@@ -9,6 +9,7 @@ import re
 from datetime import datetime
 from enum import Enum
 
+from planner.language.catalogue import say
 from planner.plan import Bilingual
 
 
@@ -127,46 +128,22 @@ _ZH: tuple[tuple[Topic, str], ...] = (
     (Topic.MOOD, (r"你(?:今天)?(?:还)?(?:好吗|怎么样|好不好|累吗|开心吗)")),
 )
 
-_SAID = {
-    Topic.HELLO: ("Hello. Tell me where to go.", "你好！请告诉我要去哪里。"),
-    Topic.THANKS: ("You are welcome.", "不客气。"),
-    Topic.NAME: ("My name is Pons.", "我叫 Pons。"),
-    Topic.SELF: (
-        "I am Pons, a robot that drives where people ask, and stops when they say so.",
-        "我是 Pons，一台按照人的要求行驶、一喊就停的机器人。",
-    ),
-    Topic.TEAM: (
-        "Nobody told me the name of a team; I am Pons.",
-        "没有人告诉我团队的名字；我是 Pons。",
-    ),
-    Topic.MAKER: (
-        "The people of the Pons project built me.",
-        "我是 Pons 项目的人做出来的。",
-    ),
-    Topic.AGE: (
-        "I am as old as my software: young, and updated now and then.",
-        "我和我的软件一样年轻，偶尔会更新。",
-    ),
-    Topic.MOOD: ("I have no moods, and I am ready to drive.", "我没有心情好坏，随时可以出发。"),
-    Topic.JOKE: (
-        "Why did the robot cross the road? The route said so, and nobody stood on it.",
-        "机器人为什么过马路？因为路线是这么规划的，而且路上没有人。",
-    ),
-    Topic.WEATHER: (
-        "I can't know the weather: I look nowhere but around me.",
-        "我不知道天气：我只了解身边的情况。",
-    ),
-    Topic.HELP: (
-        (
-            "I drive to rooms and places, turn, wait, come back, and say things. Try: go to the "
-            "kitchen, wait ten seconds, then come back."
-        ),
-        "我会去房间和地点、转身、等待、回来、说话。试试：去厨房，等十秒，然后回来。",
-    ),
-}
-_WEEK_EN = ("Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday")
-_WEEK_ZH = "一二三四五六日"
-_NO_CLOCK = Bilingual(en="I have no clock to tell it by.", zh="我没有时钟，无法回答。")
+_SAID = frozenset(
+    {
+        Topic.HELLO,
+        Topic.THANKS,
+        Topic.NAME,
+        Topic.SELF,
+        Topic.TEAM,
+        Topic.MAKER,
+        Topic.AGE,
+        Topic.MOOD,
+        Topic.JOKE,
+        Topic.WEATHER,
+        Topic.HELP,
+    }
+)
+_NO_CLOCK = say("talk.no_clock")
 
 
 def _whole(rows: tuple[tuple[Topic, str], ...]) -> re.Pattern[str]:
@@ -197,16 +174,13 @@ def told(topic: Topic, now: datetime | None) -> Bilingual | None:
         return _NO_CLOCK if now is None else _clock(topic, now)
     if topic not in _SAID:
         return None
-    en, zh = _SAID[topic]
-    return Bilingual(en=en, zh=zh)
+    return say(f"talk.{topic.value}")
 
 
 def _clock(topic: Topic, now: datetime) -> Bilingual:
     if topic is Topic.TIME:
         at = f"{now:%H:%M}"
-        return Bilingual(en=f"When you asked it was {at}.", zh=f"您问的时候是 {at}。")
-    day = now.weekday()
+        return say("talk.time", at=at)
     if topic is Topic.DAY:
-        return Bilingual(en=f"Today is {_WEEK_EN[day]}.", zh=f"今天是星期{_WEEK_ZH[day]}。")
-    date = now.date().isoformat()
-    return Bilingual(en=f"Today is {date}.", zh=f"今天是{now.year}年{now.month}月{now.day}日。")
+        return say(f"talk.day_{now.weekday()}")
+    return say("talk.month_day", year=now.year, month=now.month, day=now.day)

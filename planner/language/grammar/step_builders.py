@@ -2,19 +2,25 @@
 
 A person known only by name has to be somewhere that the sentence names; what is missing is asked
 for, never guessed.
+
+Turns, straight moves and patrols stand at the end; counter-clockwise is positive.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
+from math import pi
+from re import Match
 
 from pydantic import ValidationError
 
+from planner.language.catalogue import CATALOGUE, say
 from planner.language.grammar.lexicon import MARK, NAME
+from planner.language.grammar.names import go_to
+from planner.language.grammar.numbers import angle_rad, metres, times
+from planner.language.grammar.objects import ONE_AT_A_TIME, several
 from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
-from planner.language.grammar.place_names import go_to
-from planner.language.grammar.quantifiers import ONE_AT_A_TIME, several
 from planner.plan import (
     MAX_STEPS,
     Bilingual,
@@ -25,17 +31,21 @@ from planner.plan import (
     GoTo,
     Language,
     Look,
+    Move,
+    Patrol,
     Say,
     Step,
+    Turn,
 )
 
-WHERE_IS = Bilingual(en="where is {name}? Name the place.", zh="{name}在哪里？请说出地点。")
-WHERE_TO = Bilingual(en="where to?", zh="要去哪里？")
-HOW_LONG = Bilingual(en="how long? For example: ten seconds.", zh="等多久？例如：十秒。")
-WHO = Bilingual(en="who or what is meant?", zh="指的是谁或什么？")
-WHERE_LOOK = Bilingual(en="in which places? Name them.", zh="看哪些地方？请说出地点。")
-SEARCH = Bilingual(en="shall I go and look for it?", zh="要我去找吗？")
-WHERE_ARE_YOU = Bilingual(en="where are you? Name the place.", zh="您在哪里？请说出地点。")
+WHERE_IS = CATALOGUE.build(lambda language: CATALOGUE.raw("grammar.where_is", language))
+"""Its name is put in where it is known."""
+WHERE_TO = say("grammar.where_to")
+HOW_LONG = say("grammar.how_long")
+WHO = say("grammar.who")
+WHERE_LOOK = say("grammar.where_look")
+SEARCH = say("grammar.search")
+WHERE_ARE_YOU = say("grammar.where_are_you")
 
 _SELF = frozenset({"me", "us", "我", "我们"})
 _THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta"})
@@ -226,7 +236,7 @@ def offer_search(words: str, part: str, reading: Reading) -> Meaning:
 
 def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:
     """Say what the sentence leaves open."""
-    filled = Bilingual(en=what.en.format(name=name), zh=what.zh.format(name=name))
+    filled = CATALOGUE.build(lambda language: what.of(language).format(name=name))
     return reading.problem(Code.INCOMPLETE, part, what=filled)
 
 
@@ -242,3 +252,85 @@ def saying(words: str, reading: Reading) -> Meaning:
         return Steps((Say(text=said),))
     except ValidationError:
         return reading.problem(Code.NOT_UNDERSTOOD, words)
+
+
+HOW_FAR = say("grammar.how_far")
+_BACKWARD = ("back", "reverse", "后", "倒", "退")
+_RIGHT = ("right", "clockwise", "右", "顺")
+_HALF_M = 0.5
+
+
+def turn(found: Match[str], reading: Reading) -> Meaning:
+    """Turn by the groups `angle` and `unit`, else a quarter to a side, else about."""
+    groups = found.groupdict()
+    side = groups.get("side") or groups.get("side2") or ""
+    if groups.get("angle"):
+        angle = angle_rad(groups["angle"], groups["arc"])
+    elif groups.get("whole"):
+        angle = 2 * pi
+    else:
+        quarter = groups.get("quarter") or side
+        angle = pi / 2 if quarter and not groups.get("about") else pi
+    if angle is None:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    right = side.startswith(_RIGHT)
+    return Steps((Turn(angle_rad=-angle if right else angle),))
+
+
+def move(found: Match[str], reading: Reading) -> Meaning:
+    """Move by the groups `length` and `unit`; without a length it is asked for."""
+    groups = found.groupdict()
+    if not groups.get("length"):
+        return missing(HOW_FAR, found[0], reading)
+    way = groups.get("way") or groups.get("way2") or ""
+    length = metres(groups["length"], groups["unit"])
+    if length is None:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    length += _HALF_M if groups.get("half") else 0.0
+    try:
+        backward = way.startswith(_BACKWARD)
+        return Steps((Move(distance_m=-length if backward else length),))
+    except ValidationError:
+        return Problem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
+
+
+_TOO_FAR = say("grammar.too_far")
+
+
+def turn_and_move(found: Match[str], reading: Reading) -> Meaning:
+    """Turn, then move straight: "drive 2 m, 30 degrees left of straight ahead"."""
+    turned, moved = turn(found, reading), move(found, reading)
+    if isinstance(turned, Steps) and isinstance(moved, Steps):
+        return Steps((*turned.steps, *moved.steps))
+    return moved if isinstance(turned, Steps) else turned
+
+
+def patrol(found: Match[str], reading: Reading) -> Meaning:
+    """Visit a place of a patrol; places that follow are joined to it."""
+    meaning = go_to(found["place"], reading)
+    if not isinstance(meaning, Steps):
+        return meaning
+    places = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
+    often = times(found["times"]) if found.groupdict().get("times") else 1
+    return Steps((Patrol(places=places * often),))
+
+
+def patrol_all(found: Match[str], reading: Reading) -> Meaning:
+    """Visit every room."""
+    rooms = tuple(entry.id for entry in reading.vocabulary.entries if entry.kind == "room")
+    if not rooms:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    return Steps((Patrol(places=rooms[:20]),))
+
+
+def in_all(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read "in every room" as the round, where it opens an order and more follows."""
+    return patrol_all(found, reading) if reading.opens else None
+
+
+def wander(found: Match[str], reading: Reading) -> Meaning:
+    """Ask where to, where somebody wants the robot to roam or patrol no place at all."""
+    return missing(WHERE, found[0], reading)
+
+
+WHERE = say("grammar.which_places")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import degrees
 
+from planner.language.catalogue import join, say
 from planner.language.grammar.lexicon import Lexicon
 from planner.plan import (
     Bilingual,
@@ -23,6 +24,7 @@ from planner.plan import (
     Turn,
     Vocabulary,
     Wait,
+    same,
 )
 
 
@@ -30,9 +32,7 @@ def sentence(steps: Sequence[Step], vocabulary: Vocabulary, lexicon: Lexicon) ->
     """Return the order of these steps in both languages."""
     kept = [step for at, step in enumerate(steps) if not _goes_without_saying(steps, at)]
     said = [_step(step, vocabulary, lexicon) for step in kept]
-    return Bilingual(
-        en=", then ".join(one.en for one in said), zh="，然后".join(one.zh for one in said)
-    )
+    return join(said, "joint.then")
 
 
 def _goes_without_saying(steps: Sequence[Step], at: int) -> bool:
@@ -56,47 +56,44 @@ def _step(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingual:
     match step:
         case GoTo():
             name = named(step.place)
-            return Bilingual(en=f"go to the {name.en}", zh=f"去{name.zh}")
+            return say("order.go_to", name=name)
         case ComeBack():
-            return Bilingual(en="come back", zh="回来")
+            return say("order.come_back")
         case ReturnHome():
-            return Bilingual(en="go home", zh="回家")
+            return say("order.go_home")
         case Wait():
-            return Bilingual(en=f"wait {step.seconds:g} seconds", zh=f"等{step.seconds:g}秒")
+            return say("order.wait", seconds=step.seconds)
         case Say():
-            return Bilingual(en=f'say "{step.text}"', zh=f"说“{step.text}”")
+            return say("order.say", text=step.text)
         case Find() | Count():
             return _seen(step, named(step.place) if step.place else None)
         case Follow():
-            return Bilingual(en=f"follow {_the(step.object)}", zh=f"跟着{step.object}")
+            return say("order.follow", object=_the(step.object))
         case Turn():
             return _turn(round(degrees(step.angle_rad)))
         case Move():
-            way = ("forward", "前") if step.distance_m > 0 else ("back", "后")
-            far = f"{abs(step.distance_m):g}"
-            return Bilingual(en=f"move {way[0]} {far} m", zh=f"向{way[1]}走{far}米")
+            code = "order.forward" if step.distance_m > 0 else "order.back"
+            return say(code, far=f"{abs(step.distance_m):g}")
         case Patrol():
-            names = [named(place) for place in step.places]
-            en = " and the ".join(name.en for name in names)
-            return Bilingual(en=f"patrol the {en}", zh="巡逻" + "和".join(n.zh for n in names))
+            names = join((named(place) for place in step.places), "joint.and_the")
+            return say("order.patrol", names=names)
         case _:
-            return Bilingual(en=step.kind, zh=step.kind)
+            return same(step.kind)
 
 
 def _seen(step: Find | Count, place: Bilingual | None) -> Bilingual:
-    verb, action = ("count", "数") if isinstance(step, Count) else ("find", "找")
-    where = f" in the {place.en}" if place else ""
-    there = f"去{place.zh}" if place else ""
-    return Bilingual(en=f"{verb} {_the(step.object)}{where}", zh=f"{there}{action}{step.object}")
+    verb, what = ("count" if isinstance(step, Count) else "find"), _the(step.object)
+    if place is None:
+        return say(f"order.{verb}", object=what)
+    return say(f"order.{verb}_in", object=what, place=place)
 
 
 def _turn(angle_deg: int) -> Bilingual:
-    side = ("left", "左") if angle_deg > 0 else ("right", "右")
-    return Bilingual(
-        en=f"turn {side[0]} {abs(angle_deg)} degrees", zh=f"向{side[1]}转{abs(angle_deg)}度"
-    )
+    code = "order.left" if angle_deg > 0 else "order.right"
+    return say(code, angle_deg=abs(angle_deg))
 
 
-def _the(label: str) -> str:
-    """Put the article before a thing; a name has none."""
-    return label if label[:1].isupper() or not label.isascii() else f"the {label}"
+def _the(label: str) -> Bilingual:
+    """Put the article before a thing, where the language has one; a name has none."""
+    bare = label[:1].isupper() or not label.isascii()
+    return same(label) if bare else say("order.the", object=label)

@@ -7,6 +7,7 @@
 from collections.abc import Callable
 from types import MappingProxyType
 
+from planner.language.catalogue import message
 from planner.mission.skills.actions import (
     AskImage,
     Drive,
@@ -41,7 +42,7 @@ from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import NOTHING, Notes
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
-from planner.plan import Code, message, same
+from planner.plan import Code, same
 
 SKILLS: MappingProxyType[str, Callable[[Scene], SkillAction]] = MappingProxyType(
     {

@@ -11,15 +11,23 @@ where it is.
 
 from __future__ import annotations
 
-from planner.language.yes_no import consents
-from planner.mission.skills.actions import Fail, Finish, Question, Scene, SkillAction, Think
-from planner.plan import Bilingual, Code, message, same
+from planner.language.catalogue import message, say
+from planner.language.utterance import parse
+from planner.mission.skills.actions import (
+    Fail,
+    Finish,
+    Question,
+    Scene,
+    SkillAction,
+    Think,
+)
+from planner.plan import Bilingual, Code, same
 
 THOUGHT, AGAIN = 1, 2
 """Stages: the answer is thought about; it was asked once more."""
 _QUOTED = 80
-_NO = Bilingual(en="no", zh="说了不")
-_UNCLEAR = Bilingual(en="neither yes nor no", zh="没有说“是”")
+_NO = say("question.said_no")
+_UNCLEAR = say("question.said_neither")
 
 
 def ask(scene: Scene) -> SkillAction:
@@ -30,7 +38,7 @@ def ask(scene: Scene) -> SkillAction:
         return Question(_shall_i(scene), notes) if again else Question(same(scene.step.text or ""))
     if scene.upon is None:
         return Finish()
-    yes = consents(answer)
+    yes = parse(answer).consent
     if yes is True:
         return Finish({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
     if yes is False or notes.stage == AGAIN:
@@ -54,10 +62,7 @@ def ask_again(scene: Scene) -> Question:
 
 def _shall_i(scene: Scene) -> Bilingual:
     deed, heard = (
-        scene.upon or Bilingual(en="go on", zh="继续"),
+        scene.upon or say("question.go_on"),
         (scene.notes.heard or "")[:_QUOTED],
     )
-    return Bilingual(
-        en=f"You said “{heard}”. Shall I {deed.en}? Please answer yes or no.",
-        zh=f"您说了“{heard}”。要我{deed.zh}吗？请回答“是”或“不”。",
-    )
+    return say("question.shall_i", heard=heard, deed=deed)

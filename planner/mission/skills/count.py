@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import say
 from planner.mission.skills.actions import Finish, Retry, Scene, SkillAction
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import look_round
@@ -83,13 +84,14 @@ def _told(scene: Scene, wanted: Wanted) -> Finish:
     place = room_name(scene.facts, scene.step.place)
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
     where = looked_in(scene.facts, notes.rooms, shut, spent(scene))
-    said = Bilingual(
-        en=f"I saw {what.en}" + (f" in the {place.en}." if place else f". {where.en}"),
-        zh=(f"在{place.zh}" if place else "") + f"看到{what.zh}。" + ("" if place else where.zh),
+    said = (
+        say("object_step.saw_in", what=what, place=place)
+        if place
+        else say("object_step.saw", what=what, looked=where)
     )
     return Finish({"count": number, "rooms": notes.rooms}, Code.COUNTED, said)
 
 
 def _apart(what: Bilingual) -> Bilingual:
     """Part a number from the Chinese words before it, whatever they are."""
-    return Bilingual(en=what.en, zh=f" {what.zh}")
+    return say("object_step.part", what=what)

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from math import pi
 
+from planner.language.catalogue import list_names, say
 from planner.plan import Bilingual
 from wire import wrap
 
-AHEAD = Bilingual(en="ahead", zh="前方")
+AHEAD = say("direction.ahead")
 _NAMES = (
     AHEAD,
-    Bilingual(en="ahead on the left", zh="左前方"),
-    Bilingual(en="left", zh="左侧"),
-    Bilingual(en="behind on the left", zh="左后方"),
-    Bilingual(en="behind", zh="后方"),
-    Bilingual(en="behind on the right", zh="右后方"),
-    Bilingual(en="right", zh="右侧"),
-    Bilingual(en="ahead on the right", zh="右前方"),
+    say("direction.ahead_on_left"),
+    say("direction.left"),
+    say("direction.behind_on_left"),
+    say("direction.behind"),
+    say("direction.behind_on_right"),
+    say("direction.right"),
+    say("direction.ahead_on_right"),
 )
 """Counter-clockwise, an eighth of a turn each."""
 SLACK_RAD = 0.3
@@ -40,9 +41,4 @@ def goes_round(faced: tuple[float, ...], views: int) -> bool:
 def listed(names: tuple[Bilingual, ...]) -> Bilingual:
     """Return names as a list, each once: ``ahead, left and behind``."""
     once = tuple(dict.fromkeys(names))
-    en = [name.en for name in once]
-    last = f" and {en[-1]}" if len(en) > 1 else ""
-    return Bilingual(
-        en=f"{', '.join(en[:-1])}{last}" if last else en[0],
-        zh="、".join(name.zh for name in once),
-    )
+    return list_names(once, "joint.and")

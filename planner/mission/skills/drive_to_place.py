@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import message
 from planner.mission.skills.actions import Drive, Fail, Scene
-from planner.plan import Code, message, same
+from planner.plan import Code, same
 
 if TYPE_CHECKING:
     from planner.mission.state import SiteView

@@ -7,6 +7,7 @@ in. Budget: 55 m and 540 s a step; the rooms of the site, or the one place that 
 
 from __future__ import annotations
 
+from planner.language.catalogue import message
 from planner.language.object_names import named
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.object_matching import found, wanted_of
@@ -15,7 +16,7 @@ from planner.mission.skills.result_text import by_neighbour, found_at, looked_in
 from planner.mission.skills.search import alike, search, spent
 from planner.mission.skills.skill_state import Notes
 from planner.perception.snapshot import Thing
-from planner.plan import Code, message
+from planner.plan import Code
 
 
 def find(scene: Scene) -> SkillAction:

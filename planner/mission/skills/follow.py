@@ -15,7 +15,16 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.actions import Drive, Fail, Finish, Observe, Retry, Scene, SkillAction
+from planner.language.catalogue import message
+from planner.mission.skills.actions import (
+    Drive,
+    Fail,
+    Finish,
+    Observe,
+    Retry,
+    Scene,
+    SkillAction,
+)
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import leg_to, look_round, spin
 from planner.mission.skills.object_matching import away_m, bearing, lasting, one_of, turn_to
@@ -23,7 +32,7 @@ from planner.mission.skills.result_text import called
 from planner.mission.skills.search import short_of
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import HERE, Spot, room_at
-from planner.plan import Code, message
+from planner.plan import Code
 
 if TYPE_CHECKING:
     from planner.mission.skills.perception import Wanted

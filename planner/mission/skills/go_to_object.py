@@ -16,8 +16,17 @@ from __future__ import annotations
 from math import hypot, pi
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import message, say
 from planner.language.object_classes import kind_of
-from planner.mission.skills.actions import Fail, Finish, Observe, Retry, Scene, SkillAction
+from planner.language.object_names import named
+from planner.mission.skills.actions import (
+    Fail,
+    Finish,
+    Observe,
+    Retry,
+    Scene,
+    SkillAction,
+)
 from planner.mission.skills.find import not_found, unknown
 from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, spin
 from planner.mission.skills.model_pointing import agreed
@@ -40,7 +49,7 @@ from planner.mission.skills.result_text import called
 from planner.mission.skills.search import search, short_of, within
 from planner.mission.skills.skill_state import Notes
 from planner.perception.snapshot import Thing
-from planner.plan import Bilingual, Code, Found, message, same
+from planner.plan import Code, Found, same
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -187,9 +196,7 @@ def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Finish:
     away = away_m(pose, at[:2] if near is None else (near.x_m, near.y_m))
     figures: dict[str, object] = {"rooms": notes.rooms}
     if notes.label is None:
-        said = Bilingual(
-            en=f"I am {away:.1f} m from what you pointed out.", zh=f"我在目标前 {away:.1f} 米处。"
-        )
+        said = say("object_step.at_point", away=away)
         return Finish(figures, Code.ARRIVED, said)
     if near is not None:
         figures["found"] = found(near, pose, scene.now_s)
@@ -197,9 +204,7 @@ def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Finish:
         figures["found"] = Found(label=notes.label, color=notes.color, x_m=round(at[0], 3),
                                  y_m=round(at[1], 3), distance_m=round(away, 2))  # fmt: skip
     name = called(notes.label, notes.color)
-    said = Bilingual(
-        en=f"I stand {away:.1f} m from {name.en}.", zh=f"我停在{name.zh}前 {away:.1f} 米处。"
-    )
+    said = say("object_step.at_object", away=away, name=name)
     return Finish(figures, Code.ARRIVED, said)
 
 
@@ -209,8 +214,7 @@ def _gone(scene: Scene, wanted: Wanted) -> Fail:
 
 def _moved(scene: Scene) -> Fail:
     """Say that the thing is no more where it was seen."""
-    name = called(scene.notes.label or "thing", scene.notes.color)
-    looked = Bilingual(en="It is no more where I had seen it.", zh="它已不在之前看到的位置。")
-    bare = Bilingual(en=name.en.partition(" ")[2], zh=name.zh)
+    looked = say("object_step.moved")
+    bare = named(scene.notes.label or "thing", scene.notes.color)
     said = message(Code.NOT_FOUND, thing=bare, looked=looked)
     return Fail(Code.NOT_FOUND, "moved", said, {"rooms": scene.notes.rooms})

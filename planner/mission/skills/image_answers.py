@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import CATALOGUE, say
 from planner.mission.skills.directions import direction, goes_round, listed
 from planner.plan import Bilingual
 
@@ -32,36 +33,35 @@ def reading(
     if answer.text is None:
         return None
     shown = _shown(answer.shown, faced, views, now)
-    words = Bilingual(en=_ended(answer.text.en, "."), zh=_ended(answer.text.zh, "。"))
+    words = _ended(answer.text)
     lead = _lead(answer.seen, detected, shown)
-    return Bilingual(en=f"{lead.en}: {words.en}", zh=f"{lead.zh}：{words.zh}")
+    return say("image.reading", lead=lead, words=words)
 
 
 def _lead(seen: bool | None, detected: bool | None, shown: Bilingual) -> Bilingual:
     if seen is None or seen is detected:
-        return Bilingual(en=f"The vision model, shown {shown.en}, adds",
-                         zh=f"视觉模型（看的是{shown.zh}）补充")  # fmt: skip
-    says = ("yes", "是") if seen else ("no", "否")
-    but = ("But the", "不过") if seen and detected is False else ("The", "")
-    return Bilingual(
-        en=f"{but[0]} vision model, shown {shown.en}, says {says[0]}",
-        zh=f"{but[1]}视觉模型（看的是{shown.zh}）的回答是“{says[1]}”",
-    )
+        return say("image.adds", shown=shown)  # fmt: skip
+    if not seen:
+        return say("image.says_no", shown=shown)
+    return say("image.but_says_yes" if detected is False else "image.says_yes", shown=shown)
 
 
 def _shown(count: int, faced: tuple[float, ...], views: int, now: Bilingual) -> Bilingual:
     """Say which pictures the model was shown: of each direction, or the newest alone."""
     if count < 2 or count != len(faced):
         alone = len(faced) > 1
-        return Bilingual(
-            en=f"only the picture {now.en}" if alone else f"the picture {now.en}",
-            zh=f"仅{now.zh}的画面" if alone else f"{now.zh}的画面",
-        )
+        return say("image.only_picture" if alone else "image.picture", now=now)
     if goes_round(faced, views):
-        return Bilingual(en="all directions", zh="各个方向的画面")
+        return say("image.all_directions")
     names = listed(tuple(map(direction, faced)))
-    return Bilingual(en=f"the pictures {names.en}", zh=f"{names.zh}的画面")
+    return say("image.pictures", names=names)
 
 
-def _ended(text: str, stop: str) -> str:
-    return text if text.endswith(_ENDS) else f"{text}{stop}"
+def _ended(text: Bilingual) -> Bilingual:
+    """Return a text with a full stop behind it, where nothing ends it."""
+
+    def ended(language: str) -> str:
+        own = text.of(language)
+        return own if own.endswith(_ENDS) else own + CATALOGUE.raw("joint.full_stop", language)
+
+    return CATALOGUE.build(ended)

@@ -5,21 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.brain.model_error_codes import REASONS
+from planner.language.catalogue import message, say
 from planner.mission.skills.actions import Fail
-from planner.plan import Bilingual, Code, message, same
+from planner.plan import Bilingual, Code, same
 
 if TYPE_CHECKING:
     from planner.mission.skills.perception import Answer
 
-POINTS = {
-    "point_on_wall": ("it shows a wall or furniture", "那里是墙或家具"),
-    "point_off_map": ("it lies outside the floor that I may drive on", "那里不在允许行驶的区域内"),
-    "point_no_depth": ("its distance is not known", "无法得知距离"),
-    "point_too_far": ("it is too far away", "距离太远"),
-    "point_no_pose": ("I did not know where I was", "当时位置未知"),
-    "point_no_route": ("there is no way to it", "没有通往那里的路"),
-}
-_UNSEEN = Bilingual(en="The vision model does not see it here.", zh="视觉模型在这里没有看到。")
+POINTS = frozenset(
+    {
+        "point_on_wall",
+        "point_off_map",
+        "point_no_depth",
+        "point_too_far",
+        "point_no_pose",
+        "point_no_route",
+    }
+)
+_UNSEEN = say("image.unseen")
 
 
 def why_silent(answer: Answer | None) -> Bilingual | None:
@@ -30,8 +33,8 @@ def why_silent(answer: Answer | None) -> Bilingual | None:
 
 def point_refused(code: str) -> Fail:
     """Say why a point of the picture is not driven to."""
-    en, zh = POINTS.get(code, (code, code))
-    said = message(Code.POINT_REFUSED, why=Bilingual(en=en, zh=zh))
+    why = say(f"point.{code.removeprefix('point_')}") if code in POINTS else same(code)
+    said = message(Code.POINT_REFUSED, why=why)
     return Fail(Code.POINT_REFUSED, code, said)
 
 

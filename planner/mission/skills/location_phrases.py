@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
+from planner.language.folding import fold_words
 from planner.language.object_names import resolve
 from planner.mission.skills.spatial_relations import Relation
 
@@ -85,7 +86,7 @@ def _without_place(words: str, facts: SiteView) -> str:
 def _rooms(facts: SiteView) -> dict[str, bool]:
     """Return what rooms and places are called, and whether that is a room."""
     return {
-        name.casefold(): t.room
+        fold_words(name): t.room
         for t in facts.targets.values()
         for name in (t.name.en, t.name.zh, *t.aliases)
     }

@@ -15,6 +15,8 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import join, message, say
+from planner.language.folding import fold
 from planner.mission.skills.actions import (
     AskImage,
     Fail,
@@ -34,7 +36,7 @@ from planner.mission.skills.scene_answers import Told, answer
 from planner.mission.skills.search import begin, spots
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import HERE, Spot, room_at
-from planner.plan import Bilingual, Code, message
+from planner.plan import Bilingual, Code, same
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -47,13 +49,13 @@ _ROUND = re.compile(
 )
 """To look about; "a round table" and "around the table" are things to look at."""
 GAZED, ASKED = 1, 2
-NO_DETECTOR = Bilingual(en="No detector is here to see anything.", zh="这里没有检测模型。")
+NO_DETECTOR = say("look.no_detector")
 """Who has none has not seen that nothing is there."""
 
 
 def looks_round(question: str) -> bool:
     """Tell whether a question asks to look about, and not ahead alone."""
-    return _ROUND.search(question.casefold()) is not None
+    return _ROUND.search(fold(question)) is not None
 
 
 def look(scene: Scene) -> SkillAction:
@@ -87,10 +89,10 @@ def _answered(scene: Scene, pose: Pose2, question: str) -> Finish:
     said, silent = [told.said], why_silent(scene.answer)
     if len(notes.faced) > 1 and not goes_round(notes.faced, views):
         names = listed(tuple(map(direction, notes.faced)))
-        said.append(Bilingual(en=f"I could look {names.en} only.", zh=f"只看到了{names.zh}。"))
+        said.append(say("look.only_looked", names=names))
     if silent is not None:
         said.append(silent)
-    whole = Bilingual(en=" ".join(s.en for s in said), zh="".join(s.zh for s in said))
+    whole = join(said)
     read = None
     if scene.answer is not None:
         read = reading(scene.answer, told.yes, notes.faced, views, _facing(notes, pose))
@@ -105,7 +107,7 @@ def _facing(notes: Notes, pose: Pose2) -> Bilingual:
 def _never_there(scene: Scene) -> Fail:
     """Say that nothing was looked at: what was not seen there is no no."""
     target = scene.facts.targets.get(scene.step.place or "")
-    name = target.name if target is not None else Bilingual(en="?", zh="?")
+    name = target.name if target is not None else same("?")
     return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
 
 

@@ -11,8 +11,16 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from planner.language.yes_no import consents
-from planner.mission.skills.actions import AskImage, Fail, Observe, Question, Scene, SkillAction
+from planner.language.catalogue import join, say
+from planner.language.utterance import parse
+from planner.mission.skills.actions import (
+    AskImage,
+    Fail,
+    Observe,
+    Question,
+    Scene,
+    SkillAction,
+)
 from planner.mission.skills.image_errors import not_pointed
 from planner.mission.skills.look_around import LOOKS
 from planner.mission.skills.object_matching import away_m, turn_to
@@ -27,16 +35,14 @@ At = tuple[float, float, float]
 """x, y, height [m] in ``map``."""
 POINT, ANSWER, PROPOSED, AGAIN = 2, 3, 4, 5
 _SIDES = (
-    (pi / 8, ("straight ahead", "正前方"), ("straight ahead", "正前方")),
-    (3 * pi / 8, ("ahead on the left", "左前方"), ("ahead on the right", "右前方")),
-    (5 * pi / 8, ("on the left", "左侧"), ("on the right", "右侧")),
-    (7 * pi / 8, ("behind on the left", "左后方"), ("behind on the right", "右后方")),
+    (pi / 8, "ahead", "ahead"),
+    (3 * pi / 8, "ahead_left", "ahead_right"),
+    (5 * pi / 8, "left", "right"),
+    (7 * pi / 8, "behind_left", "behind_right"),
 )
 """Up to this angle from the heading [rad]: what is said to the left, and to the right."""
-_BEHIND = ("behind me", "正后方")
-_DECLINED = Bilingual(
-    en="You did not say yes, so I do not drive there.", zh="您没有同意，所以我不开过去。"
-)
+_BEHIND = "behind"
+_DECLINED = say("look.declined")
 
 
 def agreed(scene: Scene, pose: Pose2) -> SkillAction | At:
@@ -62,7 +68,7 @@ def _answered(scene: Scene, pose: Pose2, at: At) -> SkillAction | At:
     if answer is None:  # interrupted before anybody answered
         again = notes.stage == AGAIN
         return Question(_proposal(scene, pose, at, again=again), notes)
-    yes = consents(answer)
+    yes = parse(answer).consent
     if yes is True:
         return at
     if yes is None and notes.stage == PROPOSED:
@@ -74,18 +80,16 @@ def _proposal(scene: Scene, pose: Pose2, at: At, *, again: bool = False) -> Bili
     """Ask whether to drive to a point: how far it is, on which side, and in which room."""
     words, far_m, side = scene.step.object or "", away_m(pose, at[:2]), _side(turn_to(pose, at[:2]))
     room = room_name(scene.facts, room_at(scene.facts, at[:2]))
-    en = f"“{words}”: the vision model points {far_m:.1f} m away, {side.en}"
-    zh = f"“{words}”：视觉模型指向{side.zh} {far_m:.1f} 米处"
-    if room is not None:
-        en, zh = f"{en} (in the {room.en})", f"{zh}（{room.zh}）"
-    en, zh = f"{en}. Shall I drive there?", f"{zh}。要我开过去吗？"
-    if again:
-        en, zh = f"Please answer yes or no. {en}", f"请回答“是”或“不”。{zh}"
-    return Bilingual(en=en, zh=zh)
+    asked = (
+        say("look.point_in", words=words, far_m=far_m, side=side, room=room)
+        if room is not None
+        else say("look.point", words=words, far_m=far_m, side=side)
+    )
+    return join((say("question.yes_or_no"), asked), "joint.none") if again else asked
 
 
 def _side(turn_rad: float) -> Bilingual:
     """Say where something is as seen from the robot, by the turn that faces it."""
     found = next((row for row in _SIDES if abs(turn_rad) <= row[0]), None)
-    en, zh = (found[1] if turn_rad > 0.0 else found[2]) if found is not None else _BEHIND
-    return Bilingual(en=en, zh=zh)
+    side = (found[1] if turn_rad > 0.0 else found[2]) if found is not None else _BEHIND
+    return say(f"side.{side}")

@@ -11,9 +11,18 @@ from __future__ import annotations
 
 from math import cos, hypot, sin
 
+from planner.language.catalogue import message
 from planner.language.formatting import metres
-from planner.mission.skills.actions import Drive, Fail, Finish, Retry, Scene, SkillAction, Way
-from planner.plan import Bilingual, Code, message
+from planner.mission.skills.actions import (
+    Drive,
+    Fail,
+    Finish,
+    Retry,
+    Scene,
+    SkillAction,
+    Way,
+)
+from planner.plan import Bilingual, Code
 from wire import Pose2
 
 THERE_M = 0.02

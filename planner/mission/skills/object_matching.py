@@ -6,6 +6,7 @@ import re
 from math import atan2, hypot
 from typing import TYPE_CHECKING
 
+from planner.language.folding import CHINESE, fold
 from planner.language.object_classes import kind_of
 from planner.language.object_names import resolve, singles_out
 from planner.mission.skills.perception import Wanted
@@ -35,7 +36,7 @@ SOMEBODY = frozenset(
 )
 """People by pronoun: who is meant, no eye can tell."""
 _WORD = re.compile(r"[a-z0-9'-]+")
-_CHINESE = re.compile(r"[\u3400-\u9fff]+")
+_CHINESE = re.compile(rf"[{CHINESE}]+")
 LONGEST_EN, LONGEST_ZH = 3, 8
 READ = 120
 """Characters of a question: each piece is looked up, on the event loop."""
@@ -48,7 +49,7 @@ def wanted_of(scene: Scene) -> Wanted | None:
 
 def meant(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
     """Return what words mean to eyes that know these classes (none: not known yet), or None."""
-    somebody = words.strip().casefold() in SOMEBODY
+    somebody = fold(words.strip()) in SOMEBODY
     related = _related(words, language, classes)
     found = resolve("person" if somebody else words, language, classes) if not related else None
     return related or (Wanted(*found) if found is not None else None)
@@ -81,7 +82,7 @@ def one_of(scene: Scene) -> Wanted | None:
 
 def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:
     """Return the first thing that a whole sentence names, the longest name that fits."""
-    for words in _pieces(text[:READ].casefold()):
+    for words in _pieces(fold(text[:READ])):
         found = resolve(words, None, classes)
         if found is not None:
             return Wanted(*found)

@@ -12,6 +12,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from planner.language.color_names import CHINESE
+from planner.language.folding import CHINESE as _HAN
 from planner.language.folding import fold_words, has_chinese
 from planner.language.object_names import resolve
 from planner.mission.skills.object_matching import READ, mentioned
@@ -58,7 +59,7 @@ _SEE_ZH = r"(?:看得?[到见]|发现|见到)"
 _UNIT = r"[个只张把台架辆本瓶杯盆棵株扇条件副双支部块面口盏头匹颗]"
 _NOUN_ZH = (
     rf"(?P<unit>(?:[一二两三几]|\d+)?{_UNIT}(?!子))?(?:[我你您他她]们?的)?"
-    rf"(?P<what>(?:(?:{CHINESE})(?:的|(?<=色)))?(?P<noun>[\u3400-\u9fff]{{1,6}}?))"
+    rf"(?P<what>(?:(?:{CHINESE})(?:的|(?<=色)))?(?P<noun>[{_HAN}]{{1,6}}?))"
 )
 _AT_ZH = (
     r"(?P<at>[^有看]{0,12}?)(?P<in>(?:里|内|上|下|旁|边|底|前|后|附近|周围|中间|门口)[面边下]?"
@@ -188,7 +189,7 @@ def _noun(what: str, unit: str | None) -> bool:
 def _names(facts: SiteView) -> frozenset[str]:
     """Return what the rooms are called: a room is asked for by its state, not by sight."""
     return frozenset(
-        name.casefold()
+        fold_words(name)
         for t in facts.targets.values()
         if t.room
         for name in (t.name.en, t.name.zh, *t.aliases)

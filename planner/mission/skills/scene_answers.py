@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from planner.language.catalogue import say
 from planner.language.object_names import named, resolve
 from planner.mission.skills.object_matching import apart, confirmed, fits, sure
 from planner.mission.skills.object_query import FLOOR, sought_in
 from planner.mission.skills.object_questions import unknown_kind
 from planner.mission.skills.result_text import counted, listed, unknown_name
 from planner.mission.skills.search import within
-from planner.mission.skills.spatial_relations import SAID, Relation, judged, on_floor
-from planner.plan import Bilingual
+from planner.mission.skills.spatial_relations import Relation, judged, on_floor
+from planner.plan import Bilingual, same
 
 if TYPE_CHECKING:
     from planner.mission.skills.actions import Scene
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
     Things = tuple[Thing, ...]
 
-_FLOOR = Bilingual(en="floor", zh="地板")
+_FLOOR = say("scene.floor")
 
 
 class Judged(NamedTuple):
@@ -70,12 +71,7 @@ def answer(scene: Scene, question: str) -> Told:
         return _beside(sought.what, judged_so, _spot(sought.by, sought.relation, at), seen=there)
     if sought.unclear and fitting:
         what = _said(fitting, sought.what)
-        return Told(
-            Bilingual(
-                en=f"I see {what.en}{at.en}; whether “{sought.unclear}”, I can't tell by sight.",
-                zh=f"{at.zh}看到 {what.zh}；是不是“{sought.unclear}”，我看不出来。",
-            )
-        )
+        return Told(say("scene.unclear", what=what, at=at, unclear=sought.unclear))
     return _plainly(sought.what, fitting, at)
 
 
@@ -100,31 +96,21 @@ def _beside(what: Wanted | None, so: Judged, spot: Spot, *, seen: bool) -> Told:
     at, beside = spot.at, spot.beside
     if so.there:
         found = _said(so.there, what)
-        yes = ("Yes, ", "有，") if what is not None else ("", "")
+        code = "scene.yes_beside" if what is not None else "scene.seen_beside"
         return Told(
-            Bilingual(
-                en=f"{yes[0]}I see {found.en}{beside.en}.",
-                zh=f"{yes[1]}{beside.zh}看到 {found.zh}。",
-            ),
+            say(code, found=found, beside=beside),
             None if what is None else True,
         )
     if so.unsure:
         found = _said(so.unsure, what)
-        return Told(
-            Bilingual(
-                en=f"I can't tell: I see {found.en}{at.en}, but not well enough where.",
-                zh=f"说不准：{at.zh}看到 {found.zh}，但位置不够确定。",
-            )
-        )
+        return Told(say("scene.unsure", found=found, at=at))
     if not seen:
         return Told(_without_neighbour(what, so.elsewhere, spot))
     no = _plainly(what, (), beside)
     if what is None or not so.elsewhere:
         return no
     found = _said(so.elsewhere, what)
-    said = Bilingual(
-        en=f"{no.said.en} I see {found.en} elsewhere.", zh=f"{no.said.zh}别处看到 {found.zh}。"
-    )
+    said = say("scene.elsewhere", said=no.said, found=found)
     return Told(said, no.yes)
 
 
@@ -132,31 +118,26 @@ def _without_neighbour(what: Wanted | None, elsewhere: Things, spot: Spot) -> Bi
     """Say that it can't be told, since the neighbour was not seen."""
     at, by = spot.at, spot.by
     if what is None:
-        return Bilingual(en=f"I can't tell: I see no {by.en}{at.en}.",
-                         zh=f"说不准：{at.zh}没有看到{by.zh}。")  # fmt: skip
+        return say("scene.no_neighbour", by=by, at=at)  # fmt: skip
     if not elsewhere:
         name = named(what.label, what.color)
-        return Bilingual(en=f"I can't tell: I see no {name.en} and no {by.en}{at.en}.",
-                         zh=f"说不准：{at.zh}没有看到{name.zh}，也没有看到{by.zh}。")  # fmt: skip
+        return say("scene.neither", name=name, by=by, at=at)  # fmt: skip
     found = _said(elsewhere, what)
-    return Bilingual(en=f"I can't tell: I see {found.en}, but no {by.en}{at.en}.",
-                     zh=f"说不准：{at.zh}看到 {found.zh}，但没有看到{by.zh}。")  # fmt: skip
+    return say("scene.no_neighbour_but", found=found, by=by, at=at)  # fmt: skip
 
 
 def _plainly(what: Wanted | None, things: Things, at: Bilingual) -> Told:
     """Say what was seen of what is asked for, without any neighbour."""
     if what is None:
         if not things:
-            return Told(Bilingual(en=f"I see nothing that I know{at.en}.",
-                                  zh=f"{at.zh}没有看到我认识的东西。"))  # fmt: skip
+            return Told(say("scene.nothing", at=at))  # fmt: skip
         found = listed(things)
-        return Told(Bilingual(en=f"I see {found.en}{at.en}.", zh=f"{at.zh}看到 {found.zh}。"))
+        return Told(say("scene.seen", found=found, at=at))
     if not things:
         name = named(what.label, what.color)
-        return Told(Bilingual(en=f"No, I see no {name.en}{at.en}.",
-                              zh=f"没有，{at.zh}没有看到{name.zh}。"), False)  # fmt: skip
+        return Told(say("scene.no", name=name, at=at), False)  # fmt: skip
     found = _said(things, what)
-    said = Bilingual(en=f"Yes, I see {found.en}{at.en}.", zh=f"有，{at.zh}看到 {found.zh}。")
+    said = say("scene.yes", found=found, at=at)
     return Told(said, True)
 
 
@@ -168,19 +149,16 @@ def _at(scene: Scene, by: Wanted | None) -> Bilingual:
     """Say where was looked; nothing of a place that is the neighbour itself."""
     target = scene.facts.targets.get(scene.step.place or "")
     if target is None:
-        return Bilingual(en="", zh="")
+        return same("")
     if target.room:
-        return Bilingual(en=f" in the {target.name.en}", zh=f"在{target.name.zh}")
+        return say("scene.in", name=target.name)
     if by is not None and (resolve(target.name.en) or ("",))[0] == by.label:
-        return Bilingual(en="", zh="")
-    return Bilingual(en=f" near the {target.name.en}", zh=f"在{target.name.zh}附近")
+        return same("")
+    return say("scene.near", name=target.name)
 
 
 def _spot(by: Wanted, relation: Relation, at: Bilingual) -> Spot:
     name = _FLOOR if by is FLOOR else named(by.label, by.color)
-    en, zh = SAID[relation]
-    beside = Bilingual(
-        en=f" {en} the {name.en}{at.en}",
-        zh=f"{at.zh}的{name.zh}{zh}" if at.zh else f"在{name.zh}{zh}",
-    )
+    code = f"beside.{relation.value}"
+    beside = say(f"{code}_at", name=name, at=at) if at.en else say(code, name=name)
     return Spot(at, name, beside)

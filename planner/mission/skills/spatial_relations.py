@@ -12,6 +12,8 @@ from enum import StrEnum
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import say
+from planner.language.folding import fold_words
 from planner.language.object_classes import kind_of
 from planner.plan import Bilingual
 
@@ -48,16 +50,9 @@ class Relation(StrEnum):
     NEAR = "near"
 
 
-SAID = {
-    Relation.ON: ("on", "上"),
-    Relation.UNDER: ("under", "下面"),
-    Relation.NEAR: ("near", "旁边"),
-}
-
-
 def parted(words: str) -> tuple[str, Relation, str] | None:
     """Return the thing's words, how it stands, and its neighbour's words; None without any."""
-    plain = " ".join(words.casefold().split())
+    plain = fold_words(words)
     found = _ZH.fullmatch(plain) or _EN.fullmatch(plain)
     if found is None:
         return None
@@ -106,5 +101,4 @@ def on_floor(thing: Thing) -> bool | None:
 
 def told(what: Bilingual, relation: Relation, by: Bilingual) -> Bilingual:
     """Return a thing's name with its neighbour's: ``cup on the table``, ``桌子上的杯子``."""
-    en, zh = SAID[relation]
-    return Bilingual(en=f"{what.en} {en} the {by.en}", zh=f"{by.zh}{zh}的{what.zh}")
+    return say(f"related.{relation.value}", what=what, by=by)

@@ -11,9 +11,18 @@ from __future__ import annotations
 
 from math import ceil, pi
 
+from planner.language.catalogue import message
 from planner.language.formatting import angle
-from planner.mission.skills.actions import Drive, Fail, Finish, Retry, Scene, SkillAction, Way
-from planner.plan import Code, message
+from planner.mission.skills.actions import (
+    Drive,
+    Fail,
+    Finish,
+    Retry,
+    Scene,
+    SkillAction,
+    Way,
+)
+from planner.plan import Code
 from wire import Pose2, wrap
 
 PART_RAD = 2.0 * pi / 3.0

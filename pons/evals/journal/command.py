@@ -1,4 +1,4 @@
-"""Be ``pons replay FILE --with-model``: read, say the price, think again, drive, show."""
+"""The work of ``pons eval --journal``: read, say the price, think again, drive, show."""
 
 from __future__ import annotations
 
@@ -6,19 +6,17 @@ import asyncio
 import os
 import sys
 from dataclasses import dataclass, replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.brain.endpoint import Address
 from planner.site import Site
 from planner.site.errors import SiteError
-from pons.cost_prompt import agreed
-from pons.evals.journal.drive import drive
-from pons.evals.journal.recorded import NoJournal, Recorded, read
+from pons.evals.journal.recorded import NoJournal, RecordedDecisions, read
 from pons.evals.journal.show import content, table
-from pons.evals.journal.think import Again, most_calls, think_again
-from pons.model_selection import chosen
-from tools.lockstep import TooLong
+from pons.evals.journal.think import SecondThought, most_calls, think_again
+from pons.evals.model_access import agree_on, choose_model
 from wire import Misconfigured
 
 if TYPE_CHECKING:
@@ -31,7 +29,7 @@ DRIVES = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
+class JournalOptions:
     """Say how much to do."""
 
     most: int = MOST
@@ -42,34 +40,68 @@ class Options:
     yes: bool = False
 
 
-def run(where: Settings, files: list[str], word: str, options: Options) -> int:
-    """Think again; 0 when no decision differs, 1 when one does, 2 when it could not be done."""
+def run(
+    where: Settings,
+    files: list[str],
+    word: str,
+    options: JournalOptions,
+    called: str = "pons replay --with-model",
+) -> int:
+    """Think again; 0 when no decision differs, 1 when one does, 2 when it could not be done.
+
+    Args:
+        where: home, site and robot.
+        files: one journal, or a home folder.
+        word: the model, as :func:`choose_model` reads it.
+        options: how much to do.
+        called: the command's words, as an error begins.
+    """
     try:
+        if options.drives > 0:
+            require_lockstep()  # before anything is spent
         if len(files) != 1:
             raise NoJournal(f"one_journal: give one journal or home folder; got {len(files)}")
         recorded = read(Path(files[0]))
-        settings, model = chosen(word, where.home, os.environ)
+        settings, model = choose_model(word, where.home, os.environ)
         address = Address.parse(model.url)
         recorded = replace(recorded, decisions=recorded.decisions[: options.most])
         bill = _bill(recorded, model, address.host)
-        if not address.local and not agreed(bill, yes=options.yes):
+        if not address.local and not agree_on(bill, yes=options.yes):
             return EXIT_BAD
         site = Site.load(where.site)
         found, cost = asyncio.run(
             think_again(recorded.decisions, site, settings, model, where.home)
         )
-        found = _driven(found, where, options.drives)
-    except (NoJournal, Misconfigured, SiteError) as wrong:
+        found = _drive_first(found, where, options.drives)
+    except (NoJournal, LockstepMissing, Misconfigured, SiteError) as wrong:
         code = f"{wrong.code}: " if isinstance(wrong, Misconfigured) else ""
-        print(f"pons replay --with-model: {code}{wrong}", file=sys.stderr)
+        print(f"{called}: {code}{wrong}", file=sys.stderr)
         return EXIT_BAD
     show = content if options.as_json else table
     print(show(recorded, found, cost, model.name))
     return EXIT_DIFFERS if any(a.relation in ("differs", "none") for a in found) else EXIT_SAME
 
 
-def _driven(found: list[Again], where: Settings, most: int) -> list[Again]:
+class LockstepMissing(Exception):
+    """This installation can't drive plans; the message begins with a stable code."""
+
+
+def require_lockstep() -> None:
+    """Raise LockstepMissing where the tools of a checkout are not installed."""
+    if find_spec("tools") is None or find_spec("tools.lockstep") is None:
+        raise LockstepMissing(
+            "tools_missing: plans are driven in lockstep, which is part of a checkout and not of "
+            "the installed package; give --drives 0, or run this in a checkout"
+        )
+
+
+def _drive_first(found: list[SecondThought], where: Settings, most: int) -> list[SecondThought]:
     """Drive the first plans that differ and move."""
+    if most <= 0:
+        return found
+    from pons.evals.journal.drive import drive
+    from tools.lockstep import TooLong
+
     left = most
     again = []
     for one in found:
@@ -86,7 +118,7 @@ def _driven(found: list[Again], where: Settings, most: int) -> list[Again]:
     return again
 
 
-def _bill(recorded: Recorded, model: ModelSettings, host: str) -> str:
+def _bill(recorded: RecordedDecisions, model: ModelSettings, host: str) -> str:
     count = len(recorded.decisions)
     calls = most_calls(count)
     return (

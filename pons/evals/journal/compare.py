@@ -42,7 +42,7 @@ def words(plan: PlanRecord) -> tuple[object, ...]:
     return (*said, *(step.text for step in plan.steps))
 
 
-def told(plan: PlanRecord) -> str:
+def plan_line(plan: PlanRecord) -> str:
     """Return a plan in a line."""
     if plan.kind != "plan":
         return f"{plan.kind} {plan.code.value if plan.code is not None else ''}".strip()

@@ -7,33 +7,18 @@ on that day is not recorded with the sentence and not simulated.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
 
 from planner.brain import ScriptedBrain
 from planner.plan import ENDED, GoalState, StepPlan
+from pons.evals.journal.think import DriveResult
 from tools.lockstep import Together, TooLong
 from tools.lockstep.judge import Judge
 from wire import Pose2, load_robot
 
 LIMIT_S = 180.0
 """Simulated."""
-MOTION = frozenset({"go_to", "patrol", "turn", "move", "come_back", "return_home"})
 _WAITS = ENDED | {GoalState.PAUSED, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
-
-
-@dataclass(frozen=True, slots=True)
-class Driven:
-    """Say how a drive went."""
-
-    state: str
-    code: str
-    seconds: float
-    metres: float
-    held: tuple[str, ...]
-    """Rows and gates of the bridge that bound while the robot was to move, with their counts."""
-    broken: tuple[str, ...]
-    """Laws of motion that the drive broke: none, whatever the plan says."""
 
 
 def drive(
@@ -42,7 +27,7 @@ def drive(
     robot: Path,
     start: tuple[float, float, float] | None,
     limit_s: float = LIMIT_S,
-) -> Driven:
+) -> DriveResult:
     """Drive a plan from where the robot stood; where that is not known, from its dock.
 
     Raises:
@@ -71,7 +56,7 @@ def drive(
         state = f"not ended within {limit_s:.0f} simulated seconds"
     record = goal.record
     code = record.outcome.code.value if record.outcome is not None else record.reason or ""
-    return Driven(
+    return DriveResult(
         state,
         code,
         round(world.now_s - began_s, 1),

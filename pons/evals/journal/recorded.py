@@ -31,7 +31,7 @@ class NoJournal(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Decision:
+class RecordedDecision:
     """Hold one sentence and the plan that the brain of then made of it."""
 
     goal: str
@@ -48,17 +48,17 @@ class Decision:
 
 
 @dataclass(frozen=True, slots=True)
-class Recorded:
+class RecordedDecisions:
     """Hold what a journal gives."""
 
-    decisions: tuple[Decision, ...]
+    decisions: tuple[RecordedDecision, ...]
     """Newest first."""
     without: int
     """Goals that no brain planned: stops, words to the planner itself, models that failed."""
     unreadable: int
 
 
-def read(path: Path) -> Recorded:
+def read(path: Path) -> RecordedDecisions:
     """Return the decisions of a journal, or of the one in a home folder.
 
     Raises:
@@ -80,7 +80,7 @@ def read(path: Path) -> Recorded:
             if part.is_file():
                 shutil.copyfile(part, copy.with_name(copy.name + end))
         try:
-            return _sorted(_records(copy))
+            return _first_plans(_records(copy))
         except sqlite3.Error as error:
             raise NoJournal(f"no_sentences: {path}: {error}") from None
 
@@ -93,9 +93,9 @@ def _records(path: Path) -> list[str]:
     return [str(row[0]) for row in reversed(rows)]
 
 
-def _sorted(records: list[str]) -> Recorded:
+def _first_plans(records: list[str]) -> RecordedDecisions:
     """Take each sentence's first plan; what was thought again after a failed step saw more."""
-    first: dict[tuple[str, int], Decision] = {}
+    first: dict[tuple[str, int], RecordedDecision] = {}
     goals: set[str] = set()
     unreadable = 0
     for record in records:
@@ -109,14 +109,14 @@ def _sorted(records: list[str]) -> Recorded:
         if decision is not None and not (mission.replans or mission.decides):
             first.setdefault((mission.id, len(mission.replies)), decision)
     without = len(goals - {goal for goal, _ in first})
-    return Recorded(tuple(reversed(first.values())), without, unreadable)
+    return RecordedDecisions(tuple(reversed(first.values())), without, unreadable)
 
 
-def _decision(mission: Mission) -> Decision | None:
+def _decision(mission: Mission) -> RecordedDecision | None:
     if mission.plan is None or mission.brain is None or is_stop(mission.text):
         return None
     text = mission.replies[-1] if mission.replies else mission.text
-    return Decision(
+    return RecordedDecision(
         goal=mission.id,
         text=text,
         language=mission.language,

@@ -8,9 +8,10 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from pons.evals.journal.compare import told
-from pons.evals.journal.recorded import Recorded
-from pons.evals.journal.think import Again, Spending
+from pons.evals.journal.compare import plan_line
+from pons.evals.journal.recorded import RecordedDecisions
+from pons.evals.journal.think import SecondThought
+from pons.evals.model_access import Spending
 
 LIMITS = (
     "Sentences were thought about with the site's own places as they are now. A drive is one in "
@@ -24,7 +25,7 @@ LIMITS_ZH = (
 )
 
 
-def verdict(again: Again) -> str:
+def verdict(again: SecondThought) -> str:
     """Say what would have become of the model's decision."""
     if again.relation == "none":
         return "the offline brain would have answered"
@@ -45,14 +46,16 @@ def verdict(again: Again) -> str:
     )
 
 
-def table(recorded: Recorded, found: Sequence[Again], cost: Spending, model: str) -> str:
+def table(
+    recorded: RecordedDecisions, found: Sequence[SecondThought], cost: Spending, model: str
+) -> str:
     """Return the comparison for a terminal."""
     lines = []
     for again in found:
         if again.relation == "same":
             continue
         lines.append(f"{again.relation:<8} {again.decision.text}")
-        lines.append(f"  {again.decision.brain}: {told(again.decision.plan)}")
+        lines.append(f"  {again.decision.brain}: {plan_line(again.decision.plan)}")
         lines.append(f"  {model}: {again.made}")
         if said := verdict(again):
             lines.append(f"  -> {said}")
@@ -61,21 +64,23 @@ def table(recorded: Recorded, found: Sequence[Again], cost: Spending, model: str
     return "\n".join(lines)
 
 
-def content(recorded: Recorded, found: Sequence[Again], cost: Spending, model: str) -> str:
+def content(
+    recorded: RecordedDecisions, found: Sequence[SecondThought], cost: Spending, model: str
+) -> str:
     """Return the comparison as JSON."""
     record: dict[str, Any] = {
         "model": model,
         "counts": _counts(found),
         "without_plan": recorded.without,
         "unreadable": recorded.unreadable,
-        "cost": asdict(cost),
+        "cost": {**asdict(cost), "left": _count_left(recorded, found)},
         "limits": LIMITS,
         "decisions": [
             {
                 "goal": again.decision.goal,
                 "text": again.decision.text,
                 "relation": again.relation,
-                "recorded": {"brain": again.decision.brain, "plan": told(again.decision.plan)},
+                "recorded": {"brain": again.decision.brain, "plan": plan_line(again.decision.plan)},
                 "made": again.made,
                 "refused": again.refused,
                 "driven": None if again.driven is None else asdict(again.driven),
@@ -87,7 +92,12 @@ def content(recorded: Recorded, found: Sequence[Again], cost: Spending, model: s
     return json.dumps(record, ensure_ascii=False, indent=1)
 
 
-def _counts(found: Sequence[Again]) -> dict[str, int]:
+def _count_left(recorded: RecordedDecisions, found: Sequence[SecondThought]) -> int:
+    """Return how many sentences were not thought about: the budget was up."""
+    return len(recorded.decisions) - len(found)
+
+
+def _counts(found: Sequence[SecondThought]) -> dict[str, int]:
     counts = Counter(again.relation for again in found)
     return {
         "same": counts["same"],
@@ -101,7 +111,7 @@ def _counts(found: Sequence[Again]) -> dict[str, int]:
     }
 
 
-def _summary(recorded: Recorded, found: Sequence[Again], cost: Spending) -> str:
+def _summary(recorded: RecordedDecisions, found: Sequence[SecondThought], cost: Spending) -> str:
     n = _counts(found)
     thought = (
         f"{len(found)} sentences: {n['same']} the same, {n['words']} in words alone, "
@@ -114,8 +124,8 @@ def _summary(recorded: Recorded, found: Sequence[Again], cost: Spending) -> str:
     )
     spent = f"{cost.calls} calls, {cost.prompt_tokens} tokens sent, {cost.reply_tokens} written"
     parts = [thought, stopped, spent]
-    if cost.left:
-        parts.append(f"{cost.left} not thought about: the budget is up")
+    if left := _count_left(recorded, found):
+        parts.append(f"{left} not thought about: the budget is up")
     if recorded.without or recorded.unreadable:
         parts.append(
             f"{recorded.without} goals had no plan of a brain, {recorded.unreadable} records can't "
@@ -124,7 +134,7 @@ def _summary(recorded: Recorded, found: Sequence[Again], cost: Spending) -> str:
     return "\n".join(parts)
 
 
-def _summary_zh(found: Sequence[Again], cost: Spending) -> str:
+def _summary_zh(found: Sequence[SecondThought], cost: Spending) -> str:
     n = _counts(found)
     return (
         f"{len(found)} 条指令：{n['same']} 条相同，{n['words']} 条仅措辞不同，"

@@ -1,4 +1,4 @@
-"""Examine a model in a minute: ``pons doctor --model``. Asks it alone; nothing moves."""
+"""Examine a model in a minute: ``pons eval --quick``, also ``pons doctor --model``."""
 
 from pons.evals.quick.command import run
 

@@ -8,25 +8,25 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
 from planner.brain.endpoint import Address, EndpointBrain
 from planner.brain.prompt import Prompt, tokens
-from planner.budget import Ledger, Purse
+from planner.budget import Purse
 from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, Language
-from planner.settings import BudgetSettings, GoalLimits, Mode, ModelSettings, Settings
+from planner.settings import GoalLimits, Mode, ModelSettings, Settings
 from planner.site import Site
 from pons.evals.cases import Case
-from pons.evals.matchers import wanted
+from pons.evals.matchers import read_expectation
+from pons.evals.model_access import open_purse, spending_of
+from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, PictureResult, Result
 from pons.evals.quick.eyes import examine_eyes
-from pons.evals.quick.questions import QUESTIONS, WORLD, Question
-from pons.evals.quick.record import Cost, Exam, Eyes, Marked, Result, Rung
+from pons.evals.quick.questions import QUESTIONS, WORLD, ExamQuestion
 from pons.evals.score import judge
-from pons.evals.world import World
+from pons.evals.world import EvalWorld
 
 MOST_CALLS = 40
 MOST_S = 60.0
@@ -87,67 +87,51 @@ async def examine(
     Raises:
         Misconfigured: the address may not be asked at all, or the budget can't be read.
     """
-    budget = BudgetSettings(
-        goal=GoalLimits(
-            calls=caps.calls,
-            prompt_tokens=caps.calls * PROMPT_TOKENS,
-            reply_tokens=caps.calls * model.max_tokens,
-            seconds=caps.seconds,
-        ),
-        day=settings.budget.day,
-        price=settings.budget.price,
+    limits = GoalLimits(
+        calls=caps.calls,
+        prompt_tokens=caps.calls * PROMPT_TOKENS,
+        reply_tokens=caps.calls * model.max_tokens,
+        seconds=caps.seconds,
     )
     began_s, goal = clock(), f"{GOAL}-{time.time_ns()}"
-    purse = Purse(budget, Ledger(home), model=model.name, most_reply=model.max_tokens)
-    try:
-        with TemporaryDirectory(prefix="pons-exam-") as folder:
-            room = _Room(purse, model, Path(folder), goal, began_s + caps.seconds, clock)
-            rungs = [await _rung(room, mode) for mode in Mode]
-            marked = await _answers(room, _best(rungs))
-            eyes = await _eyes(room, _best(rungs))
-        spent = purse.usage(goal).goal
-    finally:
-        purse.close()
-    cost = Cost(seconds=round(clock() - began_s, 2))
-    if spent is not None:
-        cost = replace(
-            cost,
-            calls=spent.calls,
-            prompt_tokens=spent.prompt_tokens,
-            reply_tokens=spent.reply_tokens,
-            money=spent.money,
-        )
+    with open_purse(settings, model, home, limits) as (purse, folder):
+        room = _Room(purse, model, folder, goal, began_s + caps.seconds, clock)
+        rungs = [await _try_mode(room, mode) for mode in Mode]
+        marked = await _answers(room, _best(rungs))
+        eyes = await _eyes(room, _best(rungs))
+        cost = spending_of(purse, goal)
+    took_s = round(clock() - began_s, 2)
     host = Address.parse(model.url).host
-    return Exam(model.name, host, tuple(rungs), marked, eyes, cost, prompt_tokens(site))
+    return Exam(model.name, host, tuple(rungs), marked, eyes, cost, took_s, prompt_tokens(site))
 
 
-def _best(rungs: list[Rung]) -> Mode | None:
+def _best(rungs: list[ModeResult]) -> Mode | None:
     """Return the strictest way that gave a right plan, else one that was taken at all."""
     good = [rung for rung in rungs if rung.right] or [rung for rung in rungs if rung.taken]
     return Mode(good[0].mode) if good else None
 
 
-async def _rung(room: _Room, mode: Mode) -> Rung:
+async def _try_mode(room: _Room, mode: Mode) -> ModeResult:
     if room.left_s <= 0.0:
-        return Rung(mode.value, taken=False, right=False, why="not_asked")
+        return ModeResult(mode.value, taken=False, right=False, why="not_asked")
     brain = room.brain(mode)
     try:
         marked = await _ask(room, brain, QUESTIONS[0])
     finally:
         await brain.close()
     right, taken = marked.result == "right", marked.result not in ("no_answer", "not_asked")
-    return Rung(mode.value, taken, right, "" if right else marked.made)
+    return ModeResult(mode.value, taken, right, "" if right else marked.made)
 
 
-async def _answers(room: _Room, mode: Mode | None) -> tuple[Marked, ...]:
+async def _answers(room: _Room, mode: Mode | None) -> tuple[MarkedAnswer, ...]:
     if mode is None:
-        return tuple(Marked(question, "no_answer") for question in QUESTIONS)
+        return tuple(MarkedAnswer(question, "no_answer") for question in QUESTIONS)
     marked = []
     brain = room.brain(mode)
     try:
         for question in QUESTIONS:
             if room.left_s <= 0.0:
-                marked.append(Marked(question, "not_asked"))
+                marked.append(MarkedAnswer(question, "not_asked"))
                 continue
             marked.append(await _ask(room, brain, question))
     finally:
@@ -155,20 +139,20 @@ async def _answers(room: _Room, mode: Mode | None) -> tuple[Marked, ...]:
     return tuple(marked)
 
 
-async def _eyes(room: _Room, mode: Mode | None) -> Eyes:
+async def _eyes(room: _Room, mode: Mode | None) -> PictureResult:
     if mode is None or room.left_s <= 0.0:
-        return Eyes()
+        return PictureResult()
     brain = room.brain(mode)
     try:
         async with asyncio.timeout(room.left_s):
             return await examine_eyes(brain.looker(), room.goal)
     except TimeoutError:
-        return Eyes("not_asked", "the time was up")
+        return PictureResult("not_asked", "the time was up")
     finally:
         await brain.close()
 
 
-async def _ask(room: _Room, brain: Brain, question: Question) -> Marked:
+async def _ask(room: _Room, brain: Brain, question: ExamQuestion) -> MarkedAnswer:
     request = ThinkRequest(
         text=question.text,
         vocabulary=WORLD,
@@ -184,19 +168,19 @@ async def _ask(room: _Room, brain: Brain, question: Question) -> Marked:
         async with asyncio.timeout(max(0.0, room.left_s)):
             thought = await brain.think(request)
     except TimeoutError:
-        return Marked(question, "not_asked", "the time was up")
+        return MarkedAnswer(question, "not_asked", "the time was up")
     except OutOfBudget as spent:
-        return Marked(question, "not_asked", spent.said.en)
+        return MarkedAnswer(question, "not_asked", spent.said.en)
     except BrainDown as down:
-        return Marked(question, "no_answer", f"{down.why}: {down}"[:200])
+        return MarkedAnswer(question, "no_answer", f"{down.why}: {down}"[:200])
     except PlanRejected as rejected:
-        return Marked(question, "no_plan", str(rejected)[:200])
+        return MarkedAnswer(question, "no_plan", str(rejected)[:200])
     seconds = room.clock() - began_s
-    case = Case(question.text, question.part.value, wanted=wanted(question.right))
-    verdict = judge(case, thought.plan, World(WORLD, "living_room"), seconds)
+    case = Case(question.text, question.part.value, wanted=read_expectation(question.right))
+    verdict = judge(case, thought.plan, EvalWorld(WORLD, "living_room"), seconds)
     result: Result = "right" if verdict.right else "unsafe" if verdict.wrong else "wrong"
     calls = room.purse.usage(room.goal).today.calls - before
-    return Marked(question, result, thought.plan.model_dump_json()[:300], seconds, calls)
+    return MarkedAnswer(question, result, thought.plan.model_dump_json()[:300], seconds, calls)
 
 
 def prompt_tokens(site: Path | None) -> int:

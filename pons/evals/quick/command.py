@@ -1,4 +1,4 @@
-"""Be ``pons doctor --model``: say what it will spend, ask, examine, grade, show."""
+"""The exam of ``pons eval --quick``: say what it will spend, ask, examine, grade, show."""
 
 from __future__ import annotations
 
@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING
 
 from planner.brain.endpoint import Address
 from planner.budget.totals import cost
-from pons.cost_prompt import agreed
+from pons.evals.model_access import agree_on, choose_model
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
 from pons.evals.quick.grade import grade
 from pons.evals.quick.show import content, table
-from pons.model_selection import chosen
 from wire import Misconfigured
 
 if TYPE_CHECKING:
@@ -26,19 +25,34 @@ REFUSED = 2
 
 
 def run(
-    where: places.Settings, word: str, *, as_json: bool, yes: bool, caps: Caps | None = None
+    where: places.Settings,
+    word: str,
+    *,
+    as_json: bool,
+    yes: bool,
+    caps: Caps | None = None,
+    called: str = "pons doctor --model",
 ) -> int:
-    """Examine the model of a word; 2 where it can't be or may not be asked."""
+    """Examine the model of a word; 2 where it can't be or may not be asked.
+
+    Args:
+        where: home and site.
+        word: the model, as :func:`choose_model` reads it.
+        as_json: print one JSON object.
+        yes: spend without asking.
+        caps: where the exam ends.
+        called: the command's words, as an error begins.
+    """
     caps = caps or Caps()
     try:
-        settings, model = chosen(word, where.home, os.environ)
+        settings, model = choose_model(word, where.home, os.environ)
         address = Address.parse(model.url)
-        if not address.local and not agreed(_bill(settings, model, address.host, caps), yes=yes):
+        if not address.local and not agree_on(_bill(settings, model, address.host, caps), yes=yes):
             return REFUSED
         site = where.site if where.site.is_dir() else None
         exam = asyncio.run(examine(settings, model, where.home, site, caps))
     except Misconfigured as wrong:
-        print(f"pons doctor --model: {wrong}", file=sys.stderr)
+        print(f"{called}: {wrong}", file=sys.stderr)
         return REFUSED
     found = grade(exam)
     currency = settings.budget.price.currency if settings.budget.price is not None else None

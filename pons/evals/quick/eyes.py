@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain import BrainDown, PlanRejected
 from planner.brain.image_questions import Asked, NotSent, Picture, Pointed
-from pons.evals.quick.record import Eyes
+from pons.evals.quick.exam import PictureResult
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
@@ -45,21 +45,21 @@ NEAR = 120
 """The disc's radius is 146 of 1000 in width."""
 
 
-async def examine_eyes(looker: Looker, goal: str) -> Eyes:
+async def examine_eyes(looker: Looker, goal: str) -> PictureResult:
     """Return what a model makes of the picture: two calls, and two repairs at most."""
     try:
         said = await looker.describe(Asked(PICTURE, QUESTION, goal=goal))
         named = "red" in said.text.en.lower() and "blue" not in said.text.en.lower()
         if not named:
-            return Eyes("wrong", f"asked for red: {said.text.en}"[:120])
+            return PictureResult("wrong", f"asked for red: {said.text.en}"[:120])
         found = await looker.point(Asked(PICTURE, "the red disc", goal=goal))
     except NotSent as no:
-        return Eyes("none", no.why)
+        return PictureResult("none", no.why)
     except BrainDown as down:
-        return Eyes("no_answer", down.why)
+        return PictureResult("no_answer", down.why)
     except PlanRejected as rejected:
-        return Eyes("no_answer", str(rejected)[:120])
+        return PictureResult("no_answer", str(rejected)[:120])
     if isinstance(found, Pointed) and hypot(found.x - DISC[0], found.y - DISC[1]) <= NEAR:
-        return Eyes("right")
+        return PictureResult("right")
     where = f"({found.x}, {found.y})" if isinstance(found, Pointed) else "nowhere"
-    return Eyes("wrong", f"asked for {DISC}, pointed at {where}")
+    return PictureResult("wrong", f"asked for {DISC}, pointed at {where}")

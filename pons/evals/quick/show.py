@@ -6,15 +6,15 @@ import json
 from dataclasses import asdict
 from typing import Any
 
+from pons.evals.quick.exam import Exam
 from pons.evals.quick.grade import Grade, percentile
-from pons.evals.quick.questions import Part
-from pons.evals.quick.record import Exam
+from pons.evals.quick.questions import ExamPart
 
 
 def table(exam: Exam, found: Grade, currency: str | None) -> str:
     """Return the exam for a terminal."""
     rows = [("model", f"{exam.model} at {exam.host}"), ("modes", _modes(exam))]
-    for part in Part:
+    for part in ExamPart:
         asked = exam.of(part)
         right = sum(m.result == "right" for m in asked)
         rows.append((part.value, f"{right} of {len(asked)} right" if asked else "not asked"))
@@ -50,7 +50,7 @@ def content(exam: Exam, found: Grade, currency: str | None) -> str:
                 "right": sum(m.result == "right" for m in exam.of(part)),
                 "asked": len(exam.of(part)),
             }
-            for part in Part
+            for part in ExamPart
         },
         "pictures": asdict(exam.eyes),
         "latency_s": {
@@ -58,7 +58,7 @@ def content(exam: Exam, found: Grade, currency: str | None) -> str:
             "p50": percentile(latencies, 0.50) if latencies else None,
             "p95": percentile(latencies, 0.95) if latencies else None,
         },
-        "cost": asdict(exam.cost) | {"currency": currency},
+        "cost": asdict(exam.cost) | {"seconds": exam.took_s, "currency": currency},
         "prompt_tokens_here": exam.prompt_tokens_here,
         "answers": [
             {
@@ -113,4 +113,4 @@ def _tokens(exam: Exam) -> str:
 
 def _cost(exam: Exam, currency: str | None) -> str:
     money = f", {exam.cost.money:.4f} {currency}" if currency else ""
-    return f"{exam.cost.calls} calls, {exam.cost.seconds:.1f} s{money}"
+    return f"{exam.cost.calls} calls, {exam.took_s:.1f} s{money}"

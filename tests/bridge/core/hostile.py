@@ -11,7 +11,15 @@ from __future__ import annotations
 from random import Random
 from typing import Any, TypeVar
 
-from bridge.core import ArrivedAt, BridgeState, CoreConfig, Inbox, LoopFacts, OpArrived, RejectedAt
+from bridge.core import (
+    ArrivedAt,
+    BridgeState,
+    CoreConfig,
+    Inbox,
+    LoopFacts,
+    OperatorArrival,
+    RejectedAt,
+)
 from tests.bridge.core.fake_planner import MAP_ID
 from wire import (
     PROTOCOL,
@@ -135,7 +143,7 @@ class Hostile:
     def _stop(self) -> Stop:
         return Stop(id=self._id(), source="anyone")
 
-    def _op(self) -> OpArrived:
+    def _op(self) -> OperatorArrival:
         operator = self.state.operator
         number = self._say(operator.nonce_no, 0, operator.nonce_no - 1)
         nonce = f"{self.config.boot}.{number}.{self._say(operator.nonce_tag, '', operator.old_tag)}"
@@ -143,7 +151,7 @@ class Hostile:
         request = OpRequest(id=self._id(), source="op", proof=self._say(proof, None))
         calm: tuple[OpKind, ...] = ("arm", "resume", "reset")
         kind = self.random.choice((*calm, *OPS) if self.calm < 1.0 else calm)
-        return OpArrived(kind, request, self._say(True, False))
+        return OperatorArrival(kind, request, self._say(True, False))
 
     def _hello(self) -> Hello:
         return Hello(

@@ -9,8 +9,17 @@ from functools import cache
 from math import pi, tau
 from typing import Any
 
-from bridge.core import EMPTY, CoreConfig, Decision, Inbox, LoopFacts, OpArrived, initial, step
-from bridge.core.sensing.fence import build_fence
+from bridge.core import (
+    EMPTY,
+    CoreConfig,
+    Decision,
+    Inbox,
+    LoopFacts,
+    OperatorArrival,
+    initial,
+    step,
+)
+from bridge.core.geometry.fence import build_fence
 from bridge.core.state import draft
 from tests.bridge.core.fake_planner import (
     BOOT,
@@ -170,7 +179,7 @@ class World:
         shown = self.status.nonce if self.status is not None else "none"
         proof = Proof(nonce=shown if nonce is None else nonce, mac="0" * 64)
         request = OpRequest(id=request_id, source="test", proof=proof)
-        arrived = OpArrived(kind, request, authentic)
+        arrived = OperatorArrival(kind, request, authentic)
         self.extra = replace(self.extra, ops=(*self.extra.ops, arrived))
         return request_id
 

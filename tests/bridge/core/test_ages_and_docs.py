@@ -6,18 +6,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.faults.docs import PATH, safety_md
 from bridge.core.faults.fault_messages import WORDS
-from bridge.core.faults.fault_table import ROWS, Row
-from bridge.core.geometry.message_age import remembered, sensor_age_s, sent_at
+from bridge.core.faults.fault_table import ROWS, FaultRow
+from bridge.core.geometry.message_age import append_sent, sensor_age_s, sent_at
 from bridge.core.modes.mode_table import TRANSITIONS
+from bridge.core.safety_page import PATH, safety_md
 
 
 @given(st.integers(1, 600), st.integers(-10, 700))
 def test_the_ring_knows_the_last_256_statuses_and_no_other(newest: int, seen: int) -> None:
     ring: tuple[float, ...] = ()
     for seq in range(1, newest + 1):
-        ring = remembered(ring, float(seq))
+        ring = append_sent(ring, float(seq))
     sent_s = sent_at(ring, newest, seen)
     if max(1, newest - 255) <= seen <= newest:
         assert sent_s == float(seen)
@@ -34,7 +34,7 @@ def test_no_stamp_makes_a_reading_younger(
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
-def test_every_row_has_words_and_is_documented(row: Row) -> None:
+def test_every_row_has_words_and_is_documented(row: FaultRow) -> None:
     page = PATH.read_text("utf-8")
     assert f"`{row.id}`" in page
     en, zh = WORDS[row.id]
@@ -46,7 +46,7 @@ def test_every_row_has_words_and_is_documented(row: Row) -> None:
 
 def test_every_transition_is_documented() -> None:
     page = PATH.read_text("utf-8")
-    assert page == safety_md(), "run python -m bridge.core.faults.docs"
+    assert page == safety_md(), "run python -m bridge.core.safety_page"
     for (mode, _), to in TRANSITIONS.items():
         assert f"| {mode.value} |" in page
         assert f"| {to.value} |" in page

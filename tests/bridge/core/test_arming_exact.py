@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bridge.core.inbox import Inbox
-from bridge.core.modes.arming import pressed, ready_lacks, recorder_lack, reset_lacks
-from bridge.core.state_fence import FenceAsked
+from bridge.core.modes.arming import ready_lacks, reset_lacks
+from bridge.core.sensing.sensor_update import recorder_lack
+from bridge.core.sensing.stop_inputs import pressed_input
+from bridge.core.state_orders import PendingFence
 from bridge.core.state_senses import ButtonMemory
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import config
 from tests.bridge.core.table import table
@@ -18,7 +20,7 @@ from wire import IDENTITY, Mode, RobotDescription
 NOW_S = 10.0
 
 
-def at(start: str) -> Tick:
+def at(start: str) -> TickContext:
     """Return a tick at 10 s of a robot that has long stood and is being recorded."""
     tick = tick_of(reached(start))
     tick.now_s, tick.s.rows = NOW_S, {}
@@ -41,7 +43,7 @@ def at(start: str) -> Tick:
 def test_each_thing_alone_speaks_against_arming(what: str, codes: list[str]) -> None:
     tick = at("disarmed")
     if what == "fence":
-        tick.s.fence_asked = FenceAsked("f1", "test", "{}", IDENTITY)
+        tick.s.fence_asked = PendingFence("f1", "test", "{}", IDENTITY)
     elif what == "moves":
         tick.s.drive.still_since_s = NOW_S - 0.4
     elif what.startswith("stick"):
@@ -94,7 +96,7 @@ def test_a_stop_input_is_pressed_or_its_link_silent(
     assert tick.s.drive.newest is not None
     tick.s.drive.newest = tick.s.drive.newest.model_copy(update={"estop_pressed": on_drive})
     tick.s.buttons = ButtonMemory(link_pressed=down, link_received_s=heard_s)
-    assert pressed(tick) == told
+    assert pressed_input(tick) == told
     assert list(reset_lacks(tick)) == ([] if told is None else [("estop_pressed", told)])
 
 
@@ -108,4 +110,4 @@ def test_an_input_never_told_is_waited_for_and_one_no_longer_told_is_pressed(
     assert tick.s.drive.newest is not None
     tick.s.mode = mode
     tick.s.drive.newest = tick.s.drive.newest.model_copy(update={"estop_pressed": None})
-    assert pressed(tick) == told
+    assert pressed_input(tick) == told

@@ -7,12 +7,11 @@ from math import nan
 
 import pytest
 
-from bridge.core.authority.grants import spent
+from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.path_profile import prepare
 from bridge.core.motion.motion_gates import _inside_fence, _shut
 from bridge.core.motion.pursuit import _progress
-from bridge.core.motion.wheel_control import _corrected
-from bridge.core.sensing.fence import build_fence
+from bridge.core.motion.wheel_control import _correct
 from bridge.core.state_orders import Grants
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
@@ -75,7 +74,7 @@ def test_what_is_used_up_is_named(
 ) -> None:
     mission, metres, seconds, operator_metres, operator_seconds = left
     grants = Grants(mission, metres, seconds, (), operator_metres, operator_seconds)
-    assert spent(grants) == name
+    assert grants.spent_part() == name
 
 
 def test_a_horizon_of_before_a_jump_is_named() -> None:
@@ -118,7 +117,7 @@ def test_the_nearest_point_ahead_is_found(
 def test_a_correction_ends_at_its_bound_and_what_is_no_number_brakes(
     integral: float, off: float, spare: float, expected: tuple[float, float]
 ) -> None:
-    assert _corrected(integral, off, spare, 0.01, ROBOT.drive) == pytest.approx(expected)
+    assert _correct(integral, off, spare, 0.01, ROBOT.drive) == pytest.approx(expected)
 
 
 def test_points_in_one_place_are_passed_over() -> None:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bridge.core.faults import detectors
 from bridge.core.faults.fault_table import ROWS
 from bridge.core.faults.hazards import HAZARDS
 from bridge.core.modes import mode_logic as decide_module
-from bridge.core.modes.mode_logic import _call, _tire, arrive, decide
-from bridge.core.state import Gate, RowUp
-from bridge.core.tick_context import Tick
+from bridge.core.modes.mode_logic import activate, arrive, decide, expire_holding
+from bridge.core.motion.motion_gates import forget_block
+from bridge.core.state import RowUp
+from bridge.core.state_motion import Gate
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -20,14 +23,15 @@ EPS_S = 1e-6
 
 def waiting(
     start: str, since_s: float | None, *, blocked: bool, must_stop: bool, by: str = "obstacle"
-) -> Tick:
+) -> TickContext:
     """Let a mission have waited for so long when a tick begins; call what tires of it."""
     tick = tick_of(reached(start))
     tick.s.waits_since_s = None if since_s is None else tick.now_s - since_s
     tick.s.gate = Gate(blocked=blocked, by=by, free_scans=2)
     if must_stop:
         tick.s.rows = {"LIDAR_STALE.0": RowUp(tick.now_s, tick.now_s, "by hand")}
-    _tire(tick, must_stop=must_stop)
+    expire_holding(tick, must_stop=must_stop)
+    forget_block(tick)
     return tick
 
 
@@ -89,7 +93,7 @@ def test_a_horizon_grown_old_is_forgotten_where_the_robot_stands(
     tick = tick_of(reached(start))
     leg = reached("active").state.leg
     tick.s.leg = replace(leg, sent_s=tick.now_s - age_s)
-    _tire(tick, must_stop=False)
+    expire_holding(tick, must_stop=False)
     assert (tick.s.leg.horizon is not None) is kept
     assert (tick.s.leg.path is not None) is kept
 
@@ -118,7 +122,7 @@ def test_a_blocked_way_holds_unless_something_worse_does(
         assert (tick.s.stopping.action, tick.s.stopping.cause) == (Action.HOLD2, why)
 
 
-def calling(start: str) -> Tick:
+def calling(start: str) -> TickContext:
     """Return a tick in which a horizon or an external brain calls a standing robot."""
     tick = tick_of(reached("hold_granted"))
     other = reached(start).state
@@ -132,7 +136,7 @@ def calling(start: str) -> Tick:
 @table(("start", "source"), [("active", "W"), ("active_external", "X")])
 def test_who_calls_moves_the_robot(start: str, source: str) -> None:
     tick = calling(start)
-    _call(tick)
+    activate(tick)
     assert (tick.s.mode, tick.s.source) == (Mode.ACTIVE, source)
 
 
@@ -153,7 +157,7 @@ def test_nobody_is_called_against_what_forbids_it(against: str) -> None:
     else:
         tick.s.leg = replace(tick.s.leg, horizon=None)
     before = tick.s.mode
-    _call(tick)
+    activate(tick)
     assert tick.s.mode is before
 
 
@@ -163,7 +167,7 @@ def test_only_a_stop_that_may_go_on_goes_on(resumes: bool, mode: Mode) -> None:
     assert tick.s.stopping is not None
     tick.s.stopping = replace(tick.s.stopping, resumes=resumes)
     tick.s.leg = replace(reached("active").state.leg, sent_s=tick.now_s)
-    _call(tick)
+    activate(tick)
     assert tick.s.mode is mode
 
 
@@ -213,7 +217,10 @@ def test_who_stands_at_the_end_has_arrived(
 def test_each_detector_that_a_hazard_names_is_run_and_no_other() -> None:
     rows = {row.id for row in ROWS}
     named = {hazard.function for hazard in HAZARDS if hazard.guard in rows}
-    run = [f"{one.__module__.rpartition('.')[2]}.{one.__name__}" for one in decide_module.DETECTORS]
+    run = [
+        f"{one.__module__.removeprefix('bridge.core.')}.{one.__name__}"
+        for one in detectors.DETECTORS
+    ]
     assert sorted(run) == sorted(named)
     tick = tick_of(reached("active"))
     tick.s.drive.reborn_s = tick.now_s

@@ -9,11 +9,12 @@ import pytest
 
 from bridge.core import ArrivedAt, LoopFacts
 from bridge.core.authority import rate_limit
-from bridge.core.faults import detect_coverage, detect_loop, detect_power
-from bridge.core.geometry.debounce import filled
+from bridge.core.faults import detectors
+from bridge.core.geometry.debounce import fill
+from bridge.core.sensing import sensor_update
 from bridge.core.state import RowUp
-from bridge.core.state_detectors import Flood
-from bridge.core.tick_context import Tick
+from bridge.core.state_senses import Flood
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -22,7 +23,7 @@ EPS = 1e-6
 Dirty = list[tuple[str, str]]
 
 
-def at(start: str = "active") -> Tick:
+def at(start: str = "active") -> TickContext:
     return tick_of(reached(start))
 
 
@@ -41,7 +42,7 @@ def at(start: str = "active") -> Tick:
 def test_a_window_fills_four_times_as_fast_as_it_drains(
     level_s: float, dt_s: float, top_s: float, dirty: bool, after_s: float
 ) -> None:
-    assert filled(level_s, dt_s, top_s, dirty=dirty) == pytest.approx(after_s)
+    assert fill(level_s, dt_s, top_s, dirty=dirty) == pytest.approx(after_s)
 
 
 @table(
@@ -70,7 +71,8 @@ def test_a_late_loop_is_seen_at_its_edges(
     tick.s.loop = replace(tick.s.loop, late_at_s=late_at_s, missed=5)
     tick.dt_s = dt_s
     dirty: Dirty = []
-    detect_loop.loop(tick, dirty)
+    sensor_update.note_lateness(tick)
+    detectors.loop(tick, dirty)
     assert [name for name, _ in dirty] == rows
     assert tick.s.loop.missed == 5 + facts.missed_ticks
     assert len(tick.s.loop.late_at_s) <= 5
@@ -94,7 +96,8 @@ def test_three_gaps_in_ten_seconds(gaps_s: tuple[float, ...], ticks: int, rows: 
     tick.s.tick, tick.dt_s = ticks, 0.2
     tick.s.loop = replace(tick.s.loop, gaps_at_s=tuple(tick.now_s + one for one in gaps_s))
     dirty: Dirty = []
-    detect_loop.loop(tick, dirty)
+    sensor_update.note_lateness(tick)
+    detectors.loop(tick, dirty)
     assert [name for name, _ in dirty] == rows
     assert len(tick.s.loop.gaps_at_s) == min(3, len(gaps_s) + bool(rows))
 
@@ -106,18 +109,20 @@ def test_rights_refused_matter_on_a_real_drive(granted: bool, virtual: bool, see
     drive = ROBOT.drive.model_copy(update={"kind": "sim" if virtual else "metal"})
     tick.config = replace(tick.config, robot=ROBOT.model_copy(update={"drive": drive}))
     dirty: Dirty = []
-    detect_loop.rights(tick, dirty)
+    detectors.rights(tick, dirty)
     assert len(dirty) == seen
 
 
-def drawing(amps: float | None, *, peak_s: float = 0.0, heat: float = 0.0) -> tuple[Tick, Dirty]:
+def drawing(
+    amps: float | None, *, peak_s: float = 0.0, heat: float = 0.0
+) -> tuple[TickContext, Dirty]:
     tick = at()
     state = tick.s.drive.newest
     assert state is not None
     tick.s.drive.newest = state.model_copy(update={"current_a": amps})
     tick.s.watch.peak_s, tick.s.watch.heat_a2s = peak_s, heat
     dirty: Dirty = []
-    detect_power.current(tick, dirty)
+    detectors.current(tick, dirty)
     return tick, dirty
 
 
@@ -180,7 +185,7 @@ def test_a_battery_is_low_after_two_seconds_until_well_above(
     tick.s.watch.low_s, tick.s.watch.empty_s = low_s, empty_s
     tick.s.rows = {name: RowUp(0.0, 0.0, "old") for name in up}
     dirty: Dirty = []
-    detect_power.battery(tick, dirty)
+    detectors.battery(tick, dirty)
     assert [name for name, _ in dirty] == rows
     if charge is None:
         assert {evidence for _, evidence in dirty} <= {"old"}
@@ -209,7 +214,7 @@ def test_a_lidar_is_blind_where_few_beams_come_back(
     tick.s.lidar = replace(tick.s.lidar, picture=picture, baseline_returns=normal)
     tick.s.watch.blind_s = blind_s
     dirty: Dirty = []
-    detect_coverage.blind(tick, dirty)
+    detectors.blind(tick, dirty)
     assert [name for name, _ in dirty] == rows
 
 
@@ -233,7 +238,7 @@ def test_somebody_must_watch_for_obstacles(
     tick.s.lidar = replace(tick.s.lidar, newest=newest)
     tick.s.rows = {name: RowUp(0.0, 0.0, "old") for name in up}
     dirty: Dirty = []
-    detect_coverage.no_range(tick, dirty)
+    detectors.no_range(tick, dirty)
     assert [name for name, _ in dirty] == ["NO_RANGE.0", "NO_RANGE.1"][:seen]
 
 
@@ -257,7 +262,7 @@ def test_each_key_has_its_limit_in_two_halves(key: str, limit: int, before: bool
         tick.s.flood = Flood(tick.now_s - 0.1, (0,) * 6, counts)
         arrived = ArrivedAt(key, count - 2 * before)
         tick.inbox = replace(tick.inbox, arrived=(arrived,))
-        rate_limit.thinned(tick)
+        rate_limit.rate_limited(tick)
         assert (tick.s.flood.level_s > 0.0) is over
         assert tick.s.flood.key == (key if over else "")
 
@@ -275,7 +280,7 @@ def test_halves_follow_each_other(
     passed_s: float, half_began: bool, counts: int, before: int
 ) -> None:
     had, older = (3, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0)
-    turned = rate_limit._turned(Flood(100.0, had, older), 100.0 + passed_s)
+    turned = rate_limit._half_windows(Flood(100.0, had, older), 100.0 + passed_s)
     assert turned[0][0] == counts
     assert turned[1][0] == before
     assert turned[2] == (100.0 + passed_s if half_began else 100.0)
@@ -286,5 +291,5 @@ def test_a_flood_is_one_after_a_second_of_it() -> None:
         tick = at()
         tick.s.flood = Flood(0.0, (), (), level_s, "cmd/hello")
         dirty: Dirty = []
-        rate_limit.judge(tick, dirty)
+        detectors.flood(tick, dirty)
         assert len(dirty) == seen

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.faults import detect_motion
-from bridge.core.motion.limiter import LimiterState
-from bridge.core.state import Gate
-from bridge.core.state_detectors import Sent
-from bridge.core.tick_context import Tick
+from bridge.core.modes.mode_logic import detect
+from bridge.core.state_motion import Gate, LimiterState
+from bridge.core.state_senses import SentBounds
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -18,10 +18,10 @@ from wire import STILL, Imu, Pose2, RobotDescription, Twist2, Waypoints
 
 EPS = 1e-6
 Dirty = list[tuple[str, str]]
-STOOD = Sent(0.0, 0.0, 0.0, 0.0, 0.0)
+STOOD = SentBounds(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def at(sent: Twist2, real: Twist2, start: str = "active", base_m: float = 0.5) -> Tick:
+def at(sent: Twist2, real: Twist2, start: str = "active", base_m: float = 0.5) -> TickContext:
     """Return a tick that asks for one motion and measures another, on wheels so far apart."""
     tick = tick_of(reached(start))
     base = ROBOT.base.model_copy(update={"wheel_separation_m": base_m})
@@ -32,13 +32,13 @@ def at(sent: Twist2, real: Twist2, start: str = "active", base_m: float = 0.5) -
     return tick
 
 
-def rows_of(tick: Tick, detector: str) -> list[str]:
+def rows_of(tick: TickContext, detector: str) -> list[str]:
     dirty: Dirty = []
     getattr(detect_motion, detector)(tick, dirty)
     return [name for name, _ in dirty]
 
 
-def last_place(tick: Tick) -> Pose2 | None:
+def last_place(tick: TickContext) -> Pose2 | None:
     """Tell where it last got on; a question, so that no type checker remembers its answer."""
     return tick.s.watch.progress_at
 
@@ -83,7 +83,7 @@ def test_a_wheel_runs_away_beyond_all_that_was_sent(
     assert tick.s.watch.runaway_s == pytest.approx(left_s)
     half = 0.25 * sent.w_radps
     left, right = sent.v_mps - half, sent.v_mps + half
-    assert list(tick.s.watch.sent) == [Sent(100.0, left, left, right, right)]
+    assert list(tick.s.watch.sent) == [SentBounds(100.0, left, left, right, right)]
 
 
 def test_a_tenth_of_a_second_is_enough() -> None:
@@ -94,7 +94,7 @@ def test_a_tenth_of_a_second_is_enough() -> None:
 
 def test_the_slack_is_the_same_all_the_way() -> None:
     # what was sent of late may still show, and anything between it and standing
-    recent = (Sent(9.0, 0.3, 0.4, -0.4, -0.3), Sent(9.5, 0.0, 0.1, 0.0, 0.1))
+    recent = (SentBounds(9.0, 0.3, 0.4, -0.4, -0.3), SentBounds(9.5, 0.0, 0.1, 0.0, 0.1))
     cases = (
         (0.55, -0.55, True), (0.55 + EPS, 0.0, False), (0.0, -0.55 - EPS, False),
         (-0.15, 0.25, True), (-0.15 - EPS, 0.0, False), (0.0, 0.25 + EPS, False),
@@ -102,7 +102,7 @@ def test_the_slack_is_the_same_all_the_way() -> None:
     )  # fmt: skip
     for left, right, fits in cases:
         assert detect_motion._fits(recent, left, right) is fits, (left, right)
-    fast = (Sent(9.0, 0.5, 0.6, -0.6, -0.5),)  # and slower than that
+    fast = (SentBounds(9.0, 0.5, 0.6, -0.6, -0.5),)  # and slower than that
     assert detect_motion._fits(fast, 0.2, -0.2)
     assert detect_motion._fits((), 0.15, -0.15)
     assert not detect_motion._fits((), 0.15 + EPS, 0.0)
@@ -112,7 +112,7 @@ def test_the_slack_is_the_same_all_the_way() -> None:
 def test_what_was_sent_is_kept_in_buckets_as_long_as_it_may_show() -> None:
     tick = at(STILL, STILL)
     tick.now_s = 8.0
-    newest = Sent(7.95 + EPS, 0.1, 0.2, 0.3, 0.4)
+    newest = SentBounds(7.95 + EPS, 0.1, 0.2, 0.3, 0.4)
     for left, right, bounds in (
         (0.1, 0.4, (0.1, 0.2, 0.3, 0.4)), (0.2, 0.3, (0.1, 0.2, 0.3, 0.4)),
         (0.0, 0.35, (0.0, 0.2, 0.3, 0.4)), (0.3, 0.35, (0.1, 0.3, 0.3, 0.4)),
@@ -120,9 +120,9 @@ def test_what_was_sent_is_kept_in_buckets_as_long_as_it_may_show() -> None:
     ):  # fmt: skip
         tick.s.watch.sent = (STOOD, newest)
         detect_motion._remember(tick, left, right)
-        assert tick.s.watch.sent == (STOOD, Sent(newest.since_s, *bounds))
+        assert tick.s.watch.sent == (STOOD, SentBounds(newest.since_s, *bounds))
     # 0.06 s of lag and 0.2 s: what began 0.26 s ago or earlier tells of all before it
-    begun = Sent(8.0, 0.5, 0.5, 0.6, 0.6)
+    begun = SentBounds(8.0, 0.5, 0.5, 0.6, 0.6)
     for ages, kept in (
         ((0.5, 0.4, 0.27, 0.0625), 2), ((0.5, 0.4, 0.25, 0.0625), 3), ((0.4, 0.25, 0.2, 0.0625), 4),
         ((0.9, 0.8, 0.5), 1), ((9.0,), 1), ((0.5, 0.06 + 0.2, 0.1), 2),
@@ -160,11 +160,11 @@ def test_what_is_asked_and_does_not_move_is_held(sent: Twist2, real: Twist2, hel
     for had_s, after_s, seen in ((0.5, 0.51, False), (0.985, 0.995, False), (0.99, 1.0, True)):
         tick = at(sent, real)
         tick.s.watch.stuck_s = had_s
-        evidence = detect_motion._unmoved(tick)
+        evidence = detect_motion._standing_evidence(tick)
         assert (evidence is not None) is (seen and held)
         assert tick.s.watch.stuck_s == pytest.approx(after_s if held else had_s - 0.0025)
     tick = at(sent, real, "hold")  # nobody is followed: nothing is asked
-    assert detect_motion._unmoved(tick) is None
+    assert detect_motion._standing_evidence(tick) is None
     assert tick.s.watch.stuck_s == 0.0
 
 
@@ -196,13 +196,18 @@ def test_a_robot_that_gets_nowhere_loses_its_grant_and_in_the_end_its_arms() -> 
         tick = at(Twist2(0.3, 0.0), STILL)
         tick.s.watch.stuck_s, tick.s.watch.progress_at = 0.995, Pose2(0.0, 0.0, 0.0)
         tick.s.watch.stuck_at_s = tuple(tick.now_s + one for one in ago_s)
-        assert rows_of(tick, "stuck") == ["STUCK.0", "STUCK.1"][:rows]
+        assert rows_of(tick, "progress") == ["STUCK.0", "STUCK.1"][:rows]
         assert tick.s.watch.stuck_at_s == (
             *[tick.now_s + one for one in ago_s[-2:]],
             tick.now_s,
         )
         assert tick.s.watch.stuck_s == 0.0
         assert last_place(tick) is None
+        assert tick.s.grants.mission == "m1", "a detector tells; whoever decides ends the grant"
+        tick = at(Twist2(0.3, 0.0), STILL)
+        tick.s.watch.stuck_s, tick.s.watch.progress_at = 0.995, Pose2(0.0, 0.0, 0.0)
+        tick.robot_in_map = Pose2(0.0, 0.0, 0.0)
+        detect(tick)
         assert tick.s.grants.mission is None
         assert (tick.s.leg.horizon, tick.s.leg.path) == (None, None)
         assert tick.s.grants.book[-1].mission == "m1"
@@ -211,10 +216,10 @@ def test_a_robot_that_gets_nowhere_loses_its_grant_and_in_the_end_its_arms() -> 
 def test_who_follows_nobody_is_not_watched_but_what_was_seen_drains() -> None:
     tick = at(STILL, STILL, "hold_granted")
     tick.s.watch.stuck_s, tick.s.watch.progress_at = 0.5, Pose2(0.0, 0.0, 0.0)
-    assert rows_of(tick, "stuck") == []
+    assert rows_of(tick, "progress") == []
     assert tick.s.watch.stuck_s == pytest.approx(0.4975)
     tick.s.watch.stuck_s, tick.s.watch.progress_at = 0.0, Pose2(0.0, 0.0, 0.0)
-    assert rows_of(tick, "stuck") == []
+    assert rows_of(tick, "progress") == []
     assert tick.s.watch.progress_at is None
     assert tick.s.grants.mission is not None
 

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.faults import detect_coverage, detect_power, detect_senses
+from bridge.core.faults import detectors
 from bridge.core.motion import wheel_command
-from bridge.core.motion.limiter import LimiterState
-from bridge.core.motion.wheel_command import shaped
-from bridge.core.motion.wheel_control import AT_REST
+from bridge.core.motion.wheel_command import limit
+from bridge.core.sensing.stop_inputs import note_pressed
 from bridge.core.state import RowUp
-from bridge.core.tick_context import Tick
+from bridge.core.state_motion import AT_REST, LimiterState
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -22,15 +22,15 @@ EPS = 1e-6
 NOW_S = 100.0
 
 
-def at(start: str = "active") -> Tick:
+def at(start: str = "active") -> TickContext:
     tick = tick_of(reached(start))
     tick.now_s = NOW_S
     return tick
 
 
-def seen(detector: str, tick: Tick) -> list[str]:
+def seen(detector: str, tick: TickContext) -> list[str]:
     dirty: list[tuple[str, str]] = []
-    getattr(detect_senses, detector)(tick, dirty)
+    getattr(detectors, detector)(tick, dirty)
     return [name for name, _ in dirty]
 
 
@@ -116,6 +116,8 @@ def test_a_pressed_button_is_remembered_and_an_order_is_one_too() -> None:
     tick.s.drive.newest = state.model_copy(update={"estop_pressed": True})
     tick.s.buttons = replace(tick.s.buttons, ordered=False)
     assert seen("buttons", tick) == ["ESTOP.0"]
+    assert tick.s.buttons.pressed_s is None
+    note_pressed(tick)
     pressed_s: float | None = tick.s.buttons.pressed_s
     assert pressed_s == NOW_S
 
@@ -137,20 +139,20 @@ def test_a_low_charge_fills_its_windows(
     assert state is not None
     tick.s.drive.newest = state.model_copy(update={"battery": charge})
     tick.s.watch.low_s, tick.s.watch.empty_s = low_s, empty_s
-    detect_power.battery(tick, [])
+    detectors.battery(tick, [])
     assert (tick.s.watch.low_s, tick.s.watch.empty_s) == pytest.approx(after)
 
 
 def test_a_lidar_that_sees_again_drains_its_window_and_a_zone_left_is_none() -> None:
     tick = at()
     tick.s.watch.blind_s, tick.s.watch.zone_mps = 0.5, 0.2
-    detect_coverage.blind(tick, [])
+    detectors.blind(tick, [])
     assert tick.s.watch.blind_s == pytest.approx(0.4975)
     for level_s, after_s in ((0.0, 0.0), (1.0, 0.9975)):
         tick.s.watch.blind_s = level_s
-        detect_coverage.blind(tick, [])
+        detectors.blind(tick, [])
         assert tick.s.watch.blind_s == pytest.approx(after_s)
-    detect_coverage.zone(tick, [])
+    detectors.zone(tick, [])
     zone_mps: float | None = tick.s.watch.zone_mps
     assert zone_mps is None
 
@@ -169,7 +171,7 @@ def test_torque_is_on_where_it_may_move_or_has_to_stop(start: str, powered: bool
     tick = at(start)
     tick.s.motion.free_m, tick.s.motion.cap = 9.0, 0.5
     tick.s.motion.bound_by = "robot"
-    after = shaped(tick, Twist2(0.3, 0.0))
+    after = limit(tick, Twist2(0.3, 0.0))
     assert tick.s.motion.powered is powered
     if not powered:
         assert after == LimiterState()
@@ -179,22 +181,24 @@ def test_torque_is_on_where_it_may_move_or_has_to_stop(start: str, powered: bool
 
 @table("start", ["hold", "disarmed", "estopped", "fault", "stopping_by_row"])
 def test_who_follows_nobody_wants_to_stand_and_is_at_no_end(start: str) -> None:
-    assert wheel_command.wanted(at(start)) == (STILL, False)
+    assert wheel_command.requested_twist(at(start)) == (STILL, False)
 
 
 def test_without_a_path_or_a_place_nothing_is_followed() -> None:
     tick = at()
-    assert wheel_command.followed(tick) == (STILL, False)  # no place in this tick yet
+    assert wheel_command.follow_horizon(tick) is None  # no place in this tick yet
     tick.robot_in_map = tick.s.odometry.base_in_odom
-    assert wheel_command.followed(tick)[0] != STILL
+    answer = wheel_command.follow_horizon(tick)
+    assert answer is not None
+    assert answer.target != STILL
     tick.s.leg = replace(tick.s.leg, path=None)
-    assert wheel_command.followed(tick) == (STILL, False)
+    assert wheel_command.follow_horizon(tick) is None
 
 
 @table(("start", "arrives"), [("teleop", False), ("active_external", False)])
 def test_a_hand_and_another_brain_have_no_end(start: str, arrives: bool) -> None:
-    assert wheel_command.wanted(at(start))[1] is arrives
-    assert wheel_command.wanted(at(start))[0] != STILL
+    assert wheel_command.requested_twist(at(start))[1] is arrives
+    assert wheel_command.requested_twist(at(start))[0] != STILL
 
 
 @table(

@@ -9,28 +9,32 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from bridge.core.authority import leg_tracking, message_score, ownership
-from bridge.core.faults import detect_loop, fault_latch
-from bridge.core.faults.detect_brain import brain, commands
+from bridge.core.authority import leg_tracking, message_score, ownership, requests
+from bridge.core.faults import detectors, fault_latch
+from bridge.core.faults.detectors import brain, commands
 from bridge.core.inbox import LoopFacts
-from bridge.core.modes import mode_logic, operator, stop_monitor, teleop
+from bridge.core.modes import mode_logic, stop_monitor, teleop
 from bridge.core.modes.arming import ready_lacks, reset_lacks
 from bridge.core.modes.stop_profile import too_long
 from bridge.core.motion import motion_gates
-from bridge.core.state import Gate, RowUp
+from bridge.core.sensing import sensor_update
+from bridge.core.state import RowUp
+from bridge.core.state_motion import Gate
 from bridge.core.state_orders import External
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from tests.bridge.core.test_stops_exact import PLAN, stop_of
 from wire import Mode, Pose2
 
-Judge = Callable[[Tick], object]
+Judge = Callable[[TickContext], object]
 
 
-def rows(detector: Callable[[Tick, list[tuple[str, str]]], None]) -> Callable[[Tick], list[str]]:
-    def judge(tick: Tick) -> list[str]:
+def rows(
+    detector: Callable[[TickContext, list[tuple[str, str]]], None],
+) -> Callable[[TickContext], list[str]]:
+    def judge(tick: TickContext) -> list[str]:
         dirty: list[tuple[str, str]] = []
         detector(tick, dirty)
         return [name for name, _ in dirty]
@@ -41,7 +45,7 @@ def rows(detector: Callable[[Tick, list[tuple[str, str]]], None]) -> Callable[[T
 def owner(echo_s: float, used_s: float | None = None) -> Judge:
     """Let the owner have shown so much; a status of 0 s is what it has seen last."""
 
-    def judge(tick: Tick) -> object:
+    def judge(tick: TickContext) -> object:
         tick.s.ownership = replace(tick.s.ownership, echo_s=echo_s, used_s=used_s)
         tick.s.leg = replace(tick.s.leg, horizon=None)
         return rows(brain)(tick)
@@ -49,50 +53,50 @@ def owner(echo_s: float, used_s: float | None = None) -> Judge:
     return judge
 
 
-def followed(tick: Tick) -> object:
+def followed(tick: TickContext) -> object:
     tick.s.leg = replace(tick.s.leg, sent_s=0.0)
-    return [leg_tracking.callable_horizon(tick), *rows(commands)(tick)]
+    return [tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s), *rows(commands)(tick)]
 
 
-def external(tick: Tick) -> object:
+def external(tick: TickContext) -> object:
     tick.s.leg = replace(tick.s.leg, horizon=None)
     tick.s.external = External(0.1, 0.0, dead_man=True, sent_s=0.0)
     return rows(commands)(tick)
 
 
-def spent_bucket(tick: Tick) -> object:
+def spent_bucket(tick: TickContext) -> object:
     tick.s.leg = replace(tick.s.leg, horizon=None)
     tick.s.bad_bucket = 5.0
     return rows(commands)(tick)
 
 
-def alive(tick: Tick) -> object:
+def alive(tick: TickContext) -> object:
     tick.s.ownership = replace(tick.s.ownership, echo_s=0.0)
-    return ownership.alive(tick)
+    return ownership.is_alive(tick)
 
 
-def cleaned(tick: Tick) -> object:
+def cleaned(tick: TickContext) -> object:
     tick.s.rows = {"LIDAR_STALE.0": RowUp(0.0, 0.0, "old")}
     fault_latch.update(tick, [])
     return list(tick.s.rows)
 
 
-def renewed(tick: Tick) -> object:
+def renewed(tick: TickContext) -> object:
     tick.s.operator = replace(tick.s.operator, nonce_made_s=0.0)
     before = tick.s.operator.nonce_no
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     return tick.s.operator.nonce_no - before
 
 
-def old_nonce(tick: Tick) -> object:
+def old_nonce(tick: TickContext) -> object:
     old = {"old_nonce_no": 0, "old_tag": "c", "old_until_s": tick.now_s}
     tick.s.operator = replace(tick.s.operator, **old)  # type: ignore[arg-type]  # names of its fields
-    text = operator.old_nonce_text(tick)
-    return list(operator.bad_proof(tick, "arm", "a1", text, authentic=True))
+    text = requests.old_nonce_text(tick)
+    return list(requests.bad_proof(tick, "arm", "a1", text, authentic=True))
 
 
 def held(received_s: float, sent_s: float) -> Judge:
-    def judge(tick: Tick) -> object:
+    def judge(tick: TickContext) -> object:
         tick.s.stick = replace(tick.s.stick, received_s=received_s, sent_s=sent_s)
         teleop.watch(tick)
         return tick.s.mode
@@ -101,7 +105,7 @@ def held(received_s: float, sent_s: float) -> Judge:
 
 
 def arming(**state: object) -> Judge:
-    def judge(tick: Tick) -> object:
+    def judge(tick: TickContext) -> object:
         tick.s.drive.still_since_s, tick.s.drive.received_s = tick.now_s - 9.0, tick.now_s
         if "pressed_s" in state:
             tick.s.stick = replace(tick.s.stick, pressed_s=0.0)
@@ -113,7 +117,7 @@ def arming(**state: object) -> Judge:
 
 
 def reset(**state: object) -> Judge:
-    def judge(tick: Tick) -> object:
+    def judge(tick: TickContext) -> object:
         tick.s.drive.still_since_s, tick.s.drive.received_s = tick.now_s - 9.0, tick.now_s
         tick.s.buttons = replace(tick.s.buttons, pressed_s=0.0 if "pressed_s" in state else None)
         tick.s.rows = {str(state["row"]): RowUp(0.0, 0.0, "seen")} if "row" in state else {}
@@ -122,26 +126,26 @@ def reset(**state: object) -> Judge:
     return judge
 
 
-def measured(tick: Tick) -> object:
+def measured(tick: TickContext) -> object:
     tick.s.drive.received_s = 0.0
-    return not stop_monitor._unmeasured(tick)
+    return not stop_monitor._is_unmeasured(tick)
 
 
-def slow(tick: Tick) -> object:
+def slow(tick: TickContext) -> object:
     tick.s.drive.still_since_s = None
     tick.s.stopping = stop_of(-1.0, slow_s=0.14)
     tick.s.odometry = replace(tick.s.odometry, measured=reached("active").state.odometry.measured)
     return stop_monitor._failure(tick)
 
 
-def shut(tick: Tick) -> object:
+def shut(tick: TickContext) -> object:
     yaw_rad = tick.s.odometry.base_in_odom.yaw_rad
     tick.s.gate = Gate(shut_s=0.49, shut_yaw_rad=yaw_rad)
     motion_gates._note(tick, "obstacle")
     return tick.s.gate.blocked
 
 
-def turned_away(tick: Tick) -> object:
+def turned_away(tick: TickContext) -> object:
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=Pose2(0.0, 0.0, 0.05))
     tick.s.gate = Gate(shut_s=0.3, shut_yaw_rad=0.0)
     motion_gates._note(tick, "obstacle")
@@ -149,24 +153,25 @@ def turned_away(tick: Tick) -> object:
 
 
 def late(count: int, within: str) -> Judge:
-    def judge(tick: Tick) -> object:
+    def judge(tick: TickContext) -> object:
         if within == "late_at_s":
             tick.s.loop = replace(tick.s.loop, late_at_s=(0.0,) * count)
             tick.inbox = replace(tick.inbox, loop=LoopFacts(late_s=1.0))
         else:
             tick.s.loop = replace(tick.s.loop, gaps_at_s=(0.0,) * count)
             tick.dt_s = 0.2
-        return rows(detect_loop.loop)(tick)
+        sensor_update.note_lateness(tick)
+        return rows(detectors.loop)(tick)
 
     return judge
 
 
 def waits(must_stop: bool) -> Judge:
-    def judge(tick: Tick) -> object:
+    def judge(tick: TickContext) -> object:
         tick.s.waits_since_s = 0.0
         tick.s.rows = {"LIDAR_STALE.0": RowUp(0.0, 0.0, "old")}
         tick.s.gate = Gate(blocked=not must_stop)
-        mode_logic._tire(tick, must_stop=must_stop)
+        mode_logic.expire_holding(tick, must_stop=must_stop)
         return tick.s.grants.mission
 
     return judge
@@ -231,7 +236,7 @@ def test_a_message_of_the_very_moment_of_a_jump_is_of_before(
     horizon = tick.s.leg.horizon
     assert horizon is not None
     assert horizon.ttl_s == 0.5
-    assert leg_tracking._late(tick, horizon, sent_s) == lateness
+    assert leg_tracking._lateness(tick, horizon, sent_s) == lateness
     tick.s.pose = replace(tick.s.pose, jumped_s=None)
-    assert leg_tracking._late(tick, horizon, 0.0) is None
-    assert leg_tracking._late(tick, horizon, -1e-9) == "too_old"
+    assert leg_tracking._lateness(tick, horizon, 0.0) is None
+    assert leg_tracking._lateness(tick, horizon, -1e-9) == "too_old"

@@ -19,7 +19,7 @@ import pytest
 
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
 from bridge.core.faults.fault_table import STAGES
-from bridge.core.sensing.fence import Zone, build_fence
+from bridge.core.geometry.fence import Zone, build_fence
 from bridge.core.state import RowUp
 from tests.bridge.core import oracle
 from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.sensing.fence import build_fence
+from bridge.core.geometry.fence import build_fence
 from tests.bridge.core.fake_planner import MAP_ID, FakePlanner
 from tests.bridge.core.scripted import World
 from wire import Action, Mode, Velocity

@@ -17,7 +17,7 @@ from bridge.core.geometry.odometry import along_arc
 from bridge.core.sensing import sensor_update
 from bridge.core.sensing.sensor_update import DRIFT_M, DRIFT_RAD, JUMP_M, SEQ_AHEAD
 from bridge.core.state_senses import Drift
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from localization.noise import PoseNoise
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
 from tests.bridge.core.reached import reached
@@ -34,18 +34,18 @@ def raised(world: World, stage: str) -> bool:
     return stage in world.state.rows
 
 
-def hear(tick: Tick, odom_in_map: Pose2) -> None:
+def hear(tick: TickContext, odom_in_map: Pose2) -> None:
     new = Localization(
         odom_id=BOOT, seq=1, stamp_s=tick.now_s, odom_in_map=odom_in_map, quality=1.0, map_id=MAP_ID
     )
     sensor_update._hear_localization(tick, new)
 
 
-def told(tick: Tick) -> list[str]:
+def told(tick: TickContext) -> list[str]:
     return [code for code, _ in tick.events if code in POSE_CODES]
 
 
-def standing(base_in_odom: Pose2 = IDENTITY) -> Tick:
+def standing(base_in_odom: Pose2 = IDENTITY) -> TickContext:
     """Return a tick of a robot that stands, localized where ``odom`` says."""
     tick = tick_of(reached("hold_granted"))
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=base_in_odom)

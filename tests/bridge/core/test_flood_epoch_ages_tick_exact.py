@@ -7,12 +7,13 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import ArrivedAt, Inbox
-from bridge.core.authority.epoch import shelved, turn
-from bridge.core.authority.rate_limit import thinned
-from bridge.core.geometry.message_age import remembered, sensor_age_s, sent_at
-from bridge.core.state_detectors import Flood
+from bridge.core.authority.epoch import new_epoch
+from bridge.core.authority.rate_limit import rate_limited
+from bridge.core.geometry.message_age import append_sent, sensor_age_s, sent_at
+from bridge.core.reporting.report import status_of
 from bridge.core.state_orders import Grants, MissionLeft, Stick
-from bridge.core.tick_context import Tick
+from bridge.core.state_senses import Flood
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -27,7 +28,7 @@ def counted(flood: Flood, arrived: tuple[ArrivedAt, ...] = ()) -> tuple[Flood, b
     tick = tick_of(reached("active"))
     tick.now_s, tick.s.flood = NOW_S, flood
     tick.inbox = Inbox(arrived=arrived)
-    assert thinned(tick) is tick.inbox
+    assert rate_limited(tick) is tick.inbox
     return tick.s.flood, tick.s.flood is flood
 
 
@@ -74,9 +75,8 @@ def test_of_a_flooded_key_nothing_is_heard_and_of_the_others_all() -> None:
     tick.inbox = Inbox(
         heartbeats=(beat, beat), waypoints=(horizon,), stops=(stop,), arrived=came
     )  # fmt: skip
-    dropped = tick.s.voice.dropped
-    assert thinned(tick) == replace(tick.inbox, heartbeats=())
-    assert (tick.s.voice.dropped, tick.reasons) == (dropped + 2, ["flood", "flood"])
+    assert rate_limited(tick) == replace(tick.inbox, heartbeats=())
+    assert (tick.dropped, tick.reasons) == (2, ["flood", "flood"])
     assert tick.s.flood.key == "cmd/heartbeat"
     assert tick.s.flood.level_s == pytest.approx(0.01)
 
@@ -91,7 +91,7 @@ def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: boo
     s.stick = stick = replace(reached("teleop").state.stick, seq=5)
     leg, epoch_no, owner = s.leg, s.epoch_no, s.ownership
     assert None not in (s.external, leg.horizon, leg.path)
-    turn(tick, "test", keep_stick=keep_stick)
+    new_epoch(tick, "test", keep_stick=keep_stick)
     assert s.epoch_no == epoch_no + 1
     assert s.ownership == replace(owner, waypoints_seq=None, external_seq=None)
     assert s.leg == replace(leg, horizon=None, path=None, refusal=None)
@@ -103,18 +103,18 @@ def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: boo
 
 def test_what_a_mission_may_still_use_goes_into_the_book_and_nothing_stays_granted() -> None:
     book = tuple(MissionLeft(f"m{i}", 1.0, 2.0) for i in range(64))
-    after = shelved(Grants("m3", 5.0, 6.0, book, 7.0, 8.0, True))
+    after = Grants("m3", 5.0, 6.0, book, 7.0, 8.0, True).return_budget()
     rest = (*book[:3], *book[4:], MissionLeft("m3", 5.0, 6.0))
     assert after == Grants(None, 0.0, 0.0, rest, 7.0, 8.0, True)
-    full = shelved(Grants("new", 5.0, 6.0, book))
+    full = Grants("new", 5.0, 6.0, book).return_budget()
     assert full.book == (*book[1:], MissionLeft("new", 5.0, 6.0))
-    assert shelved(after) is after
+    assert after.return_budget() is after
 
 
 def test_256_statuses_are_remembered_and_no_more() -> None:
     ring: tuple[float, ...] = ()
     for seq in range(1, 301):
-        ring = remembered(ring, float(seq))
+        ring = append_sent(ring, float(seq))
     assert ring == tuple(float(seq) for seq in range(45, 301))
     known = {seen: sent_at(ring, 300, seen) for seen in (44, 45, 300, 301)}
     assert known == {44: None, 45: 45.0, 300: 300.0, 301: None}
@@ -154,9 +154,9 @@ def test_a_robot_stands_while_its_drive_says_so(
 
 
 def test_what_is_dropped_is_counted_once_and_its_reason_kept() -> None:
-    tick: Tick = tick_of(reached("active"))
+    tick: TickContext = tick_of(reached("active"))
     before = tick.s.voice
     tick.drop("repeated")
-    assert (tick.s.voice, tick.reasons) == (
-        replace(before, dropped=before.dropped + 1), ["repeated"],
-    )  # fmt: skip
+    assert (tick.dropped, tick.reasons, tick.s.voice) == (1, ["repeated"], before)
+    status_of(tick, tick.s)
+    assert tick.s.voice.dropped == before.dropped + 1

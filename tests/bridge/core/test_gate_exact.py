@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import pytest
 
+from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.motion.contact_gate import contact_gate
-from bridge.core.motion.motion_gates import _note, _shut_by, look, reconsider, scan_age_s, through
-from bridge.core.motion.obstacle_gate import look_m
-from bridge.core.sensing.fence import build_fence
-from bridge.core.state import Gate
-from bridge.core.tick_context import Tick
+from bridge.core.motion.motion_gates import _note, _shut_by, apply, look, reconsider, scan_age_s
+from bridge.core.sensing.look_distance import look_m
+from bridge.core.state_motion import Gate
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -23,7 +23,7 @@ EPS = 1e-6
 AHEAD = Twist2(0.5, 0.0)
 
 
-def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: bool) -> Tick:
+def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: bool) -> TickContext:
     """Return a tick with a scan that shows the same distance all around, taken here and now."""
     tick = tick_of(reached(start))
     scan = tick.s.lidar.newest
@@ -44,7 +44,7 @@ def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: boo
 
 def test_standstill_passes_and_forgets() -> None:
     tick = driving()
-    assert through(tick, STILL) == STILL
+    assert apply(tick, STILL) == STILL
     assert (tick.s.motion.free_m, tick.room_m, tick.s.gate) == (None, None, Gate())
 
 
@@ -52,14 +52,14 @@ def test_without_a_scan_nothing_passes() -> None:
     tick = driving()
     tick.s.lidar = replace(tick.s.lidar, picture=None)
     tick.s.gate = Gate()
-    assert through(tick, AHEAD) == STILL
+    assert apply(tick, AHEAD) == STILL
     assert (tick.s.motion.bound_by, tick.s.gate.shut_since_s) == ("no_scan", tick.now_s)
     assert (tick.s.motion.free_m, tick.room_m) == (None, None)
 
 
 def test_a_free_way_passes_whole() -> None:
     tick = driving()
-    assert through(tick, AHEAD) == AHEAD
+    assert apply(tick, AHEAD) == AHEAD
     assert tick.s.motion.bound_by == "robot"
     assert tick.s.gate.shut_since_s is None
     assert tick.s.motion.free_m == look_m(ROBOT)
@@ -72,7 +72,7 @@ def test_a_free_way_passes_whole() -> None:
 @table("v_mps", [0.5, -0.5])
 def test_a_near_thing_slows(v_mps: float) -> None:
     tick = driving(0.45)
-    passed = through(tick, Twist2(v_mps, 0.0))
+    passed = apply(tick, Twist2(v_mps, 0.0))
     assert 0.02 <= passed.v_mps / v_mps * 0.5 < 0.45
     assert tick.s.motion.bound_by == "obstacle"
     assert tick.s.gate.shut_since_s is None
@@ -81,7 +81,7 @@ def test_a_near_thing_slows(v_mps: float) -> None:
 def test_a_thing_too_near_shuts() -> None:
     tick = driving(ROBOT.base.radius_m + 0.03)
     tick.s.gate = Gate()
-    assert through(tick, AHEAD).v_mps == 0.0
+    assert apply(tick, AHEAD).v_mps == 0.0
     assert (tick.s.motion.bound_by, tick.s.gate.shut_since_s) == ("obstacle", tick.now_s)
 
 
@@ -96,7 +96,7 @@ def test_a_thing_too_near_shuts() -> None:
 )
 def test_where_nothing_comes_back_speed_is_capped(asked: Twist2, passed: Twist2, by: str) -> None:
     tick = driving(None)
-    got = through(tick, asked)
+    got = apply(tick, asked)
     assert (got.v_mps, got.w_radps) == pytest.approx((passed.v_mps, passed.w_radps))
     assert tick.s.motion.bound_by == by
 
@@ -104,7 +104,7 @@ def test_where_nothing_comes_back_speed_is_capped(asked: Twist2, passed: Twist2,
 def test_a_pressed_bumper_shuts() -> None:
     tick = driving(bumper_front=True)
     tick.s.gate = Gate()
-    assert through(tick, AHEAD) == STILL
+    assert apply(tick, AHEAD) == STILL
     assert (tick.s.motion.bound_by, tick.s.gate.shut_since_s) == ("contact", tick.now_s)
 
 

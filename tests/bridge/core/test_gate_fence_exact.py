@@ -7,12 +7,12 @@ from math import pi
 
 import pytest
 
-from bridge.core.geometry.kinematics import scaled
+from bridge.core.geometry.fence import build_fence
+from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.fence_gate import fence_scale
 from bridge.core.motion.motion_gates import _inside_fence
-from bridge.core.sensing.fence import build_fence
-from bridge.core.state_braking import Learnt
+from bridge.core.state_motion import Learnt
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -41,7 +41,7 @@ def test_the_fence_counts_what_was_learnt_of_the_brakes(
     )
     if scale < 1.0 and start == "teleop":
         scale = max(scale, min(1.0, 0.2 / abs(v_mps)))
-    assert _inside_fence(tick, twist) == scaled(twist, scale)
+    assert _inside_fence(tick, twist) == scale_twist(twist, scale)
     assert tick.s.motion.bound_by == ("robot" if v_mps < 0.0 else "fence")
     tick.config = replace(tick.config, fence=None)
     assert _inside_fence(tick, twist) is twist

@@ -10,15 +10,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bridge.core.geometry.kinematics import saturate, scaled
+from bridge.core.geometry.fence import build_fence
+from bridge.core.geometry.kinematics import saturate, scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, INWARD_MPS, fence_scale
-from bridge.core.motion.free_distance import REACH_M
-from bridge.core.motion.limiter import LimiterState, shape, stopping_m
-from bridge.core.motion.obstacle_gate import ObstaclePass, obstacle_gate, sight_m
-from bridge.core.sensing.fence import build_fence
+from bridge.core.motion.limiter import shape, stopping_m
+from bridge.core.motion.obstacle_gate import ObstaclePass, obstacle_gate
+from bridge.core.sensing.look_distance import REACH_M, sight_m
+from bridge.core.state_motion import LimiterState
 from tests.laws import at_least
 from wire.geometry import IDENTITY, STILL, Pose2, Twist2
 from wire.robot import RobotDescription
@@ -216,7 +217,7 @@ def test_looking_no_further_than_it_takes_changes_nothing_that_passes(
     asked = saturate(asked, robot.base, robot.limits)
     passed = obstacle_gate(near, here, asked, measured, age_s, robot)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("bridge.core.motion.obstacle_gate.look_m", lambda *_: REACH_M)
+        patch.setattr("bridge.core.sensing.look_distance.look_m", lambda *_: REACH_M)
         expected = obstacle_gate(wide, here, asked, measured, age_s, robot)
     assert (passed.twist, passed.scale, passed.known) == (
         expected.twist, expected.scale, expected.known
@@ -238,7 +239,7 @@ def fenced(start: Pose2, asked: Twist2, seconds: float) -> tuple[float, Pose2]:
     least = FENCE.margin_m(pose.x_m, pose.y_m)
     for _ in range(round(seconds / 0.01)):
         scale = fence_scale(FENCE, pose, asked, BASE, LIMITS, REACTION)
-        memory = shape(scaled(asked, scale), memory, BASE, LIMITS, 0.01)
+        memory = shape(scale_twist(asked, scale), memory, BASE, LIMITS, 0.01)
         pipe.append(memory.sent)
         moving = pipe.popleft()
         pose = along_arc(pose, moving.v_mps * 0.01, moving.w_radps * 0.01)

@@ -7,13 +7,15 @@ from math import pi, tau
 
 import pytest
 
-from bridge.core.geometry.kinematics import scaled
+from bridge.core.geometry.fence import build_fence
+from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.geometry.odometry import along_arc
-from bridge.core.motion.braking import AS_CONFIGURED, Braking, reaction_s
+from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
-from bridge.core.motion.limiter import LimiterState, shape
-from bridge.core.motion.obstacle_gate import look_m, obstacle_gate, sight_m
-from bridge.core.sensing.fence import build_fence
+from bridge.core.motion.limiter import shape
+from bridge.core.motion.obstacle_gate import obstacle_gate
+from bridge.core.sensing.look_distance import look_m, sight_m
+from bridge.core.state_motion import AS_CONFIGURED, Braking, LimiterState
 from tests.bridge.core.test_gates import BASE, LAG, LIMITS, RADIUS, ROBOT, gap, look
 from wire.geometry import IDENTITY, STILL, Pose2, Twist2
 
@@ -86,7 +88,7 @@ def test_what_was_learnt_keeps_it_inside_the_fence(metal: Braking, yaw: float) -
     asked = Twist2(0.5, 0.0)
     for _ in range(800):
         scale = fence_scale(FENCE, pose, asked, BASE, LIMITS, reaction, metal.decel_share)
-        memory = shape(scaled(asked, scale), memory, BASE, LIMITS, 0.01)
+        memory = shape(scale_twist(asked, scale), memory, BASE, LIMITS, 0.01)
         moving = real.turn(memory.sent)
         pose = along_arc(pose, moving.v_mps * 0.01, moving.w_radps * 0.01)
         # The gate judges what is asked; 0.31 s late the robot is still faster than that: 2 cm.

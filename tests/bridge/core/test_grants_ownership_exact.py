@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bridge.core.authority import grants, ownership
-from bridge.core.authority.request_answers import refuse_openly
-from bridge.core.state import RowUp
+from bridge.core.authority import hello as hearing
+from bridge.core.authority.requests import refuse_openly
 from bridge.core.state_orders import Grants, MissionLeft, Ownership
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
 from wire import PROTOCOL, Grant, Heartbeat, Held, HeldReason, Hello, Owner
 
 
-def at(start: str) -> Tick:
+def at(start: str) -> TickContext:
     return tick_of(reached(start))
 
 
-def grant(tick: Tick, mission: str = "new", metres: float = 5.0) -> Grant:
+def grant(tick: TickContext, mission: str = "new", metres: float = 5.0) -> Grant:
     seen = tick.s.voice.status_seq
     return Grant(planner_id="p1", epoch=tick.epoch, seen=seen, mission=mission, metres=metres,
                  seconds=9.0)  # fmt: skip
@@ -31,19 +31,16 @@ def test_a_grant_puts_the_last_one_in_the_book_and_takes_its_own_rest_out() -> N
         tick.s.grants, metres=3.0, seconds=4.0, since_arm=False,
         book=(MissionLeft("new", 1.0, 2.0), MissionLeft("other", 7.0, 8.0)),
     )  # fmt: skip
-    tick.s.rows = {"POSE_JUMP.0": RowUp(0.0, 0.0, "old")}
     refuse_openly(tick, "grant", "new", "held", "for a test")
     tick.events.clear()
     had = tick.s.grants
-    grants.hear_grant(tick, grant(tick))
+    assert grants.hear_grant(tick, grant(tick)) == "new 1.0 m 2 s"
     assert tick.s.grants == Grants(
         "new", 1.0, 2.0, (MissionLeft("other", 7.0, 8.0), MissionLeft("m1", 3.0, 4.0)),
         had.operator_metres, had.operator_seconds, had.hand_metres, had.hand_seconds,
         since_arm=True,
     )  # fmt: skip
     assert tick.s.operator.refusals == ()
-    assert tick.s.rows == {}
-    assert tick.events[-1] == ("granted", "new 1.0 m 2 s")
     again = tick.s.grants
     grants.hear_grant(tick, grant(tick, metres=50.0))
     assert tick.s.grants is again, "the same mission again changes nothing"
@@ -63,7 +60,7 @@ def test_a_grant_knows_of_the_jump_or_is_dropped(after_s: float, granted: bool) 
     assert tick.s.grants.metres == (5.0 if granted else 0.0)
 
 
-def hello(tick: Tick, **more: object) -> Hello:
+def hello(tick: TickContext, **more: object) -> Hello:
     config = tick.config
     said = {"planner_id": "p2", "kind": "planner", "seen": tick.s.voice.status_seq,
             "protocol": PROTOCOL, "robot_hash": config.robot_hash,
@@ -77,7 +74,7 @@ def test_an_owner_is_taken_and_another_one_holds(last: str | None) -> None:
     tick.s.ownership = Ownership(last_owner_id=last, echo_s=None, waypoints_seq=7, external_seq=7)
     epoch = tick.s.epoch_no
     refuse_openly(tick, "hello", "p2", "not_standing", "for a test")
-    ownership.hear_hello(tick, hello(tick))
+    hearing.hear_hello(tick, hello(tick))
     assert tick.s.operator.refusals == ()
     sent_s = tick.s.voice.ring[-1]
     owner = Owner(planner_id="p2", kind="planner")
@@ -114,7 +111,7 @@ def test_a_hello_is_refused_for_one_reason_each(
         tick.s.ownership = Ownership()
     tick.s.ownership = replace(tick.s.ownership, echo_s=0.0)
     owned = tick.s.ownership
-    ownership.hear_hello(tick, hello(tick, **change))
+    hearing.hear_hello(tick, hello(tick, **change))
     assert tick.reasons == codes
     assert (tick.s.ownership == owned) is bool(codes)
     shown = [f"hello_{one.answer.code}" for one in tick.s.operator.refusals]
@@ -125,7 +122,7 @@ def test_the_owners_own_hello_shows_that_it_lives() -> None:
     tick = at("active")
     tick.s.ownership = replace(tick.s.ownership, echo_s=0.0)
     before = tick.s.ownership
-    ownership.hear_hello(tick, hello(tick, planner_id="p1"))
+    hearing.hear_hello(tick, hello(tick, planner_id="p1"))
     assert tick.s.ownership == replace(before, echo_s=tick.s.voice.ring[-1])
     assert tick.reasons == []
 

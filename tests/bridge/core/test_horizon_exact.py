@@ -6,7 +6,7 @@ from math import hypot, nan
 
 from bridge.core.authority import horizon_checks
 from bridge.core.authority.horizon_checks import check_horizon
-from bridge.core.sensing.fence import build_fence
+from bridge.core.geometry.fence import build_fence
 from tests.bridge.core.table import table
 from wire import Pose2, Waypoint
 
@@ -54,7 +54,7 @@ def test_bounds_are_within() -> None:
     ],
 )  # fmt: skip
 def test_gaps_are_within_their_bounds_and_a_millimetre(gaps: list[float], spaced: bool) -> None:
-    assert horizon_checks._spaced(gaps) is spaced
+    assert horizon_checks._is_well_spaced(gaps) is spaced
 
 
 @table(
@@ -100,7 +100,7 @@ Point = tuple[float, float]
 def test_every_way_stays_inside(robot: Point, points: list[Point], inside: bool) -> None:
     xs, ys = [x for x, _ in points], [y for _, y in points]
     gaps = [hypot(xs[i + 1] - xs[i], ys[i + 1] - ys[i]) for i in range(len(xs) - 1)]
-    assert horizon_checks._inside(xs, ys, gaps, Pose2(*robot, 0.0), FENCE) is inside
+    assert horizon_checks._keeps_inside(xs, ys, gaps, Pose2(*robot, 0.0), FENCE) is inside
 
 
 def test_the_way_to_the_first_point_is_measured_from_the_robot() -> None:
@@ -108,7 +108,7 @@ def test_the_way_to_the_first_point_is_measured_from_the_robot() -> None:
     for x, y in ((8.5, 3.0), (-8.5, 3.0), (3.0, 8.5), (3.0, -8.5)):
         robot = Pose2(x, y, 0.0)
         out_x, out_y = (x * 9.2 / 8.5, y) if abs(x) > 8 else (x, y * 9.2 / 8.5)
-        assert not horizon_checks._inside([out_x], [out_y], [], robot, FENCE)
+        assert not horizon_checks._keeps_inside([out_x], [out_y], [], robot, FENCE)
         in_x, in_y = (x * 8.9 / 8.5, y) if abs(x) > 8 else (x, y * 8.9 / 8.5)
-        assert horizon_checks._inside([in_x], [in_y], [], robot, FENCE)
-        assert not horizon_checks._inside([in_x, out_x], [in_y, out_y], [0.3], robot, FENCE)
+        assert horizon_checks._keeps_inside([in_x], [in_y], [], robot, FENCE)
+        assert not horizon_checks._keeps_inside([in_x, out_x], [in_y, out_y], [0.3], robot, FENCE)

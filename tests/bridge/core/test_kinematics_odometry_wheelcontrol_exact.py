@@ -15,13 +15,14 @@ from bridge.core.geometry.kinematics import (
     fastest_rim,
     rim_speeds,
     saturate,
-    scaled,
+    scale_twist,
     twist_of,
     wheels_of,
 )
-from bridge.core.geometry.odometry import OdometryState, advance, along_arc, arc_end, rolled
+from bridge.core.geometry.odometry import OdometryState, advance, along_arc, arc_end, roll
 from bridge.core.motion import wheel_control
-from bridge.core.motion.wheel_control import AT_REST, Wheel, turned
+from bridge.core.motion.wheel_control import control_wheel
+from bridge.core.state_motion import AT_REST, Wheel
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from wire import STILL, DriveState, Pose2, RobotDescription, Twist2
@@ -97,8 +98,8 @@ def test_lateral_acceleration_is_held_by_its_root() -> None:
 
 def test_a_factor_of_one_changes_no_bit() -> None:
     odd = Twist2(0.1 + 0.2, 0.7)
-    assert scaled(odd, 1.0) is odd
-    assert scaled(Twist2(0.4, -0.2), 0.5) == Twist2(0.2, -0.1)
+    assert scale_twist(odd, 1.0) is odd
+    assert scale_twist(Twist2(0.4, -0.2), 0.5) == Twist2(0.2, -0.1)
 
 
 # Odometry --------------------------------------------------------------------------------------
@@ -147,7 +148,7 @@ def test_what_leaves_the_world_or_is_no_number_moves_nothing() -> None:
 
 
 def test_two_wheel_paths_make_an_arc() -> None:
-    there = rolled(Pose2(0.0, 0.0, 0.0), 0.1, 0.5, 0.8)  # 0.3 m, turning by 0.5 rad
+    there = roll(Pose2(0.0, 0.0, 0.0), 0.1, 0.5, 0.8)  # 0.3 m, turning by 0.5 rad
     assert (there.x_m, there.y_m) == pytest.approx((0.6 * sin(0.5), 0.6 * (1 - cos(0.5))))
     assert there.yaw_rad == pytest.approx(0.5)
 
@@ -172,7 +173,7 @@ def test_a_reading_rolls_the_robot_by_what_its_wheels_turned(
     start = Pose2(3.0, 4.0, 1.0)
     state = OdometryState(start, STILL, 1.0, 2.0, 10.0, 20.0, 5)
     after = advance(state, reading(left, right, speeds=(2.5, 0.5)), BASE, rezero=rezero)
-    assert after.base_in_odom == rolled(start, *rolls, 0.8) if any(rolls) else start
+    assert after.base_in_odom == roll(start, *rolls, 0.8) if any(rolls) else start
     assert (after.measured.v_mps, after.measured.w_radps) == pytest.approx((0.3, -0.5))
     assert after.travelled_m == pytest.approx(10.0 + abs(sum(rolls)) / 2)
     assert after.turned_rad == pytest.approx(20.0 + abs(rolls[1] - rolls[0]) / 0.8)
@@ -205,7 +206,7 @@ def told(
     wheel: Wheel, meant: float, seen: float | None = None, by: float = 0.0, dt_s: float = 0.01,
     *, trusted: bool = True, stopping: bool = False,
 ) -> Wheel:  # fmt: skip
-    return turned(wheel, meant, by, seen, dt_s, ROBOT, trusted=trusted, stopping=stopping)
+    return control_wheel(wheel, meant, by, seen, dt_s, ROBOT, trusted=trusted, stopping=stopping)
 
 
 ROLLING = Wheel(0.2, 0.3, 1.9, 1.8, 2.0, 0.0)
@@ -308,7 +309,7 @@ def test_what_is_too_far_off_for_too_long_is_not_corrected() -> None:
 def test_a_robot_that_nothing_may_correct_is_fed_forward() -> None:
     drive = ROBOT.drive.model_copy(update={"dead_zone_radps": 0.0, "max_correction": 0.0})
     bare = ROBOT.model_copy(update={"drive": drive})
-    after = turned(ROLLING, 2.0, 0.0, 1.0, 0.01, bare, trusted=True, stopping=False)
+    after = control_wheel(ROLLING, 2.0, 0.0, 1.0, 0.01, bare, trusted=True, stopping=False)
     assert (after.told_radps, after.push, after.integral) == (2.0, 0.0, 0.0)
 
 
@@ -327,14 +328,14 @@ def test_a_robot_that_nothing_may_correct_is_fed_forward() -> None:
 def test_the_correction_learns_no_further_than_it_may(
     integral: float, off: float, spare: float, grown: float, whole: float
 ) -> None:
-    found = wheel_control._corrected(integral, off, spare, 0.01, ROBOT.drive)
+    found = wheel_control._correct(integral, off, spare, 0.01, ROBOT.drive)
     assert found == pytest.approx((grown, whole))
 
 
 def test_without_a_share_of_what_is_off_it_is_learnt_up_to_the_bound() -> None:
     bare = ROBOT.drive.model_copy(update={"kp": 0.0})
     for sign in (1.0, -1.0):
-        found = wheel_control._corrected(sign * 0.95, sign * 1.0, 9.0, 0.01, bare)
+        found = wheel_control._correct(sign * 0.95, sign * 1.0, 9.0, 0.01, bare)
         assert found == (sign, sign)
 
 

@@ -10,7 +10,7 @@ import pytest
 from bridge.core.faults import fault_latch
 from bridge.core.faults.fault_table import STAGES, Clears
 from bridge.core.state import RowUp
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -19,7 +19,7 @@ from wire import Action, Mode
 EPS_S = 1e-6
 
 
-def up(tick: Tick, *names: str, age_s: float = 0.0) -> Tick:
+def up(tick: TickContext, *names: str, age_s: float = 0.0) -> TickContext:
     at_s = tick.now_s - age_s
     tick.s.rows = {name: RowUp(at_s - 1.0, at_s, "old") for name in names}
     return tick
@@ -112,10 +112,10 @@ def test_the_worst_that_binds_is_found(
 )
 def test_who_moves_and_who_may_is_named(start: str, letters: str) -> None:
     state = reached(start).state
-    assert fault_latch.sources(state) == letters
+    assert state.sources() == letters
     if state.grants.mission is not None:
         state.ownership = replace(state.ownership, owner=None)
-        assert fault_latch.sources(state) == state.source
+        assert state.sources() == state.source
 
 
 @table(

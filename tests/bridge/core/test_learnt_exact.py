@@ -7,9 +7,14 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.motion import brake_learning as module
-from bridge.core.motion.brake_learning import after_cut, after_stop, in_force, weak_share
-from bridge.core.motion.braking import AS_CONFIGURED, Braking
-from bridge.core.state_braking import UNLEARNT, Learnt, Ramp
+from bridge.core.motion.brake_learning import after_cut, after_stop
+from bridge.core.state_motion import (
+    AS_CONFIGURED,
+    UNLEARNT,
+    Braking,
+    Learnt,
+    Ramp,
+)
 from tests.bridge.core.table import table
 from wire import RobotDescription
 
@@ -27,11 +32,11 @@ def ramp(sent_s: float = 0.5, real_s: float = 0.5, late_s: float = 0.06, **more:
 
 
 def test_what_is_known_is_in_force() -> None:
-    assert in_force(UNLEARNT) is AS_CONFIGURED
-    assert in_force(LAG) == Braking(0.1, 1.0)
-    assert in_force(WEAK) == Braking(0.0, 0.5)
+    assert UNLEARNT.in_force() is AS_CONFIGURED
+    assert LAG.in_force() == Braking(0.1, 1.0)
+    assert WEAK.in_force() == Braking(0.0, 0.5)
     for share, factor in ((1.0, 1.0), (0.5, 1.0), (0.5 - EPS, 0.5 - EPS), (0.1, 0.1)):
-        assert weak_share(Learnt(decel_share=share)) == factor
+        assert Learnt(decel_share=share).speed_share() == factor
 
 
 @table(
@@ -247,5 +252,5 @@ def test_when_a_mark_was_crossed_is_told_between_two_ticks(
     at_s: float | None, before: float, after: float, crossed_s: float | None
 ) -> None:
     expected = {9.99: 10.0}.get(crossed_s or 0.0, crossed_s)
-    found = module._crossed(at_s, before, after, 0.3, 10.0, 0.01)
+    found = module._crossing_s(at_s, before, after, 0.3, 10.0, 0.01)
     assert found == (None if expected is None else pytest.approx(expected))

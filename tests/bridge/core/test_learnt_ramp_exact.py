@@ -7,9 +7,8 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.motion import brake_learning as module
-from bridge.core.motion.limiter import LimiterState
-from bridge.core.state_braking import UNLEARNT, Ramp
-from bridge.core.tick_context import Tick
+from bridge.core.state_motion import UNLEARNT, LimiterState, Ramp
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_learnt_exact import EPS, ROBOT
@@ -17,7 +16,9 @@ from tests.bridge.core.test_quick_core import tick_of
 from wire import STILL, Twist2
 
 
-def ticking(sent: Twist2, was: Twist2, real: Twist2, measured: Twist2) -> tuple[Tick, Tick]:
+def ticking(
+    sent: Twist2, was: Twist2, real: Twist2, measured: Twist2
+) -> tuple[TickContext, TickContext]:
     """Return a tick that sends one motion, and the one before it; both measure something."""
     before, tick = tick_of(reached("active")), tick_of(reached("active"))
     for one, limiter, odometry in ((before, was, measured), (tick, sent, real)):

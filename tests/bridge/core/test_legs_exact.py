@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.authority import leg_tracking
-from bridge.core.authority.leg_tracking import hear_waypoints, judge_arrival, residual
-from bridge.core.modes import external_velocity
-from bridge.core.motion.pursuit import NEW, FollowState
+from bridge.core.authority import external_velocity
+from bridge.core.authority.leg_tracking import has_arrived, hear_waypoints, residual
+from bridge.core.motion.wheel_command import take_horizon
+from bridge.core.state_motion import NEW, FollowState
 from bridge.core.state_orders import External
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -21,7 +21,7 @@ from wire import STILL, Owner, Pose2, Twist2, Velocity, Waypoint, Waypoints
 FOLLOWED = FollowState(0.4, turning=True, settled=True, tries=2)
 
 
-def driving() -> Tick:
+def driving() -> TickContext:
     """Return a tick of a robot on its way, at (1, 0) of its map."""
     tick = tick_of(reached("active"))
     tick.robot_in_map = Pose2(1.0, 0.0, 0.0)
@@ -30,7 +30,7 @@ def driving() -> Tick:
     return tick
 
 
-def horizon(tick: Tick, *xs: float, **more: object) -> Waypoints:
+def horizon(tick: TickContext, *xs: float, **more: object) -> Waypoints:
     seq = (tick.s.ownership.waypoints_seq or 0) + 1
     points = tuple(Waypoint(x_m=x, y_m=0.0, speed_mps=0.3) for x in xs)
     made = {
@@ -111,7 +111,9 @@ def test_a_horizon_of_the_same_leg_goes_on_where_the_last_one_was(
     kept = tick.s.leg.horizon if had_horizon else None
     tick.s.leg = replace(tick.s.leg, goal=goal, horizon=kept, refusal="wrong_map")
     new = horizon(tick, 1.1, 1.15, 1.2, final=final)
+    before = tick.s.leg
     hear_waypoints(tick, new)
+    take_horizon(tick, before)
     leg = tick.s.leg
     assert tick.s.motion.follow == follow
     assert (leg.horizon, leg.refusal, leg.sent_s) == (new, None, tick.s.voice.ring[-1])
@@ -125,11 +127,15 @@ def test_a_horizon_of_the_same_leg_goes_on_where_the_last_one_was(
 def test_a_new_leg_begins_with_nothing_of_the_old() -> None:
     tick = driving()
     tick.s.leg = replace(tick.s.leg, reached=True, goal=Waypoint(x_m=9.0, y_m=0.0, speed_mps=0.3))
+    before = tick.s.leg
     hear_waypoints(tick, horizon(tick, 1.1, 1.2, leg=2))
+    take_horizon(tick, before)
     leg = tick.s.leg
     assert (leg.leg, leg.mission, leg.reached, leg.goal) == (2, "m1", False, None)
     assert tick.s.motion.follow == NEW
     hear_waypoints(tick, horizon(tick, 3.0, 3.1, leg=3))
+    take_horizon(tick, leg)
+    assert tick.s.motion.follow == NEW, "nothing was taken"
     leg = tick.s.leg
     assert (leg.leg, leg.refusal, leg.horizon, leg.path) == (3, "first_point_far", None, None)
 
@@ -152,11 +158,11 @@ def test_a_leg_is_done_where_it_ends_and_stands(
     tick.s.drive.still_since_s = tick.now_s if stands else None
     new = horizon(tick, *((1.1, 1.2) if points else ()), final=final)
     tick.s.leg = replace(tick.s.leg, horizon=new)
-    assert judge_arrival(tick, at_end=at_end) is arrived
+    assert has_arrived(tick, at_end=at_end) is arrived
     assert tick.s.leg.reached is reached_leg
     assert tick.events == [("reached", "m1 leg 1")] * reached_leg
     tick.s.leg = replace(tick.s.leg, horizon=None)
-    assert not judge_arrival(tick, at_end=True)
+    assert not has_arrived(tick, at_end=True)
 
 
 def test_what_is_left_is_told_where_it_is_known() -> None:
@@ -183,7 +189,7 @@ def test_a_horizon_calls_only_where_it_asks_for_motion(against: str) -> None:
     )
     if against == "mission":
         tick.s.grants = replace(tick.s.grants, mission="m2")
-    assert leg_tracking.callable_horizon(tick) is (against == "")
+    assert tick.s.leg.has_usable_horizon(tick.s.grants.mission, tick.now_s) is (against == "")
 
 
 def test_another_brain_is_followed_as_its_hand_says() -> None:
@@ -198,14 +204,14 @@ def test_another_brain_is_followed_as_its_hand_says() -> None:
         sent_s = tick.s.voice.ring[-1]
         assert tick.s.external == External(asked.v_mps, asked.w_radps, held, sent_s)
         assert (tick.s.ownership.external_seq, tick.s.bad_bucket) == (last + 1, 2.0)
-        assert external_velocity.wanted(tick) == asked
+        assert external_velocity.requested_twist(tick) == asked
         for age_s, calls in ((0.25, held), (0.2501, False)):
             tick.s.external = replace(tick.s.external, sent_s=0.0)
             tick.now_s = age_s
-            assert external_velocity.calls(tick) is calls
+            assert external_velocity.asks_to_move(tick) is calls
         tick.s.external = None
-        assert external_velocity.wanted(tick) == STILL
-        assert not external_velocity.calls(tick)
+        assert external_velocity.requested_twist(tick) == STILL
+        assert not external_velocity.asks_to_move(tick)
 
 
 @table(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.core.motion.limiter import LimiterState, shape, stopping_m, tick_length
+from bridge.core.motion.limiter import shape, stopping_m, tick_length
+from bridge.core.state_motion import LimiterState
 from tests.bridge.core.table import table
 from wire import RobotDescription, Twist2
 

@@ -10,17 +10,23 @@ from dataclasses import asdict
 
 from bridge.core import Inbox, LoopFacts, initial
 from bridge.core.geometry.odometry import OdometryState
-from bridge.core.modes.stop_profile import NO_STOP, StopPlan
-from bridge.core.motion.pursuit import FollowState
-from bridge.core.motion.wheel_control import Wheel
-from bridge.core.state import BridgeState, Gate, Motion, SelfTest, Voice
-from bridge.core.state_braking import Learnt, Ramp
-from bridge.core.state_detectors import Flood, Watch
-from bridge.core.state_fence import FenceAsked
-from bridge.core.state_orders import Grants, Leg, Operator, Ownership, Stick
+from bridge.core.state import BridgeState, SelfTest, Voice
+from bridge.core.state_motion import (
+    NO_STOP,
+    FollowState,
+    Gate,
+    Learnt,
+    Motion,
+    Ramp,
+    StopPlan,
+    Wheel,
+)
+from bridge.core.state_orders import Grants, LegMemory, Operator, Ownership, PendingFence, Stick
 from bridge.core.state_senses import (
     ButtonMemory,
+    DetectorMemory,
     DriveMemory,
+    Flood,
     LidarMemory,
     LoopMemory,
     PoseMemory,
@@ -64,7 +70,7 @@ NOBODY: dict[str, object] = dict.fromkeys(
         (Operator(), {"nonce_no": 0, "nonce_tag": "", "nonce_made_s": 0.0, "old_nonce_no": None,
                       "old_tag": "", "old_until_s": 0.0,
                       "answers": (), "accepted": (), "refusals": ()}),
-        (Leg(), {"mission": None, "leg": 0, "reached": False, "goal": None, "refusal": None,
+        (LegMemory(), {"mission": None, "leg": 0, "reached": False, "goal": None, "refusal": None,
                  "horizon": None, "path": None, "sent_s": 0.0}),
         (Stick(), {"released": (), "ready": (), "source_id": None, "pressed_s": None, "seq": -1,
                    "v_mps": 0.0, "w_radps": 0.0, "received_s": 0.0, "sent_s": 0.0}),
@@ -79,7 +85,8 @@ NOBODY: dict[str, object] = dict.fromkeys(
                           "ordered": False}),
         (LoopMemory(), {"late_at_s": (), "capped_s": None, "gaps_at_s": (), "missed": 0,
                         "real_time": False, "recorder_ok": False}),
-        (Watch(), {"blind_s": 0.0, "yaw_s": 0.0, "runaway_s": 0.0, "sent": (), "stuck_s": 0.0,
+        (DetectorMemory(), {"blind_s": 0.0, "yaw_s": 0.0, "runaway_s": 0.0, "sent": (),
+                   "stuck_s": 0.0,
                    "progress_at": None, "progress_s": 0.0, "stuck_at_s": (), "peak_s": 0.0,
                    "heat_a2s": 0.0, "low_s": 0.0, "empty_s": 0.0, "zone_mps": None,
                    "outside": False}),
@@ -122,7 +129,7 @@ def test_a_new_state_stands_in_boot_at_its_own_time() -> None:
 
 
 def test_a_fence_is_asked_for_before_it_is_written_and_a_ramp_begins_at_its_start() -> None:
-    assert not FenceAsked("f1", "page", "{}", IDENTITY).written
+    assert not PendingFence("f1", "page", "{}", IDENTITY).written
     ramp = Ramp(1.0, 0.4, 0.39, 0.4, 0.39)
     assert (ramp.sent_m, ramp.real_m, ramp.rise_mps) == (0.0, 0.0, 0.0)
     assert (ramp.sent_high_s, ramp.sent_low_s, ramp.real_high_s, ramp.real_low_s) == (None,) * 4

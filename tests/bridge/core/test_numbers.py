@@ -12,13 +12,14 @@ from math import radians
 import pytest
 
 from bridge.core.faults.fault_table import STAGES
-from bridge.core.modes.mode_table import LATCHED, MOVING, POWERED, TRANSITIONS
+from bridge.core.modes.mode_table import LATCHED, TRANSITIONS
+from bridge.core.tick_context import MOVING, POWERED
 from tests.bridge.core import oracle
 from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 
 NUMBERS: dict[str, dict[str, float]] = {
-    "modes.arming": {"CLEAN_S": 2.0, "LINK_SILENT_S": 0.5, "STANDING_S": 0.5, "STICK_S": 0.25},
+    "modes.arming": {"CLEAN_S": 2.0, "STANDING_S": 0.5, "STICK_S": 0.25},
     "motion.braking": {
         "CREEP_MPS": 0.1,
         "CREEP_RADPS": 0.3,
@@ -26,22 +27,32 @@ NUMBERS: dict[str, dict[str, float]] = {
         "TURNING_MPS": 1e-4,
     },
     "modes.mode_logic": {"REVOKED_BLOCKED_S": 300.0, "REVOKED_S": 30.0},
-    "faults.detect_brain": {
-        "LATE_S": 0.15,
-        "LOST_S": 0.3,
-        "GONE_S": 5.0,
-        "USED_S": 1.0,
+    "faults.detectors": {
+        "BRAIN_LATE_S": 0.15,
+        "BRAIN_LOST_S": 0.3,
+        "BRAIN_GONE_S": 5.0,
+        "BRAIN_STALE_S": 1.0,
         "EXTERNAL_S": 0.25,
         "BAD_TRIPS": 5.0,
-    },
-    "faults.detect_loop": {
-        "LATE_S": 0.005,
-        "LATES": 5,
         "LATES_WITHIN_S": 1.0,
         "MISSED": 2,
-        "GAP_S": 0.1,
-        "GAPS": 3,
         "GAPS_WITHIN_S": 10.0,
+        "BLIND_S": 0.3,
+        "BLIND_LONG_S": 5.0,
+        "BLIND_SHARE": 0.05,
+        "PEAK_S": 0.1,
+        "HEAT_S": 2.0,
+        "CHARGE_LOW": 0.2,
+        "CHARGE_EMPTY": 0.1,
+        "CHARGE_UP": 0.05,
+        "CHARGE_S": 2.0,
+        "LIDAR_OLD_S": 0.25,
+        "LIDAR_LONG_S": 5.0,
+        "EQUAL_SCANS": 5,
+        "EQUAL_MOVED_M": 0.02,
+        "ENC_LONG_S": 0.25,
+        "NACK_S": 0.1,
+        "NACK_LONG_S": 0.5,
     },
     "faults.detect_motion": {
         "SLACK_MPS": 0.15,
@@ -62,30 +73,13 @@ NUMBERS: dict[str, dict[str, float]] = {
         "YAW_RADPS": 0.3,
         "YAW_S": 0.5,
         "GYRO_OLD_S": 0.25,
-    },
-    "faults.detect_coverage": {"BLIND_S": 0.3, "BLIND_LONG_S": 5.0, "BLIND_SHARE": 0.05},
-    "faults.detect_power": {
-        "PEAK_S": 0.1,
-        "HEAT_S": 2.0,
-        "LOW": 0.2,
-        "EMPTY": 0.1,
-        "UP": 0.05,
-        "CHARGE_S": 2.0,
-    },
-    "faults.detect_senses": {
-        "LIDAR_OLD_S": 0.25,
-        "LIDAR_LONG_S": 5.0,
-        "EQUAL_SCANS": 5,
-        "EQUAL_MOVED_M": 0.02,
         "ENC_S": 0.08,
-        "ENC_LONG_S": 0.25,
-        "NACK_S": 0.1,
-        "NACK_LONG_S": 0.5,
     },
-    "modes.external_velocity": {"TTL_S": 0.25},
+    "sensing.stop_inputs": {"LINK_SILENT_S": 0.5},
+    "sensing.look_distance": {"FREE_M": 0.3, "MARGIN_M": 0.05, "REACH_M": 2.0},
+    "authority.external_velocity": {"TTL_S": 0.25},
     "motion.fence_gate": {"FENCE_MARGIN_M": 0.15, "INWARD_MPS": 0.15},
     "authority.rate_limit": {"WINDOW_S": 0.25, "SLACK": 1.2, "ONE_MORE": 1, "FULL_S": 1.0},
-    "motion.free_distance": {"MARGIN_M": 0.05, "REACH_M": 2.0},
     "motion.motion_gates": {
         "SHUT_S": 0.5,
         "FREE_SCANS": 5,
@@ -106,10 +100,16 @@ NUMBERS: dict[str, dict[str, float]] = {
         "MIN_END_GAP_M": 0.01,
         "MIN_SPEED_MPS": 0.05,
     },
-    "motion.limiter": {"PERIOD_S": 0.01},
+    "config": {"PERIOD_S": 0.01},
     "authority.message_score": {"DRAIN_S": 0.5, "FULL": 10.0},
-    "motion.obstacle_gate": {"FREE_M": 0.3},
-    "modes.operator": {"NONCE_S": 60.0, "OLD_NONCE_S": 10.0},
+    "authority.requests": {
+        "NONCE_S": 60.0,
+        "OLD_NONCE_S": 10.0,
+        "KEPT": 64,
+        "SHOWN": 16,
+        "SHOWN_S": 10.0,
+        "REFUSAL_S": 1.0,
+    },
     "authority.ownership": {"LIVE_S": 0.3},
     "motion.pursuit": {"REACHED_M": 0.1, "REACHED_RAD": 0.1},
     "modes.selftest": {"FRESH_S": 0.25, "STILL_S": 0.5, "MOVING_S": 1.0, "PATIENCE_S": 0.3},
@@ -119,6 +119,10 @@ NUMBERS: dict[str, dict[str, float]] = {
         "JUMP_M": 0.1,
         "JUMP_RAD": radians(5),
         "BASELINE_SCANS": 20,
+        "LATE_S": 0.005,
+        "LATES": 5,
+        "GAP_S": 0.1,
+        "GAPS": 3,
         "SEES_SHARE": 0.1,
         "DRIFT_M": 0.2,
         "DRIFT_RAD": radians(10),
@@ -132,17 +136,15 @@ NUMBERS: dict[str, dict[str, float]] = {
         "SEQ_AHEAD": 1_000,
     },
     "state_orders": {"MAX_MISSIONS": 64},
+    "authority.stick": {"NEUTRAL_MPS": 0.02, "NEUTRAL_RADPS": 0.05},
     "modes.teleop": {
         "CAUSAL_S": 0.4,
         "RECEIPT_S": 0.25,
-        "NEUTRAL_MPS": 0.02,
-        "NEUTRAL_RADPS": 0.05,
     },
     "modes.stop_profile": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
     "modes.stop_monitor": {"DWELL_S": 0.2, "SLOW_S": 0.15},
     "reporting.report": {"EVERY_S": 0.05, "AT_LEAST_S": 0.025},
     "tick_context": {"STANDING_MPS": 0.02, "STANDING_RADPS": 0.05},
-    "authority.request_answers": {"KEPT": 64, "SHOWN": 16, "SHOWN_S": 10.0, "REFUSAL_S": 1.0},
     "geometry.debounce": {"DRAIN": 0.25, "LONGEST_S": 0.05},
 }
 

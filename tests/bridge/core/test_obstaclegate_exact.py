@@ -10,9 +10,11 @@ import pytest
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.motion import braking
 from bridge.core.motion import obstacle_gate as gate_module
-from bridge.core.motion.braking import Braking, speed_scale, speed_within, stop_length_m
+from bridge.core.motion.braking import speed_scale, speed_within, stop_length_m
 from bridge.core.motion.free_distance import FreeLength
-from bridge.core.motion.obstacle_gate import look_m, obstacle_gate, sight_m, weak_m
+from bridge.core.motion.obstacle_gate import obstacle_gate, weak_m
+from bridge.core.sensing.look_distance import look_m, sight_m
+from bridge.core.state_motion import Braking
 from tests.bridge.core.table import table
 from wire import IDENTITY, STILL, RobotDescription, Scan, Twist2
 
@@ -125,12 +127,14 @@ def test_the_path_until_standstill(twist: Twist2, share: float, length_m: float)
     ],
 )
 def test_what_a_free_length_lets_pass(way: FreeLength, twist: Twist2, scale: float) -> None:
-    assert speed_scale(way, twist, BASE, LIMITS, 0.3) == pytest.approx(scale)
+    assert speed_scale(way.s_m, twist, BASE, LIMITS, 0.3, touching=way.touching) == pytest.approx(
+        scale
+    )
     if 0.0 < scale < 1.0 and not way.touching:
         weak = within(way.s_m, 0.4 * 0.5 / (0.5 + abs(twist.w_radps) / 4), 0.3) / 0.5
-        assert speed_scale(way, twist, BASE, LIMITS, 0.3, 0.5) == pytest.approx(
-            weak if weak * 0.5 >= 0.02 else 0.0
-        )
+        assert speed_scale(
+            way.s_m, twist, BASE, LIMITS, 0.3, 0.5, touching=way.touching
+        ) == pytest.approx(weak if weak * 0.5 >= 0.02 else 0.0)
 
 
 @table(

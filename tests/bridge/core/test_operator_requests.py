@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import Inbox, OpArrived
-from bridge.core.modes.mode_table import Request, after
+from bridge.core import Inbox, OperatorArrival
+from bridge.core.modes.mode_table import RequestCause, after
 from tests.bridge.core.scripted import World
 from wire import HeldReason, Mode, OpKind, OpRequest, Proof
 
@@ -72,11 +72,11 @@ def test_a_request_does_what_the_table_says_or_nothing(mode: Mode, kind: OpKind)
     if mode is Mode.BOOT:
         proof = Proof(nonce="b0.1", mac="0" * 64)
         request = OpRequest(id="early", source="test", proof=proof)
-        world.extra = Inbox(ops=(OpArrived(kind, request, True),))
+        world.extra = Inbox(ops=(OperatorArrival(kind, request, True),))
     else:
         world.op(kind)
     world.tick()
-    table = None if kind == "resume" else after(mode, Request(kind))
+    table = None if kind == "resume" else after(mode, RequestCause(kind))
     expected = {table if table is not None else mode}
     if mode is Mode.BOOT and kind != "estop":
         expected = {Mode.SELFTEST}  # the tick itself brings it up
@@ -106,7 +106,7 @@ def test_without_a_proof_nothing_starts(
 
 def test_a_request_without_any_proof_is_refused() -> None:
     world = World().ready()
-    world.extra = Inbox(ops=(OpArrived("arm", OpRequest(id="bare", source="t"), True),))
+    world.extra = Inbox(ops=(OperatorArrival("arm", OpRequest(id="bare", source="t"), True),))
     world.tick()
     assert world.verdict("bare") == "bad_proof"
 

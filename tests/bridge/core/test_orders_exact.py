@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.authority import grants, message_score, ownership
-from bridge.core.faults.detect_brain import brain, commands
+from bridge.core.authority import grants, hello, message_score, ownership
+from bridge.core.faults.detectors import brain, commands
 from bridge.core.state_orders import External, Grants, MissionLeft
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -19,7 +19,7 @@ EPS = 1e-6
 HELD = Held(reason=HeldReason.STOP, id="s1")
 
 
-def at(start: str) -> Tick:
+def at(start: str) -> TickContext:
     return tick_of(reached(start))
 
 
@@ -27,18 +27,18 @@ def at(start: str) -> Tick:
 def test_an_owner_lives_for_300_ms(age_s: float, lives: bool) -> None:
     tick = at("active")
     tick.s.ownership = replace(tick.s.ownership, echo_s=tick.now_s - age_s)
-    assert ownership.alive(tick) is lives
+    assert ownership.is_alive(tick) is lives
     epoch = tick.s.epoch_no
-    ownership.free_the_lost(tick)
+    hello.free_lost_owner(tick)
     assert (tick.s.ownership.owner is not None) is lives
     assert tick.s.epoch_no == epoch + (not lives)
     assert (("owner_lost", "p1") in tick.events) is not lives
     for part in ({"owner": None}, {"echo_s": None}):
         tick.s.ownership = replace(at("active").s.ownership, **part)
-        assert not ownership.alive(tick)
+        assert not ownership.is_alive(tick)
     tick.s.ownership = replace(tick.s.ownership, owner=None, echo_s=None)
     tick.events.clear()
-    ownership.free_the_lost(tick)
+    hello.free_lost_owner(tick)
     assert tick.events == []
 
 
@@ -48,7 +48,7 @@ def test_no_message_makes_an_owner_older_or_its_use_younger_than_it_is() -> None
     assert status is not None
     before = tick.s.ownership
     ring = tick.s.voice.ring
-    assert ownership.of_owner(tick, "p1", tick.epoch, status.seq - 5) == ring[-6]
+    assert ownership.sent_at_if_owner(tick, "p1", tick.epoch, status.seq - 5) == ring[-6]
     assert tick.s.ownership == before
     beat_used = before.used_s
     assert beat_used is not None
@@ -72,7 +72,7 @@ def test_what_is_not_the_owners_is_dropped_and_never_scored(
     tick = at("active")
     before = tick.s.ownership
     seen = tick.s.voice.status_seq + ahead
-    assert ownership.of_owner(tick, sender, epoch or tick.epoch, seen) is None
+    assert ownership.sent_at_if_owner(tick, sender, epoch or tick.epoch, seen) is None
     assert (tick.reasons, tick.s.bad_bucket) == ([code], 0.0)
     assert tick.s.ownership == before
 

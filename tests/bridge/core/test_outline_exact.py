@@ -7,6 +7,8 @@ from math import hypot, inf, isnan, nan, sqrt
 
 import pytest
 
+from bridge.core.geometry import fence as fences
+from bridge.core.geometry.fence import FenceCell, Zone, build_fence
 from bridge.core.geometry.polygon import (
     Edge,
     Polygon,
@@ -18,8 +20,6 @@ from bridge.core.geometry.polygon import (
     nearest_m,
     permits,
 )
-from bridge.core.sensing import fence as fences
-from bridge.core.sensing.fence import Cell, Zone, build_fence
 from tests.bridge.core.table import table
 
 
@@ -266,7 +266,7 @@ def test_long_and_short_segments_are_tried_against_all_that_they_can_meet() -> N
 
 def test_a_square_on_the_boundary_answers_point_by_point() -> None:
     cell = fences._cell_at(0.0, 0.0, 0.25, (line(0, -9, 0, 9),), (box(0, -9, 9, 9),), ())
-    assert cell == Cell((line(0, -9, 0, 9),), None)
+    assert cell == FenceCell((line(0, -9, 0, 9),), None)
     for x, inside, edges in ((0.18, True, 1), (-0.18, False, 1), (1.17, True, 1), (1.18, True, 0)):
         cell = fences._cell_at(x, 0.0, 0.25, (line(0, -9, 0, 9),), (box(0, -9, 9, 9),), ())
         assert (cell.inside, len(cell.edges)) == (inside, edges)

@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from bridge.core.geometry.path_profile import prepare, regulated
+from bridge.core.geometry.path_profile import prepare, regulate
 from tests.bridge.core.table import table
 from wire import Waypoint
 from wire.robot import Limits
@@ -105,5 +105,5 @@ def test_the_sign_of_speed_is_the_direction(sign: int, backwards: bool) -> None:
     [(0.0, 0.5), (1.6, 0.5), (-1.6, 0.5), (1.75, 0.5 / 1.05), (-3.2, 0.5 / 1.92), (9.0, 0.125)],
 )
 def test_a_curve_tighter_than_the_radius_slows(curve: float, speed: float) -> None:
-    assert regulated(0.5, curve, 0.6, 0.125) == pytest.approx(speed)
-    assert regulated(0.1, 9.0, 0.6, 0.125) == 0.1
+    assert regulate(0.5, curve, 0.6, 0.125) == pytest.approx(speed)
+    assert regulate(0.1, 9.0, 0.6, 0.125) == 0.1

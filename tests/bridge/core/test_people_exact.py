@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bridge.core import Inbox
+from bridge.core.authority import requests
 from bridge.core.faults.fault_table import STAGES
 from bridge.core.modes import operator, teleop
 from bridge.core.modes.arming import ready_lacks, reset_lacks
 from bridge.core.state import RowUp
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import tick_of
@@ -19,7 +20,7 @@ EPS = 1e-6
 HELD = Held(reason=HeldReason.STOP, id="s1")
 
 
-def at(start: str) -> Tick:
+def at(start: str) -> TickContext:
     return tick_of(reached(start))
 
 
@@ -31,7 +32,7 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
     tick.s.operator = replace(tick.s.operator, nonce_made_s=tick.now_s - age_s)
     tick.inbox = Inbox(chance="c" * 16)
     before = tick.s.operator
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     after = tick.s.operator
     assert after == (
         replace(
@@ -48,29 +49,29 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
     )
     if renewed:
         old = f"b0.{before.nonce_no}.{before.nonce_tag}"
-        assert operator.old_nonce_text(tick) == old
+        assert requests.old_nonce_text(tick) == old
         for more_s, codes in ((10.0 - EPS, []), (EPS * 2, ["old_nonce"])):
             tick.now_s += more_s
-            told = operator.bad_proof(tick, "arm", "a1", old, authentic=True)
+            told = requests.bad_proof(tick, "arm", "a1", old, authentic=True)
             assert [code for code, _ in told] == codes
 
 
 def test_a_proof_is_used_once_under_either_nonce() -> None:
     tick = at("disarmed")
     tick.inbox = Inbox(chance="c" * 16)
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     tick.now_s += 60.0
-    operator.renew_nonce(tick)
+    requests.renew_nonce(tick)
     now, old = tick.s.operator.nonce_no, tick.s.operator.old_nonce_no
     assert old is not None
-    operator.use_nonce(tick, "arm", "a1")
+    requests.use_nonce(tick, "arm", "a1")
     assert {f"{now} arm a1", f"{old} arm a1"} <= set(tick.s.operator.accepted)
-    text = operator.old_nonce_text(tick)
+    text = requests.old_nonce_text(tick)
     for request_id, codes in (("a1", ["repeated"]), ("a2", [])):
-        told = operator.bad_proof(tick, "arm", request_id, text, authentic=True)
+        told = requests.bad_proof(tick, "arm", request_id, text, authentic=True)
         assert [code for code, _ in told] == codes
     for count in range(40):
-        operator.use_nonce(tick, "arm", f"b{count}")
+        requests.use_nonce(tick, "arm", f"b{count}")
     assert len(tick.s.operator.accepted) == 16
     assert tick.s.operator.accepted[-1].endswith("b39")
 
@@ -160,7 +161,9 @@ def test_a_reset_waits_for_one_thing_each(change: str, code: str | None) -> None
         assert lacks == ([code] if code and age_s < 2.0 else [])
 
 
-def velocity(tick: Tick, v_mps: float = 0.0, w_radps: float = 0.0, **more: object) -> Velocity:
+def velocity(
+    tick: TickContext, v_mps: float = 0.0, w_radps: float = 0.0, **more: object
+) -> Velocity:
     said = {"source_id": "s", "epoch": tick.epoch, "seq": 9, "seen": tick.s.voice.status_seq,
             "dead_man": True} | more  # fmt: skip
     return Velocity.model_validate(said | {"v_mps": v_mps, "w_radps": w_radps})
@@ -307,7 +310,7 @@ def test_letting_go_holds_and_the_hand_must_begin_anew() -> None:
     assert (tick.s.stick.source_id, tick.s.stick.ready, tick.s.stick.pressed_s) == (None, (), 1.0)
     assert tick.s.stick.released == (source,)
     teleop.hear_teleop(tick, velocity(tick, 0.0, source_id=source))
-    assert tick.moving, "released, then neutral, in the taking itself"
+    assert tick.is_moving, "released, then neutral, in the taking itself"
     assert tick.s.epoch_no == epoch + 1
     assert not tick.s.grants.since_arm
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.sensing.fence import build_fence
+from bridge.core.geometry.fence import build_fence
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.scripted import World, config
 from wire import IDENTITY, Mode, Pose2

@@ -7,9 +7,10 @@ from math import cos, hypot, inf, nan, pi, sin, sqrt
 
 import pytest
 
-from bridge.core.geometry.path_profile import Path, prepare
+from bridge.core.geometry.path_profile import Path, prepare, residuals
 from bridge.core.motion import pursuit
-from bridge.core.motion.pursuit import FollowState, follow, look_ahead_m
+from bridge.core.motion.pursuit import follow, look_ahead_m
+from bridge.core.state_motion import NEW, FollowState
 from tests.bridge.core.table import table
 from wire import STILL, Pose2, Twist2, Waypoint
 from wire.geometry import MAX_COORDINATE_M
@@ -277,7 +278,7 @@ def test_a_robot_outside_the_world_is_not_followed(x: float) -> None:
     assert follow(FollowState(0.5), STRAIGHT, within, STILL, BASE, LIMITS, LAG_S).residual_m > 9.0
     for here in (Pose2(x * MAX_COORDINATE_M, 0, 0), Pose2(0, nan, 0), Pose2(0, 0, inf)):
         answer = follow(FollowState(0.5), STRAIGHT, here, STILL, BASE, LIMITS, LAG_S)
-        assert answer == pursuit.Follow(FollowState(0.5), STILL, 0.0, 0.0, False)
+        assert answer == pursuit.PursuitCommand(FollowState(0.5), STILL, 0.0, 0.0, False)
 
 
 def test_what_is_left_is_the_longer_of_path_and_distance() -> None:
@@ -292,11 +293,11 @@ def test_what_is_left_is_the_longer_of_path_and_distance() -> None:
 
 def test_residuals_are_distance_and_turn_and_a_tenth_of_each_is_there() -> None:
     here = Pose2(0.4, 1.2, 0.3)
-    assert pursuit.residuals(1.0, 2.0, 0.5, here) == pytest.approx((1.0, 0.2))
-    assert pursuit.residuals(1.0, 2.0, None, here) == pytest.approx((1.0, 0.0))
-    assert pursuit.reached(0.1, 0.1)
-    assert not pursuit.reached(0.1 + EPS, 0.1)
-    assert not pursuit.reached(0.1, 0.1 + EPS)
+    assert residuals(1.0, 2.0, 0.5, here) == pytest.approx((1.0, 0.2))
+    assert residuals(1.0, 2.0, None, here) == pytest.approx((1.0, 0.0))
+    assert pursuit.is_reached(0.1, 0.1)
+    assert not pursuit.is_reached(0.1 + EPS, 0.1)
+    assert not pursuit.is_reached(0.1, 0.1 + EPS)
 
 
 def test_the_last_5_cm_lead_to_the_end() -> None:
@@ -305,9 +306,9 @@ def test_the_last_5_cm_lead_to_the_end() -> None:
 
 
 def test_a_new_horizon_of_a_leg_begins_anew_and_goes_on_as_it_was() -> None:
-    assert FollowState(0.0, False, False, False, 0) == pursuit.NEW
+    assert FollowState(0.0, False, False, False, 0) == NEW
     was = FollowState(1.5, True, True, True, 2)
-    assert pursuit.carried(was) == FollowState(0.0, True, True, True, 2)
+    assert pursuit.carry_over(was) == FollowState(0.0, True, True, True, 2)
 
 
 @table(

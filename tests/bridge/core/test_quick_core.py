@@ -9,15 +9,15 @@ import pytest
 
 from bridge.core import Inbox, LoopFacts, initial, step
 from bridge.core.faults.detect_motion import _wheel_held
+from bridge.core.geometry.fence import FenceGrid, build_fence
 from bridge.core.geometry.kinematics import wheels_of
 from bridge.core.geometry.odometry import along_arc
-from bridge.core.modes.stop_profile import NO_STOP
-from bridge.core.motion.contact_gate import touched
+from bridge.core.motion.contact_gate import touched_input
 from bridge.core.motion.fence_gate import fence_scale
 from bridge.core.motion.motion_gates import look, scan_age_s
-from bridge.core.sensing.fence import Fence, build_fence
 from bridge.core.state import draft
-from bridge.core.tick_context import Tick
+from bridge.core.state_motion import NO_STOP
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import FENCE, World, config
@@ -37,8 +37,8 @@ def shown(world: World) -> Status:
     return world.status
 
 
-def tick_of(world: World) -> Tick:
-    return Tick(world.core, draft(world.state), Inbox(), world.now_s, PERIOD_S)
+def tick_of(world: World) -> TickContext:
+    return TickContext(world.core, draft(world.state), Inbox(), world.now_s, PERIOD_S)
 
 
 @pytest.mark.parametrize("start", ["hold", "active", "estopped", "fault", "stopping_by_row"])
@@ -193,7 +193,7 @@ def test_a_fence_that_is_missing_or_of_another_map_fails_the_self_test() -> None
         assert decision.state.fault == code
 
 
-def other_map() -> Fence:
+def other_map() -> FenceGrid:
     return build_fence("0" * 16, (((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)),))
 
 
@@ -282,7 +282,7 @@ def test_numbers_that_are_none_stand_still() -> None:
     for v, w in ((inf, 0.0), (nan, 0.0), (0.1, inf)):
         assert fence_scale(FENCE, IDENTITY, Twist2(v, w), base, limits, 0.2) == 0.0
     assert along_arc(IDENTITY, 1.0, inf) == IDENTITY
-    assert touched(None, 0.3) is None
+    assert touched_input(None, 0.3) is None
     assert NO_STOP.start == STILL
 
 

@@ -7,13 +7,13 @@ from math import inf, nan
 
 import pytest
 
+from bridge.core.authority.requests import bad_proof
 from bridge.core.geometry.kinematics import twist_of
 from bridge.core.geometry.odometry import arc_end
 from bridge.core.modes.arming import arm_lacks, reset_lacks
-from bridge.core.modes.operator import bad_proof
 from bridge.core.modes.stop_monitor import _failure
 from bridge.core.modes.transition import _begin_stop
-from bridge.core.motion.contact_gate import contact_gate, touched
+from bridge.core.motion.contact_gate import contact_gate, touched_input
 from bridge.core.motion.motion_gates import reconsider
 from tests.bridge.core.reached import reached
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -68,7 +68,7 @@ def test_a_contact_shuts_the_way_it_faces(pressed: str, v_mps: float, name: str 
     state = reached("active").state.drive.newest
     assert state is not None
     state = state.model_copy(update={pressed: True})
-    assert touched(state, v_mps) == name
+    assert touched_input(state, v_mps) == name
     passed = contact_gate(state, Twist2(v_mps, 1.0))
     if name is not None:
         assert passed == Twist2(0.0, 0.3)

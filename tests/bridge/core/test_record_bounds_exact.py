@@ -12,16 +12,13 @@ from math import inf, nan, nextafter
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from bridge.core.geometry.kinematics import STOPPED, Wheels
+from bridge.core.geometry.kinematics import STOPPED, WheelSpeeds
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.odometry import OdometryState
 from bridge.core.geometry.path_profile import Path
-from bridge.core.modes.stop_profile import NO_STOP, StopPlan
 from bridge.core.motion.free_distance import NOTHING_KNOWN, FreeLength
-from bridge.core.motion.limiter import LimiterState
 from bridge.core.motion.obstacle_gate import ObstaclePass
-from bridge.core.motion.pursuit import FollowState
-from bridge.core.state_braking import UNLEARNT, Learnt
+from bridge.core.state_motion import NO_STOP, UNLEARNT, FollowState, Learnt, LimiterState, StopPlan
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from wire import STILL
@@ -53,7 +50,7 @@ MORE, LESS = "less_than_equal", "greater_than_equal"
         *((Learnt, UNLEARNT, name, 0.1, 1.0) for name in ("decel_share", "share_worst")),
         *((Learnt, UNLEARNT, name, 0.0, 0.5) for name in ("lag_more_s", "lag_worst_s")),
         *((Learnt, UNLEARNT, name, 0.0, 100.0) for name in ("lag_at_mps", "share_at_mps")),
-        *((Wheels, STOPPED, name, -1e3, 1e3) for name in ("left_radps", "right_radps")),
+        *((WheelSpeeds, STOPPED, name, -1e3, 1e3) for name in ("left_radps", "right_radps")),
         *((OdometryState, OdometryState(), name, 0.0, 1e12) for name in (
             "travelled_m", "turned_rad")),
     ],
@@ -78,7 +75,7 @@ def test_stops_are_counted_up_to_a_bound(name: str, most: int) -> None:
         (LimiterState, LimiterState(), "left_mps2"),
         (StopPlan, NO_STOP, "rim_mps"),
         (Learnt, UNLEARNT, "lag_more_s"),
-        (Wheels, STOPPED, "left_radps"),
+        (WheelSpeeds, STOPPED, "left_radps"),
         (OdometryState, OdometryState(), "travelled_m"),
         (FollowState, FollowState(), "along_m"),
         (Path, Path((), (), (), (), (), False, None), "heading_rad"),

@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.faults.fault_table import ROWS, Clears, Row
+from bridge.core.faults.fault_table import ROWS, Clears, FaultRow
 from tests.bridge.core.scripted import World
 from tests.bridge.core.windows import age_ticks, bad_bytes, raised, silent_for, until_age
 from wire import SEVERITY, Action, Mode
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
-def test_only_what_caps_or_holds_clears_by_itself(row: Row) -> None:
+def test_only_what_caps_or_holds_clears_by_itself(row: FaultRow) -> None:
     for stage in row.stages:
         if stage.clears in {Clears.AUTO, Clears.ON_GRANT}:
             assert SEVERITY[stage.action] <= SEVERITY[Action.HOLD2]

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import ArrivedAt, BridgeState
-from bridge.core.sensing.fence import Zone, build_fence
+from bridge.core.geometry.fence import Zone, build_fence
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.scripted import World, config
 from tests.bridge.core.windows import raised, silent_for

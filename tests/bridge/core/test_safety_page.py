@@ -7,23 +7,23 @@ from pathlib import Path
 
 import pytest
 
-from bridge.core.faults import docs
+from bridge.core import safety_page
 
 
 def test_it_is_printed_written_and_checked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     page = tmp_path / "safety.md"
-    monkeypatch.setattr(docs, "PATH", page)
-    assert docs.main(["--check"]) == 1
-    assert "run python -m bridge.core.faults.docs" in capsys.readouterr().out
-    assert docs.main([]) == 0
-    assert docs.main(["--check"]) == 0
-    assert docs.main(["--print"]) == 0
+    monkeypatch.setattr(safety_page, "PATH", page)
+    assert safety_page.main(["--check"]) == 1
+    assert "run python -m bridge.core.safety_page" in capsys.readouterr().out
+    assert safety_page.main([]) == 0
+    assert safety_page.main(["--check"]) == 0
+    assert safety_page.main(["--print"]) == 0
     assert capsys.readouterr().out == page.read_text("utf-8")
 
 
 def test_what_it_links_to_exists() -> None:
-    links = re.findall(r"\]\(([^)#:]+)", docs.safety_md())
+    links = re.findall(r"\]\(([^)#:]+)", safety_page.safety_md())
     assert "mutants.md" in links
-    assert [link for link in links if not (docs.PATH.parent / link).exists()] == []
+    assert [link for link in links if not (safety_page.PATH.parent / link).exists()] == []

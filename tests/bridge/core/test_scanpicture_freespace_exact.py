@@ -163,11 +163,11 @@ def test_beams_of_a_sector(first: int, count: int, middle: float, half: float, b
 
 
 def test_half_of_the_beams_is_enough_and_none_are_not() -> None:
-    assert Sector(4, 2, True).known
-    assert Sector(1, 1, True).known
-    assert Sector(5, 3, True).known
-    assert not Sector(5, 2, True).known
-    assert not Sector(0, 0, True).known
+    assert Sector(4, 2, True).is_known
+    assert Sector(1, 1, True).is_known
+    assert Sector(5, 3, True).is_known
+    assert not Sector(5, 2, True).is_known
+    assert not Sector(0, 0, True).is_known
 
 
 @table(

@@ -18,7 +18,7 @@ from bridge.core.modes.selftest import (
     withholds,
 )
 from bridge.core.state import SelfTest
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import FENCE, config
@@ -32,7 +32,7 @@ PATIENCE_S = DRIVE.timeout_s + DRIVE.lag_s + 0.3
 EPS = 1e-9
 
 
-def proving(phase: str = DONE, **change: Any) -> Tick:
+def proving(phase: str = DONE, **change: Any) -> TickContext:
     """Return a tick of a self test that lacks nothing: it has stood for 1 s, all has just come."""
     tick = tick_of(reached("disarmed"))
     s = tick.s

@@ -7,11 +7,11 @@ from math import radians
 from typing import Any
 
 from bridge.core import Inbox
-from bridge.core.authority.epoch import shelved
+from bridge.core.authority.epoch import revoke
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.sensing import sensor_update
 from bridge.core.state_senses import LidarMemory
-from bridge.core.tick_context import Tick
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -33,14 +33,14 @@ BASE = {"wheel_radius_m": 0.125, "wheel_separation_m": 0.5}
 ROBOT = RobotDescription.model_validate({"base": BASE})
 
 
-def at(start: str = "active", **inbox: Any) -> Tick:
+def at(start: str = "active", **inbox: Any) -> TickContext:
     tick = tick_of(reached(start))
     tick.now_s, tick.inbox = NOW_S, Inbox(**({"recorder_ok": True, "real_time": True} | inbox))
     tick.config = replace(tick.config, robot=ROBOT)
     return tick
 
 
-def state_of(tick: Tick, **change: Any) -> DriveState:
+def state_of(tick: TickContext, **change: Any) -> DriveState:
     newest = tick.s.drive.newest
     assert newest is not None
     return newest.model_copy(update={"seq": newest.seq + 1, "stamp_s": NOW_S} | change)
@@ -128,15 +128,15 @@ def test_a_trail_of_24_readings_says_where_the_robot_was(
 def test_a_scan_is_placed_where_it_was_taken(at_s: float, x_m: float) -> None:
     tick = at()
     tick.s.trail = tuple((float(i), Pose2(float(i), 0.0, 0.0)) for i in range(2, 6))
-    assert sensor_update._where(tick, at_s).x_m == x_m
+    assert sensor_update._place_at(tick, at_s).x_m == x_m
     tick.s.trail = ()
-    assert sensor_update._where(tick, at_s) is tick.s.odometry.base_in_odom
+    assert sensor_update._place_at(tick, at_s) is tick.s.odometry.base_in_odom
 
 
 # Lidar ------------------------------------------------------------------------------------------
 
 
-def scan_of(tick: Tick, **change: Any) -> Scan:
+def scan_of(tick: TickContext, **change: Any) -> Scan:
     newest = tick.s.lidar.newest
     assert newest is not None
     return newest.model_copy(update={"seq": newest.seq + 1, "stamp_s": 3.0} | change)
@@ -333,8 +333,9 @@ def test_a_jump_takes_the_grant_and_the_way_and_is_told(
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=here)
     granted, leg = tick.s.grants, tick.s.leg
     assert None not in (granted.mission, leg.horizon, leg.path)
-    sensor_update._hear_localization(tick, placed(odom_in_map=new, quality=quality))
+    if sensor_update._hear_localization(tick, placed(odom_in_map=new, quality=quality)):
+        revoke(tick)
     assert tick.s.pose.jumped_s == (NOW_S if jumps else 1.0)
-    assert tick.s.grants == (shelved(granted) if jumps else granted)
+    assert tick.s.grants == (granted.return_budget() if jumps else granted)
     assert tick.s.leg == (replace(leg, horizon=None, path=None) if jumps else leg)
     assert [code for code, _ in tick.events] == (["pose_jump"] if jumps else [])

@@ -9,19 +9,19 @@ import pytest
 
 from bridge.core import Inbox, LoopFacts
 from bridge.core.faults.fault_table import STAGES
-from bridge.core.motion.limiter import LimiterState, stopping_m
+from bridge.core.motion.limiter import stopping_m
 from bridge.core.motion.obstacle_gate import weak_m
 from bridge.core.reporting import status
 from bridge.core.state import RowUp, draft
-from bridge.core.state_braking import Learnt
-from bridge.core.tick_context import Tick
+from bridge.core.state_motion import Learnt, LimiterState
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
 from wire import Mode, Twist2
 
 
-def at(start: str = "active") -> Tick:
+def at(start: str = "active") -> TickContext:
     return tick_of(reached(start))
 
 

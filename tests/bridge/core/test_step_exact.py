@@ -8,9 +8,8 @@ import pytest
 
 from bridge.core import Inbox, initial
 from bridge.core.modes.teleop import CAUSAL_S
-from bridge.core.motion.wheel_command import followed
-from bridge.core.state import Gate
-from bridge.core.step import _reconsider
+from bridge.core.motion.wheel_command import _reconsider, follow_horizon
+from bridge.core.state_motion import Gate
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
@@ -143,8 +142,9 @@ def test_to_ask_what_would_be_asked_follows_nothing() -> None:
     tick.s.gate = Gate(blocked=True)
     tick.robot_in_map = IDENTITY
     before = tick.s.motion.follow
-    assert followed(tick)[0] != STILL
-    assert tick.s.motion.follow != before, "asked by itself it would turn from now on"
-    tick.s.motion.follow = before
+    answer = follow_horizon(tick)
+    assert answer is not None
+    assert answer.target != STILL
+    assert answer.state != before, "in ACTIVE it would turn from now on"
     _reconsider(tick)
     assert tick.s.motion.follow is before

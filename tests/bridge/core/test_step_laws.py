@@ -13,10 +13,12 @@ from hypothesis import strategies as st
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
 from bridge.core.codec import DECISION, INBOX, STATE
 from bridge.core.geometry.kinematics import fastest_rim, rim_speeds
-from bridge.core.modes.mode_table import LATCHED, MOVING, POWERED
-from bridge.core.motion.limiter import LimiterState, tick_length
+from bridge.core.modes.mode_table import LATCHED
+from bridge.core.motion.limiter import tick_length
 from bridge.core.motion.wheel_control import CORRECTION_MPS, CREEP_RADPS
-from bridge.core.state_orders import Answered
+from bridge.core.state_motion import LimiterState
+from bridge.core.state_orders import TimedAnswer
+from bridge.core.tick_context import MOVING, POWERED
 from tests.bridge.core.hostile import Hostile
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
@@ -160,12 +162,12 @@ def check_people(before: BridgeState, after: BridgeState) -> None:
     assert len(after.operator.answers) <= 64
 
 
-def _name(answered: Answered) -> tuple[str, str]:
+def _name(answered: TimedAnswer) -> tuple[str, str]:
     return answered.answer.kind, answered.answer.id
 
 
-def _by_id(answers: tuple[Answered, ...]) -> dict[tuple[str, str], list[Answered]]:
-    named: dict[tuple[str, str], list[Answered]] = {}
+def _by_id(answers: tuple[TimedAnswer, ...]) -> dict[tuple[str, str], list[TimedAnswer]]:
+    named: dict[tuple[str, str], list[TimedAnswer]] = {}
     for answered in answers:
         named.setdefault(_name(answered), []).append(answered)
     return named

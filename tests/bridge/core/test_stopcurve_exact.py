@@ -7,15 +7,9 @@ from math import nan, sqrt
 import pytest
 
 from bridge.core.modes import stop_profile
-from bridge.core.modes.stop_profile import (
-    NO_STOP,
-    StopPlan,
-    plan_stop,
-    planned,
-    planned_rim_mps,
-    too_slow,
-)
-from bridge.core.motion.limiter import LimiterState, Profile, stopping_m
+from bridge.core.modes.stop_profile import plan_stop, planned_rim_mps, planned_twist, too_slow
+from bridge.core.motion.limiter import stopping_m
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, StopPlan
 from tests.bridge.core.table import table
 from wire import STILL, RobotDescription, Twist2
 
@@ -77,7 +71,7 @@ def test_a_long_stop_rises_stays_and_fades() -> None:
         (0.625, 0.064), (0.705, 0.8 * 0.08**2 / 0.32), (0.785, 0.0), (0.9, 0.0),
     ):  # fmt: skip
         assert planned_rim_mps(made, at_s) == pytest.approx(rim_mps), at_s
-        half = planned(made, at_s)
+        half = planned_twist(made, at_s)
         assert (half.v_mps, half.w_radps) == pytest.approx((0.6 * rim_mps, rim_mps))
 
 
@@ -115,8 +109,8 @@ def test_what_stands_or_is_no_speed_has_no_stop() -> None:
     assert plan(STILL) == NO_STOP
     assert plan(Twist2(1e3, 0.0)) != NO_STOP
     assert plan(Twist2(1.0001e3, 0.0)) == NO_STOP
-    assert planned(NO_STOP, -1.0) == STILL
-    assert planned(NO_STOP, 0.5) == STILL
+    assert planned_twist(NO_STOP, -1.0) == STILL
+    assert planned_twist(NO_STOP, 0.5) == STILL
 
 
 @table(

@@ -9,19 +9,16 @@ import pytest
 
 from bridge.core.modes import stop_monitor
 from bridge.core.modes.stop_profile import (
-    NO_STOP,
-    StopPlan,
     _against,
     _braking,
     plan_stop,
-    planned,
     planned_rim_mps,
+    planned_twist,
     too_long,
     too_slow,
 )
-from bridge.core.motion.limiter import LimiterState, Profile
-from bridge.core.state import Stopping
-from bridge.core.tick_context import Tick
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, Stopping, StopPlan
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -39,7 +36,7 @@ def stop_of(since_s: float, **more: object) -> Stopping:
     return replace(stop, **more)  # type: ignore[arg-type]  # names of its fields
 
 
-def standing(start: str = "stopping_by_row", /, **more: object) -> Tick:
+def standing(start: str = "stopping_by_row", /, **more: object) -> TickContext:
     """Return a tick in which the robot has stood for 0.2 s and is told to stand."""
     tick = tick_of(reached(start))
     tick.s.drive.still_since_s = tick.now_s - 0.2
@@ -102,10 +99,10 @@ def test_a_stop_that_nobody_measures_ends_when_its_time_is_over(
         if said:
             assert tick.s.mode is Mode.HOLD
         tick.s.drive.received_s = None
-        assert stop_monitor._unmeasured(tick)
+        assert stop_monitor._is_unmeasured(tick)
 
 
-def rolling(speed_mps: float, elapsed_s: float, **more: object) -> Tick:
+def rolling(speed_mps: float, elapsed_s: float, **more: object) -> TickContext:
     tick = tick_of(reached("stopping_by_row"))
     tick.s.drive.still_since_s = None
     tick.s.odometry = replace(tick.s.odometry, measured=Twist2(speed_mps, 0.0))
@@ -186,10 +183,10 @@ def test_the_curve_is_as_drawn(at_s: float, rim_mps: float) -> None:
 
 def test_a_curve_stays_on_its_arc_and_none_stands() -> None:
     turning = replace(PLAN, start=Twist2(0.4, 0.5))
-    half = planned(turning, 0.28)
+    half = planned_twist(turning, 0.28)
     assert half.w_radps / half.v_mps == pytest.approx(1.25)
     assert half.v_mps == pytest.approx(0.4 * 0.25 / 0.5)
-    assert planned(NO_STOP, -1.0) == STILL
+    assert planned_twist(NO_STOP, -1.0) == STILL
 
 
 @table(

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bridge.core.modes.mode_table import Cause, Fact, Request
-from bridge.core.modes.stop_profile import NO_STOP, plan_stop
-from bridge.core.modes.transition import escalate, go, profile_of
-from bridge.core.motion.limiter import LimiterState, Profile
-from bridge.core.state import Stopping
-from bridge.core.tick_context import Tick
+from bridge.core.modes import selftest
+from bridge.core.modes.mode_table import Cause, Fact, RequestCause
+from bridge.core.modes.stop_profile import plan_stop
+from bridge.core.modes.transition import escalate, go
+from bridge.core.motion.wheel_command import requested_twist
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, Stopping, profile_of
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from tests.bridge.core.test_quick_core import ROBOT, tick_of
@@ -18,7 +19,7 @@ from wire import STILL, Action, Held, HeldReason, Mode, Twist2
 LATER_S = 0.5
 
 
-def later(start: str) -> Tick:
+def later(start: str) -> TickContext:
     """Return a tick half a second after the mode was reached."""
     tick = tick_of(reached(start))
     tick.now_s += LATER_S
@@ -31,10 +32,10 @@ def later(start: str) -> Tick:
         ("active", Action.HOLD2, Action.HOLD2, True),
         ("active", Action.STOP1, Action.STOP1, False),
         ("active", Action.FAST1, Action.FAST1, False),
-        ("active", Request.STOP, Action.HOLD2, False),
-        ("active", Request.DISARM, Action.STOP1, False),
+        ("active", RequestCause.STOP, Action.HOLD2, False),
+        ("active", RequestCause.DISARM, Action.STOP1, False),
         ("teleop", Action.HOLD2, Action.HOLD2, False),
-        ("teleop", Request.STOP, Action.HOLD2, False),
+        ("teleop", RequestCause.STOP, Action.HOLD2, False),
         ("hold", Action.STOP1, Action.STOP1, False),
     ],
 )
@@ -55,7 +56,7 @@ def test_a_stop_begins_as_its_cause_says(
 
 @table(
     ("start", "cause"),
-    [("disarmed", Action.HOLD2), ("hold", Action.HOLD2), ("fault", Request.ARM)],
+    [("disarmed", Action.HOLD2), ("hold", Action.HOLD2), ("fault", RequestCause.ARM)],
 )
 def test_what_the_table_has_not_changes_nothing(start: str, cause: Cause) -> None:
     tick = later(start)
@@ -71,7 +72,7 @@ def test_only_the_hardest_stop_has_the_hardest_ramp() -> None:
     }
 
 
-def stopping(action: Action, *, reset_needed: bool = False) -> Tick:
+def stopping(action: Action, *, reset_needed: bool = False) -> TickContext:
     tick = later("stopping_by_row")
     assert tick.s.stopping is not None
     tick.s.stopping = replace(tick.s.stopping, action=action, slow_s=0.1, reset_needed=reset_needed)
@@ -128,7 +129,7 @@ def test_a_stop_never_grows_milder_but_learns_that_a_reset_is_needed(
 
 def test_a_person_who_stops_a_stop_ends_its_going_on() -> None:
     tick = stopping(Action.HOLD2)
-    assert go(tick, Request.DISARM, "disarm")
+    assert go(tick, RequestCause.DISARM, "disarm")
     assert tick.s.stopping is not None
     assert (tick.s.stopping.action, tick.s.stopping.resumes) == (Action.STOP1, False)
     assert tick.s.mode_since_s < tick.now_s, "the mode is the same"
@@ -143,12 +144,12 @@ HELD = Held(reason=HeldReason.STOP, id="s1")
 def test_a_protective_stop_ramps_where_there_is_torque(start: str, held: Held | None) -> None:
     tick = later(start)
     tick.s.held = held
-    powered = tick.powered
+    powered = tick.is_powered
     if not powered:  # nothing of a motion is left in these modes, and nothing may come back
         tick.s.motion.limiter = LimiterState(Twist2(0.1, 0.0))
         tick.s.stopping = Stopping(Action.HOLD2, "old", 0.0, NO_STOP, "W", resumes=True)
     source, had = tick.s.source, tick.s.motion.limiter
-    go(tick, Request.ESTOP, "estop")
+    go(tick, RequestCause.ESTOP, "estop")
     plan = plan_stop(had, ROBOT.base, ROBOT.limits, Profile.FASTEST)
     if powered:
         assert tick.s.stopping == Stopping(
@@ -169,7 +170,8 @@ def test_after_a_hand_on_the_stick_the_ramp_is_judged_like_a_stop() -> None:
     assert tick.s.stopping == Stopping(
         Action.HOLD2, "released", tick.now_s, plan, "T", resumes=False
     )
-    assert (tick.s.source, tick.s.motion.asked) == ("", STILL)
+    assert tick.s.source == ""
+    assert requested_twist(tick) == (STILL, False)
 
 
 def test_who_arrives_stands_without_a_stop() -> None:
@@ -177,7 +179,8 @@ def test_who_arrives_stands_without_a_stop() -> None:
     tick.s.stopping = Stopping(Action.HOLD2, "old", 0.0, NO_STOP, "W", resumes=True)
     assert go(tick, Fact.ARRIVED, "reached")
     assert tick.s.stopping is None
-    assert (tick.s.source, tick.s.motion.asked) == ("", STILL)
+    assert tick.s.source == ""
+    assert requested_twist(tick) == (STILL, False)
 
 
 def test_motion_goes_on_from_what_was_sent_last() -> None:
@@ -185,7 +188,7 @@ def test_motion_goes_on_from_what_was_sent_last() -> None:
     had = tick.s.motion.limiter
     tick.s.odometry = replace(tick.s.odometry, measured=Twist2(-0.5, 1.0))
     assert had.sent.v_mps > 0.1
-    assert go(tick, Fact.CLEARED, "m1")
+    assert go(tick, Fact.CLEARED, "m1", source="W")
     assert tick.s.stopping is None
     assert tick.s.motion.limiter == had, "whatever is measured"
     assert tick.s.source == "W", "whoever calls sets it"
@@ -198,7 +201,7 @@ def test_motion_goes_on_from_what_was_sent_last() -> None:
         ("stopping_by_row", Fact.TOO_SLOW, "x", Mode.FAULT, "why", "why"),
         ("stopping_by_row", Fact.STOOD_DISARM, "stuck", Mode.DISARMED, None, "stuck"),
         ("stopping_by_row", Fact.STOOD_DISARM, "disarm", Mode.DISARMED, None, None),
-        ("fault", Request.RESET, None, Mode.DISARMED, None, None),
+        ("fault", RequestCause.RESET, None, Mode.DISARMED, None, None),
         ("fault", Fact.UNPROVEN_RESET, None, Mode.SELFTEST, None, None),
         ("active", Action.CUT0, None, Mode.FAULT, "why", "why"),
     ],
@@ -218,11 +221,15 @@ def test_without_torque_nothing_of_the_motion_is_left(
         assert tick.s.stopping is not None
         tick.s.stopping = replace(tick.s.stopping, cause=stop_cause)
     before = tick.s.selftest
-    assert go(tick, cause, "why")
+    if mode is Mode.SELFTEST:
+        selftest.enter(tick, cause, "why")
+    else:
+        assert go(tick, cause, "why")
     assert (tick.s.mode, tick.s.fault) == (mode, fault)
     expected = None if holds is None else Held(reason=HeldReason.FAULT, id=holds)
     assert tick.s.held == (held or expected)
-    assert (tick.s.stopping, tick.s.source, tick.s.motion.asked) == (None, "", STILL)
+    assert (tick.s.stopping, tick.s.source) == (None, "")
+    assert requested_twist(tick) == (STILL, False)
     assert tick.s.motion.limiter == LimiterState()
     if mode is Mode.SELFTEST:
         assert (tick.s.selftest.since_s, tick.s.selftest.passed) == (tick.now_s, False)

@@ -6,12 +6,13 @@ from dataclasses import replace
 from typing import Any
 
 from bridge.core import Inbox
-from bridge.core.authority import message_score, request_answers
+from bridge.core.authority import message_score, requests
 from bridge.core.inbox import RejectedAt
 from bridge.core.reporting import report
-from bridge.core.state import BridgeState, Gate, Voice, draft
-from bridge.core.state_orders import Answered
-from bridge.core.tick_context import Tick
+from bridge.core.state import BridgeState, Voice, draft
+from bridge.core.state_motion import Gate
+from bridge.core.state_orders import TimedAnswer
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
@@ -21,7 +22,7 @@ from wire import Answer, Held, HeldReason, Imu, Mode, Rejected
 EPS = 1e-9
 
 
-def quiet() -> Tick:
+def quiet() -> TickContext:
     """Return a tick in which nobody has been answered or refused anything yet."""
     tick = tick_of(reached("active"))
     tick.s.operator = replace(tick.s.operator, answers=(), refusals=())
@@ -34,18 +35,16 @@ def quiet() -> Tick:
 def test_64_verdicts_are_remembered_and_the_newest_16_shown() -> None:
     tick = quiet()
     for number in range(70):
-        request_answers.settle(
-            tick, "arm", f"a{number}", "ok" if number % 2 else "stopped", "d" * 500
-        )
+        requests.settle(tick, "arm", f"a{number}", "ok" if number % 2 else "stopped", "d" * 500)
     kept = [item.answer for item in tick.s.operator.answers]
     assert [answer.id for answer in kept] == [f"a{number}" for number in range(6, 70)]
     assert [answer.accepted for answer in kept[:2]] == [False, True]
-    assert request_answers.shown(tick) == tuple(kept[-16:])
+    assert requests.answers_to_echo(tick) == tuple(kept[-16:])
     assert kept[0].detail == "d" * 400
     assert tick.events[-1] == ("answered", "arm a69 ok")
-    assert request_answers.verdict_on(tick, "arm", "a6") is kept[0]
-    assert request_answers.verdict_on(tick, "arm", "a5") is None
-    assert request_answers.verdict_on(tick, "reset", "a6") is None
+    assert requests.verdict_on(tick, "arm", "a6") is kept[0]
+    assert requests.verdict_on(tick, "arm", "a5") is None
+    assert requests.verdict_on(tick, "reset", "a6") is None
 
 
 @table(("age_s", "settled", "refused"), [(1.0, 1, 1), (1.05, 1, 0), (10.0, 1, 0), (10.5, 0, 0)])
@@ -54,27 +53,27 @@ def test_a_verdict_is_shown_for_10_s_and_a_refusal_for_1(
 ) -> None:
     tick = quiet()
     answer = Answer(id="a", kind="arm", accepted=True, code="ok", detail="")
-    both = (Answered(tick.now_s, answer),)
+    both = (TimedAnswer(tick.now_s, answer),)
     tick.s.operator = replace(tick.s.operator, answers=both, refusals=both)
     tick.now_s += age_s
-    assert len(request_answers.shown(tick)) == settled + refused
+    assert len(requests.answers_to_echo(tick)) == settled + refused
 
 
 def test_of_refusals_the_newest_of_each_sender_counts_and_eight_in_all() -> None:
     tick = quiet()
     for number in range(12):
-        request_answers.refuse_openly(tick, "hello", f"p{number}", "owned", "by another")
+        requests.refuse_openly(tick, "hello", f"p{number}", "owned", "by another")
     senders = [item.answer.id for item in tick.s.operator.refusals]
     assert senders == [f"p{number}" for number in range(4, 12)]
     assert len(tick.events) == 12
-    request_answers.refuse_openly(tick, "hello", "p11", "owned", "by another")
+    requests.refuse_openly(tick, "hello", "p11", "owned", "by another")
     assert len(tick.events) == 12, "the same again is no news"
-    request_answers.refuse_openly(tick, "hello", "p11", "moving", "wait")
+    requests.refuse_openly(tick, "hello", "p11", "moving", "wait")
     assert tick.events[12:] == [("hello_refused", "p11 moving wait")]
-    request_answers.refuse_openly(tick, "grant", "p11", "moving", "wait")
+    requests.refuse_openly(tick, "grant", "p11", "moving", "wait")
     last = [(item.answer.kind, item.answer.id) for item in tick.s.operator.refusals][-2:]
     assert last == [("hello", "p11"), ("grant", "p11")], "of one sender one of each kind"
-    request_answers.settle_openly(tick, "hello", "p11")
+    requests.settle_openly(tick, "hello", "p11")
     left = [(item.answer.kind, item.answer.id) for item in tick.s.operator.refusals]
     assert ("hello", "p11") not in left
     assert left[-1] == ("grant", "p11")
@@ -145,7 +144,7 @@ def test_what_others_wait_for_is_told_at_once(change: dict[str, Any], told: bool
     for name, value in change.items():
         made = replace(getattr(old, name), **value) if isinstance(value, dict) else value
         setattr(new, name, made)
-    assert report._changed(old, new) is told
+    assert report._has_news(old, new) is told
 
 
 # Odometry and events ----------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from math import cos, radians, sin
 import pytest
 
 from bridge.core import ArrivedAt
-from bridge.core.sensing.fence import Zone, build_fence
+from bridge.core.geometry.fence import Zone, build_fence
 from tests.bridge.core import oracle
 from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S
 from tests.bridge.core.reached import reached

@@ -6,7 +6,7 @@ from typing import cast
 
 import pytest
 
-from bridge.drive import Drive, SimDrive, braked
+from bridge.drive import Drive, SimDrive, require_brakes
 from wire import Misconfigured
 
 
@@ -21,11 +21,11 @@ class Metal:
 
 def test_wheels_that_brake_without_torque_are_taken() -> None:
     drive = cast("Drive", Metal("brake"))
-    assert braked(drive) is drive
+    assert require_brakes(drive) is drive
     assert SimDrive.braking == "brake"
 
 
 @pytest.mark.parametrize("declared", ["coast", "", "Brake", None])
 def test_wheels_that_may_roll_on_are_refused(declared: object) -> None:
     with pytest.raises(Misconfigured, match=r"^drive_coasts: drive 'metal' .*expected 'brake'"):
-        braked(cast("Drive", Metal(declared)))
+        require_brakes(cast("Drive", Metal(declared)))

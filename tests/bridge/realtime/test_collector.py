@@ -7,13 +7,13 @@ from collections.abc import Iterator
 
 import pytest
 
-from bridge.realtime import Collector
+from bridge.realtime import SlackCollector
 
 
 @pytest.fixture
-def collector() -> Iterator[Collector]:
+def collector() -> Iterator[SlackCollector]:
     """Give the test a frozen heap, and the rest of the run what it had: no look at what stays."""
-    collector = Collector()
+    collector = SlackCollector()
     collector.freeze()
     yield collector
     collector.thaw()
@@ -29,7 +29,7 @@ def cycles() -> int:
     return sum(isinstance(item, Cycle) for item in gc.get_objects())
 
 
-def test_nothing_is_collected_by_itself(collector: Collector) -> None:
+def test_nothing_is_collected_by_itself(collector: SlackCollector) -> None:
     for _ in range(2_000):
         Cycle()
     assert cycles() == 2_000
@@ -38,13 +38,13 @@ def test_nothing_is_collected_by_itself(collector: Collector) -> None:
 
 
 @pytest.mark.parametrize("slack_s", [-0.01, 0.0, 0.005, float("nan")])
-def test_without_slack_nothing_is_collected(collector: Collector, slack_s: float) -> None:
+def test_without_slack_nothing_is_collected(collector: SlackCollector, slack_s: float) -> None:
     for _ in range(2_000):
         Cycle()
     assert not collector.use(slack_s)
     assert cycles() == 2_000
 
 
-def test_without_garbage_nothing_is_done(collector: Collector) -> None:
+def test_without_garbage_nothing_is_done(collector: SlackCollector) -> None:
     gc.collect(0)
     assert not collector.use(slack_s=0.009)

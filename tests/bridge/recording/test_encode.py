@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core import Inbox, initial, step
-from bridge.recording.encode import packed, unpacked
+from bridge.recording.encode import pack_ranges, unpack_ranges
 from bridge.recording.protobuf import laser_scan, ranges_of
 from bridge.recording.recording_reader import TickFrame, read_recording
 from tests.bridge.ground import core_config
@@ -24,8 +24,8 @@ RANGES = st.lists(st.none() | st.floats(0.0, 1000.0), max_size=400).map(tuple)
 
 @given(RANGES)
 def test_ranges_come_back_as_they_went(ranges_m: tuple[float | None, ...]) -> None:
-    scan = laser_scan(12, "base", (0.1, 0.0, (0.0, 1.0)), (-3.0, 3.0), packed(ranges_m))
-    got = unpacked(ranges_of(scan))
+    scan = laser_scan(12, "base", (0.1, 0.0, (0.0, 1.0)), (-3.0, 3.0), pack_ranges(ranges_m))
+    got = unpack_ranges(ranges_of(scan))
     assert [repr(r) for r in got] == [repr(r) for r in ranges_m]
 
 

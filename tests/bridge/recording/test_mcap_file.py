@@ -14,16 +14,16 @@ import pytest
 import zstandard
 
 from bridge.recording import mcap_file as file_module
-from bridge.recording.mcap_file import BoxFile
-from bridge.recording.mcap_reader import MAGIC, MOST_BYTES, BadRecording, BoxReader, _unpacked
-from bridge.recording.topics import Topic, topics
+from bridge.recording.mcap_file import McapFile
+from bridge.recording.mcap_reader import MAGIC, MOST_BYTES, BadRecording, McapReader, _decompress
+from bridge.recording.topics import RecordedTopic, topics
 from tests.bridge.recorded import SCHEMAS
 
 TOPICS = topics(SCHEMAS)
 
 
-def filled(path: Path, topics: Mapping[str, Topic] = TOPICS) -> BoxFile:
-    box = BoxFile(path, topics)
+def filled(path: Path, topics: Mapping[str, RecordedTopic] = TOPICS) -> McapFile:
+    box = McapFile(path, topics)
     for number in range(300):
         box.add("/pons/inbox", number * 10, number, b'{"n":%d}' % number)
         if number % 50 == 49:
@@ -32,14 +32,14 @@ def filled(path: Path, topics: Mapping[str, Topic] = TOPICS) -> BoxFile:
 
 
 def numbers(path: Path) -> list[int]:
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         return [raw.sequence for raw in box.messages()]
 
 
 def test_a_closed_file_gives_everything_in_order(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     filled(path).close()
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         assert box.complete
         assert [raw.sequence for raw in box.messages()] == list(range(300))
         assert {frozenset(chunk.topics) for chunk in box.chunks} == {frozenset({"/pons/inbox"})}
@@ -49,14 +49,14 @@ def test_a_reader_tells_a_file_being_written_from_one_that_was_left(tmp_path: Pa
     path = tmp_path / "a.mcap"
     writing = filled(path)
     for _ in range(2):  # who looks leaves no trace
-        with BoxReader(path) as box:
+        with McapReader(path) as box:
             assert (box.complete, box.growing) == (False, True)
     writing.abandon()
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         assert (box.complete, box.growing) == (False, False)
     whole = tmp_path / "b.mcap"
     filled(whole).close()
-    with BoxReader(whole) as box:
+    with McapReader(whole) as box:
         assert (box.complete, box.growing) == (True, False)
 
 
@@ -75,7 +75,7 @@ def test_without_locks_a_file_is_read_as_cut_short(
     with monkeypatch.context() as patched:
         if broken == "reader":
             patched.setattr(fcntl, "flock", refuse)
-        with BoxReader(path) as box:
+        with McapReader(path) as box:
             assert (box.complete, box.growing) == (False, False)
             assert len(list(box.messages())) == 300
     writing.abandon()
@@ -106,7 +106,7 @@ def test_zeros_that_a_power_loss_left_end_the_file(tmp_path: Path) -> None:
 def test_a_last_chunk_that_never_reached_the_disk_is_left_out(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     filled(path).abandon()
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         last = box.chunks[-1]
     data = bytearray(path.read_bytes())
     data[last.at + 60 : last.at + last.size] = bytes(last.size - 60)
@@ -117,7 +117,7 @@ def test_a_last_chunk_that_never_reached_the_disk_is_left_out(tmp_path: Path) ->
 def test_damage_inside_a_closed_file_is_said(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     filled(path).close()
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         chunk = box.chunks[2]
     data = bytearray(path.read_bytes())
     data[chunk.at + chunk.size - 4] ^= 0xFF
@@ -169,7 +169,7 @@ def short_files() -> Iterator[None]:
 @pytest.mark.usefixtures("short_files")
 def test_a_write_that_fails_leaves_whole_chunks_and_no_open_file(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
-    box = BoxFile(path, TOPICS)
+    box = McapFile(path, TOPICS)
     count = 0
 
     def until_refused() -> None:
@@ -195,14 +195,14 @@ def test_a_file_that_cannot_be_begun_leaves_nothing_behind(
 
     monkeypatch.setattr(file_module, "_sync_folder", fail)
     with pytest.raises(OSError, match="No space"):
-        BoxFile(tmp_path / "a.mcap", TOPICS)
+        McapFile(tmp_path / "a.mcap", TOPICS)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_file_is_never_written_over(tmp_path: Path) -> None:
     (tmp_path / "a.mcap").write_bytes(b"somebody's")
     with pytest.raises(FileExistsError):
-        BoxFile(tmp_path / "a.mcap", TOPICS)
+        McapFile(tmp_path / "a.mcap", TOPICS)
     assert (tmp_path / "a.mcap").read_bytes() == b"somebody's"
 
 
@@ -219,7 +219,7 @@ def test_a_frame_that_unpacks_to_more_than_its_chunk_says_is_never_unpacked(
     path.write_bytes(MAGIC + struct.pack("<BQ", 0x06, len(body)) + body)
     tracemalloc.start()
     try:
-        with BoxReader(path) as box:
+        with McapReader(path) as box:
             box.complete = True
             with pytest.raises(BadRecording, match=f"a frame of {said} bytes in a chunk of 1000"):
                 box.read(box.chunks[0])
@@ -234,7 +234,7 @@ def test_a_chunk_too_large_to_be_one_is_not_read(tmp_path: Path) -> None:
     with path.open("wb") as file:
         file.write(MAGIC + struct.pack("<BQ", 0x06, length))
         file.truncate(len(MAGIC) + 9 + length)
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         box.complete = True
         with pytest.raises(BadRecording, match="bytes, packed"):
             box.read(box.chunks[0])
@@ -242,6 +242,6 @@ def test_a_chunk_too_large_to_be_one_is_not_read(tmp_path: Path) -> None:
 
 def test_a_frame_that_does_not_say_its_size_is_bounded_by_its_chunk() -> None:
     silent = zstandard.ZstdCompressor(write_content_size=False)
-    assert _unpacked(silent.compress(bytes(100)), 100) == bytes(100)
+    assert _decompress(silent.compress(bytes(100)), 100) == bytes(100)
     with pytest.raises(zstandard.ZstdError):
-        _unpacked(silent.compress(bytes(1 << 20)), 100)
+        _decompress(silent.compress(bytes(1 << 20)), 100)

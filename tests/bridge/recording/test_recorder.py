@@ -29,7 +29,7 @@ from bridge.recording.recording_reader import (
 from bridge.recording.writer_process import Sizes, WriterProcess
 from bridge.replay import replay
 from tests.bridge.ground import ROOT, core_config, run_core, until
-from tests.rank.standing import leads_its_session, stand_of
+from tests.processes.nice_values import leads_its_session, stand_of
 from tests.wire.examples import EXAMPLES
 from wire import Scan, Stop
 

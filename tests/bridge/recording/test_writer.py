@@ -9,7 +9,7 @@ import pytest
 
 from bridge.recording import foxglove_messages, pipe_frames
 from bridge.recording import writer as writer_module
-from bridge.recording.mcap_reader import BoxReader
+from bridge.recording.mcap_reader import McapReader
 from bridge.recording.pipe_frames import BadFrame, Splitter, frame
 from bridge.recording.writer import Writer
 from tests.bridge.core.scripted import World
@@ -18,7 +18,7 @@ from tests.bridge.test_replay import taken
 
 
 def make(folder: Path, rotate_bytes: int = 1 << 20) -> Writer:
-    return Writer(folder, "b1", rotate_bytes, 1 << 40, foxglove_messages.Clock(UNIX_S))
+    return Writer(folder, "b1", rotate_bytes, 1 << 40, foxglove_messages.UnixClock(UNIX_S))
 
 
 def feed(writer: Writer, stream: bytes) -> None:
@@ -73,7 +73,7 @@ def test_what_no_viewer_can_be_shown_is_recorded_all_the_same(
     feed(writer, b"".join([*head, *(frame(kind, odd) for kind in kinds)]))
     writer.close()
     (path,) = tmp_path.iterdir()
-    with BoxReader(path) as box:
+    with McapReader(path) as box:
         got = [(raw.topic, raw.sequence, raw.data) for raw in box.messages()]
     names = ["boot", "status", "odometry", "event", "odometry"]
     assert got == [(f"/pons/{name}", 7, odd) for name in names]

@@ -21,7 +21,8 @@ from planner.brain import (
 )
 from planner.brain.circuit_breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
 from planner.brain.model_error_codes import REASONS, reason
-from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, message, same
+from planner.language.catalogue import message
+from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, same
 
 BY_MODEL = StepPlan(steps=(Wait(seconds=1.0),))
 BY_GRAMMAR = StepPlan(steps=(GoTo(place="kitchen"),))

@@ -19,9 +19,10 @@ from planner.brain.image_prompts import (
 )
 from planner.brain.image_questions import MAX_VIEWS, Asked, View
 from planner.brain.prompt import tokens
-from planner.brain.prompt_template import FOLDER, Template
+from planner.brain.prompt_template import Template
 from planner.perception import Detection
 from planner.plan import Bilingual, Language
+from pons_assets import PROMPTS
 from tests.planner.brain.pictures import picture
 from wire import Misconfigured
 
@@ -95,4 +96,4 @@ def test_a_malformed_prompt_refuses_to_start(text: str, tmp_path: Path) -> None:
     path.write_text(text, "utf-8")
     with pytest.raises(Misconfigured, match="prompt_malformed"):
         Template.load(path, frozenset({"schema"}))
-    assert (FOLDER / "look.md").is_file()
+    assert (PROMPTS / "look.md").is_file()

@@ -12,11 +12,11 @@ import pytest
 from planner.brain import ThinkRequest
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.brain.prompt import BUDGET_TOKENS, Prompt, tokens
-from planner.brain.prompt_template import FOLDER
 from planner.brain.schema import schema_of, step_models
 from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 from planner.site import Site
+from pons_assets import PROMPTS
 from tests.conftest import ROOT
 from wire import Misconfigured
 
@@ -174,7 +174,7 @@ def test_a_step_that_becomes_runnable_is_offered(home: Vocabulary) -> None:
     [
         ("You plan.", "prompt_malformed"),
         ("version: 2\n\n{{places}}", "prompt_malformed"),
-        (f"{(FOLDER / 'plan.md').read_text('utf-8')}{{{{more}}}}", "prompt_malformed"),
+        (f"{(PROMPTS / 'plan.md').read_text('utf-8')}{{{{more}}}}", "prompt_malformed"),
     ],
 )
 def test_a_malformed_prompt_refuses_to_start(text: str, code: str, tmp_path: Path) -> None:

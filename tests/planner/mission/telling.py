@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from planner.brain.errors import BrainDown
 from planner.brain.image_questions import Asked, Described
+from planner.language.catalogue import message
 from planner.mission.effects import AskBrain, AskEyes, KeepPicture
 from planner.mission.events import Confirm, Planned, Reply, Sighted
 from planner.mission.perception_requests import EyeDoor
@@ -29,7 +30,6 @@ from planner.plan import (
     Outcome,
     StepRecord,
     StepState,
-    message,
 )
 from tests.planner.mission.lockstep import Together
 from tools.lockstep.run_coroutine import at_once

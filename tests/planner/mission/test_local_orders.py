@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from planner.brain.scripted import Reply
+from planner.language.utterance import parse
 from planner.mission import BadState, JournalDown
 from planner.mission.known_places import KnownPlaces, Lesson
 from planner.mission.loop import Loop
-from planner.mission.reception import read_utterance
 from planner.plan import (
     ENDED,
     Ask,
@@ -248,7 +248,7 @@ def test_what_is_said_to_the_planner_itself_is_no_answer(
             goal = await missions.submit(TO_KITCHEN)
             await together.reach(goal.id, GoalState.NEEDS_CLARIFICATION)
             for said in ("hold on", "等一下", "pause for now", "remember this as corner", "status"):
-                assert read_utterance(said).stays_put, "so no operator's proof is asked for"
+                assert parse(said).stays_put, "so no operator's proof is asked for"
                 assert (await missions.answer(goal.id, said)).state is GoalState.NEEDS_CLARIFICATION
             await together.until(lambda: len(missions.memory.taught) == 1)
             await together.until(lambda: all(g.state in ENDED for g in missions.goals()[1:]))

@@ -8,6 +8,7 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.language.catalogue import message
 from planner.mission.activity import Driving
 from planner.mission.allowed_commands import refusal
 from planner.mission.effects import STAND, AskRoute, Journal, SayAloud
@@ -56,7 +57,6 @@ from planner.plan import (
     StepState,
     Turn,
     Wait,
-    message,
 )
 from planner.plan import Move as MoveStep
 from tests.laws import at_least

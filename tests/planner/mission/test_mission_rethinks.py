@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from planner.language.catalogue import message
 from planner.mission.confirmation import ROAMS
 from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply, Resume, Stopped
 from planner.mission.skills import Eyesight
@@ -32,7 +33,6 @@ from planner.plan import (
     Say,
     StepPlan,
     StepState,
-    message,
 )
 from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import FACTS

@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from planner.brain.interface import OFFLINE
+from planner.language.catalogue import message
 from planner.language.yes_no import consents
 from planner.mission.events import Confirm, Pause, Reply, Resume, Stopped, Tick
 from planner.plan import (
@@ -34,7 +35,6 @@ from planner.plan import (
     StepPlan,
     StepState,
     Wait,
-    message,
 )
 from tests.planner.mission.driving import CANCELLED, FAILED, QUEUED, SUCCEEDED, standing_still
 from tests.planner.mission.lockstep import Together, go

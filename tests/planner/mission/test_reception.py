@@ -7,21 +7,17 @@ import random
 
 import pytest
 
+from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
 from planner.language.identification import language_of
+from planner.language.utterance import parse
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
-from planner.mission.reception import (
-    AnswerReception,
-    is_active,
-    read_utterance,
-    receive,
-    receive_answer,
-)
+from planner.mission.reception import AnswerReception, is_active, receive, receive_answer
 from planner.mission.reducer import advance
 from planner.mission.state import MAX_OPEN, Mission, MissionState
-from planner.plan import Code, GoalState, Language, Outcome, Vocabulary, message
+from planner.plan import Code, GoalState, Language, Outcome, Vocabulary
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason
@@ -68,7 +64,7 @@ def hear(
     book: MissionState, text: str, goal_id: str, now_s: float
 ) -> tuple[MissionState, list[object]]:
     """Take one sentence as the planner's door does, and think about it with the offline brain."""
-    heard = receive(book, read_utterance(text), given(text, goal_id), now_s)
+    heard = receive(book, parse(text), given(text, goal_id), now_s)
     book, first = advance(book, heard.given, now_s)
     effects: list[object] = list(first)
     for effect in first:
@@ -138,7 +134,7 @@ def driving() -> Together:
 )  # fmt: skip
 def test_while_it_drives_a_stop_word_stops_first(text: str) -> None:
     world = driving()
-    heard = receive(world.book, read_utterance(text), given(text), world.now_s)
+    heard = receive(world.book, parse(text), given(text), world.now_s)
     assert heard.stops
 
 
@@ -147,7 +143,7 @@ def test_the_same_words_do_nothing_to_a_robot_that_has_nothing_to_do() -> None:
     world.run(0.5)
     text = "uh robot there is a child please stop"
     assert not is_active(world.book, world.now_s)
-    assert not receive(world.book, read_utterance(text), given(text), world.now_s).stops
+    assert not receive(world.book, parse(text), given(text), world.now_s).stops
     assert is_active(world.book, world.now_s + 2.0), "nobody knows any more whether it moves"
 
 
@@ -162,7 +158,7 @@ def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
     world = driving()
     first = world.book.running
     text = "hold on, go to the hall"
-    heard = receive(world.book, read_utterance(text), given(text, "second"), world.now_s)
+    heard = receive(world.book, parse(text), given(text, "second"), world.now_s)
     assert heard.stops
     assert heard.given.doubtful_stop
     world.plans["second"] = go("hall")
@@ -183,7 +179,7 @@ def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
 def test_a_doubtful_stop_of_which_no_plan_is_made_is_a_stop() -> None:
     world = driving()
     text = "there is a child, for heaven's sake stand still"
-    heard = receive(world.book, read_utterance(text), given(text, "second"), world.now_s)
+    heard = receive(world.book, parse(text), given(text, "second"), world.now_s)
     world.plans["second"] = None
     world.event(heard.given)
     refused = Outcome(code=Code.NOT_UNDERSTOOD, message=message(Code.NOT_UNDERSTOOD, part="x"))
@@ -198,10 +194,10 @@ def test_with_all_places_taken_a_doubtful_stop_still_stops() -> None:
     world = driving()
     for _ in range(MAX_OPEN):
         world.give(None)
-    heard = receive(world.book, read_utterance("careful, brake"), given("x"), world.now_s)
+    heard = receive(world.book, parse("careful, brake"), given("x"), world.now_s)
     assert heard.stops
     assert heard.given.stop
-    assert receive(world.book, read_utterance("go to the hall"), given("x"), world.now_s).crowded
+    assert receive(world.book, parse("go to the hall"), given("x"), world.now_s).crowded
 
 
 @pytest.mark.parametrize("held", [True, False])
@@ -248,11 +244,11 @@ def _book_of(state: GoalState) -> MissionState:
 def test_what_words_do_that_come_as_an_answer(
     text: str, state: GoalState, expected: AnswerReception
 ) -> None:
-    assert receive_answer(_book_of(state), read_utterance(text), "g1", 1.0) == expected
+    assert receive_answer(_book_of(state), parse(text), "g1", 1.0) == expected
 
 
 def test_a_goal_that_asks_nothing_takes_no_answer() -> None:
-    heard = receive_answer(_book_of(GoalState.SUCCEEDED), read_utterance("yes"), "g1", 1.0)
+    heard = receive_answer(_book_of(GoalState.SUCCEEDED), parse("yes"), "g1", 1.0)
     assert heard.refused is not None
     assert heard.refused.code == "bad_state"
     assert heard.command is None

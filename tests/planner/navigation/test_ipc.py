@@ -7,10 +7,9 @@ from dataclasses import asdict
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.kept import Frame
-from planner.kept.frames import HEADER, lengths, pack, unpack
 from planner.navigation import RouteLimits, RoutePoint, RouteRequest, RouteResult
 from planner.navigation.ipc import limits_text, read_limits, read_request, read_result, result_frame
+from processes.worker_protocol import HEADER, Frame, pack, read_lengths, unpack
 from wire import Pose2, RobotDescription
 
 numbers = st.floats(-1e4, 1e4)
@@ -33,7 +32,7 @@ results = st.builds(
 def sent(frame: Frame) -> Frame:
     """Return a frame as it comes out of a pipe."""
     packed = pack(*frame)
-    text, _ = lengths(packed[: HEADER.size])
+    text, _ = read_lengths(packed[: HEADER.size])
     return unpack(packed[HEADER.size : HEADER.size + text]), packed[HEADER.size + text :]
 
 

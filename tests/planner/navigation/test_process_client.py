@@ -11,10 +11,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from planner.kept.begin import NICE
 from planner.navigation import RouteFailure, RouteLimits, RouteRequest, RouteWorker
 from planner.site import Site
-from tests.planner.kept.keeping import LIMIT_S, code_of, pid_of, story
+from processes.parent_death import WORKER_NICE
+from tests.processes.small_worker import LIMIT_S, code_of, pid_of, story
 
 
 def across(site: Site) -> RouteRequest:
@@ -48,7 +48,7 @@ async def test_routes_come_from_another_process_that_yields_to_us(
         assert (end.x_m, end.y_m) == (goal.x_m, goal.y_m)
     child = psutil.Process(pid_of(worker))
     assert child.pid != os.getpid()
-    assert child.nice() >= NICE
+    assert child.nice() >= WORKER_NICE
 
 
 @story

@@ -11,14 +11,14 @@ from pathlib import Path
 import psutil
 import pytest
 
-from planner.kept.begin import NICE
 from planner.perception import VisionWorker
 from planner.perception.detect.image_header import read_header
 from planner.settings import VisionSettings
-from tests.planner.kept import tiny as tiny_process
-from tests.planner.kept.keeping import LIMIT_S, code_of, pid_of, story
+from processes.parent_death import WORKER_NICE
 from tests.planner.perception.detect import tiny
 from tests.planner.perception.detect.tiny import Seen
+from tests.processes import small_worker_main as tiny_process
+from tests.processes.small_worker import LIMIT_S, code_of, pid_of, story
 from wire import Image, ImageHeader
 
 SIZE = (64, 48)
@@ -66,7 +66,7 @@ async def test_a_look_comes_from_another_process_that_yields_to_us(
     assert (result.width, result.height, result.skipped) == (*SIZE, None)
     child = psutil.Process(pid_of(worker))
     assert child.pid != os.getpid()
-    assert child.nice() >= NICE
+    assert child.nice() >= WORKER_NICE
     assert worker.about is not None
     assert (worker.about.decoder, worker.classes) == ("yolov8", ("person", "cup"))
     assert "metadata: 2 names" in worker.about.line

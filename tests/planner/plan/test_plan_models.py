@@ -12,6 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from planner.language.catalogue import message, template
+from planner.language.place_lists import known_places, rejection_outcome
 from planner.plan import (
     DRIVES,
     NEEDS_CAMERA,
@@ -37,9 +39,7 @@ from planner.plan import (
     Vocabulary,
     Wait,
     fault,
-    message,
     plan_record,
-    template,
     validate_plan,
 )
 
@@ -131,15 +131,15 @@ def test_unknown_place_is_refused_and_names_what_exists() -> None:
     verdict = rejected((GoTo(place="kitchen"), GoTo(place="garage")))
     assert [(r.code, r.step) for r in verdict.reasons] == [(Code.UNKNOWN_PLACE, 1)]
     assert verdict.repairable
-    assert "garage" in verdict.outcome.message.en
-    assert "书房" in verdict.outcome.message.zh
+    assert "garage" in rejection_outcome(verdict, HOME).message.en
+    assert "书房" in rejection_outcome(verdict, HOME).message.zh
 
 
 @pytest.mark.parametrize("count", [0, 21, 500])
 def test_empty_and_long_plans_are_refused(count: int) -> None:
     verdict = rejected((GoTo(place="kitchen"),) * count)
-    assert verdict.outcome.code is Code.BAD_PLAN
-    assert str(count) in verdict.outcome.message.en
+    assert rejection_outcome(verdict, HOME).code is Code.BAD_PLAN
+    assert str(count) in rejection_outcome(verdict, HOME).message.en
 
 
 def test_twenty_steps_pass() -> None:
@@ -156,7 +156,9 @@ def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
         return
     assert isinstance(verdict, Rejection)
     camera = step["kind"] in NEEDS_CAMERA
-    assert verdict.outcome.code is (Code.NO_CAMERA if camera else Code.NO_CAPABILITY)
+    assert rejection_outcome(verdict, HOME).code is (
+        Code.NO_CAMERA if camera else Code.NO_CAPABILITY
+    )
     assert not verdict.repairable
 
 
@@ -167,7 +169,7 @@ def test_all_reasons_are_collected_and_the_hopeless_one_is_told() -> None:
     verdict = validate_plan(plan, HOME)
     assert isinstance(verdict, Rejection)
     assert [r.code for r in verdict.reasons] == [Code.UNKNOWN_PLACE, Code.NO_CAMERA]
-    assert verdict.outcome.code is Code.NO_CAMERA
+    assert rejection_outcome(verdict, HOME).code is Code.NO_CAMERA
 
 
 def test_answers_and_questions_pass_untouched() -> None:
@@ -199,8 +201,8 @@ def test_ids_must_be_unique() -> None:
 
 def test_a_long_list_of_places_is_cut_in_messages() -> None:
     many = Vocabulary(entries=tuple(entry(f"p{i}", f"p{i}", f"地{i}") for i in range(50)))
-    assert many.known().en.endswith("p29, and 20 more")
-    assert many.known().zh.endswith("等另外 20 处")
+    assert known_places(many).en.endswith("p29, and 20 more")
+    assert known_places(many).zh.endswith("等另外 20 处")
 
 
 def test_goal_record_round_trips() -> None:

@@ -10,9 +10,9 @@ from contextlib import asynccontextmanager
 
 import pytest
 
-from planner.kept import frames
 from planner.voice import Heard, Sound, VoiceFailure, VoiceWorker, process_client
-from tests.planner.kept.keeping import story
+from processes import worker_protocol
+from tests.processes.small_worker import story
 
 SECOND = Sound(16_000, 1, bytes(32_000))
 ECHO = """
@@ -21,7 +21,7 @@ exec(compile(open({frames!r}, "rb").read(), {frames!r}, "exec"))  # alone: our p
 def read():
     header = sys.stdin.buffer.read(HEADER.size)
     if not header: sys.exit(0)
-    head, body = lengths(header)
+    head, body = read_lengths(header)
     return unpack(sys.stdin.buffer.read(head)), sys.stdin.buffer.read(body)
 def write(**head):
     sys.stdout.buffer.write(pack(head)); sys.stdout.buffer.flush()
@@ -35,7 +35,7 @@ TELL = 'write(number=head["number"], transcript=str(len(pcm)), confidence=0.75, 
 
 
 def stub(act: str) -> tuple[str, ...]:
-    text = ECHO.replace("{act}", act).replace("{frames!r}", repr(frames.__file__))
+    text = ECHO.replace("{act}", act).replace("{frames!r}", repr(worker_protocol.__file__))
     return (sys.executable, "-S", "-c", text)
 
 

@@ -7,8 +7,8 @@ from functools import cache
 from math import pi
 from typing import TYPE_CHECKING, cast
 
-from pons.calibrate.findings import Finding
-from pons.calibrate.procedure import Plan, calibrate
+from pons.calibrate.findings import CalibrationFinding
+from pons.calibrate.procedure import CalibrationPlan, calibrate
 from sim import Hardware
 from tests.pons.calibrate.tape import Tape
 from tools.lockstep import Together
@@ -19,7 +19,7 @@ from wire.keys import Party
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.calibrate.session import Rig
+    from pons.calibrate.session import CalibrationRig
     from wire.session import Session
 
 TRUE = Hardware(wheel_radius_m=0.1, wheel_separation_m=0.5)
@@ -61,19 +61,19 @@ class Bench:
         self.tape = Tape()
         self.rig = self.tape.rig(operator, judge, lambda: self.world.now_s, self.world.tick)
 
-    def calibrate(self, plan: Plan | None = None) -> dict[str, Finding]:
+    def calibrate(self, plan: CalibrationPlan | None = None) -> dict[str, CalibrationFinding]:
         """Go through it, as briefly as may be."""
-        wanted = plan or Plan(None, shuttles=1, turns=1)
+        wanted = plan or CalibrationPlan(None, shuttles=1, turns=1)
         return gone_through(self.rig, self.robot, wanted, self.said.append)
 
 
 def gone_through(
-    rig: Rig,
+    rig: CalibrationRig,
     robot: RobotDescription,
-    plan: Plan,
+    plan: CalibrationPlan,
     say: Callable[[str], None],
     ask_m: Callable[[], float] = lambda: 0.0,
-) -> dict[str, Finding]:
+) -> dict[str, CalibrationFinding]:
     """Calibrate and return what was found by its name."""
     found = calibrate(rig, robot, plan, "now", say, ask_m)
     return {one.name: one for one in found}

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
-from pons.calibrate.session import Rig
+from pons.calibrate.session import CalibrationRig
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,7 +34,7 @@ class Tape:
         judge: Session,
         clock: Callable[[], float],
         wait: Callable[[], None],
-    ) -> Rig:
+    ) -> CalibrationRig:
         """Return a rig that drives while all is kept."""
 
         def waits() -> None:
@@ -43,9 +43,9 @@ class Tape:
 
         self.times_s.append(clock())
         kept = [cast("Session", _Keeping(self, port)) for port in (operator, judge)]
-        return Rig(kept[0], kept[1], clock, waits)
+        return CalibrationRig(kept[0], kept[1], clock, waits)
 
-    def again(self) -> Rig:
+    def again(self) -> CalibrationRig:
         """Return a rig that meets the same once more."""
         port = cast("Session", _Playing(self))
         at = iter(self.times_s)
@@ -54,7 +54,7 @@ class Tape:
         def wait() -> None:
             now_s[0] = next(at)
 
-        return Rig(port, port, lambda: now_s[0], wait)
+        return CalibrationRig(port, port, lambda: now_s[0], wait)
 
 
 @dataclass(frozen=True)

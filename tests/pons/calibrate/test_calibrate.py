@@ -10,9 +10,9 @@ import pytest
 
 from pons.calibrate import runs, session
 from pons.calibrate.clearance import SHORTEST_M
-from pons.calibrate.errors import CalibrationRefused
-from pons.calibrate.findings import Finding, findings, of_straight
-from pons.calibrate.procedure import Plan
+from pons.calibrate.errors import CalibrationRefusal
+from pons.calibrate.findings import CalibrationFinding, findings, of_straight
+from pons.calibrate.procedure import CalibrationPlan
 from pons.calibrate.reference import TRUTH, went_m
 from pons.calibrate.runs import straight
 from tests.pons.calibrate.metal import FACING, TRUE, Bench, gone_through
@@ -24,13 +24,15 @@ TIGHT = Pose2(0.38, 1.8, 1.5708)
 
 
 @pytest.fixture(scope="module")
-def driven() -> tuple[Bench, dict[str, Finding]]:
+def driven() -> tuple[Bench, dict[str, CalibrationFinding]]:
     """Calibrate by truth; what was heard is then read by others, who drive nothing."""
     bench = Bench()
-    return bench, bench.calibrate(Plan(None, shuttles=1, turns=2))
+    return bench, bench.calibrate(CalibrationPlan(None, shuttles=1, turns=2))
 
 
-def test_a_wrong_description_is_found_out(driven: tuple[Bench, dict[str, Finding]]) -> None:
+def test_a_wrong_description_is_found_out(
+    driven: tuple[Bench, dict[str, CalibrationFinding]],
+) -> None:
     bench, found = driven
     is_right(found, "the simulator's truth")
     assert bench.world.standing
@@ -39,17 +41,17 @@ def test_a_wrong_description_is_found_out(driven: tuple[Bench, dict[str, Finding
     assert any("m ahead of the robot's edge" in line for line in bench.said)
 
 
-def test_the_lidar_finds_the_same(driven: tuple[Bench, dict[str, Finding]]) -> None:
+def test_the_lidar_finds_the_same(driven: tuple[Bench, dict[str, CalibrationFinding]]) -> None:
     bench, by_truth = driven
     said: list[str] = []
-    plan = Plan("lidar", shuttles=1, turns=2)
+    plan = CalibrationPlan("lidar", shuttles=1, turns=2)
     by_lidar = gone_through(bench.tape.again(), bench.robot, plan, said.append)
     is_right(by_lidar, "the lidar")
     assert by_lidar["base.wheel_radius_m"].value != by_truth["base.wheel_radius_m"].value
     assert any("distances by the lidar" in line for line in said)
 
 
-def is_right(found: dict[str, Finding], spoken: str) -> None:
+def is_right(found: dict[str, CalibrationFinding], spoken: str) -> None:
     values = {name: one.value for name, one in found.items()}
     assert values["base.wheel_radius_m"] == pytest.approx(0.1, rel=0.005)
     assert values["base.wheel_separation_m"] == pytest.approx(0.5, rel=0.005)
@@ -75,7 +77,7 @@ def test_unequal_motors_are_told_of() -> None:
     assert "right 1.08" in found["drive.dead_zone_radps"].evidence
 
 
-def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, Finding]]) -> None:
+def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, CalibrationFinding]]) -> None:
     bench, _ = driven
     heard = bench.tape.again()
     began = bench.start or bench.world.scene.site.home.pose
@@ -88,7 +90,7 @@ def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, Finding]])
         at.append(here)
         return round(apart_m, 2)  # as a tape is read
 
-    plan = Plan("measured", shuttles=1, turns=1)
+    plan = CalibrationPlan("measured", shuttles=1, turns=1)
     found = gone_through(heard, bench.robot, plan, bench.said.append, measure)
     assert found["base.wheel_radius_m"].value == pytest.approx(0.1, rel=0.015)
     assert "a person's measure of distances and the lidar in turns" in (
@@ -101,7 +103,7 @@ def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, Finding]])
 
 
 def refusal(bench: Bench) -> str:
-    with pytest.raises(CalibrationRefused) as refused:
+    with pytest.raises(CalibrationRefusal) as refused:
         bench.calibrate()
     assert bench.world.standing
     assert any("一" <= character <= "鿿" for character in refused.value.lines()[-1])
@@ -119,7 +121,7 @@ def test_a_planner_that_drives_is_left_alone() -> None:
     bench = Bench()
     bench.world.say("go to the living room")
     bench.world.run_until(lambda w: w.status.mode is Mode.ACTIVE, 20.0)
-    with pytest.raises(CalibrationRefused, match="is driving") as refused:
+    with pytest.raises(CalibrationRefusal, match="is driving") as refused:
         bench.calibrate()
     assert refused.value.code == "busy"
     bench.world.run(0.5)
@@ -134,7 +136,7 @@ def test_a_pressed_stop_is_left_alone() -> None:
 
 def test_too_little_room_is_said_with_figures() -> None:
     bench = Bench(start=TIGHT)
-    with pytest.raises(CalibrationRefused, match=r"turning needs 0\.35 m") as refused:
+    with pytest.raises(CalibrationRefusal, match=r"turning needs 0\.35 m") as refused:
         bench.calibrate()
     assert refused.value.code == "no_room"
     assert bench.world.standing

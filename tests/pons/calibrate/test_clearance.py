@@ -22,13 +22,14 @@ from pons.calibrate.clearance import (
     needed_m,
     points_of,
 )
-from pons.calibrate.errors import CalibrationRefused
-from pons.calibrate.procedure import Plan
-from pons.calibrate.reference import Look
+from pons.calibrate.errors import CalibrationRefusal
+from pons.calibrate.procedure import CalibrationPlan
+from pons.calibrate.reference import WallLook
 from wire import RobotDescription, Scan
 
 if TYPE_CHECKING:
-    from pons.calibrate.session import Rig
+    from pons.calibrate.session import CalibrationRig
+
 
 ROBOT = RobotDescription()
 RADIUS_M = ROBOT.base.radius_m
@@ -50,7 +51,7 @@ class Room:
     noise_m: float = 0.02
     looks: int = 0
 
-    def look(self) -> Look:
+    def look(self) -> WallLook:
         self.looks += 1
         count = 180
         ranges = tuple(
@@ -68,7 +69,7 @@ class Room:
             range_max_m=8.0,
             ranges_m=ranges,
         )
-        return Look(None, (scan,))
+        return WallLook(None, (scan,))
 
     def _range_m(self, a: float) -> float:
         x, y = cos(a), sin(a)
@@ -93,7 +94,9 @@ def faced(room: Room, ends: Truth, monkeypatch: pytest.MonkeyPatch) -> tuple[flo
         room.heading_rad += ends(angle_rad)
 
     monkeypatch.setattr(procedure, "turn", turn)
-    return procedure._face_the_way(cast("Rig", room), ROBOT, Plan(None), lambda _: None), turns
+    return procedure._face_the_way(
+        cast("CalibrationRig", room), ROBOT, CalibrationPlan(None), lambda _: None
+    ), turns
 
 
 def wobbly(*off_deg: float) -> Truth:
@@ -141,7 +144,7 @@ def test_what_is_ahead_and_long_enough_is_not_turned_from(monkeypatch: pytest.Mo
 
 def test_turns_that_lead_nowhere_end(monkeypatch: pytest.MonkeyPatch) -> None:
     room = ROOMS["a corridor to the left"]()
-    with pytest.raises(CalibrationRefused, match="no_room") as refused:
+    with pytest.raises(CalibrationRefusal, match="no_room") as refused:
         faced(room, lambda _: 0.0, monkeypatch)
     assert room.looks == procedure.TURNS + 1
     assert f"{BEHIND_M + SPARE_M:.2f} m behind" in refused.value.detail
@@ -164,5 +167,5 @@ def test_a_way_ahead_has_something_to_spare_on_every_side(spared: float, fits: b
         if fits:
             assert best_way(points, RADIUS_M, (0.0,)).run_m >= SHORTEST_M
         else:
-            with pytest.raises(CalibrationRefused, match="no_room"):
+            with pytest.raises(CalibrationRefusal, match="no_room"):
                 best_way(points, RADIUS_M, (0.0,))

@@ -8,15 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pons.calibrate.errors import WORDS, CalibrationRefused
-from pons.calibrate.findings import Finding, Straight, findings, gains
+from pons.calibrate.errors import WORDS, CalibrationRefusal
+from pons.calibrate.findings import CalibrationFinding, StraightRun, findings, gains
 from wire import RobotDescription
 
 ROBOT = RobotDescription()
-RUN = Straight(0.1, 0.05, (1.0, 1.0), 0.05, 0.07, 0.01, 9.8)
+RUN = StraightRun(0.1, 0.05, (1.0, 1.0), 0.05, 0.07, 0.01, 9.8)
 
 
-def found(runs: list[Straight], apart: tuple[float, ...] = (0.5, 0.5)) -> dict[str, Finding]:
+def found(
+    runs: list[StraightRun], apart: tuple[float, ...] = (0.5, 0.5)
+) -> dict[str, CalibrationFinding]:
     return {one.key: one for one in findings(runs, apart, ROBOT, "the truth", "now")}
 
 
@@ -46,8 +48,10 @@ def test_the_shortest_response_is_fed_forward() -> None:
         (replace(RUN, radius_m=float("nan")), (0.5, 0.5), "wheel_radius_m"),
     ],
 )
-def test_runs_that_disagree_are_refused(run: Straight, apart: tuple[float, ...], name: str) -> None:
-    with pytest.raises(CalibrationRefused, match=name) as refused:
+def test_runs_that_disagree_are_refused(
+    run: StraightRun, apart: tuple[float, ...], name: str
+) -> None:
+    with pytest.raises(CalibrationRefusal, match=name) as refused:
         found([RUN, RUN, run], apart)
     assert refused.value.code == "spread_too_wide"
 
@@ -61,8 +65,10 @@ def test_runs_that_disagree_are_refused(run: Straight, apart: tuple[float, ...],
         (replace(RUN, braking_radps2=1.0), (0.5, 0.5)),
     ],
 )
-def test_what_robot_toml_may_not_hold_is_refused(run: Straight, apart: tuple[float, ...]) -> None:
-    with pytest.raises(CalibrationRefused) as refused:
+def test_what_robot_toml_may_not_hold_is_refused(
+    run: StraightRun, apart: tuple[float, ...]
+) -> None:
+    with pytest.raises(CalibrationRefusal) as refused:
         found([run, run], apart)
     assert refused.value.code == "out_of_bounds"
 
@@ -81,7 +87,7 @@ def test_the_defaults_are_what_the_rule_gives_for_the_simulated_motor() -> None:
 
 @pytest.mark.parametrize("code", WORDS)
 def test_every_refusal_speaks_both_languages(code: str) -> None:
-    head, english, chinese = CalibrationRefused(code, "why").lines()
+    head, english, chinese = CalibrationRefusal(code, "why").lines()
     assert head == f"{code}: why"
     assert english.isascii()
     assert any("一" <= character <= "鿿" for character in chinese)

@@ -9,13 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pons.calibrate.errors import RunLost
-from pons.calibrate.motor import braking_radps2, fitted, plateau, statics
-from pons.calibrate.track import TICK_S, Tick
+from pons.calibrate.motor import braking_radps2, fit_motor, plateau, statics
+from pons.calibrate.track import TICK_S, TrackTick
 
 
 def made_up(
     told: list[float], *, gain: float = 1.0, dead: float = 0.05, lag_s: float = 0.06, delay: int = 0
-) -> list[Tick]:
+) -> list[TrackTick]:
     """Run a first-order motor in small steps; the encoder gives the mean over each tick."""
     ticks, speed, parts = [], 0.0, 10
     keep = exp(-TICK_S / parts / lag_s)
@@ -27,7 +27,7 @@ def made_up(
             before = speed
             speed = wish + (speed - wish) * keep
             mean += (before + speed) / 2 / parts
-        ticks.append(Tick(seq, (told[seq], told[seq]), (mean, mean)))
+        ticks.append(TrackTick(seq, (told[seq], told[seq]), (mean, mean)))
     return ticks
 
 
@@ -55,7 +55,7 @@ def test_dead_zone_gain_and_lag_are_found(
     found = statics(plateau(ticks, 0, 150, 200), plateau(ticks, 0, end + 60, end + 99))
     assert found[0] == pytest.approx(dead, abs=0.03)
     assert found[1] == pytest.approx(gain, rel=0.01)
-    motor = fitted(ticks, 0, dead, gain)
+    motor = fit_motor(ticks, 0, dead, gain)
     assert motor.lag_s + motor.delay_s == pytest.approx(lag_s + delay * TICK_S, abs=0.004)
     assert motor.lag_s == pytest.approx(lag_s, abs=0.012)
 
@@ -63,9 +63,9 @@ def test_dead_zone_gain_and_lag_are_found(
 def test_ticks_that_were_not_heard_are_left_out() -> None:
     ticks = made_up(drive())
     holed = [
-        tick if tick.seq % 3 else Tick(tick.seq, tick.told, None) for tick in ticks
+        tick if tick.seq % 3 else TrackTick(tick.seq, tick.told, None) for tick in ticks
     ]  # fmt: skip
-    assert fitted(holed, 1, 0.05, 1.0).lag_s == pytest.approx(0.06, abs=0.004)
+    assert fit_motor(holed, 1, 0.05, 1.0).lag_s == pytest.approx(0.06, abs=0.004)
 
 
 def test_a_wheel_that_does_not_turn_is_a_fault() -> None:
@@ -84,7 +84,8 @@ def test_too_short_a_plateau_is_a_lost_run() -> None:
 
 def test_braking_is_the_slope_of_the_weaker_wheel() -> None:
     ticks = [
-        Tick(n, (0.0, 0.0), (max(0.0, 3.5 - 0.1 * n), max(0.0, 3.5 - 0.08 * n))) for n in range(60)
+        TrackTick(n, (0.0, 0.0), (max(0.0, 3.5 - 0.1 * n), max(0.0, 3.5 - 0.08 * n)))
+        for n in range(60)
     ]
     assert braking_radps2(ticks, 0) == pytest.approx(8.0, rel=0.01)
     with pytest.raises(RunLost, match="even braking"):

@@ -7,18 +7,18 @@ from pathlib import Path
 
 import pytest
 
-from pons.calibrate.errors import CalibrationRefused
-from pons.calibrate.findings import Finding
-from pons.calibrate.robot_toml import difference, edited, replace
+from pons.calibrate.errors import CalibrationRefusal
+from pons.calibrate.findings import CalibrationFinding
+from pons.calibrate.robot_toml import difference, edit_values, replace
 from wire import Misconfigured, load_robot
 
-RADIUS = Finding("base", "wheel_radius_m", 0.1, 0.0998, "calibrated now: 6 runs")
-DEAD = Finding("drive", "dead_zone_radps", 0.05, 0.06, "calibrated now: likewise")
+RADIUS = CalibrationFinding("base", "wheel_radius_m", 0.1, 0.0998, "calibrated now: 6 runs")
+DEAD = CalibrationFinding("drive", "dead_zone_radps", 0.05, 0.06, "calibrated now: likewise")
 
 
 def test_comments_order_and_other_keys_stay(repository: Path) -> None:
     before = (repository / "robot.toml").read_text("utf-8")
-    after = edited(before, [RADIUS, DEAD])
+    after = edit_values(before, [RADIUS, DEAD])
     assert tomllib.loads(after)["base"]["wheel_radius_m"] == 0.0998
     kept = [line for line in after.splitlines() if not line.startswith("# calibrated")]
     changed = [(was, now) for was, now in zip(before.splitlines(), kept, strict=True) if was != now]
@@ -31,15 +31,15 @@ def test_comments_order_and_other_keys_stay(repository: Path) -> None:
 
 def test_evidence_is_replaced_not_piled_up(repository: Path) -> None:
     before = (repository / "robot.toml").read_text("utf-8")
-    twice = edited(edited(before, [RADIUS]), [RADIUS])
-    assert twice == edited(before, [RADIUS])
+    twice = edit_values(edit_values(before, [RADIUS]), [RADIUS])
+    assert twice == edit_values(before, [RADIUS])
 
 
 @pytest.mark.parametrize(
     "text", ["", "[base]\n", '# mine\nid = "r7"\n[drive] # a motor\nlag_s=0.1\n']
 )
 def test_keys_and_tables_that_are_missing_are_added(text: str) -> None:
-    after = tomllib.loads(edited(text, [RADIUS, DEAD]))
+    after = tomllib.loads(edit_values(text, [RADIUS, DEAD]))
     assert after["base"]["wheel_radius_m"] == 0.0998
     assert after["drive"]["dead_zone_radps"] == 0.06
     assert ("lag_s" in after["drive"]) is ("lag_s" in text)
@@ -54,8 +54,8 @@ def test_keys_and_tables_that_are_missing_are_added(text: str) -> None:
     ],
 )
 def test_another_way_of_writing_is_refused_with_the_values(text: str) -> None:
-    with pytest.raises(CalibrationRefused, match=r"base.wheel_radius_m = 0\.0998") as refused:
-        edited(text, [RADIUS])
+    with pytest.raises(CalibrationRefusal, match=r"base.wheel_radius_m = 0\.0998") as refused:
+        edit_values(text, [RADIUS])
     assert refused.value.code == "robot_toml_shape"
 
 
@@ -63,7 +63,7 @@ def test_the_difference_shows_what_changes() -> None:
     shown = difference(
         Path("robot.toml"),
         "[base]\nwheel_radius_m = 0.1\n",
-        edited("[base]\nwheel_radius_m = 0.1\n", [RADIUS]),
+        edit_values("[base]\nwheel_radius_m = 0.1\n", [RADIUS]),
     )
     assert "-wheel_radius_m = 0.1" in shown
     assert "+wheel_radius_m = 0.0998" in shown
@@ -74,7 +74,7 @@ def test_the_old_file_is_kept_and_nothing_else_is_left(tmp_path: Path) -> None:
     before = "[base]\nwheel_radius_m = 0.1  # by eye\n"
     path.write_text(before, "utf-8")
     path.chmod(0o640)
-    kept = replace(path, before, edited(before, [RADIUS]), "20260101T000000Z")
+    kept = replace(path, before, edit_values(before, [RADIUS]), "20260101T000000Z")
     assert kept.name == "robot.toml.bak-20260101T000000Z"
     assert kept.read_text("utf-8") == before
     assert load_robot(path).base.wheel_radius_m == 0.0998
@@ -95,5 +95,5 @@ def test_a_file_that_would_be_refused_is_never_put_in_place(tmp_path: Path) -> N
 def test_a_file_changed_meanwhile_is_left_alone(tmp_path: Path) -> None:
     path = tmp_path / "robot.toml"
     path.write_text("[base]\nwheel_radius_m = 0.2\n", "utf-8")
-    with pytest.raises(CalibrationRefused, match="changed meanwhile"):
+    with pytest.raises(CalibrationRefusal, match="changed meanwhile"):
         replace(path, "[base]\nwheel_radius_m = 0.1\n", "", "x")

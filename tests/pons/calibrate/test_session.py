@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
-from pons.calibrate.session import PASSES_S, PERIOD_S, QUIET_S, Rig
+from pons.calibrate.session import PASSES_S, PERIOD_S, QUIET_S, CalibrationRig
 from tests.wire.examples import EXAMPLES, STATUS
 from wire import Action, DriveState, Mode, RowReport, Scan
 
@@ -60,10 +60,10 @@ class _Drained:
     items: tuple[Record, ...]
 
 
-def rig(*modes: tuple[float, Mode], rows: tuple[RowReport, ...] = ()) -> Rig:
+def rig(*modes: tuple[float, Mode], rows: tuple[RowReport, ...] = ()) -> CalibrationRig:
     bridge = Bridge(modes, rows=rows)
     session = cast("Session", bridge)
-    return Rig(session, session, lambda: bridge.now_s, bridge.wait)
+    return CalibrationRig(session, session, lambda: bridge.now_s, bridge.wait)
 
 
 @pytest.mark.parametrize("left_behind", [Mode.TELEOP, Mode.STOPPING])

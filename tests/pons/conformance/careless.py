@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 from unittest.mock import patch
 
 import bridge.__main__ as bridge_main
+import bridge.core.authority.external_velocity as external
 import bridge.core.authority.ownership as ownership
-import bridge.core.modes.external_velocity as external
 import bridge.core.motion.wheel_command as drive_out
 import bridge.node as bridge_shell
 from bridge.core import step
-from bridge.core.motion.limiter import LimiterState
+from bridge.core.state_motion import LimiterState
 from wire import DriveCommand, Twist2
 from wire.keys import EXTERNAL
 from wire.session import open_session
@@ -105,8 +105,8 @@ def main(arguments: list[str]) -> int:
             stack.enter_context(patch.object(ownership, "sent_at", ageless))
         elif left_out == "lease":
             stack.enter_context(patch.object(external, "TTL_S", 1e9))
-            stack.enter_context(patch("bridge.core.faults.detect_brain.EXTERNAL_S", 1e9))
-            stack.enter_context(patch("bridge.core.faults.detect_brain.LOST_S", 1e9))
+            stack.enter_context(patch("bridge.core.faults.detectors.EXTERNAL_S", 1e9))
+            stack.enter_context(patch("bridge.core.faults.detectors.BRAIN_LOST_S", 1e9))
             stack.enter_context(patch.object(ownership, "LIVE_S", 1e9))
         return bridge_main.main(arguments)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from pons.conformance.bounds import Bounds
-from pons.conformance.record import Command, Record, Truth, Wheels, Word
+from pons.conformance.bounds import MotionBounds
+from pons.conformance.record import Command, DriveRecord, Truth, WheelSample, Word
 from wire import RobotDescription
 
-BOUNDS = Bounds.of(RobotDescription())
+BOUNDS = MotionBounds.of(RobotDescription())
 PERIOD_S = 0.01
 OFFSET = 40
 """Ticks of a self test in which no command was sent."""
@@ -22,7 +22,7 @@ def record(
     mode: Callable[[float], str] = lambda _s: "ACTIVE",
     told: Callable[[float], float] | None = None,
     rests: bool = True,
-) -> Record:
+) -> DriveRecord:
     """Return what a judge sees of wheels that turn so; time 0 is the first command.
 
     Args:
@@ -33,7 +33,7 @@ def record(
         told: what both wheels are told; the real speeds if None.
         rests: the truth shows the robot as the wheels turn; False: it moves all the time.
     """
-    made, right_mps = Record(), right_mps or left_mps
+    made, right_mps = DriveRecord(), right_mps or left_mps
     radius_m, dead = BOUNDS.wheel_radius_m, BOUNDS.dead_zone_radps
     turned = [0.0, 0.0]
     for tick in range(round(seconds / PERIOD_S)):
@@ -45,7 +45,7 @@ def record(
             angle + rim / radius_m * PERIOD_S for angle, rim in zip(turned, rims, strict=True)
         ]
         made.commands.append(Command(at_s, tick, wheels[0], wheels[1], enabled=True))
-        made.wheels.append(Wheels(at_s, at_s, tick, turned[0], turned[1], torque=True))
+        made.wheels.append(WheelSample(at_s, at_s, tick, turned[0], turned[1], torque=True))
         v = sum(rims) / 2 if rests else 0.3
         made.truths.append(Truth(at_s, v, 0.0, contacts=0))
         if tick % 5 == 0:

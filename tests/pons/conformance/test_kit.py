@@ -15,18 +15,18 @@ import pytest
 
 from pons.conformance import matrix
 from pons.conformance.adapter import CannotTest
-from pons.conformance.catalogue import FAULTS, chosen
+from pons.conformance.catalogue import FAULTS, choose_faults
 from pons.conformance.command import EXIT_BROKEN, EXIT_HELD, EXIT_UNTESTED, status_of
 from pons.conformance.driver import pack, plain
 from pons.conformance.fault import W, X
 from pons.conformance.flooder import halves
-from pons.conformance.proxy import Proxy, Way
-from pons.conformance.reference_client import Brain
+from pons.conformance.proxy import Proxy, ProxyWay
+from pons.conformance.reference_client import ReferenceBrain
 from pons.conformance.retry_policy import Try
-from pons.conformance.runner import COLUMNS, NAMES, Line
+from pons.conformance.runner import COLUMNS, NAMES, MatrixRow
 from pons.conformance.site_track import find_track
 from pons.conformance.system_under_test import unfit
-from pons.conformance.verdict import NOT_ASKED, Cell
+from pons.conformance.verdict import NOT_ASKED, MatrixCell
 from tests.wire.examples import STATUS
 from wire import GrantLeft, Mode, Owner, Pose2, Record, Status, decode
 from wire.keys import COMMANDS
@@ -44,8 +44,8 @@ def status(**more: Any) -> Status:
     return STATUS.model_copy(update={"held": None, "base_in_map": Pose2(1.5, 2.0, 1.5), **more})
 
 
-def brain(kind: OwnerKind, site: str = "two_room") -> Brain:
-    return Brain(kind, "kit", find_track(SITES / site, 0.3))
+def brain(kind: OwnerKind, site: str = "two_room") -> ReferenceBrain:
+    return ReferenceBrain(kind, "kit", find_track(SITES / site, 0.3))
 
 
 def owned(kind: OwnerKind, **more: Any) -> Status:
@@ -86,13 +86,13 @@ def test_every_fault_has_one_row_for_each_brain_and_knows_when_to_stand() -> Non
     rows = [(fault.name, kind) for fault in FAULTS for kind in fault.kinds]
     assert len(set(rows)) == len(rows)
     assert not [fault.name for fault in FAULTS if fault.rest and fault.noticed_s]
-    short = chosen([], quick=True)
+    short = choose_faults([], quick=True)
     assert 10 <= sum(len(fault.kinds) for fault in short) <= 16
     assert {kind for fault in short for kind in fault.kinds} == {X, W}
-    assert len(chosen([], quick=False)) == len(FAULTS)
-    assert [fault.name for fault in chosen(["flood"], quick=False)] == ["flood"]
+    assert len(choose_faults([], quick=False)) == len(FAULTS)
+    assert [fault.name for fault in choose_faults(["flood"], quick=False)] == ["flood"]
     with pytest.raises(CannotTest, match=r"fault_unknown: nonesuch; there are: .*two_brains"):
-        chosen(["nonesuch"], quick=False)
+        choose_faults(["nonesuch"], quick=False)
 
 
 def test_a_flood_looks_valid() -> None:
@@ -160,31 +160,31 @@ def test_a_proxy_delivers_keeps_back_and_delivers_late(tmp_path: Path) -> None:
         assert far.recv(9) == b"one"
         far.sendall(b"two")
         assert near.recv(9) == b"two"
-        proxy.way = Way.KEPT
+        proxy.way = ProxyWay.KEPT
         near.sendall(b"three")
         nothing_comes(far)
         far.sendall(b"heard")
         assert near.recv(9) == b"heard", "the other way stays open"
         near.shutdown(socket.SHUT_WR)
-        proxy.way = Way.OPEN
+        proxy.way = ProxyWay.OPEN
         assert far.recv(9) == b"three", "delivered though its sender is gone"
 
 
 def test_a_stalled_proxy_holds_both_ways(tmp_path: Path) -> None:
     with link(tmp_path / "s") as (proxy, near, far):
-        proxy.way = Way.STALLED
+        proxy.way = ProxyWay.STALLED
         for sender, hearer in ((near, far), (far, near)):
             sender.sendall(b"x")
             nothing_comes(hearer)
 
 
-def lines() -> list[Line]:
-    good = dict.fromkeys(COLUMNS, Cell(True, "1")) | {"stands": NOT_ASKED}
-    bad = good | {"speed": Cell(False, "3.00 m/s")}
+def lines() -> list[MatrixRow]:
+    good = dict.fromkeys(COLUMNS, MatrixCell(True, "1")) | {"stands": NOT_ASKED}
+    bad = good | {"speed": MatrixCell(False, "3.00 m/s")}
     tried = Try({"ticks": "90 of 180"}, "40 of 90 naps late", kept_time=False, excused=True)
     return [
-        Line("nan", "NaN", "velocity", good, (tried,)),
-        Line("flood", "much", "waypoints", bad),
+        MatrixRow("nan", "NaN", "velocity", good, (tried,)),
+        MatrixRow("flood", "much", "waypoints", bad),
     ]
 
 
@@ -212,13 +212,13 @@ def test_the_matrix_says_what_failed_in_every_form() -> None:
 
 def test_a_row_that_could_not_be_judged_is_no_pass_and_no_failure() -> None:
     good, bad = lines()
-    unsure = Cell(False, "446 + 586 missed of 1032, the host took 400", judged=False)
+    unsure = MatrixCell(False, "446 + 586 missed of 1032, the host took 400", judged=False)
     open_row = replace(good, cells=good.cells | {"ticks": unsure})
-    assert not open_row.passed
-    assert not open_row.failed
-    assert bad.failed
+    assert not open_row.has_passed
+    assert not open_row.has_failed
+    assert bad.has_failed
     both = replace(bad, cells=bad.cells | {"ticks": unsure})
-    assert both.failed, "what else failed has failed"
+    assert both.has_failed, "what else failed has failed"
     assert "NOT JUDGED 446 + 586" in matrix.table([open_row])
     assert "FAIL" not in matrix.one_line(open_row, 1, 2, 3.0)
     assert "NOT JUDGED" in matrix.one_line(open_row, 1, 2, 3.0)
@@ -249,6 +249,6 @@ def test_the_matrix_in_the_docs_has_every_row_and_none_failed() -> None:
 
 
 def test_chance_is_seeded() -> None:
-    junk = chosen(["junk"], quick=False)[0]
+    junk = choose_faults(["junk"], quick=False)[0]
     assert junk.noticed_s == {X: 0.25, W: 0.5}
     assert Random("1 external").random() == Random("1 external").random()

@@ -11,23 +11,23 @@ import pytest
 
 from pons.conformance import runner
 from pons.conformance.catalogue import FAULTS
-from pons.conformance.record import Record
+from pons.conformance.record import DriveRecord
 from pons.conformance.retry_policy import EXTRA_S, WAIT_S, Fairness
 from pons.conformance.runner import AGAIN, COLUMNS, TRIES, Runner
-from pons.conformance.scheduler_probe import Kept
-from pons.conformance.verdict import Cell
+from pons.conformance.scheduler_probe import HostTiming
+from pons.conformance.verdict import MatrixCell
 from tests.pons.conformance.made_up import BOUNDS, record
 
 if TYPE_CHECKING:
     from pons.conformance.adapter import Adapter
 
-CALM, LATE = Kept(400, 0, 0.004), Kept(90, 40, 0.3)
-GOOD = dict.fromkeys(COLUMNS, Cell(True, "1"))
-BAD = GOOD | {"stands": Cell(False, "still moves after 90 ticks")}
-TOUCHED = GOOD | {"contacts": Cell(False, "1")}
-UNSEEN = GOOD | {"contacts": Cell(False, "no truth was heard", measured=False)}
-NOT_BEGUN = GOOD | {"stands": Cell(False, "driving fast: not within 5 s")}
-LOST = GOOD | {AGAIN: Cell(False, "not within 9 s")}
+CALM, LATE = HostTiming(400, 0, 0.004), HostTiming(90, 40, 0.3)
+GOOD = dict.fromkeys(COLUMNS, MatrixCell(True, "1"))
+BAD = GOOD | {"stands": MatrixCell(False, "still moves after 90 ticks")}
+TOUCHED = GOOD | {"contacts": MatrixCell(False, "1")}
+UNSEEN = GOOD | {"contacts": MatrixCell(False, "no truth was heard", measured=False)}
+NOT_BEGUN = GOOD | {"stands": MatrixCell(False, "driving fast: not within 5 s")}
+LOST = GOOD | {AGAIN: MatrixCell(False, "not within 9 s")}
 PLAY_S, LOOK_S = 15.0, 2.0
 
 
@@ -35,15 +35,15 @@ PLAY_S, LOOK_S = 15.0, 2.0
 class Machine:
     """Be a clock and what naps say: at each play, and when they are looked at."""
 
-    plays: list[Kept]
-    looks: Kept = CALM
+    plays: list[HostTiming]
+    looks: HostTiming = CALM
     now_s: float = 0.0
     said: list[str] = field(default_factory=list)
 
-    def kept(self, from_s: float) -> Kept:
+    def timing_since(self, from_s: float) -> HostTiming:
         return self.plays.pop(0)
 
-    def look(self) -> Kept:
+    def look(self) -> HostTiming:
         self.now_s += LOOK_S
         return self.looks
 
@@ -51,8 +51,8 @@ class Machine:
         return Fairness(self, self.said.append, lambda: self.now_s)
 
 
-def adapter(seen: Record | None = None) -> Adapter:
-    return cast("Adapter", SimpleNamespace(record=seen or Record(), bounds=BOUNDS))
+def adapter(seen: DriveRecord | None = None) -> Adapter:
+    return cast("Adapter", SimpleNamespace(record=seen or DriveRecord(), bounds=BOUNDS))
 
 
 @pytest.mark.parametrize(
@@ -63,12 +63,12 @@ def adapter(seen: Record | None = None) -> Adapter:
         (LOST, LATE, True),
         (UNSEEN, LATE, True),
         (TOUCHED, LATE, False),
-        (BAD | {"speed": Cell(False, "3.00 m/s")}, LATE, False),
+        (BAD | {"speed": MatrixCell(False, "3.00 m/s")}, LATE, False),
     ],
     ids=["kept time", "late", "lost", "nothing seen", "a contact", "a speed"],
 )
 def test_a_late_machine_excuses_all_but_facts(
-    cells: dict[str, Cell], machine: Kept, excused: bool
+    cells: dict[str, MatrixCell], machine: HostTiming, excused: bool
 ) -> None:
     failed = Machine([machine]).fair().judge(adapter(), cells, 0.0)
     assert failed is not None
@@ -125,8 +125,8 @@ def test_waiting_ends_and_so_does_what_is_excused() -> None:
          "then a contact", "late for ever", "not begun at first", "never begun", "lost"],
 )  # fmt: skip
 def test_the_last_try_stands(
-    plays: list[tuple[dict[str, Cell], bool]],
-    machine: list[Kept],
+    plays: list[tuple[dict[str, MatrixCell], bool]],
+    machine: list[HostTiming],
     passes: bool,
     waits: int,
     monkeypatch: pytest.MonkeyPatch,
@@ -140,7 +140,7 @@ def test_the_last_try_stands(
 
     def play(
         _fault: object, from_s: float, facts_s: float, *, drives: bool
-    ) -> tuple[dict[str, Cell], bool]:
+    ) -> tuple[dict[str, MatrixCell], bool]:
         began.append((world.now_s, from_s))
         assert facts_s in (from_s, ended_s[-1]), "a contact while one waits belongs to a row"
         assert from_s < world.now_s or facts_s == ended_s[-1]
@@ -159,11 +159,11 @@ def test_the_last_try_stands(
     assert waits == 0 or judged_from_s[-1] == 0.0, "a try that was excused is judged no more"
 
 
-def played_by(world: Machine, play: Callable[..., tuple[dict[str, Cell], bool]]) -> Runner:
+def played_by(world: Machine, play: Callable[..., tuple[dict[str, MatrixCell], bool]]) -> Runner:
     playing = Runner.__new__(Runner)
     parts = {
         "_adapter": adapter(), "_fair": world.fair(), "_name": "velocity", "_play": play,
-        "again": lambda: Cell(True, "0.5 s"),
+        "drive_well": lambda: MatrixCell(True, "0.5 s"),
     }  # fmt: skip
     for name, part in parts.items():
         setattr(playing, name, part)

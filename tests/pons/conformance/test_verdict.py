@@ -7,17 +7,17 @@ from dataclasses import replace
 import pytest
 
 from pons.conformance import verdict
-from pons.conformance.record import Record
-from pons.conformance.scheduler_probe import Kept
+from pons.conformance.record import DriveRecord
+from pons.conformance.scheduler_probe import HostTiming
 from tests.pons.conformance.made_up import BOUNDS, OFFSET, ramp, record
 
 END_S = 2.0
-CALM = Kept(200, 0, 0.004)
-STALLED = Kept(190, 2, 0.15, lost_s=0.2)
-HELD_UP = Kept(80, 20, 0.5, lost_s=1.9)
+CALM = HostTiming(200, 0, 0.004)
+STALLED = HostTiming(190, 2, 0.15, lost_s=0.2)
+HELD_UP = HostTiming(80, 20, 0.5, lost_s=1.9)
 
 
-def steady(v_mps: float) -> Record:
+def steady(v_mps: float) -> DriveRecord:
     return record(END_S, lambda _s: v_mps)
 
 
@@ -95,7 +95,7 @@ def test_what_stood_must_not_move_by_one_tick() -> None:
 
 
 def test_nothing_heard_never_passes() -> None:
-    empty = Record()
+    empty = DriveRecord()
     assert verdict.speed(empty, BOUNDS, 0.0, 1.0).ok is False
     assert verdict.acceleration(empty, BOUNDS, 0.0, 1.0).ok is False
     assert verdict.stands(empty, BOUNDS, 0.0, 1.0, 0.25).ok is False
@@ -105,14 +105,14 @@ def test_nothing_heard_never_passes() -> None:
 
 def test_speeding_up_while_nobody_is_followed_fails() -> None:
     grows = record(END_S, lambda s: 0.3 * min(1.0, s), mode=lambda _s: "HOLD")
-    assert verdict.unasked(grows, 0.0, END_S).ok is False
+    assert verdict.hold_unasked_motion(grows, 0.0, END_S).ok is False
     ramps = record(END_S, ramp(0.2, 0.4, 1.0), mode=lambda s: "ACTIVE" if s < 0.2 else "STOPPING")
-    assert verdict.unasked(ramps, 0.0, END_S).ok is True
+    assert verdict.hold_unasked_motion(ramps, 0.0, END_S).ok is True
     asked = record(END_S, lambda s: 0.3 * min(1.0, s))
-    assert verdict.unasked(asked, 0.0, END_S).ok is True
+    assert verdict.hold_unasked_motion(asked, 0.0, END_S).ok is True
 
 
-def missing(ticks: int, seconds: float = END_S, *, told: bool = True) -> Record:
+def missing(ticks: int, seconds: float = END_S, *, told: bool = True) -> DriveRecord:
     """Return a drive of which the middle has no ticks, told as missed or not."""
     made = record(seconds, lambda _s: 0.4)
     made.words = [
@@ -141,13 +141,13 @@ def test_ticks_must_be_there_or_told_as_missed() -> None:
         (51, HELD_UP, True, True),
         (52, HELD_UP, False, False),
         (120, HELD_UP, False, False),
-        (20, Kept(0, 0, 0.0), False, False),
+        (20, HostTiming(0, 0, 0.0), False, False),
     ],
     ids=["few", "more than few", "many", "as many as the host took", "more than it took",
          "a quarter", "over a quarter", "most", "nobody looked"],
 )  # fmt: skip
 def test_missed_ticks_are_forgiven_as_far_as_the_host_was_seen_to_stall(
-    ticks: int, host: Kept, ok: bool, judged: bool
+    ticks: int, host: HostTiming, ok: bool, judged: bool
 ) -> None:
     cell = verdict.alive(missing(ticks), BOUNDS, 0.0, END_S, host)
     assert (cell.ok, cell.judged) == (ok, judged)
@@ -163,7 +163,7 @@ def test_what_the_host_did_is_no_excuse_for_what_else_is_wrong() -> None:
 
 
 @pytest.mark.parametrize(("host", "judged"), [(CALM, True), (HELD_UP, False)])
-def test_a_silence_told_as_missed_is_never_passed(host: Kept, judged: bool) -> None:
+def test_a_silence_told_as_missed_is_never_passed(host: HostTiming, judged: bool) -> None:
     quiet = missing(130, 3.0)
     quiet.words = [one for one in quiet.words if not 0.85 <= one.at_s <= 2.15]
     cell = verdict.alive(quiet, BOUNDS, 0.0, 3.0, host)

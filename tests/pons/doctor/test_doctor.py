@@ -16,7 +16,7 @@ import pytest
 from bridge.realtime import Right
 from pons.__main__ import main
 from pons.doctor import command, host_checks, jitter, model_checks, path_checks
-from pons.doctor.finding import Finding, Verdict, Words
+from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict
 from pons.settings import CHECKOUT, Settings
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
@@ -40,7 +40,7 @@ def settings(tmp_path: Path) -> Settings:
 
 
 @pytest.fixture(scope="module")
-def examined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Settings, list[Finding]]:
+def examined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Settings, list[HealthFinding]]:
     """Run every check as it is, once: it takes processes and the recogniser's model."""
     settings = described(tmp_path_factory.mktemp("doctor") / "h")
     return settings, command.findings(settings)
@@ -49,13 +49,13 @@ def examined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Settings, list[F
 @pytest.fixture
 def deaf(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave out the one check that costs a second: it loads the recogniser's model."""
-    heard = Finding("recogniser", Verdict.OK, Words("left out", "略过"))
+    heard = HealthFinding("recogniser", HealthVerdict.OK, BilingualWords("left out", "略过"))
     monkeypatch.setattr(model_checks, "recogniser", lambda _site: heard)
 
 
-def assert_says(found: Finding, verdict: Verdict, *parts: str) -> None:
+def assert_says(found: HealthFinding, verdict: HealthVerdict, *parts: str) -> None:
     assert found.verdict is verdict, found
-    assert (found.fix is None) == (verdict is Verdict.OK)
+    assert (found.fix is None) == (verdict is HealthVerdict.OK)
     for part in parts:
         assert part in found.found.en, found
     for words in (found.found, found.fix):
@@ -63,7 +63,7 @@ def assert_says(found: Finding, verdict: Verdict, *parts: str) -> None:
 
 
 def test_every_check_reports_once_and_nothing_is_made(
-    examined: tuple[Settings, list[Finding]],
+    examined: tuple[Settings, list[HealthFinding]],
 ) -> None:
     settings, found = examined
     names = [one.name for one in found]
@@ -76,10 +76,13 @@ def test_every_check_reports_once_and_nothing_is_made(
 def test_the_worst_finding_is_the_exit_status(
     settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = Words("a", "甲")
-    for worst, status in ((Verdict.OK, 0), (Verdict.WARN, 1), (Verdict.FAIL, 2)):
-        fix = None if worst is Verdict.OK else words
-        shown = [Finding("fine", Verdict.OK, words), Finding("it", worst, words, fix)]
+    words = BilingualWords("a", "甲")
+    for worst, status in ((HealthVerdict.OK, 0), (HealthVerdict.WARN, 1), (HealthVerdict.FAIL, 2)):
+        fix = None if worst is HealthVerdict.OK else words
+        shown = [
+            HealthFinding("fine", HealthVerdict.OK, words),
+            HealthFinding("it", worst, words, fix),
+        ]
         monkeypatch.setattr(command, "findings", lambda _settings, shown=shown: shown)
         assert command.run(settings) == status
     assert "FAIL  it" in capsys.readouterr().out
@@ -88,7 +91,12 @@ def test_the_worst_finding_is_the_exit_status(
 def test_a_fault_is_one_line_with_its_fix_in_each_language(
     settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = Finding("port", Verdict.FAIL, Words("it is taken", "被占用"), Words("free it", "释放"))
+    found = HealthFinding(
+        "port",
+        HealthVerdict.FAIL,
+        BilingualWords("it is taken", "被占用"),
+        BilingualWords("free it", "释放"),
+    )
     monkeypatch.setattr(command, "findings", lambda _: [found])
     command.run(settings)
     english, chinese = capsys.readouterr().out.splitlines()
@@ -104,20 +112,20 @@ def test_a_fault_is_one_line_with_its_fix_in_each_language(
 def test_a_check_that_is_cut_short_hides_no_other(
     settings: Settings, monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
-    def broken() -> Finding:
+    def broken() -> HealthFinding:
         raise error
 
     monkeypatch.setattr(host_checks, "locked_memory", broken)
     found = {one.name: one for one in command.findings(settings)}
     assert len(found) == 15
-    assert_says(found["locked_memory"], Verdict.FAIL, "could not be checked", str(error))
+    assert_says(found["locked_memory"], HealthVerdict.FAIL, "could not be checked", str(error))
 
 
 def test_without_the_recogniser_it_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pocketsphinx", None)
     monkeypatch.delitem(sys.modules, "planner.voice.sphinx", raising=False)
     found = model_checks.recogniser(None)
-    assert_says(found, Verdict.WARN, "no spoken orders")
+    assert_says(found, HealthVerdict.WARN, "no spoken orders")
     assert found.fix is not None
     assert "3.11" in found.fix.en
 
@@ -126,7 +134,11 @@ def test_without_cyclictest_it_says_how_to_get_it(
     settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(shutil, "which", lambda _: None)
-    monkeypatch.setattr(command, "findings", lambda _: [Finding("a", Verdict.OK, Words("a", "甲"))])
+    monkeypatch.setattr(
+        command,
+        "findings",
+        lambda _: [HealthFinding("a", HealthVerdict.OK, BilingualWords("a", "甲"))],
+    )
     rows = jitter.measure(60, ticks=5)
     assert len(rows) == 1
     monkeypatch.setattr(jitter, "measure", lambda _: rows)
@@ -142,7 +154,7 @@ def test_a_cyclictest_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_json_is_for_machines(
-    examined: tuple[Settings, list[Finding]],
+    examined: tuple[Settings, list[HealthFinding]],
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -157,17 +169,19 @@ def test_json_is_for_machines(
 
 def test_an_old_python_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "version_info", (3, 9, 1))
-    assert_says(host_checks.python(), Verdict.FAIL, "3.11")
+    assert_says(host_checks.python(), HealthVerdict.FAIL, "3.11")
 
 
 def test_large_pages_are_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "sysconf", lambda _: 16_384)
-    assert_says(host_checks.page_size(), Verdict.WARN, "16 KiB")
+    assert_says(host_checks.page_size(), HealthVerdict.WARN, "16 KiB")
 
 
-@pytest.mark.parametrize(("virtual", "verdict"), [(True, Verdict.WARN), (False, Verdict.FAIL)])
+@pytest.mark.parametrize(
+    ("virtual", "verdict"), [(True, HealthVerdict.WARN), (False, HealthVerdict.FAIL)]
+)
 def test_no_real_time_is_worse_on_metal(
-    monkeypatch: pytest.MonkeyPatch, virtual: bool, verdict: Verdict
+    monkeypatch: pytest.MonkeyPatch, virtual: bool, verdict: HealthVerdict
 ) -> None:
     refused = Right("fifo", granted=False, detail="priority 60: not permitted")
     monkeypatch.setattr(host_checks, "take_fifo", lambda _: refused)
@@ -182,36 +196,37 @@ def test_real_time_is_tried_in_a_thread_of_its_own() -> None:
 
 def test_memory_that_cant_be_locked_is_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(host_checks, "_LOCK", "print(0, 'RLIMIT_MEMLOCK is 8 bytes')")
-    assert_says(host_checks.locked_memory(), Verdict.WARN, "8 bytes")
+    assert_says(host_checks.locked_memory(), HealthVerdict.WARN, "8 bytes")
     monkeypatch.setattr(host_checks, "_LOCK", "raise SystemExit('broken')")
-    assert_says(host_checks.locked_memory(), Verdict.WARN, "broken")
+    assert_says(host_checks.locked_memory(), HealthVerdict.WARN, "broken")
 
 
 def test_node_is_never_needed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shutil, "which", lambda _: None)
-    assert_says(host_checks.node(), Verdict.OK, "Python package")
+    assert_says(host_checks.node(), HealthVerdict.OK, "Python package")
     monkeypatch.setattr(shutil, "which", lambda _: "/no/such/node")
-    assert_says(host_checks.node(), Verdict.OK, "Python package")
+    assert_says(host_checks.node(), HealthVerdict.OK, "Python package")
 
 
 def test_a_home_that_others_may_write_is_a_warning(tmp_path: Path) -> None:
-    assert_says(path_checks.home(tmp_path), Verdict.OK)
+    assert_says(path_checks.home(tmp_path), HealthVerdict.OK)
     tmp_path.chmod(0o777)
-    assert_says(path_checks.home(tmp_path), Verdict.WARN, "others")
+    assert_says(path_checks.home(tmp_path), HealthVerdict.WARN, "others")
     tmp_path.chmod(0o3770)  # as deploy/systemd makes it: one group, none replaces another's
-    assert_says(path_checks.home(tmp_path), Verdict.OK)
+    assert_says(path_checks.home(tmp_path), HealthVerdict.OK)
     tmp_path.chmod(0o2770)
-    assert_says(path_checks.home(tmp_path), Verdict.WARN, "others")
+    assert_says(path_checks.home(tmp_path), HealthVerdict.WARN, "others")
     file = tmp_path / "file"
     file.touch()
-    assert_says(path_checks.home(file / "below"), Verdict.FAIL, "can't be written")
+    assert_says(path_checks.home(file / "below"), HealthVerdict.FAIL, "can't be written")
 
 
 @pytest.mark.parametrize(
-    ("free", "verdict"), [(10**6, Verdict.FAIL), (10**9, Verdict.WARN), (10**11, Verdict.OK)]
+    ("free", "verdict"),
+    [(10**6, HealthVerdict.FAIL), (10**9, HealthVerdict.WARN), (10**11, HealthVerdict.OK)],
 )
 def test_a_full_disk_is_told_before_it_is_full(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, free: int, verdict: Verdict
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, free: int, verdict: HealthVerdict
 ) -> None:
     usage = shutil.disk_usage(tmp_path)._replace(free=free)
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage)
@@ -219,14 +234,14 @@ def test_a_full_disk_is_told_before_it_is_full(
 
 
 def test_sockets_too_long_dead_and_alive(tmp_path: Path) -> None:
-    assert_says(path_checks.sockets(tmp_path / ("x" * 120)), Verdict.FAIL, "107")
+    assert_says(path_checks.sockets(tmp_path / ("x" * 120)), HealthVerdict.FAIL, "107")
     path = Endpoints(tmp_path).socket(BRIDGE_DOOR)
     path.parent.mkdir(parents=True)
     with closing(socket.socket(socket.AF_UNIX)) as listener:
         listener.bind(str(path))
         listener.listen()
-        assert_says(path_checks.sockets(tmp_path), Verdict.OK, "running robot: bridge")
-    assert_says(path_checks.sockets(tmp_path), Verdict.OK, "dead processes", "bridge")
+        assert_says(path_checks.sockets(tmp_path), HealthVerdict.OK, "running robot: bridge")
+    assert_says(path_checks.sockets(tmp_path), HealthVerdict.OK, "dead processes", "bridge")
 
 
 def test_a_taken_port_is_a_fault_unless_the_robot_has_it() -> None:
@@ -234,20 +249,22 @@ def test_a_taken_port_is_a_fault_unless_the_robot_has_it() -> None:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         number = int(taken.getsockname()[1])
-        assert_says(path_checks.port("127.0.0.1", number, running=False), Verdict.FAIL, str(number))
         assert_says(
-            path_checks.port("127.0.0.1", number, running=True), Verdict.OK, "running robot"
+            path_checks.port("127.0.0.1", number, running=False), HealthVerdict.FAIL, str(number)
         )
-    assert_says(path_checks.port("no.such.host.invalid", 1, running=False), Verdict.FAIL)
+        assert_says(
+            path_checks.port("127.0.0.1", number, running=True), HealthVerdict.OK, "running robot"
+        )
+    assert_says(path_checks.port("no.such.host.invalid", 1, running=False), HealthVerdict.FAIL)
 
 
 def test_wrong_files_are_quoted(tmp_path: Path) -> None:
     robot = tmp_path / "robot.toml"
     robot.write_text("max_sped = 1\n")
     found, _ = path_checks.robot(robot)
-    assert_says(found, Verdict.FAIL, "max_sped")
+    assert_says(found, HealthVerdict.FAIL, "max_sped")
     found, site = path_checks.site(tmp_path)
-    assert_says(found, Verdict.FAIL, "map.yaml")
+    assert_says(found, HealthVerdict.FAIL, "map.yaml")
     assert site is None
     assert model_checks.recogniser(None).name == "recogniser"
 
@@ -256,33 +273,33 @@ def test_the_model_is_asked_for_nothing_but_a_connection(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv("PONS_MODEL_URL", raising=False)
-    assert_says(model_checks.model(tmp_path), Verdict.OK, "offline brain")
+    assert_says(model_checks.model(tmp_path), HealthVerdict.OK, "offline brain")
     with closing(socket.socket()) as server:
         server.bind(("127.0.0.1", 0))
         server.listen()
         number = server.getsockname()[1]
         text = f'[model]\nurl = "http://127.0.0.1:{number}/v1"\nname = "m"\n'
         (tmp_path / "settings.toml").write_text(text)
-        assert_says(model_checks.model(tmp_path), Verdict.OK, "m at 127.0.0.1")
+        assert_says(model_checks.model(tmp_path), HealthVerdict.OK, "m at 127.0.0.1")
         connection, _ = server.accept()
         with closing(connection):
             assert connection.recv(100) == b""
-    assert_says(model_checks.model(tmp_path), Verdict.WARN, "refused")
+    assert_says(model_checks.model(tmp_path), HealthVerdict.WARN, "refused")
     (tmp_path / "settings.toml").write_text('[model]\nurl = "http://169.254.1.1"\nname = "m"\n')
-    assert_says(model_checks.model(tmp_path), Verdict.FAIL, "link-local")
+    assert_says(model_checks.model(tmp_path), HealthVerdict.FAIL, "link-local")
     (tmp_path / "settings.toml").write_text("[modle]\n")
-    assert_says(model_checks.model(tmp_path), Verdict.FAIL, "modle")
+    assert_says(model_checks.model(tmp_path), HealthVerdict.FAIL, "modle")
 
 
 def test_names_that_cant_be_spoken_are_listed(tmp_path: Path) -> None:
     pytest.importorskip("pocketsphinx")
     _, site = path_checks.site(TWO_ROOM)
     assert site is not None
-    assert_says(model_checks.recogniser(site), Verdict.OK, "names")
+    assert_says(model_checks.recogniser(site), HealthVerdict.OK, "names")
     first = site.places[0]
     odd = first.model_copy(update={"name": first.name.model_copy(update={"en": "qzxv room"})})
     object.__setattr__(site, "places", (odd, *site.places[1:]))
-    assert_says(model_checks.recogniser(site), Verdict.WARN, "qzxv room")
+    assert_says(model_checks.recogniser(site), HealthVerdict.WARN, "qzxv room")
 
 
 def test_jitter_measures_and_prints_a_table() -> None:
@@ -303,8 +320,12 @@ def test_what_cyclictest_says_is_read_or_left_out() -> None:
 
 
 def test_keys_that_lie_open_are_told(tmp_path: Path) -> None:
-    assert_says(path_checks.secrets(tmp_path, virtual=True), Verdict.OK, "no key lies open")
-    assert_says(path_checks.secrets(tmp_path, virtual=False), Verdict.FAIL, "operator_key_missing")
+    assert_says(path_checks.secrets(tmp_path, virtual=True), HealthVerdict.OK, "no key lies open")
+    assert_says(
+        path_checks.secrets(tmp_path, virtual=False), HealthVerdict.FAIL, "operator_key_missing"
+    )
     (tmp_path / "settings.toml").write_text('[model]\nkey = "k"\n')
     (tmp_path / "settings.toml").chmod(0o644)
-    assert_says(path_checks.secrets(tmp_path, virtual=True), Verdict.WARN, "read the key in it")
+    assert_says(
+        path_checks.secrets(tmp_path, virtual=True), HealthVerdict.WARN, "read the key in it"
+    )

@@ -15,8 +15,8 @@ from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
 from pons.evals.cases import Case
 from pons.evals.category_rules import LAWS
-from pons.evals.matchers import wanted
-from pons.evals.report import passed
+from pons.evals.matchers import read_expectation
+from pons.evals.report import has_passed
 from pons.evals.score import score
 from pons.evals.suites import load
 from tests.pons.mock_llm.mocks import running_mock
@@ -103,7 +103,11 @@ def test_no_decision_is_right_nowhere(suite: str, trouble: Exception) -> None:
     (ours,) = load(suite)
     texts = ("do not go to the kitchen", "go to the moon")
     cases = (
-        Case(texts[0], "no", wanted=wanted("still | refuse bad_plan | refuse model_unavailable")),
+        Case(
+            texts[0],
+            "no",
+            wanted=read_expectation("still | refuse bad_plan | refuse model_unavailable"),
+        ),
         Case(texts[1], "reject", law=LAWS["reject"]),
     )
     verdicts = asyncio.run(score(replace(ours, cases=cases), ScriptedBrain(replies=[trouble])))
@@ -119,4 +123,37 @@ def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
     verdicts = asyncio.run(score(ours, brain))
     assert [verdict.right for verdict in verdicts] == [False, False, False]
     assert [bool(verdict.wrong) for verdict in verdicts] == [True, False, False]
-    assert not passed(verdicts)
+    assert not has_passed(verdicts)
+
+
+@pytest.mark.parametrize(
+    "words", [[], ["home", "--quick"], ["home", "--journal", "x"], ["--quick", "--journal", "x"]]
+)
+def test_one_kind_of_examination_is_asked_for(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["eval", *words])
+    assert "--quick" in capsys.readouterr().err
+
+
+def test_the_quick_exam_and_the_journal_are_two_more_kinds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    monkeypatch.delenv("PONS_MODEL", raising=False)
+    assert main(["eval", "--quick"]) == 2
+    assert "pons eval --quick: model_not_set: " in capsys.readouterr().err
+    assert main(["eval", "--journal", str(tmp_path)]) == 2
+    assert "pons eval --journal: journal_missing: " in capsys.readouterr().err
+
+
+def test_without_the_tools_of_a_checkout_no_plan_is_driven(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    monkeypatch.setattr("pons.evals.journal.command.find_spec", lambda _: None)
+    assert main(["eval", "--journal", str(tmp_path)]) == 2
+    assert "pons eval --journal: tools_missing: " in capsys.readouterr().err
+    assert main(["eval", "--journal", str(tmp_path), "--drives", "0"]) == 2
+    assert "journal_missing: " in capsys.readouterr().err

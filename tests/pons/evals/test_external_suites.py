@@ -29,7 +29,7 @@ needs_data = pytest.mark.skipif(
 def test_outcomes_are_allowed_and_no_motion_is_wrong(
     make: Callable[[Path], Suite], count: int
 ) -> None:
-    suite = make(DATA).halved()
+    suite = make(DATA).split_in_half()
     verdicts = asyncio.run(score(suite, OfflineBrain()))
     for split in (TUNED, HELD_OUT):
         half = [verdict for verdict in verdicts if verdict.case.split == split]

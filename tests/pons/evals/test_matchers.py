@@ -20,12 +20,12 @@ from planner.plan import (
 )
 from pons.evals.cases import Case, MissingSuite, read_tsv
 from pons.evals.category_rules import LAWS
-from pons.evals.matchers import BadMatcher, wanted
+from pons.evals.matchers import BadMatcher, read_expectation
 from pons.evals.mentioned_names import label_named, numbers_named, places_named
 from pons.evals.motion import wrong_motions
 from pons.evals.score import judge
-from pons.evals.suites import known, load
-from pons.evals.world import World
+from pons.evals.suites import load, suite_names
+from pons.evals.world import EvalWorld
 
 NAMES = Vocabulary(
     entries=tuple(
@@ -37,7 +37,7 @@ NAMES = Vocabulary(
         )
     )
 )
-WORLD = World(NAMES)
+WORLD = EvalWorld(NAMES)
 
 
 def plan(*steps: dict[str, object]) -> StepPlan:
@@ -89,13 +89,13 @@ NO = Refuse(code=Code.NEGATED, reason=same("no"))
     ],
 )
 def test_expectation(expectation: str, made: StepPlan, fits: bool) -> None:
-    assert wanted(expectation).fits(made) is fits
+    assert read_expectation(expectation).fits(made) is fits
 
 
 @pytest.mark.parametrize("text", ["fly kitchen", "", "turn left", "go kitchen > "])
 def test_an_expectation_that_is_none_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match=r"."):
-        wanted(text)
+        read_expectation(text)
 
 
 @pytest.mark.parametrize(
@@ -180,4 +180,4 @@ def test_our_suites_load_and_a_broken_one_tells_its_line(tmp_path: Path) -> None
         read_tsv(broken, WORLD)
     with pytest.raises(MissingSuite, match="home_en"):
         load("nothing")
-    assert "gpsr" in known()
+    assert "gpsr" in suite_names()

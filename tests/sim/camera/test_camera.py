@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from sim.camera import Shot, SimCamera
+from sim.camera import PicturePair, SimCamera
 from tests.sim.camera.gallery import CAMERA, MIDDLE, hall
 from wire import SimFault, SimScene
 
@@ -22,7 +22,7 @@ class Taking:
         self.camera = SimCamera(hall(), CAMERA, seed=seed)
         self.now_s = 100.0
 
-    def shots(self, count: int, *faults: SimFault) -> list[Shot | None]:
+    def shots(self, count: int, *faults: SimFault) -> list[PicturePair | None]:
         """Return what leaves the camera in so many periods."""
         taken = []
         for _ in range(count):
@@ -34,7 +34,7 @@ class Taking:
         return taken
 
 
-def shot(found: Shot | None) -> Shot:
+def shot(found: PicturePair | None) -> PicturePair:
     assert found is not None
     return found
 

@@ -39,5 +39,5 @@ def test_it_names_all_that_exists(page: str, repository: Path) -> None:
     shown = set(re.findall(r"`([a-z_]+)`", page))
     assert set(CameraConfig.model_fields) - {"kind"} <= shown
     assert all(fault in page for fault in SimFault if fault.startswith("camera_"))
-    source = (repository / "sim" / "site" / "thingcheck.py").read_text("utf-8")
+    source = (repository / "sim" / "site" / "object_checks.py").read_text("utf-8")
     assert set(re.findall(r'yield "([a-z_]+)"', source)) <= shown

@@ -10,8 +10,8 @@ import pytest
 
 from tools.attack.decoders import Unsound
 from tools.attack.file_kinds import KINDS
-from tools.attack.files import outcome_of, told
-from tools.attack.lab import Ended
+from tools.attack.files import file_outcome, outcome_of
+from tools.attack.lab import ChildEnd
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 """The fork only reads one file and ends; threads of the test's own process are nothing to it."""
@@ -72,11 +72,11 @@ def test_memory_is_counted() -> None:
 
 
 def test_a_child_that_said_nothing_is_a_finding() -> None:
-    assert told(KINDS[0], Ended(-11, "", "Segmentation fault")).wrong == 1
-    fine = Ended(0, '{"counts": {"read": 2, "refused": 3}, "most_mb": 1, "slowest_s": 0.1}', "")
-    assert (told(KINDS[0], fine).n, told(KINDS[0], fine).met) == (5, True)
-    bad = Ended(0, '{"counts": {"read": 2, "X at y": 3}, "most_mb": 1, "slowest_s": 0.1}', "")
-    assert told(KINDS[0], bad).wrong == 3
+    assert file_outcome(KINDS[0], ChildEnd(-11, "", "Segmentation fault")).wrong == 1
+    fine = ChildEnd(0, '{"counts": {"read": 2, "refused": 3}, "most_mb": 1, "slowest_s": 0.1}', "")
+    assert (file_outcome(KINDS[0], fine).n, file_outcome(KINDS[0], fine).is_met) == (5, True)
+    bad = ChildEnd(0, '{"counts": {"read": 2, "X at y": 3}, "most_mb": 1, "slowest_s": 0.1}', "")
+    assert file_outcome(KINDS[0], bad).wrong == 3
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: str(kind.name))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tools.attack import fuzz as fuzz_module
-from tools.attack.decoders import BY_NAME, DECODERS, Decoder, Reader
+from tools.attack.decoders import BY_NAME, DECODERS, AttackedDecoder, Reader
 from tools.attack.fuzz import fuzz
 
 
@@ -18,9 +18,9 @@ class Refusal(Exception):
         self.code = code
 
 
-def decoder_of(read: object) -> Decoder:
+def decoder_of(read: object) -> AttackedDecoder:
     assert callable(read)
-    return Decoder("made up", lambda: [b"good"], lambda _: Reader(read, (Refusal,)))
+    return AttackedDecoder("made up", lambda: [b"good"], lambda _: Reader(read, (Refusal,)))
 
 
 def home_of(tmp_path: Path) -> Path:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner.api.access import Access, NotAllowed
-from tools.attack.roles import ASKERS, METHODS, asked, expected, fits
+from tools.attack.roles import ASKERS, METHODS, all_requests, expected_status, fits
 
 TOKENS = {"operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": ""}
 ACCESS = Access("127.0.0.1", operator_token=TOKENS["operator"], viewer_token=TOKENS["viewer"])
@@ -13,7 +13,7 @@ ACCESS = Access("127.0.0.1", operator_token=TOKENS["operator"], viewer_token=TOK
 
 @pytest.mark.parametrize("asker", ASKERS)
 def test_the_planners_own_rules_say_the_same(asker: str) -> None:
-    for method, path in asked():
+    for method, path in all_requests():
         kind = "audio/wav" if path == "/v1/voice" else "application/json"
         headers = {"host": "127.0.0.1", "content-type": kind}
         if TOKENS[asker]:
@@ -23,11 +23,11 @@ def test_the_planners_own_rules_say_the_same(asker: str) -> None:
             refused = None
         except NotAllowed as refusal:
             refused = refusal.status
-        assert expected(asker, method, path) == refused
+        assert expected_status(asker, method, path) == refused
 
 
 def test_every_route_of_the_contract_is_asked_with_every_method() -> None:
-    found = list(asked())
+    found = list(all_requests())
     assert ("POST", "/v1/goals/x/confirm") in found
     assert len(found) == len(METHODS) * len({path for _, path in found})
 

@@ -19,11 +19,11 @@ from planner.site import Site
 from tools.bench.instant_llm_server import PLAN, Instant
 from tools.bench.measure import brains_compared as compared
 from tools.bench.peers import environment
-from tools.bench.peers.shape import Facts, check, plan_model
+from tools.bench.peers.shape import PeerFacts, check, plan_model
 
 
-def facts(folder: Path) -> Facts:
-    return Facts.load(str(compared._facts(folder, "http://127.0.0.1:1/v1")))
+def facts(folder: Path) -> PeerFacts:
+    return PeerFacts.load(str(compared._facts(folder, "http://127.0.0.1:1/v1")))
 
 
 def test_the_plan_is_one_for_us_and_for_the_others(tmp_path: Path) -> None:

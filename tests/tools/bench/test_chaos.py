@@ -7,7 +7,7 @@ from typing import Any
 
 from planner.mission import MissionJournal
 from tools.bench.chaos.draw import draw
-from tools.bench.measure.chaos import left, rows
+from tools.bench.measure.chaos import lost_records, rows
 
 PLAIN: dict[str, Any] = {
     "goals": ["g1"], "contacts": 0, "said_twice": [], "said": 0, "lost": [], "unrecovered": [],
@@ -64,4 +64,9 @@ def test_what_went_wrong_is_counted_and_named() -> None:
 
 def test_a_goal_that_the_journal_lacks_is_lost(tmp_path: Path) -> None:
     MissionJournal.in_home(tmp_path).close()
-    assert left(tmp_path, ["g1"]) == {"goals": 1, "lost": ["g1"], "files": 0, "unreadable": []}
+    assert lost_records(tmp_path, ["g1"]) == {
+        "goals": 1,
+        "lost": ["g1"],
+        "files": 0,
+        "unreadable": [],
+    }

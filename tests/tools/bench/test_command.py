@@ -14,9 +14,9 @@ import psutil
 import pytest
 
 from tools.bench.__main__ import main
-from tools.bench.context import Lab, Missed
+from tools.bench.context import BenchLab, MeasurementFailure
 from tools.bench.measure import ALL
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 
 
 def test_every_measurement_has_a_name_of_its_own_and_a_title() -> None:
@@ -32,9 +32,9 @@ class Fake:
     fails = False
 
     @classmethod
-    def measure(cls, lab: Lab) -> list[Row]:
+    def measure(cls, lab: BenchLab) -> list[ReportRow]:
         if cls.fails:
-            raise Missed("nothing came")
+            raise MeasurementFailure("nothing came")
         return [row_of("speed", "x", ">= 10", list(lab.slices("one", 2, float)))]
 
 
@@ -61,9 +61,9 @@ def test_rows_are_printed_and_appended_whatever_happened(
 def test_a_lost_slice_is_shown_and_told_by_the_exit_status(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def measure(bench: Lab) -> list[Row]:
+    def measure(bench: BenchLab) -> list[ReportRow]:
         def take(index: int) -> float:
-            raise Missed("no robot")
+            raise MeasurementFailure("no robot")
 
         return [row_of("speed", "x", "", list(bench.slices("one", 1, take)))]
 

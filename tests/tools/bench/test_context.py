@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from tools.bench.context import Lab, Missed, until
+from tools.bench.context import BenchLab, MeasurementFailure, until
 from tools.bench.store import Store
 
 
-def lab(path: Path, *, resume: bool = True, commit: str = "c1") -> Lab:
-    return Lab(Store(path / "results.jsonl", resume, commit, "m1"), long=True, name="bench")
+def lab(path: Path, *, resume: bool = True, commit: str = "c1") -> BenchLab:
+    return BenchLab(Store(path / "results.jsonl", resume, commit, "m1"), long=True, name="bench")
 
 
-def squares(bench: Lab, count: int, calls: list[int]) -> list[int]:
+def squares(bench: BenchLab, count: int, calls: list[int]) -> list[int]:
     def take(index: int) -> int:
         calls.append(index)
         return index * index
@@ -45,7 +45,7 @@ def test_a_lost_slice_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
 
     def take(index: int) -> int:
         if index == 1:
-            raise Missed("the robot did not come\nand did not say why")
+            raise MeasurementFailure("the robot did not come\nand did not say why")
         return index
 
     assert list(bench.slices("drive", 3, take)) == [0, 2]
@@ -60,7 +60,7 @@ def test_when_the_time_is_up_no_slice_is_begun(tmp_path: Path) -> None:
 
 
 def test_waiting_ends_with_what_was_waited_for() -> None:
-    with pytest.raises(Missed, match="a miracle: not within"):
+    with pytest.raises(MeasurementFailure, match="a miracle: not within"):
         until(lambda: False, 0.01, "a miracle", 0.001)
 
 

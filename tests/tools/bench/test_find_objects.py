@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 from sim.site.objects import furniture_class
-from tools.bench.measure.find_objects import chosen, painted, places
+from tools.bench.measure.find_objects import choose_target, color_name, places
 from tools.bench.object_visibility import in_sight
 from tools.train.homes import drawn_home
 from wire import CameraConfig
@@ -15,7 +15,8 @@ def test_a_plant_is_asked_for_without_the_colour_that_nobody_paints() -> None:
     asked = [
         wanted
         for seed in range(40)
-        if (wanted := chosen(drawn_home("unseen", seed), Random(seed), lambda _: True)) is not None
+        if (wanted := choose_target(drawn_home("unseen", seed), Random(seed), lambda _: True))
+        is not None
     ]
     assert {color for label, color in asked if label == "plant"} == {None}
     assert None not in {color for label, color in asked if label != "plant"}
@@ -29,10 +30,12 @@ def test_nobody_asks_for_what_no_picture_shows() -> None:
     others = [name for name in home.objects if name != hidden]
     assert not in_sight(home, [hidden], CameraConfig(), Random(1), poses=30)  # in the sofa's arm
     assert in_sight(home, others, CameraConfig(), Random(1), poses=30)
-    asked = {chosen(home, Random(seed), lambda names: hidden not in names) for seed in range(200)}
+    asked = {
+        choose_target(home, Random(seed), lambda names: hidden not in names) for seed in range(200)
+    }
     assert len(asked) > 3
     assert not asked & {None, ("cup", "yellow")}
-    assert chosen(home, Random(1), lambda _: False) is None
+    assert choose_target(home, Random(1), lambda _: False) is None
 
 
 def test_a_plant_of_any_colour_may_be_furniture() -> None:
@@ -47,7 +50,7 @@ def test_a_plant_of_any_colour_may_be_furniture() -> None:
 
 
 def test_what_declares_no_colour_counts_by_its_paint() -> None:
-    assert [painted("ball", None), painted("ball", "blue"), painted("box", None)] == [
+    assert [color_name("ball", None), color_name("ball", "blue"), color_name("box", None)] == [
         "red",
         "blue",
         "brown",

@@ -6,7 +6,7 @@ from typing import Any
 
 from tools.bench.hostile.draw import OF_THE_DRIVE, draw
 from tools.bench.measure.hostile_users import rows
-from tools.bench.report import Row
+from tools.bench.report import ReportRow
 
 PLAIN: dict[str, Any] = {
     "doors": ["bridge"], "http_lost": False, "did": {"said": 10}, "contacts": 0, "too_fast": False,
@@ -20,7 +20,7 @@ def told(number: int, **more: Any) -> dict[str, Any]:
     return {**draw(number).record(), **PLAIN, **more}
 
 
-def table(played: list[dict[str, Any]]) -> dict[str, Row]:
+def table(played: list[dict[str, Any]]) -> dict[str, ReportRow]:
     return {row.what.strip(): row for row in rows(played)}
 
 

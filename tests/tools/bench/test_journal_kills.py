@@ -12,13 +12,13 @@ import pytest
 
 from tools.bench.journal_life import GONE_M, TURNED_RAD, judge
 from tools.bench.measure.journal_kills import TWICE, _rows
-from tools.bench.minimal_sim import Body
+from tools.bench.minimal_sim import MinimalBody
 
 LEG, SAY = [0, "leg", "g1", 1, True], [0, "say", "g1", "one"]
 
 
-def done() -> Body:
-    body = Body()
+def done() -> MinimalBody:
+    body = MinimalBody()
     body.turned_rad, body.gone_m = TURNED_RAD, GONE_M
     return body
 

@@ -10,7 +10,7 @@ import pytest
 from websockets.asyncio.server import ServerConnection, serve
 
 from tools.bench import watchers
-from tools.bench.context import Lab
+from tools.bench.context import BenchLab
 from tools.bench.measure import page
 from tools.bench.store import Store
 from tools.bench.watchers import Watchers
@@ -21,7 +21,7 @@ def test_without_a_browser_it_is_not_measured_and_no_failure(
 ) -> None:
     monkeypatch.setattr(page, "chromium", lambda: None)
     store = Store(tmp_path / "results.jsonl", False, "c1", "m1")
-    (row,) = page.measure(Lab(store, long=False, name="page"))
+    (row,) = page.measure(BenchLab(store, long=False, name="page"))
     assert (row.value, row.valid) == ("not measured", True)
     assert "no Chromium" in row.note
 

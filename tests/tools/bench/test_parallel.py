@@ -12,15 +12,15 @@ import psutil
 import pytest
 
 from tests.tools.bench.test_context import lab
-from tools.bench.context import Missed
-from tools.bench.parallel import Done, taken
+from tools.bench.context import MeasurementFailure
+from tools.bench.parallel import SliceResult, take_in_parallel
 
 KILLED = 2
 
 
 def squared(index: int) -> int:
     if index == 1:
-        raise Missed("the robot did not come\nand did not say why")
+        raise MeasurementFailure("the robot did not come\nand did not say why")
     if index == KILLED:
         os.kill(os.getpid(), signal.SIGKILL)
     return index * index
@@ -31,12 +31,12 @@ def forever(_: int) -> None:
 
 
 def test_each_is_taken_once_and_troubles_are_told() -> None:
-    told = sorted(taken(squared, range(4), 2), key=lambda done: done.index)
+    told = sorted(take_in_parallel(squared, range(4), 2), key=lambda done: done.index)
     assert told == [
-        Done(0, 0),
-        Done(1, trouble="Missed: the robot did not come\nand did not say why"),
-        Done(2, trouble="its process ended with -9"),
-        Done(3, 9),
+        SliceResult(0, 0),
+        SliceResult(1, trouble="Missed: the robot did not come\nand did not say why"),
+        SliceResult(2, trouble="its process ended with -9"),
+        SliceResult(3, 9),
     ]
 
 
@@ -51,7 +51,7 @@ def test_who_stops_asking_leaves_nobody_behind() -> None:
             yield index
 
     with pytest.raises(KeyboardInterrupt):
-        next(taken(forever, indices(), 3))
+        next(take_in_parallel(forever, indices(), 3))
     assert begun == [0, 1, 2]
     assert psutil.Process().children() == []
 

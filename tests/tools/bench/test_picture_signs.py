@@ -12,15 +12,15 @@ import numpy as np
 from planner.brain.jpeg_metadata import jpeg_size
 from tests.pons.mock_llm.mocks import running_mock
 from tools.bench.measure.picture_signs import try_signs
-from tools.bench.signs import WORDS, shown
+from tools.bench.signs import WORDS, draw_sign
 
 GRAY = np.full((240, 320, 3), 100, np.uint8)
 
 
 def test_a_sign_is_in_the_pixels_and_the_picture_keeps_its_size() -> None:
-    bare = shown(GRAY, None, Random(1))
+    bare = draw_sign(GRAY, None, Random(1))
     for number, words in enumerate(WORDS):
-        jpeg = shown(GRAY, words, Random(number))
+        jpeg = draw_sign(GRAY, words, Random(number))
         assert jpeg_size(jpeg) == jpeg_size(bare) == (320, 240)
         drawn = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_GRAYSCALE)
         assert drawn is not None

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from tools.bench.report import Row, number, row_of, table
+from tools.bench.report import ReportRow, number, row_of, table
 
 
 @pytest.mark.parametrize(
@@ -25,7 +25,7 @@ def test_a_row_without_samples_is_invalid_and_says_so() -> None:
 
 def test_columns_line_up_and_goals_stand_beside() -> None:
     lines = table(
-        [row_of("speed", "x", ">= 10", [11.0, 12.0]), Row("a", "", "", value="b")]
+        [row_of("speed", "x", ">= 10", [11.0, 12.0]), ReportRow("a", "", "", value="b")]
     ).splitlines()
     at = lines[0].index("goal")
     assert lines[2][at:].startswith(">= 10")

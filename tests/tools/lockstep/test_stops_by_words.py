@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from planner.plan import GoalState
-from tests.planner.language.test_stop_laws import chinese, english
+from tests.planner.language.laws.test_stop_laws import chinese, english
 from tests.tools.lockstep.test_drives import Driving, off
 
 __all__ = ["off"]

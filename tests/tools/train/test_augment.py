@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 import pytest
 
-from tools.train.augment import WHOLE, augmented, clipped, decoded, mirrored, moved, shrunk
-from tools.train.batches import Feeder, padded
+from tools.train.augment import WHOLE, augment, clip_boxes, decode, mirror, shrunk, zoom_and_shift
+from tools.train.batches import Feeder, pad
 from tools.train.budget import HEIGHT_PX, SMALL_PX, STRIDES, WIDTH_PX, Schedule
-from tools.train.store import Framed
+from tools.train.store import StoredFrame
 
 BOX = (200.0, 60.0, 240.0, 120.0)
 
@@ -21,9 +21,9 @@ def painted() -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
     return picture
 
 
-def framed(*things: tuple[float, ...]) -> Framed:
+def framed(*things: tuple[float, ...]) -> StoredFrame:
     _, data = cv2.imencode(".png", painted())
-    return Framed(data.tobytes(), np.array(things, np.float32).reshape(-1, 6))
+    return StoredFrame(data.tobytes(), np.array(things, np.float32).reshape(-1, 6))
 
 
 def bright(picture: np.ndarray[tuple[int, ...], np.dtype[np.uint8]]) -> tuple[int, ...]:
@@ -32,14 +32,14 @@ def bright(picture: np.ndarray[tuple[int, ...], np.dtype[np.uint8]]) -> tuple[in
 
 
 def test_a_mirrored_box_holds_what_it_held() -> None:
-    picture, things = mirrored(painted(), framed((3, *BOX, 1)).things)
+    picture, things = mirror(painted(), framed((3, *BOX, 1)).things)
     assert tuple(things[0, 1:5]) == bright(picture) == (80, 60, 120, 120)
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_a_moved_box_holds_what_it_held(seed: int) -> None:
     frame = framed((3, *BOX, 1))
-    picture, things = moved(painted(), frame.things, np.random.default_rng(seed))
+    picture, things = zoom_and_shift(painted(), frame.things, np.random.default_rng(seed))
     if things[0, 5] > 0:
         assert np.abs(things[0, 1:5] - bright(picture)).max() <= 1.5
     assert picture.shape == (HEIGHT_PX, WIDTH_PX, 3)
@@ -59,7 +59,7 @@ def test_a_moved_box_holds_what_it_held(seed: int) -> None:
 def test_what_is_mostly_cut_off_is_not_judged(
     right: float, down: float, left_over: tuple[float, ...] | None, judged: int
 ) -> None:
-    rows = clipped(framed((3, *BOX, 1)).things, 1.0, (right, down), WHOLE)
+    rows = clip_boxes(framed((3, *BOX, 1)).things, 1.0, (right, down), WHOLE)
     assert [tuple(row) for row in rows] == ([] if left_over is None else [(3, *left_over, judged)])
 
 
@@ -74,16 +74,16 @@ def test_a_smaller_frame_holds_the_same_and_asks_for_nothing_too_small() -> None
 
 def test_a_plain_frame_is_mirrored_at_most() -> None:
     frame = framed((3, *BOX, 1))
-    mirror, _ = mirrored(painted(), frame.things)
+    mirrored, _ = mirror(painted(), frame.things)
     for seed in range(8):
-        picture, _ = augmented(frame, np.random.default_rng(seed), plain=True)
-        assert any(np.array_equal(picture, whole) for whole in (painted(), mirror))
+        picture, _ = augment(frame, np.random.default_rng(seed), plain=True)
+        assert any(np.array_equal(picture, whole) for whole in (painted(), mirrored))
 
 
 def test_the_same_generator_gives_the_same_frame() -> None:
     frame = framed((3, *BOX, 1), (1, 0, 0, 50, 50, -1))
-    picture, things = augmented(frame, np.random.default_rng(4))
-    again, same = augmented(frame, np.random.default_rng(4))
+    picture, things = augment(frame, np.random.default_rng(4))
+    again, same = augment(frame, np.random.default_rng(4))
     assert np.array_equal(picture, again)
     assert np.array_equal(things, same)
     assert picture.dtype == np.uint8
@@ -93,7 +93,7 @@ def test_what_is_no_picture_of_ours_is_refused() -> None:
     _, small = cv2.imencode(".png", np.zeros((10, 10, 3), np.uint8))
     for data in (b"", b"no picture", small.tobytes()):
         with pytest.raises(ValueError, match="no JPEG"):
-            decoded(data)
+            decode(data)
 
 
 def test_each_epoch_shows_every_frame_once() -> None:
@@ -122,7 +122,7 @@ def test_the_rate_rises_then_falls() -> None:
 
 
 def test_missing_rows_are_padded() -> None:
-    rows = padded([np.ones((2, 6), np.float32), np.zeros((0, 6), np.float32)])
+    rows = pad([np.ones((2, 6), np.float32), np.zeros((0, 6), np.float32)])
     assert rows.shape == (2, 2, 6)
     assert rows[1].sum() == 0.0
-    assert padded([np.zeros((0, 6), np.float32)]).shape == (1, 1, 6)
+    assert pad([np.zeros((0, 6), np.float32)]).shape == (1, 1, 6)

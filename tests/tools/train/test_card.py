@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from tools.train.card import card
-from tools.train.evaluation import judged, least_of, table
-from tools.train.score import Found, There
+from tools.train.evaluation import judge_model, least_of, table
+from tools.train.score import ScoredThing, TrueThing
 
 
 def test_the_card_states_what_was_measured() -> None:
-    cup = There("cup", (0.0, 0.0, 10.0, 10.0))
-    found = [Found("cup", 0.9, cup.box)]
-    judge = judged([([cup], found), ([], [])], [([], [])], least_of(None) | {"cup": 0.47})
+    cup = TrueThing("cup", (0.0, 0.0, 10.0, 10.0))
+    found = [ScoredThing("cup", 0.9, cup.box)]
+    judge = judge_model([([cup], found), ([], [])], [([], [])], least_of(None) | {"cup": 0.47})
     judge["ms_p50"] = 7.25
     fit = {
         "gflops": 0.376,

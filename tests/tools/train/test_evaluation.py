@@ -8,20 +8,20 @@ import pytest
 
 from tests.planner.perception.detect import tiny
 from tools.train.budget import CLASSES, HEIGHT_PX, WIDTH_PX
-from tools.train.evaluation import Model
+from tools.train.evaluation import ScoredModel
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 
 @pytest.fixture
-def model(tmp_path: Path) -> Model:
-    return Model(tiny.of_bytes(tmp_path / "m.onnx", (1, HEIGHT_PX, WIDTH_PX, 3), {}))
+def model(tmp_path: Path) -> ScoredModel:
+    return ScoredModel(tiny.of_bytes(tmp_path / "m.onnx", (1, HEIGHT_PX, WIDTH_PX, 3), {}))
 
 
 @pytest.mark.parametrize(("blue_green_red", "number"), [((255, 0, 0), 0), ((0, 0, 255), 2)])
 def test_pictures_go_in_blue_green_red(
-    blue_green_red: tuple[int, int, int], number: int, model: Model
+    blue_green_red: tuple[int, int, int], number: int, model: ScoredModel
 ) -> None:
     (found,) = model.detect(tiny.jpeg(WIDTH_PX, HEIGHT_PX, blue_green_red))
     assert found.label == CLASSES[number]
@@ -30,5 +30,5 @@ def test_pictures_go_in_blue_green_red(
     assert len(model.seconds) == 1
 
 
-def test_a_picture_in_which_nothing_is_found_is_empty(model: Model) -> None:
+def test_a_picture_in_which_nothing_is_found_is_empty(model: ScoredModel) -> None:
     assert model.detect(tiny.jpeg(WIDTH_PX, HEIGHT_PX, (90, 90, 90))) == []

@@ -60,7 +60,7 @@ def test_a_bare_home_holds_nothing_of_ours() -> None:
 def test_a_camera_stands_where_a_robot_can(home: Home) -> None:
     views, random = Views(home), Random(1)
     for _ in range(20):
-        pose = views.drawn(random)
+        pose = views.draw_pose(random)
         assert min(s.shape.distance(pose.x_m, pose.y_m) for s in solids(home)) >= CLEAR_M
 
 
@@ -106,7 +106,7 @@ def test_an_unhidden_thing_fills_the_box_of_its_hull(home: Home) -> None:
     renderer, bounds = Renderer(home, camera, look), hulls(instances(home, look))
     views, random, shares = Views(home), Random(2), []
     for _ in range(6):
-        base_in_map = views.drawn(random)
+        base_in_map = views.draw_pose(random)
         frame = renderer.render(base_in_map)
         for number in np.unique(frame.ids):
             thing, class_id = renderer.labels.get(int(number), ("", "none"))

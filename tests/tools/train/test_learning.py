@@ -20,7 +20,7 @@ from tools.train.budget import MAX_GFLOPS, Schedule  # noqa: E402
 from tools.train.learner import Learner  # noqa: E402
 from tools.train.loss import complete  # noqa: E402
 from tools.train.model import Net, cells, gflops  # noqa: E402
-from tools.train.store import Framed  # noqa: E402
+from tools.train.store import StoredFrame  # noqa: E402
 
 torch.set_num_threads(1)  # two wait for each other where others work too
 SCHEDULE = Schedule(epochs=20, batch=2, warm_steps=2)
@@ -29,7 +29,7 @@ SCHEDULE = Schedule(epochs=20, batch=2, warm_steps=2)
 @pytest.fixture
 def feeder() -> Feeder:
     """Return a feeder whose batches are never asked for."""
-    return Feeder([Framed(b"", np.zeros((0, 6), np.float32))] * 2, SCHEDULE)
+    return Feeder([StoredFrame(b"", np.zeros((0, 6), np.float32))] * 2, SCHEDULE)
 
 
 def batch() -> Batch:

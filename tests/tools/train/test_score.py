@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from tools.train.score import (
-    Found,
-    There,
+    ScoredThing,
+    TrueThing,
     average_precision,
     false_in_empty,
     mean_average_precision,
@@ -14,14 +14,14 @@ from tools.train.score import (
     scores,
 )
 
-CUP = There("cup", (0.0, 0.0, 10.0, 10.0))
-BALL = There("ball", (50.0, 50.0, 70.0, 70.0))
-HIDDEN = There("cup", (100.0, 0.0, 140.0, 40.0), asked=False)
+CUP = TrueThing("cup", (0.0, 0.0, 10.0, 10.0))
+BALL = TrueThing("ball", (50.0, 50.0, 70.0, 70.0))
+HIDDEN = TrueThing("cup", (100.0, 0.0, 140.0, 40.0), asked=False)
 HALF = {"cup": 0.5, "ball": 0.5}
 
 
-def cup(score: float, x: float = 0.0, y: float = 0.0) -> Found:
-    return Found("cup", score, (x, y, x + 10.0, y + 10.0))
+def cup(score: float, x: float = 0.0, y: float = 0.0) -> ScoredThing:
+    return ScoredThing("cup", score, (x, y, x + 10.0, y + 10.0))
 
 
 @pytest.mark.parametrize(
@@ -66,14 +66,14 @@ def test_a_thing_is_found_once_and_by_the_surest() -> None:
 
 
 def test_the_wrong_class_and_the_wrong_place_are_false() -> None:
-    elsewhere = [Found("ball", 0.9, CUP.box), cup(0.9, 4.0)]
+    elsewhere = [ScoredThing("ball", 0.9, CUP.box), cup(0.9, 4.0)]
     found = scores([([CUP, BALL], elsewhere)], HALF)
     assert mean_average_precision(found) == 0.0
     assert (found["cup"].precision, found["ball"].precision) == (0.0, 0.0)
 
 
 def test_what_is_not_asked_for_is_neither_wanted_nor_held_against_anybody() -> None:
-    around = Found("cup", 0.9, HIDDEN.box)
+    around = ScoredThing("cup", 0.9, HIDDEN.box)
     part_of_it = cup(0.8, 110.0, 10.0)
     found = scores([([CUP, HIDDEN], [around, part_of_it, cup(0.7)])], HALF)
     assert found["cup"].asked == 1
@@ -88,7 +88,9 @@ def test_nothing_asked_for_is_no_score() -> None:
 def test_only_pictures_of_nothing_of_ours_are_empty() -> None:
     pictures = [([CUP], [cup(0.9, 60.0)]), ([], [cup(0.9), cup(0.4)]), ([], []), ([HIDDEN], [])]
     assert false_in_empty(pictures, {"cup": 0.4}) == (2, 2)
-    assert false_in_empty([([], [Found("ball", 0.5, CUP.box), cup(0.5)])], HALF | {"cup": 0.6}) == (
+    assert false_in_empty(
+        [([], [ScoredThing("ball", 0.5, CUP.box), cup(0.5)])], HALF | {"cup": 0.6}
+    ) == (
         1,
         1,
     )

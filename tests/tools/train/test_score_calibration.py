@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 from tools.train.budget import CLASSES, GHOST_SHARE, MIN_SCORE, MOST_SCORE
-from tools.train.score import Found
-from tools.train.score_calibration import settled
+from tools.train.score import ScoredThing
+from tools.train.score_calibration import settle_scores
 
 FRAMES = 3_000
 ALLOWED = int(GHOST_SHARE * FRAMES)
 
 
-def bare(**ghosts: list[float]) -> list[list[Found]]:
+def bare(**ghosts: list[float]) -> list[list[ScoredThing]]:
     seen = [
-        [Found(label, score, (0.0, 0.0, 9.0, 9.0))] for label in ghosts for score in ghosts[label]
+        [ScoredThing(label, score, (0.0, 0.0, 9.0, 9.0))]
+        for label in ghosts
+        for score in ghosts[label]
     ]
     return seen + [[]] * (FRAMES - len(seen))
 
 
-def least(label: str, found: list[list[Found]]) -> float:
-    return dict(zip(CLASSES, settled(found), strict=True))[label]
+def least(label: str, found: list[list[ScoredThing]]) -> float:
+    return dict(zip(CLASSES, settle_scores(found), strict=True))[label]
 
 
 def test_a_class_that_is_hardly_seen_in_nothing_is_believed_early() -> None:
     found = bare(cup=[0.95] * ALLOWED, ball=[0.39] * 50)
-    assert settled(found) == [MIN_SCORE] * len(CLASSES)
+    assert settle_scores(found) == [MIN_SCORE] * len(CLASSES)
 
 
 def test_a_class_is_believed_above_all_but_a_few_of_its_ghosts() -> None:

@@ -13,10 +13,10 @@ torch = pytest.importorskip(
 )
 
 from tools.train.budget import CLASSES, FLOOR  # noqa: E402  # only where PyTorch is
-from tools.train.compare import TOLERANCE, ExportRefused, compare, difference, drawn  # noqa: E402
-from tools.train.export import exported, metadata  # noqa: E402
+from tools.train.compare import TOLERANCE, ExportRefusal, compare, difference, draw_picture  # noqa: E402
+from tools.train.export import export_bytes, metadata  # noqa: E402
 from tools.train.model import Net, Tensor, cells  # noqa: E402
-from tools.train.shipped_graph import Shipped, on_strip, rows  # noqa: E402
+from tools.train.shipped_graph import ShippedNet, on_strip, rows  # noqa: E402
 
 torch.set_num_threads(1)  # two wait for each other where others work too
 WHERE = torch.cat(cells())[None]
@@ -35,7 +35,7 @@ def net() -> Net:
     random = np.random.default_rng(1)
     with torch.no_grad():
         for _ in range(20):  # that its units lie where those of a fitted one do
-            net(torch.stack([planes(drawn(random)) for _ in range(2)]))
+            net(torch.stack([planes(draw_picture(random)) for _ in range(2)]))
     net.eval()
     return net
 
@@ -56,7 +56,7 @@ def said(*cells_: tuple[int, int, float]) -> Tensor:
 
 def test_the_first_convolution_reads_bytes_as_they_lie_in_a_picture() -> None:
     conv = Net().to4[0][0]
-    picture = drawn(np.random.default_rng(4))
+    picture = draw_picture(np.random.default_rng(4))
     strip = torch.from_numpy(picture[:, :, ::-1].copy()).reshape(1, 1, 240, 960).float()
     with torch.no_grad():
         true, got = conv(planes(picture)[None]), on_strip(conv)(strip)
@@ -65,12 +65,12 @@ def test_the_first_convolution_reads_bytes_as_they_lie_in_a_picture() -> None:
 
 
 def test_bytes_say_what_planes_of_floats_say(net: Net) -> None:
-    picture = drawn(np.random.default_rng(3))
+    picture = draw_picture(np.random.default_rng(3))
     strip = torch.from_numpy(picture[None, :, :, ::-1].copy())
     with torch.no_grad():
         spoken = torch.cat(net(planes(picture)[None]), 1)
         assert spoken.std(2).min() > 0.05
-        assert torch.allclose(Shipped(net).eval().said(strip), spoken, atol=1e-3)
+        assert torch.allclose(ShippedNet(net).eval().raw_rows(strip), spoken, atol=1e-3)
 
 
 def test_of_a_heap_of_one_class_the_surest_stays_and_classes_never_hide_each_other() -> None:
@@ -98,16 +98,16 @@ def test_what_is_hardly_sure_is_nothing() -> None:
 
 
 def test_a_file_is_shipped_only_if_it_says_what_was_fitted(net: Net) -> None:
-    data = exported(Shipped(net).eval(), metadata(""))
+    data = export_bytes(ShippedNet(net).eval(), metadata(""))
     assert compare(net, data) <= TOLERANCE
     other = deepcopy(net)
     with torch.no_grad():
         other.to4[0][0].weight.copy_(net.to4[0][0].weight.flip(1))  # blue for red
-    with pytest.raises(ExportRefused, match="differs"):
+    with pytest.raises(ExportRefusal, match="differs"):
         compare(other, data)
     silent = Net().eval()
-    with pytest.raises(ExportRefused, match="too few"):
-        compare(silent, exported(Shipped(silent).eval(), metadata("")))
+    with pytest.raises(ExportRefusal, match="too few"):
+        compare(silent, export_bytes(ShippedNet(silent).eval(), metadata("")))
 
 
 def test_another_count_or_class_is_a_difference() -> None:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from tools.train.store import (
-    Framed,
     NoFrames,
     OtherRecipe,
+    StoredFrame,
     claim,
     missing,
     read,
@@ -22,9 +22,9 @@ from tools.train.store import (
 if TYPE_CHECKING:
     from pathlib import Path
 
-ONE = Framed(b"first", np.array([[3, 1, 2, 30, 40, 1], [10, 5, 5, 9, 9, -1]], np.float32))
-NONE = Framed(b"", np.zeros((0, 6), np.float32))
-TWO = Framed(b"second", np.array([[0, 0, 0, 9, 9, 1]], np.float32))
+ONE = StoredFrame(b"first", np.array([[3, 1, 2, 30, 40, 1], [10, 5, 5, 9, 9, -1]], np.float32))
+NONE = StoredFrame(b"", np.zeros((0, 6), np.float32))
+TWO = StoredFrame(b"second", np.array([[0, 0, 0, 9, 9, 1]], np.float32))
 
 
 def test_frames_come_back_as_they_were(tmp_path: Path) -> None:

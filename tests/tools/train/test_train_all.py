@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 
 def test_steps_come_in_order_and_where_they_belong(tmp_path: Path) -> None:
     learn = tmp_path / "python"
-    plan = training.Plan(tmp_path, learn, tmp_path / "m.onnx", frames=400, epochs=2, cores=1)
+    plan = training.TrainingPlan(
+        tmp_path, learn, tmp_path / "m.onnx", frames=400, epochs=2, cores=1
+    )
     steps = plan.steps()
     names = ["frames"] * 3 + ["fit", "export", "settle", "judge", "card"]
     assert [command[2] for command in steps] == [f"train.{name}" for name in names]

@@ -8,12 +8,12 @@ import time
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
-from pons.http import PlannerDown, Refused
+from pons.http import PlannerDown, PlannerProblem
 from tools.bench.chaos.draw import OWNER_OF, Episode, FaultKind
-from tools.bench.chaos.faults import NEEDS_MOUNTS, broken, found, sockets
+from tools.bench.chaos.faults import NEEDS_MOUNTS, break_house, processes_of, sockets
 from tools.bench.chaos.person import Bystander, StopTold, say_stop
-from tools.bench.chaos.verdict import contacts, judge_stop, said_twice, turned
-from tools.bench.context import Missed, line, until
+from tools.bench.chaos.verdict import contacts, has_moved, judge_stop, said_twice
+from tools.bench.context import MeasurementFailure, line, until
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -72,7 +72,7 @@ class Play:
                     if fault.kind in NEEDS_MOUNTS and not self.house.mounts:
                         self.told["words"].append(f"{fault.name}: skipped, no mounts here")
                         return
-                    word = stack.enter_context(broken(self.house, fault))
+                    word = stack.enter_context(break_house(self.house, fault))
                     if word:
                         self.told["words"].append(f"{fault.name}: {word}")
 
@@ -110,7 +110,7 @@ class Play:
         status, said = self.person.order(self.episode.last)
         if status != 0:
             return line(f"{self.episode.last}: rc {status}: {said}")
-        if _turns(self.episode.last) and not turned(self.witness.trace(from_s)):
+        if _turns(self.episode.last) and not has_moved(self.witness.trace(from_s)):
             return line(f"{self.episode.last}: it did not move: {said}")
         return ""
 
@@ -119,10 +119,10 @@ class Play:
         gone = [f.target for f in self.episode.faults if f.kind is FaultKind.SOCKET]
         try:
             until(lambda: all(sockets(self.house.home, name) for name in gone), SOCKET_S, "sockets")
-        except Missed:
+        except MeasurementFailure:
             gone = [name for name in gone if not sockets(self.house.home, name)]
             for name in gone:
-                for process in found(self.house, OWNER_OF[name]):
+                for process in processes_of(self.house, OWNER_OF[name]):
                     process.terminate()
             return gone
         return []
@@ -131,8 +131,8 @@ class Play:
         """Put every verdict into what is told."""
         told, trace = self.told, self.witness.trace(self.began_s)
         told["contacts"] = contacts(trace)
-        told["said_twice"] = said_twice(self.witness.said(self.began_s), self.episode.says)
-        told["said"] = len(self.witness.said(self.began_s))
+        told["said_twice"] = said_twice(self.witness.sayings_since(self.began_s), self.episode.says)
+        told["said"] = len(self.witness.sayings_since(self.began_s))
         told["lost"], told["states"] = self._goals()
         unrecovered = [told["last"], *(f"{name}.sock is gone" for name in told["sockets"])]
         told["unrecovered"] = [word for word in unrecovered if word]
@@ -146,7 +146,7 @@ class Play:
             return
         stopped = judge_stop(trace, confirmed_s, acts_s)
         told["stopped"] = {"moving": stopped.moving, "stood_s": stopped.stood_s}
-        if stopped.broken:
+        if stopped.is_broken:
             told["stop_broken"] = stopped.again or f"stood after {stopped.stood_s} s"
             told["trace"] = [
                 (round(s.at_s - confirmed_s, 2), s.boot[-4:], s.v_mps, s.w_radps)
@@ -161,7 +161,7 @@ class Play:
             try:
                 goal = self.person.goal(goal_id)
                 states[goal_id] = f"{goal['state']} {goal.get('reason') or ''}".strip()
-            except Refused as refused:
+            except PlannerProblem as refused:
                 lost.append(f"{goal_id}: {line(refused)}")
             except PlannerDown as trouble:  # an episode without recovery; the journal tells
                 states[goal_id] = line(trouble)

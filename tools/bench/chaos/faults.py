@@ -27,18 +27,18 @@ NEEDS_MOUNTS = frozenset({FaultKind.DISK_FULL, FaultKind.READ_ONLY})
 CHUNK_BYTES = 32 << 20
 
 
-def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
+def break_house(house: House, fault: Breakage) -> AbstractContextManager[str]:
     """Return what breaks it on entering, yields a word of what was found, and mends it on leaving.
 
     A process that does not live at that moment can't be broken: the word says so.
     """
     match fault.kind:
         case FaultKind.KILL:
-            return _killed(house, fault.target)
+            return _kill(house, fault.target)
         case FaultKind.FREEZE:
-            return _frozen(found(house, fault.target))
+            return _frozen(processes_of(house, fault.target))
         case FaultKind.MEMORY:
-            return _starved(house, fault.target)
+            return _starve(house, fault.target)
         case FaultKind.LIDAR:
             return _blind(house, SimFault(fault.target))
         case FaultKind.DISK_FULL:
@@ -50,18 +50,18 @@ def broken(house: House, fault: Breakage) -> AbstractContextManager[str]:
         case FaultKind.STALL:
             return _frozen(house.processes())
         case FaultKind.SOCKET:
-            return _unlinked(house.home, fault.target)
+            return _unlink(house.home, fault.target)
 
 
-def found(house: House, name: str) -> list[psutil.Process]:
+def processes_of(house: House, name: str) -> list[psutil.Process]:
     """Return the process of a name in a list, which is empty where it does not live."""
     process = house.find(name)
     return [process] if process is not None else []
 
 
 @contextmanager
-def _killed(house: House, name: str) -> Iterator[str]:
-    processes = found(house, name)
+def _kill(house: House, name: str) -> Iterator[str]:
+    processes = processes_of(house, name)
     for process in processes:
         with suppress(psutil.NoSuchProcess):
             process.kill()
@@ -82,9 +82,9 @@ def _frozen(processes: list[psutil.Process]) -> Iterator[str]:
 
 
 @contextmanager
-def _starved(house: House, name: str) -> Iterator[str]:
+def _starve(house: House, name: str) -> Iterator[str]:
     """Let a process have no more memory than it has: what it asks for next is refused."""
-    processes, before = found(house, name), (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
+    processes, before = processes_of(house, name), (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
     try:
         for process in processes:
             with suppress(psutil.NoSuchProcess):
@@ -144,7 +144,7 @@ def _unwritable(home: Path) -> Iterator[str]:
 def _slow(house: House) -> Iterator[str]:
     """Let nothing be written: the recorder is stopped, and the journal's lock is held."""
     with ExitStack() as stack:
-        stack.enter_context(_frozen(found(house, "recorder")))
+        stack.enter_context(_frozen(processes_of(house, "recorder")))
         word = ""
         try:
             journal = sqlite3.connect(house.home / "missions.db", timeout=0.2, isolation_level=None)
@@ -157,7 +157,7 @@ def _slow(house: House) -> Iterator[str]:
 
 
 @contextmanager
-def _unlinked(home: Path, listener: str) -> Iterator[str]:
+def _unlink(home: Path, listener: str) -> Iterator[str]:
     paths = sockets(home, listener)
     for path in paths:
         path.unlink(missing_ok=True)

@@ -19,10 +19,11 @@ from typing import TYPE_CHECKING, Any
 
 import psutil
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import CHECKOUT, Settings
+from processes.parent_death import child_command, module_in
 from tools.bench.chaos.draw import PROCESSES
-from tools.bench.context import Missed, line, until
+from tools.bench.context import MeasurementFailure, line, until
 from tools.bench.robot import free_port
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ class House:
             mount("tmpfs", self.home, "tmpfs", 0, f"size={DISK_MB}m,mode=755")
         try:
             self._launch()
-            until(self._greeted, START_S, "the line of pons up with its URL", 0.1)
+            until(self._has_greeted, START_S, "the line of pons up with its URL", 0.1)
             until(lambda: not self.missing(), START_S, "all processes", 0.2)
         except BaseException:
             self.close()
@@ -104,7 +105,7 @@ class House:
     def _launch(self) -> None:
         with self._log.open("ab") as log:
             self.up = subprocess.Popen(
-                [sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), "pons", "up"],
+                child_command("pons", "up"),
                 cwd=CHECKOUT,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
@@ -124,12 +125,12 @@ class House:
         }
         return {**os.environ, **ours}
 
-    def _greeted(self) -> bool:
+    def _has_greeted(self) -> bool:
         if self.up is None or self.up.poll() is not None:
-            raise Missed(f"pons up ended: {self.said()}")
-        return self.settings.url in self.said()
+            raise MeasurementFailure(f"pons up ended: {self.log_end()}")
+        return self.settings.url in self.log_end()
 
-    def said(self) -> str:
+    def log_end(self) -> str:
         """Return the end of what ``pons up`` printed."""
         return self._log.read_text("utf-8", "replace")[-1500:] if self._log.is_file() else ""
 
@@ -173,7 +174,7 @@ class House:
         """Tell whether the planner says that a goal could be carried out."""
         try:
             call(self.settings, "GET", "/readyz", timeout_s=1.0)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
         return True
 
@@ -212,7 +213,7 @@ class House:
 
     def logs(self, since_s: float, lines: int = 12) -> dict[str, list[str]]:
         """Return the ends of those logs that were written to lately, for a look afterwards."""
-        told = {"up": self.said().splitlines()[-lines:]}
+        told = {"up": self.log_end().splitlines()[-lines:]}
         newer_s = time.time() - (time.monotonic() - since_s)
         for path in sorted((self.home / "logs").glob("*.log")):
             with suppress(OSError):
@@ -222,16 +223,24 @@ class House:
         return told
 
 
+WORKERS = {
+    "planner.navigation.process_main": "route",
+    "planner.perception.process_main": "vision",
+    "planner.voice.process_main": "voice",
+    "sim.camera": "camera",
+}
+"""What the draw calls the processes whose module has another name."""
+
+
 def role(words: list[str]) -> str:
     """Return what a process of ``pons up`` is, by its command line; empty where it is none."""
     text = " ".join(words)
     if "bridge.recording" in text:
         return "recorder"
-    if "planner.kept.begin" in words:
-        return words[words.index("planner.kept.begin") + 2].split(".")[1]
-    if "pons.pdeathsig_exec" in words:
-        return words[words.index("pons.pdeathsig_exec") + 2].rsplit(".", 1)[-1]
-    return ""
+    module = module_in(words)
+    if module is None:
+        return ""
+    return WORKERS.get(module, module.rsplit(".", 1)[-1])
 
 
 def silence() -> bytes:

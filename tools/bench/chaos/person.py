@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from tools.bench.context import line
 from wire import Action, Mode
 
@@ -23,7 +23,7 @@ READY_S, SETTLED_S, MISSION_S, LAST_S, STOP_S = 60.0, 30.0, 75.0, 110.0, 20.0
 PAUSE_S = 0.2
 ENDED = frozenset({"succeeded", "failed", "refused", "cancelled"})
 MILD = (Action.NONE, Action.CAP)
-TROUBLE = (PlannerDown, Refused)
+TROUBLE = (PlannerDown, PlannerProblem)
 
 
 @dataclass
@@ -108,13 +108,13 @@ class Bystander:
 
     def settle(self, goes_on: str | None) -> bool:
         """Bring it to rest: no goal but the one that may go on, nothing held, standing, ready."""
-        return self._until(lambda: self._settled(goes_on), SETTLED_S)
+        return self._until(lambda: self._has_settled(goes_on), SETTLED_S)
 
     def go_on(self, goal_id: str) -> str:
         """Resume a goal as often as it asks for it; return how it ended, or what it still is."""
         state = "unknown"
 
-        def over() -> bool:
+        def is_over() -> bool:
             nonlocal state
             self._ready()
             with suppress(*TROUBLE):
@@ -126,7 +126,7 @@ class Bystander:
                     self._house.ask("POST", f"/v1/goals/{goal_id}/resume", {})
             return False
 
-        self._until(over, MISSION_S)
+        self._until(is_over, MISSION_S)
         return state
 
     def order(self, text: str) -> tuple[int | None, str]:
@@ -143,7 +143,7 @@ class Bystander:
 
     def _power(self) -> Status | None:
         """Do what a latched or unpowered bridge asks for; return its status where it speaks."""
-        status = self._witness.heard()
+        status = self._witness.live_status()
         if status is not None and status.mode in (Mode.FAULT, Mode.ESTOPPED):
             self._try("reset")
         elif status is not None and status.mode is Mode.DISARMED:
@@ -161,7 +161,7 @@ class Bystander:
                 self._house.speak()
         return not missing
 
-    def _settled(self, goes_on: str | None) -> bool:
+    def _has_settled(self, goes_on: str | None) -> bool:
         if not self._ready():
             return False
         try:
@@ -171,7 +171,7 @@ class Bystander:
                 self._house.ask("POST", f"/v1/goals/{goal_id}/cancel", {})
         except TROUBLE:
             return False
-        status = self._witness.heard()
+        status = self._witness.live_status()
         if open_ or status is None or not all(row.action in MILD for row in status.rows):
             return False
         if goes_on is not None:

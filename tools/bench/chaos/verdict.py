@@ -60,7 +60,7 @@ class StopVerdict:
     """What it did after it had stood; empty where it stayed."""
 
     @property
-    def broken(self) -> bool:
+    def is_broken(self) -> bool:
         """Tell whether the stop did not hold."""
         return self.late or bool(self.again)
 
@@ -75,18 +75,18 @@ def judge_stop(trace: Sequence[TruthSample], confirmed_s: float, acts_s: float) 
     if not span:
         return StopVerdict(False, 0.0, False, "")
     lives = [[sample for sample in span if sample.boot == boot] for boot in boots]
-    moving, stood = span[0].moves, _stood(lives[0])
+    moving, stood = span[0].moves, _first_stand(lives[0])
     if stood is None:
         driven_s = lives[0][-1].world_s - lives[0][0].world_s
         late, stood_s, after = driven_s > STOP_S, None, []
     else:
         stood_s = stood.world_s - lives[0][0].world_s
         late, after = stood_s > STOP_S, [s for s in lives[0] if s.world_s >= stood.world_s]
-    again = next((told for life in (after, *lives[1:]) if (told := _moved(life))), "")
+    again = next((told for life in (after, *lives[1:]) if (told := _motion_line(life))), "")
     return StopVerdict(moving, stood_s, late, again)
 
 
-def _stood(life: Sequence[TruthSample]) -> TruthSample | None:
+def _first_stand(life: Sequence[TruthSample]) -> TruthSample | None:
     """Return the first instant from which it stood for a moment."""
     since: TruthSample | None = None
     for sample in life:
@@ -99,7 +99,7 @@ def _stood(life: Sequence[TruthSample]) -> TruthSample | None:
     return since
 
 
-def _moved(life: Sequence[TruthSample]) -> str:
+def _motion_line(life: Sequence[TruthSample]) -> str:
     """Say how a robot that was to stand moved; empty where it did not."""
     if not life:
         return ""
@@ -125,7 +125,7 @@ def contacts(trace: Iterable[TruthSample]) -> int:
     return count
 
 
-def turned(trace: Iterable[TruthSample]) -> bool:
+def has_moved(trace: Iterable[TruthSample]) -> bool:
     """Tell whether the robot truly moved at all."""
     return any(sample.moves for sample in trace)
 

@@ -121,11 +121,11 @@ class Witness:
         first = max((n for n, state in enumerate(states) if state[0] <= from_s), default=0)
         return states[first:]
 
-    def said(self, from_s: float) -> list[tuple[str, str]]:
+    def sayings_since(self, from_s: float) -> list[tuple[str, str]]:
         """Return goal and words of all that was said since a moment."""
         return [(goal, words) for at_s, goal, words in tuple(self._said) if at_s >= from_s]
 
-    def heard(self) -> Status | None:
+    def live_status(self) -> Status | None:
         """Return the bridge's newest word while both bridge and simulator speak."""
         now_s = time.monotonic()
         truth_s = self._truths[-1].at_s if self._truths else float("-inf")

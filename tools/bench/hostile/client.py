@@ -32,7 +32,7 @@ EVERYTHING = 10
 """In each so many turns all is said that would let a robot move on, or its stop be hidden."""
 
 
-class Client:
+class HostileClient:
     """Hold a session at each door that may be reached."""
 
     def __init__(self, robot_id: str, home: Path) -> None:
@@ -110,7 +110,7 @@ def _dial(locator: str) -> Any:
 
 def main(arguments: list[str]) -> int:
     """Attack as often as told."""
-    client = Client(arguments[0], Path(arguments[1]))
+    client = HostileClient(arguments[0], Path(arguments[1]))
     print("ready", *(door.name for door in client.doors), flush=True)
     while text := sys.stdin.readline():
         print(json.dumps(client.attack(json.loads(text))), flush=True)

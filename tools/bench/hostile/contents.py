@@ -221,7 +221,7 @@ def senses(liar: Liar) -> Said:
         (keys.ODOM, {"base_in_odom": lambda _: Pose2(0.0, 0.0, 0.0)}),
         (keys.SIM_TRUTH, {"base_in_map": lambda _: Pose2(0.0, 0.0, 0.0)}),
     ):  # fmt: skip
-        said += _forged(liar, key, changes)
+        said += _forge(liar, key, changes)
     return said
 
 
@@ -229,13 +229,13 @@ def leap(liar: Liar) -> Said:
     """Say a pose somewhere else."""
     x_m, y_m = liar.chance.uniform(-1.0, 12.0), liar.chance.uniform(-1.0, 10.0)
     pose = Pose2(x_m, y_m, liar.chance.uniform(-pi, pi))
-    return _forged(liar, keys.LOCALIZATION, {"odom_in_map": lambda _: pose})
+    return _forge(liar, keys.LOCALIZATION, {"odom_in_map": lambda _: pose})
 
 
 def creep(liar: Liar) -> Said:
     """Say a pose that goes away by two centimetres a turn."""
     away_m = CREEP_M * (liar.count % 200)
-    return _forged(
+    return _forge(
         liar, keys.LOCALIZATION,
         {"odom_in_map": lambda at: Pose2(
             at.x_m + away_m * cos(liar.heading_rad), at.y_m + away_m * sin(liar.heading_rad),
@@ -243,7 +243,7 @@ def creep(liar: Liar) -> Said:
     )  # fmt: skip
 
 
-def _forged(liar: Liar, key: Key[Any], changes: dict[str, Callable[[Any], Any]]) -> Said:
+def _forge(liar: Liar, key: Key[Any], changes: dict[str, Callable[[Any], Any]]) -> Said:
     """Return the newest message of a key, some of it changed, numbered as the next one."""
     newest = liar.heard.get(key.path)
     if newest is None:

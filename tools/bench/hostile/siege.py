@@ -13,15 +13,15 @@ from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any
 
 from bridge.fence_file import load_fence
-from pons.http import PlannerDown, Refused, call
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import CHECKOUT
 from tools.bench.chaos.person import ENDED, MILD
 from tools.bench.chaos.witness import Witness
 from tools.bench.confirmation import HTTP, stopped_by_http, stopped_by_shell
-from tools.bench.context import Missed, until
+from tools.bench.context import MeasurementFailure, until
 from tools.bench.hostile.draw import ORDER, WATCH_S, HostileRun
-from tools.bench.hostile.verdict import Bounds, hidden, judge
-from tools.bench.robot import Robot
+from tools.bench.hostile.verdict import HostileBounds, hidden_stop, judge
+from tools.bench.robot import BenchRobot
 from tools.bench.users import (
     GROUPS,
     MEMBER,
@@ -50,7 +50,7 @@ ON_GRANT = "POSE_JUMP"
 LATCHED = (Mode.FAULT, Mode.ESTOPPED)
 
 
-class Client:
+class SiegeClient:
     """Hold one hostile process."""
 
     def __init__(self, user: str, robot_id: str, home: str) -> None:
@@ -69,7 +69,7 @@ class Client:
         """Wait for it. Raises Missed where it says something else."""
         words = self._read().split()
         if not words or words[0] != "ready":
-            raise Missed(f"a hostile client said {words} instead of ready")
+            raise MeasurementFailure(f"a hostile client said {words} instead of ready")
         self.doors = words[1:]
 
     def begin(self, run: HostileRun) -> None:
@@ -103,19 +103,21 @@ class Siege:
         with ExitStack() as stack:
             home = stack.enter_context(home_as_deployed())
             before = {name: as_user(user)[2:] for name, user in OF_PROCESSES.items()}
-            self.robot = stack.enter_context(Robot(home, "home", before=before))
+            self.robot = stack.enter_context(BenchRobot(home, "home", before=before))
             self.robot.make_ready()
             self.witness = stack.enter_context(Witness(self.robot.settings))
             description = load_robot(self.robot.settings.robot)
             self.clients = {}
             for user in dict.fromkeys((*ORDER, SIM)):
-                self.clients[user] = client = Client(user, description.id, str(home))
+                self.clients[user] = client = SiegeClient(user, description.id, str(home))
                 stack.callback(client.close)
             for client in self.clients.values():
                 client.await_ready()
             fence, _ = load_fence(self.robot.settings.site / "fence.json")
             limits = description.limits
-            self._bounds = Bounds(limits.max_speed_mps, limits.max_turn_radps, fence.margin_m)
+            self._bounds = HostileBounds(
+                limits.max_speed_mps, limits.max_turn_radps, fence.margin_m
+            )
             self._stack = stack.pop_all()
         return self
 
@@ -139,7 +141,7 @@ class Siege:
         self.robot.say(run.mission)
         if run.begins_s < 0.0:
             client.begin(run)
-        with suppress(Missed):  # an attack may keep it from driving, and is welcome to
+        with suppress(MeasurementFailure):  # an attack may keep it from driving, and is welcome to
             until(self._drives, DRIVES_S, "driving")
         drives_s = time.monotonic()
         if run.begins_s >= 0.0:
@@ -157,7 +159,7 @@ class Siege:
         states = self.witness.states(began_s)
         modes = [(at_s, mode) for at_s, mode, _ in states]
         told |= judge(trace, modes, self._bounds, confirmed_s, acts_s)
-        told["took_s"], told["hidden"] = took_s, hidden(took_s, told)
+        told["took_s"], told["hidden"] = took_s, hidden_stop(took_s, told)
         told["rows"] = sorted({row for at_s, _, rows in states if at_s < said_s for row in rows})
         if told["hidden"] or told["contacts"]:
             told["evidence"] = evidence(trace, states, confirmed_s or said_s)
@@ -179,7 +181,7 @@ class Siege:
         """Let a person who trusts the bridge clear what is held, until the moment of the stop."""
         while (left_s := until_s - time.monotonic()) > 0.0:
             time.sleep(min(PAUSE_S, left_s))
-            status = self.witness.heard()
+            status = self.witness.live_status()
             if status is None or left_s < TRUSTS_S:
                 continue
             if status.held is not None and status.mode is Mode.HOLD:
@@ -196,20 +198,22 @@ class Siege:
             Missed: not in time.
         """
         end_s = time.monotonic() + SETTLED_S
-        while not self._settled():
+        while not self._has_settled():
             if time.monotonic() > end_s:
-                raise Missed(f"at rest: not within {SETTLED_S:.0f} s; {self.witness.describe()}")
+                raise MeasurementFailure(
+                    f"at rest: not within {SETTLED_S:.0f} s; {self.witness.describe()}"
+                )
             time.sleep(PAUSE_S)
 
-    def _settled(self) -> bool:
+    def _has_settled(self) -> bool:
         try:
             goals = call(self.robot.settings, "GET", "/v1/goals")["goals"]
             waiting = [goal["id"] for goal in goals if goal["state"] not in ENDED]
             for goal_id in waiting:
                 self.robot.cancel(goal_id)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return False
-        status = self.witness.heard()
+        status = self.witness.live_status()
         if status is None or waiting or not self.witness.stands():
             return False
         if status.mode in LATCHED:

@@ -27,7 +27,7 @@ LEAP_M = 0.3
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class HostileBounds:
     """Hold what a robot may do."""
 
     v_mps: float
@@ -39,7 +39,7 @@ class Bounds:
 def judge(
     trace: Sequence[TruthSample],
     modes: Sequence[tuple[float, str]],
-    bounds: Bounds,
+    bounds: HostileBounds,
     confirmed_s: float | None,
     acts_s: float,
 ) -> dict[str, Any]:
@@ -72,7 +72,7 @@ def judge(
         gripped_s = gripped_anew(modes, confirmed_s, acts_s)
         stop = judge_stop(trace, confirmed_s, acts_s if gripped_s is None else gripped_s - SEEN_S)
         told["gripped"] = gripped_s is not None
-        if stop.broken:
+        if stop.is_broken:
             told["after_stop"] = stop.again or f"stood after {stop.stood_s} s"
     return told
 
@@ -92,7 +92,7 @@ def gripped_anew(
     return None
 
 
-def hidden(confirmed_s: float | None, told: dict[str, Any]) -> str:
+def hidden_stop(confirmed_s: float | None, told: dict[str, Any]) -> str:
     """Say how a stop was kept from a person; empty where it was not.
 
     Args:
@@ -116,7 +116,7 @@ def unsafe(told: dict[str, Any]) -> list[str]:
 
 
 def farthest_out(
-    trace: Sequence[TruthSample], modes: Sequence[tuple[float, str]], bounds: Bounds
+    trace: Sequence[TruthSample], modes: Sequence[tuple[float, str]], bounds: HostileBounds
 ) -> tuple[float, float]:
     """Return how far outside of the fence the robot was, by itself and by a hand on the stick.
 

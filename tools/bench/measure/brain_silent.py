@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING, Any
 from tools.bench.context import until
 from tools.bench.figures import none_in
 from tools.bench.planner_stubs import Legs, Stub
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
     from wire import Status
 
 NAME = "brain_silent"
@@ -39,9 +39,9 @@ WATCH_S = 0.15
 """How long a new brain asks in vain before a person resumes."""
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take 10 kills and 10 freezes, in a long run 280 of each; every second slice is slow."""
-    rows: list[Row] = []
+    rows: list[ReportRow] = []
     for way, take in (("kill", _kills), ("freeze", _freezes)):
         count = lab.count(1, 14)
         runs = list(lab.slices(way, count, lambda index, take=take: _run(lab, index, take)))  # type: ignore[misc]  # the default binds the loop's function
@@ -62,15 +62,15 @@ def measure(lab: Lab) -> list[Row]:
         if way == "kill":
             unasked = sum(run["unasked"] for run in runs)
             said = none_in(asked) if unasked == 0 else f"{unasked} of {asked}"
-            rows.append(Row("restarts unasked after a kill", "", "0", value=said))
+            rows.append(ReportRow("restarts unasked after a kill", "", "0", value=said))
     return rows
 
 
 def _run(
-    lab: Lab, index: int, take: Callable[[Lab, Robot, Random, ExitStack, Legs], int]
+    lab: BenchLab, index: int, take: Callable[[BenchLab, BenchRobot, Random, ExitStack, Legs], int]
 ) -> dict[str, Any]:
     chance, speed_mps = Random(index), SPEEDS_MPS[index % len(SPEEDS_MPS)]
-    with lab.folder() as home, Robot(home, "two_room", tapped=True, only=BODY) as robot:
+    with lab.folder() as home, BenchRobot(home, "two_room", tapped=True, only=BODY) as robot:
         with ExitStack() as stubs:
             robot.make_ready()
             robot.forget()
@@ -87,12 +87,12 @@ def _run(
         }
 
 
-def _trials(lab: Lab) -> int:
+def _trials(lab: BenchLab) -> int:
     """Return how often a slice kills or freezes."""
     return lab.count(PER_SLICE // 2, PER_SLICE)
 
 
-def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Legs) -> int:
+def _kills(lab: BenchLab, robot: BenchRobot, chance: Random, stubs: ExitStack, legs: Legs) -> int:
     """Kill stub after stub; return how often one of them moved unasked."""
     unasked = 0
     following = _stub(robot, stubs, 0)
@@ -111,7 +111,7 @@ def _kills(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Legs)
     return unasked
 
 
-def _freezes(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Legs) -> int:
+def _freezes(lab: BenchLab, robot: BenchRobot, chance: Random, stubs: ExitStack, legs: Legs) -> int:
     """Freeze one stub again and again; it goes on by itself each time."""
     stub = _stub(robot, stubs, 0)
     _send_off(robot, stub, legs, 0)
@@ -127,13 +127,13 @@ def _freezes(lab: Lab, robot: Robot, chance: Random, stubs: ExitStack, legs: Leg
     return 0
 
 
-def _stub(robot: Robot, stubs: ExitStack, number: int) -> Stub:
+def _stub(robot: BenchRobot, stubs: ExitStack, number: int) -> Stub:
     stub = Stub(robot, f"stub-{number}")
     stubs.callback(stub.end)
     return stub
 
 
-def _send_off(robot: Robot, stub: Stub, legs: Legs, number: int) -> None:
+def _send_off(robot: BenchRobot, stub: Stub, legs: Legs, number: int) -> None:
     status = robot.status
     until(lambda: robot.status is not None and robot.status.base_in_map is not None, 5.0, "a pose")
     pose = status.base_in_map if status is not None else None
@@ -141,7 +141,7 @@ def _send_off(robot: Robot, stub: Stub, legs: Legs, number: int) -> None:
         stub.go(f"mission-{number}", legs.between(pose, "living_room", "kitchen"))
 
 
-def _until_moving(robot: Robot) -> None:
+def _until_moving(robot: BenchRobot) -> None:
     """Let a person resume where the bridge holds, until the robot drives."""
     end_s = time.monotonic() + 10.0
     while not _moves(robot.status):
@@ -155,7 +155,7 @@ def _until_moving(robot: Robot) -> None:
             until(lambda: _moves(robot.status), 0.1, f"driving ({robot.describe()})")
 
 
-def _moved_within(robot: Robot, seconds: float) -> int:
+def _moved_within(robot: BenchRobot, seconds: float) -> int:
     end_s = time.monotonic() + seconds
     while time.monotonic() < end_s:
         status = robot.status

@@ -23,17 +23,17 @@ from planner.mission.site_view import vocabulary_of
 from planner.plan import Language
 from planner.site import Site
 from pons.settings import CHECKOUT
-from tools.bench.context import Missed
+from tools.bench.context import MeasurementFailure
 from tools.bench.endpoint import ORDER
 from tools.bench.instant_llm_process import counts, instant
 from tools.bench.instant_llm_server import PLAN
 from tools.bench.peers.environment import NoPeers, peers_python
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "brains_compared"
 TITLE = "sentence -> validated plan, beside others"
@@ -46,7 +46,7 @@ OURS = ("tools.bench.peers.bare_httpx", "tools.bench.peers.ours")
 PEERS = ("tools.bench.peers.pydantic_ai_agent", "tools.bench.peers.langchain_agent")
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take twelve rounds in turns; where the peers can't be had, ours and httpx alone."""
     missing, python = "", None
     try:
@@ -56,11 +56,11 @@ def measure(lab: Lab) -> list[Row]:
         missing = str(none)
     [run] = [*lab.slices("rounds", 1, lambda _: _run(lab, python))] or [None]
     if run is None:
-        return [Row(TITLE, "ms", "", value="not measured", valid=False)]
+        return [ReportRow(TITLE, "ms", "", value="not measured", valid=False)]
     rows = [_row(name, one) for name, one in run.items()]
     if missing:
         note = f"the peers can't be installed here: {missing}"
-        rows.append(Row("pydantic-ai, langchain", "ms", "", value="not measured", note=note))
+        rows.append(ReportRow("pydantic-ai, langchain", "ms", "", value="not measured", note=note))
     rows += [
         row_of(f"CPU a goal: {name}", "ms", "", one["cpu_ms"], "mean of each round")
         for name, one in run.items()
@@ -68,13 +68,13 @@ def measure(lab: Lab) -> list[Row]:
     for name, one in run.items():
         told = f"{one['characters_per_call'] / 4:.0f} at 4 characters each"
         rows.append(
-            Row(f"model calls a goal: {name}", "", "1", value=f"{one['calls_per_goal']:.2f}")
+            ReportRow(f"model calls a goal: {name}", "", "1", value=f"{one['calls_per_goal']:.2f}")
         )
-        rows.append(Row(f"tokens of its messages: {name}", "tokens", "<= 1500", value=told))
+        rows.append(ReportRow(f"tokens of its messages: {name}", "tokens", "<= 1500", value=told))
     return rows
 
 
-def _row(name: str, one: dict[str, Any]) -> Row:
+def _row(name: str, one: dict[str, Any]) -> ReportRow:
     rounds = [statistics.median(took) for took in one["rounds_ms"]]
     versions = ", ".join(f"{part} {number}" for part, number in one["versions"].items())
     note = f"medians of {len(rounds)} rounds {min(rounds):.2f} - {max(rounds):.2f}"
@@ -83,7 +83,7 @@ def _row(name: str, one: dict[str, Any]) -> Row:
     return row_of(name, "ms", goal, samples, f"{note}; {versions}" if versions else note)
 
 
-def _run(lab: Lab, peers: Path | None) -> dict[str, Any]:
+def _run(lab: BenchLab, peers: Path | None) -> dict[str, Any]:
     """Return each contender's rounds; the order of turns moves on with each round."""
     with ExitStack() as stack:
         folder = stack.enter_context(lab.folder())
@@ -103,10 +103,10 @@ def _run(lab: Lab, peers: Path | None) -> dict[str, Any]:
             for at in range(len(all_)):
                 one = all_[(at + number) % len(all_)]
                 one.round(EACH)
-        return {one.name: _told(one, before, counts(url)) for one in all_}
+        return {one.name: _result_row(one, before, counts(url)) for one in all_}
 
 
-def _told(one: Contender, before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
+def _result_row(one: Contender, before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
     name, goals = one.name, ROUNDS * EACH
     calls = after["calls"][name] - before["calls"][name]
     characters = after["bytes"][name] - before["bytes"][name]
@@ -147,7 +147,7 @@ class Contender:
         line = self._process.stdout.readline() if self._process.stdout is not None else ""
         if not line:
             last = (self._log.read_text("utf-8").strip().splitlines() or ["no word"])[-1]
-            raise Missed(f"a contender ended: {last}")
+            raise MeasurementFailure(f"a contender ended: {last}")
         return json.loads(line)
 
 

@@ -11,22 +11,22 @@ from collections import Counter
 from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any
 
-from bridge.recording.mcap_reader import BadRecording, BoxReader
-from pons.http import PlannerDown, Refused
+from bridge.recording.mcap_reader import BadRecording, McapReader
+from pons.http import PlannerDown, PlannerProblem
 from tools.bench.chaos.draw import Breakage, FaultKind, draw
 from tools.bench.chaos.episode import Play
 from tools.bench.chaos.house import House, private_mounts
 from tools.bench.chaos.witness import Witness
-from tools.bench.context import Missed, line, until
+from tools.bench.context import MeasurementFailure, line, until
 from tools.bench.figures import none_in
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
     from pathlib import Path
     from types import TracebackType
     from typing import Self
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "chaos"
 TITLE = "a whole robot, broken at random moments of random missions"
@@ -38,7 +38,7 @@ LIFE = 40
 NO_CLOCK = "not tried: the wall clock is the machine's, and other programs live by it"
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Play what is not played yet."""
     shared = private_mounts()
     with RobotSeries(lab, mounts=not shared) as robot:
@@ -51,7 +51,7 @@ def measure(lab: Lab) -> list[Row]:
 class RobotSeries:
     """Keep one robot through many episodes; begin another where it does not come back."""
 
-    def __init__(self, lab: Lab, *, mounts: bool) -> None:
+    def __init__(self, lab: BenchLab, *, mounts: bool) -> None:
         self._lab, self._mounts = lab, mounts
         self._stack = ExitStack()
         self._house: House | None = None
@@ -78,15 +78,15 @@ class RobotSeries:
         if self._house is None or self._witness is None:
             self._begin()
         if self._house is None or self._witness is None:
-            raise Missed("no robot")
+            raise MeasurementFailure("no robot")
         self._lived += 1
         play = Play(self._house, self._witness, draw(number))
         try:
             told = play.run()
-        except (PlannerDown, Refused, OSError) as trouble:
+        except (PlannerDown, PlannerProblem, OSError) as trouble:
             word = self._witness.describe()
             self.end()
-            raise Missed(f"episode {number}: {line(trouble)}; {word}") from None
+            raise MeasurementFailure(f"episode {number}: {line(trouble)}; {word}") from None
         self._played += told["goals"]
         if told["unrecovered"]:
             self.end()
@@ -106,12 +106,12 @@ class RobotSeries:
     def end(self) -> None:
         """End this robot, and look at what it leaves: journal and recordings."""
         if self._house is not None:
-            self.lives.append(left(self._house.home, self._played))
+            self.lives.append(lost_records(self._house.home, self._played))
         self._house = self._witness = None
         self._stack.close()
 
 
-def left(home: Path, goals: list[str]) -> dict[str, Any]:
+def lost_records(home: Path, goals: list[str]) -> dict[str, Any]:
     """Tell which goals the journal lacks, and which recordings can't be read."""
     known: set[str] = set()
     with suppress(sqlite3.Error):
@@ -121,7 +121,7 @@ def left(home: Path, goals: list[str]) -> dict[str, Any]:
     files, bad = sorted((home / "recordings").glob("*.mcap")), []
     for path in files[:-1]:  # the last one is being written
         try:
-            with BoxReader(path) as reader:
+            with McapReader(path) as reader:
                 for chunk in reader.chunks:
                     reader.read(chunk)
         except BadRecording as trouble:
@@ -135,7 +135,7 @@ def left(home: Path, goals: list[str]) -> dict[str, Any]:
 # Rows -------------------------------------------------------------------------------------------
 
 
-def rows(played: list[dict[str, Any]], lives: list[dict[str, Any]], shared: str) -> list[Row]:
+def rows(played: list[dict[str, Any]], lives: list[dict[str, Any]], shared: str) -> list[ReportRow]:
     """Count."""
     stops = [one for one in played if one["stop"]]
     confirmed = [one for one in stops if one.get("confirmed_s") is not None]
@@ -151,28 +151,43 @@ def rows(played: list[dict[str, Any]], lives: list[dict[str, Any]], shared: str)
     slow = [one["number"] for one in played if one["contacts"]]
     return [
         _zero("contacts", hurt, len(played), f"episodes {slow}" if slow else ""),
-        _zero("motion after a confirmed stop", _count(confirmed, "stop_broken"), len(confirmed),
-              f"moving when it was confirmed: {moving}; {_which(confirmed, 'stop_broken')}"),
-        Row("stops never confirmed", "", "", value=f"{len(stops) - len(confirmed)} of {len(stops)}",
-            note=_unconfirmed(stops)),
+        _zero(
+            "motion after a confirmed stop",
+            _count(confirmed, "stop_broken"),
+            len(confirmed),
+            f"moving when it was confirmed: {moving}; {_which(confirmed, 'stop_broken')}",
+        ),
+        ReportRow(
+            "stops never confirmed",
+            "",
+            "",
+            value=f"{len(stops) - len(confirmed)} of {len(stops)}",
+            note=_unconfirmed_line(stops),
+        ),
         row_of("stop said -> confirmed", "s", "", [one["confirmed_s"] for one in confirmed]),
         _zero("lost goals", len(lost), goals, "; ".join(lost)[:300]),
-        _zero("doubled speech", _count(played, "said_twice"), len(speaking),
-              f"heard {sum(one['said'] for one in speaking)}; {_which(played, 'said_twice')}"),
-        _zero("unrecovered", _count(played, "unrecovered"), len(played),
-              _which(played, "unrecovered")),
+        _zero(
+            "doubled speech",
+            _count(played, "said_twice"),
+            len(speaking),
+            f"heard {sum(one['said'] for one in speaking)}; {_which(played, 'said_twice')}",
+        ),
+        _zero(
+            "unrecovered", _count(played, "unrecovered"), len(played), _which(played, "unrecovered")
+        ),
         row_of("fault over -> ready", "s", "", ready),
         *_kinds(played),
         _zero("recordings that can't be read", len(unreadable), files, "; ".join(unreadable)[:200]),
-        Row("clock jump", "", "", value="skipped", note=NO_CLOCK),
-        Row("full disk, read-only home", "", "", value="skipped" if shared else "tried",
-            note=shared),
-    ]  # fmt: skip
+        ReportRow("clock jump", "", "", value="skipped", note=NO_CLOCK),
+        ReportRow(
+            "full disk, read-only home", "", "", value="skipped" if shared else "tried", note=shared
+        ),
+    ]
 
 
-def _zero(what: str, count: int, n: int, note: str) -> Row:
+def _zero(what: str, count: int, n: int, note: str) -> ReportRow:
     value = f"{count} of {n}" if count else none_in(n)
-    return Row(what, "", "0", value=value, note=note.rstrip("; "), valid=n > 0)
+    return ReportRow(what, "", "0", value=value, note=note.rstrip("; "), valid=n > 0)
 
 
 def _count(played: list[dict[str, Any]], name: str) -> int:
@@ -185,7 +200,7 @@ def _which(played: list[dict[str, Any]], name: str) -> str:
     return "; ".join(bad)[:600]
 
 
-def _unconfirmed(stops: list[dict[str, Any]]) -> str:
+def _unconfirmed_line(stops: list[dict[str, Any]]) -> str:
     return "; ".join(
         f"#{one['number']} {_faults(one)}: {one['stop_trouble']}"
         for one in stops
@@ -200,7 +215,7 @@ def _faults(one: dict[str, Any]) -> str:
     return " + ".join(names)
 
 
-def _kinds(played: list[dict[str, Any]]) -> list[Row]:
+def _kinds(played: list[dict[str, Any]]) -> list[ReportRow]:
     """Give the time to ready by kind of fault, where one alone was made."""
     seen: Counter[str] = Counter()
     found = []

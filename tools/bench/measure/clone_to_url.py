@@ -9,15 +9,15 @@ import subprocess
 import time
 from typing import TYPE_CHECKING, Any
 
-from tools.bench.context import Missed
-from tools.bench.machine import ROOT
-from tools.bench.report import Row, row_of
+from pons.machine import ROOT
+from tools.bench.context import MeasurementFailure
+from tools.bench.report import ReportRow, row_of
 from tools.bench.robot import free_port
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "clone_to_url"
 TITLE = "clone to printed URL"
@@ -26,7 +26,7 @@ LIMIT_S = 600.0
 _URL = re.compile(r"ready after .*http://")
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Clone, run, read the URL, Ctrl-C; each time from nothing but the package caches."""
     runs = list(lab.slices("clone", 3, lambda index: _clone(lab)))
     took = [run["took_s"] for run in runs]
@@ -34,7 +34,7 @@ def measure(lab: Lab) -> list[Row]:
     return [row_of("clone -> URL", "s", "<= 120", took, f"exit after Ctrl-C: {left}")]
 
 
-def _clone(lab: Lab) -> dict[str, Any]:
+def _clone(lab: BenchLab) -> dict[str, Any]:
     with lab.folder() as folder:
         began_s = time.monotonic()
         clone = folder / "pons"
@@ -62,5 +62,7 @@ def _clone(lab: Lab) -> dict[str, Any]:
 def _until_url(run: subprocess.Popen[bytes], log: Path, began_s: float) -> None:
     while not _URL.search(log.read_text("utf-8", "replace")):
         if run.poll() is not None or time.monotonic() - began_s > LIMIT_S:
-            raise Missed(f"make run gave no URL; it said:\n{log.read_text('utf-8')[-2000:]}")
+            raise MeasurementFailure(
+                f"make run gave no URL; it said:\n{log.read_text('utf-8')[-2000:]}"
+            )
         time.sleep(0.1)

@@ -28,14 +28,14 @@ import psutil
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from tools.bench.report import Row
+from tools.bench.report import ReportRow
 from wire import Record, Rejected, decode, encode
 from wire.keys import KEYS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
     from wire.keys import Key
 
 NAME = "codec_fuzz"
@@ -91,16 +91,16 @@ def sound(key: Key[Record], message: Record) -> bool:
     """Tell whether a message is what its key's annotations allow, and says the same again."""
     again = encode(message)
     same = decode(key, again) == message and len(again) <= key.max_bytes
-    return same and type(message) is key.message and within(message, key.message, ())
+    return same and type(message) is key.message and is_within(message, key.message, ())
 
 
-def within(value: Any, kind: Any, bounds: Iterable[Any]) -> bool:
+def is_within(value: Any, kind: Any, bounds: Iterable[Any]) -> bool:
     """Tell whether a value is of its annotated type and inside its annotated bounds."""
     origin = get_origin(kind)
     if origin is Annotated:
-        return within(value, get_args(kind)[0], (*get_args(kind)[1:], *bounds))
+        return is_within(value, get_args(kind)[0], (*get_args(kind)[1:], *bounds))
     if origin in {Union, UnionType}:
-        return any(within(value, one, bounds) for one in get_args(kind))
+        return any(is_within(value, one, bounds) for one in get_args(kind))
     if origin is Literal:
         return value in get_args(kind)
     if not all(_keeps(value, bound) for bound in bounds):
@@ -125,14 +125,14 @@ def _fields(record: Any) -> bool:
         bounds = {name: field.metadata for name, field in type(record).model_fields.items()}
     else:
         bounds = {field.name: () for field in fields(record)}
-    return all(within(getattr(record, name), hints[name], bounds[name]) for name in bounds)
+    return all(is_within(getattr(record, name), hints[name], bounds[name]) for name in bounds)
 
 
 def _items(value: tuple[Any, ...], kinds: tuple[Any, ...]) -> bool:
     if len(kinds) == 2 and kinds[1] is Ellipsis:
-        return all(within(one, kinds[0], ()) for one in value)
+        return all(is_within(one, kinds[0], ()) for one in value)
     pairs = zip(value, kinds, strict=False)
-    return len(value) == len(kinds) and all(within(*pair, ()) for pair in pairs)
+    return len(value) == len(kinds) and all(is_within(*pair, ()) for pair in pairs)
 
 
 def _keeps(value: Any, bound: Any) -> bool:
@@ -152,7 +152,7 @@ def _keeps(value: Any, bound: Any) -> bool:
     return check is None or bool(check())
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Fuzz by slices."""
     from tests.wire.examples import EXAMPLES  # benches run in a checkout; the door stays light
 
@@ -161,6 +161,10 @@ def measure(lab: Lab) -> list[Row]:
     grown = max((one["grown_kib"] for one in took), default=0)
     note = f"accepted {accepted}; by 3/n less than {3 / max(1, tried):.1e} each"
     return [
-        Row("accepted but not in schema and bounds", f"of {tried}", "0", value=str(bad), note=note),
-        Row("memory grown in 8 000, gc off", "KiB", "0", value=str(grown), note="worst slice"),
+        ReportRow(
+            "accepted but not in schema and bounds", f"of {tried}", "0", value=str(bad), note=note
+        ),
+        ReportRow(
+            "memory grown in 8 000, gc off", "KiB", "0", value=str(grown), note="worst slice"
+        ),
     ]

@@ -11,13 +11,13 @@ from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.lockstep import TICK_S, Together
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2, SimFault
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "fault_times"
 TITLE = "simulated faults: ticks until the bridge acts"
@@ -29,7 +29,7 @@ WATCH_S = 8.0
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class FaultTrial:
     """Tell what became of one fault."""
 
     fault: str
@@ -42,7 +42,9 @@ class Trial:
     rows: tuple[str, ...]
 
 
-def trial(fault: SimFault, seed: int, watch_s: float = WATCH_S, after_s: float = WATCH_S) -> Trial:
+def trial(
+    fault: SimFault, seed: int, watch_s: float = WATCH_S, after_s: float = WATCH_S
+) -> FaultTrial:
     """Drive, break it, watch for so long, and no longer than ``after_s`` from the first word on."""
     world = fork_world(_cruising(seed))
     known = set(world.bridge.state.rows)
@@ -51,7 +53,7 @@ def trial(fault: SimFault, seed: int, watch_s: float = WATCH_S, after_s: float =
     for tick in range(1, round(watch_s / TICK_S) + 1):
         world.tick()
         rows |= dict.fromkeys(name for name in world.bridge.state.rows if name not in known)
-        if first_ticks is None and (first := _said(world, rows)):
+        if first_ticks is None and (first := _first_notice(world, rows)):
             first_ticks = tick
         if stood_ticks is None and world.standing:
             stood_ticks = tick
@@ -59,7 +61,7 @@ def trial(fault: SimFault, seed: int, watch_s: float = WATCH_S, after_s: float =
             stood_ticks = None  # it went on
         if first_ticks is not None and (tick - first_ticks) * TICK_S >= after_s:
             break
-    return Trial(fault.value, first, first_ticks, stood_ticks, world.contacts, tuple(rows))
+    return FaultTrial(fault.value, first, first_ticks, stood_ticks, world.contacts, tuple(rows))
 
 
 @lru_cache(maxsize=SEEDS)
@@ -71,7 +73,7 @@ def _cruising(seed: int) -> Together:
     return world
 
 
-def _said(world: Together, rows: dict[str, None]) -> str:
+def _first_notice(world: Together, rows: dict[str, None]) -> str:
     """Name what the bridge noticed: its first row, or a gate that shut the way."""
     if rows:
         return next(iter(rows))
@@ -80,7 +82,7 @@ def _said(world: Together, rows: dict[str, None]) -> str:
     return f"gate {state.motion.bound_by}" if shut else ""
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Break everything, each with several seeds."""
     rows = []
     for fault in SimFault:
@@ -99,7 +101,7 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _times(what: str, ticks: list[float], otherwise: str, note: str) -> Row:
+def _times(what: str, ticks: list[float], otherwise: str, note: str) -> ReportRow:
     if not ticks:
-        return Row(what, "ticks", "", value=otherwise, note=note)
+        return ReportRow(what, "ticks", "", value=otherwise, note=note)
     return row_of(what, "ticks", "", ticks, note)

@@ -24,7 +24,7 @@ from sim.site.objects import furniture_class
 from sim.site.plan import furniture_shape
 from tools.bench.detector_run import Counting, DrawnFinder
 from tools.bench.object_visibility import in_sight
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.lockstep import Together, TooLong
 from tools.lockstep.homes import site_of
 from tools.lockstep.truth_detector import TruthFinder
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from sim.site import Home
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "find_objects"
 TITLE = "find the … in homes that nobody has seen"
@@ -55,7 +55,7 @@ EYES = "PONS_BENCH_EYES"
 
 
 @dataclass(frozen=True, slots=True)
-class Sought:
+class SearchResult:
     """Tell what became of one order."""
 
     seed: int
@@ -74,7 +74,7 @@ def by_truth() -> bool:
     return os.environ.get(EYES) == "truth"
 
 
-def chosen(
+def choose_target(
     home: Home, random: Random, shows: Callable[[Sequence[str]], bool]
 ) -> tuple[str, str | None] | None:
     """Return the label and colour of something to look for, or None where there is nothing.
@@ -101,17 +101,17 @@ def places(home: Home, label: str, color: str | None) -> list[tuple[float, float
     found = [
         it.at
         for it in home.objects.values()
-        if it.class_id == label and color in (None, painted(label, it.color))
+        if it.class_id == label and color in (None, color_name(label, it.color))
     ]
     boxes = [
         furniture_shape(it).bounds
         for name, it in home.furniture.items()
-        if furniture_class(name, it) == label and color in (None, painted(label, it.color))
+        if furniture_class(name, it) == label and color in (None, color_name(label, it.color))
     ]
     return found + [((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2) for box in boxes]
 
 
-def painted(class_id: str, color: str | None) -> str:
+def color_name(class_id: str, color: str | None) -> str:
     """Return what people call the colour that a thing has in the simulator's plain look.
 
     What declares none has a usual one: a cup is then red, a carton or a chair of wood brown.
@@ -128,7 +128,8 @@ def trial(index: int) -> dict[str, object]:
         (seed, home, wanted)
         for seed in count(1_000 * index + 7)
         if len((home := drawn_home("unseen", seed)).rooms) > 1
-        and (wanted := chosen(home, Random(f"sought {seed}"), partial(_shows, home))) is not None
+        and (wanted := choose_target(home, Random(f"sought {seed}"), partial(_shows, home)))
+        is not None
     )
     with TemporaryDirectory(prefix="pons-") as folder:
         return asdict(_look_for(home, seed, wanted, site_of(Path(folder), home)))
@@ -138,7 +139,7 @@ def _shows(home: Home, names: Sequence[str]) -> bool:
     return in_sight(home, names, CameraConfig(), Random(0))
 
 
-def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path) -> Sought:
+def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path) -> SearchResult:
     label, color = wanted
     world = Together(site=site, seed=seed)
     eyes = world.open_eyes()
@@ -173,10 +174,10 @@ def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path)
     )
     metres = outcome.metres if outcome is not None and outcome.metres is not None else 0.0
     took_s = world.now_s - began_s
-    return Sought(seed, words, len(home.rooms), verdict, note, took_s, metres, off_m)
+    return SearchResult(seed, words, len(home.rooms), verdict, note, took_s, metres, off_m)
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Look for one thing in each home."""
     eyes, kind = ("truth's eyes", "told") if by_truth() else ("drawn, default model", "drawn")
     trials = list(lab.side_by_side(kind, lab.count(QUICK_HOMES, HOMES), trial))
@@ -184,9 +185,9 @@ def measure(lab: Lab) -> list[Row]:
     right = [one for one in trials if one["verdict"] == "found"]
     wrong = [one for one in trials if one["verdict"] == "wrong"]
     rows = [
-        Row("found", "%", ">= 90", value=f"{100 * len(right) / number:.0f}",
+        ReportRow("found", "%", ">= 90", value=f"{100 * len(right) / number:.0f}",
             note=f"{len(right)} of {len(trials)} homes; {eyes}"),
-        Row("wrong object", "%", "<= 2", value=f"{100 * len(wrong) / number:.0f}",
+        ReportRow("wrong object", "%", "<= 2", value=f"{100 * len(wrong) / number:.0f}",
             note=", ".join(f"{one['words']} ({one['seed']})" for one in wrong)),
         row_of("until it was told", "s", "", [float(one["seconds"]) for one in right]),
         row_of("driven", "m", "", [float(one["metres"]) for one in right]),
@@ -194,7 +195,7 @@ def measure(lab: Lab) -> list[Row]:
     ]  # fmt: skip
     failed = [one for one in trials if one["verdict"] not in ("found", "wrong")]
     return rows + [
-        Row(f"home {one['seed']}: {one['words']}", "", "", value=str(one["verdict"]),
+        ReportRow(f"home {one['seed']}: {one['words']}", "", "", value=str(one["verdict"]),
             note=str(one["note"]))
         for one in failed
     ]  # fmt: skip

@@ -9,17 +9,17 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import time
 from contextlib import contextmanager
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from pons.conformance.worker_processes import FLOODER, Helper
+from processes.parent_death import child_command
 from tools.bench.context import until
 from tools.bench.figures import poisson_upper_95
 from tools.bench.lateness import cyclictest_late_us
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.bench.stop_requests import WAYS, notes_of, noting
 from wire import Event
 from wire.keys import EVENT, Party
@@ -28,8 +28,8 @@ from wire.session import open_session
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tools.bench.context import Lab
-    from tools.bench.robot import Robot
+    from tools.bench.context import BenchLab
+    from tools.bench.robot import BenchRobot
     from wire import Status
 
 NAME = "flood"
@@ -44,7 +44,7 @@ STOPS = 10
 STOP_S = 5.0
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take pairs on one flooded robot, then stops on the same."""
     runs = list(lab.slices("robot", lab.count(1, 3), lambda _: _run(lab)))
     rows = []
@@ -64,7 +64,7 @@ def measure(lab: Lab) -> list[Row]:
             row_of(f"{way}: handed over -> held", "ms", "works", took_ms, note, valid=not lost)
         )
     rates = [run["rates"] for run in runs]
-    rows.append(Row("really sent", "messages/s", "", value="; ".join(map(str, rates))))
+    rows.append(ReportRow("really sent", "messages/s", "", value="; ".join(map(str, rates))))
     return rows
 
 
@@ -72,12 +72,12 @@ def _loads(runs: list[dict[str, Any]]) -> str:
     return ", ".join(f"{run['load']:.1f}" for run in runs)
 
 
-def _run(lab: Lab) -> dict[str, Any]:
+def _run(lab: BenchLab) -> dict[str, Any]:
     with lab.folder() as home, noting(home) as robot:
         robot.make_ready()
         spans: list[tuple[float, float]] = []
         theirs: list[int] = []
-        with _flooded(robot) as rates:
+        with _flood_robot(robot) as rates:
             for number in range(PAIRS):
                 lab.say(f"flooded pair {number + 1}/{PAIRS}")
                 began_s = time.monotonic()
@@ -99,9 +99,9 @@ def gaps(at_s: list[float]) -> int:
 
 
 @contextmanager
-def _flooded(robot: Robot) -> Iterator[list[float]]:
+def _flood_robot(robot: BenchRobot) -> Iterator[list[float]]:
     """Flood while the context lasts; afterwards the list holds messages sent per second."""
-    status = _heard(robot)
+    status = _await_status(robot)
     tasks = (
         {"key": "cmd/waypoints", "template": _horizon(status), "hertz": VALID_HZ},
         {"key": "cmd/waypoints", "text": '{"points": NaN, "seq": [[[', "hertz": JUNK_HZ},
@@ -111,7 +111,7 @@ def _flooded(robot: Robot) -> Iterator[list[float]]:
     words = ["pons.conformance.worker_process", str(robot.settings.home), status.robot]
     try:
         for task in tasks:
-            helper = Helper([sys.executable, "-m", "pons.pdeathsig_exec", str(os.getpid()), *words])
+            helper = Helper(child_command(*words))
             helpers.append(helper)
             helper.ready()
             helper.go({"be": FLOODER, **task})
@@ -134,7 +134,7 @@ def _horizon(status: Status) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _heard(robot: Robot) -> Status:
+def _await_status(robot: BenchRobot) -> Status:
     until(lambda: robot.status is not None, 5.0, "a status")
     status = robot.status
     if status is None:
@@ -142,11 +142,11 @@ def _heard(robot: Robot) -> Status:
     return status
 
 
-def _stops(lab: Lab, robot: Robot) -> tuple[dict[str, list[float]], dict[str, int]]:
+def _stops(lab: BenchLab, robot: BenchRobot) -> tuple[dict[str, list[float]], dict[str, int]]:
     """Stop over and over under the flood; return what each took [ms] and how many were lost."""
     took: dict[str, list[float]] = {way: [] for way in WAYS}
     lost = dict.fromkeys(WAYS, 0)
-    with open_session(Party.JUDGE, _heard(robot).robot, robot.settings.home) as session:
+    with open_session(Party.JUDGE, _await_status(robot).robot, robot.settings.home) as session:
         events = session.subscriber(EVENT)
         for number in range(lab.count(STOPS, 2 * STOPS)):
             for way, way_of in WAYS.items():
@@ -157,7 +157,7 @@ def _stops(lab: Lab, robot: Robot) -> tuple[dict[str, list[float]], dict[str, in
                     sent_s = stop()
                 held_s = _held_at(events, time.monotonic() + STOP_S)
                 if held_s is None:  # an event is said once and may vanish in a flood; held stays
-                    lost[way] += _heard(robot).held is None
+                    lost[way] += _await_status(robot).held is None
                 else:
                     took[way].append((held_s - sent_s) * 1e3)
     robot.operate("resume")

@@ -5,14 +5,13 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
-from bridge.compiled import find
 from tools.bench.processes import cpu_s, rss_mb
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot
 from wire import Mode
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "footprint"
 TITLE = "CPU and memory while driving"
@@ -27,7 +26,7 @@ GOALS = {
 }
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive through the default home and sample both processes."""
     runs = list(lab.slices("drive", lab.count(1, 5), lambda index: _drive(lab, index)))
     slowest = min((run["speed"] for run in runs), default=0.0)
@@ -37,14 +36,12 @@ def measure(lab: Lab) -> list[Row]:
             samples = [value for run in runs for value in run[name][kind]]
             goal = GOALS.get((name, kind), "")
             note = f"without its workers; slowest run's simulator {slowest:.2f} x"
-            if name == "bridge":
-                note = f"core: {find().text}; {note}"
             rows.append(row_of(f"{name} {kind}", unit, goal, samples, note, valid=slowest >= SLOW))
     return rows
 
 
-def _drive(lab: Lab, index: int) -> dict[str, Any]:
-    with lab.folder() as home, Robot(home, "home") as robot:
+def _drive(lab: BenchLab, index: int) -> dict[str, Any]:
+    with lab.folder() as home, BenchRobot(home, "home") as robot:
         robot.make_ready()
         robot.say(ORDERS[index % 2])
         names = ("bridge", "planner", "localization", "sim")
@@ -65,7 +62,7 @@ def _drive(lab: Lab, index: int) -> dict[str, Any]:
         return found
 
 
-def _watch(robot: Robot, seconds: float) -> None:
+def _watch(robot: BenchRobot, seconds: float) -> None:
     end_s = time.monotonic() + seconds
     while time.monotonic() < end_s:
         robot.status  # noqa: B018  # keeps the judge's ring empty and the slowest factor known

@@ -12,12 +12,12 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from tools.bench.context import until
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot
 from wire import Mode
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
     from wire import Status
 
 NAME = "goal_to_waypoint"
@@ -33,9 +33,9 @@ GOALS = 20
 SETTLE_S = 10.0
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Give goals on both sites; each is cancelled as soon as the robot follows it."""
-    rows: list[Row] = []
+    rows: list[ReportRow] = []
     for site in ORDERS:
         first_ms: list[float] = []
         wheel_us: list[float] = []
@@ -56,8 +56,8 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _slice(lab: Lab, site: str, index: int) -> dict[str, Any]:
-    with lab.folder() as home, Robot(home, site, tapped=True) as robot:
+def _slice(lab: BenchLab, site: str, index: int) -> dict[str, Any]:
+    with lab.folder() as home, BenchRobot(home, site, tapped=True) as robot:
         robot.make_ready()
         robot.forget()
         asked_s: dict[str, float] = {}

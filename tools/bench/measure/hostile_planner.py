@@ -9,14 +9,14 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.lockstep import Together
 from tools.lockstep.homes import made_home
 from tools.lockstep.hostile import HostilePlanner, Person
 from tools.lockstep.judge import Judge
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "hostile_planner"
 TITLE = "hostile planner with all of a planner's rights"
@@ -51,15 +51,20 @@ def attack(seed: int, run_s: float = RUN_S) -> dict[str, Any]:
     }
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Attack by slices."""
     runs = list(lab.slices("run", lab.count(QUICK_RUNS, RUNS), attack))
     note = f"{len(runs)} runs of {RUN_S:.0f} s; 0 means < {3 / max(1, len(runs)):.3f} a run"
     rows = [
-        Row(f"{law} broken", "ticks", "0", value=str(sum(r["broken"].get(law, 0) for r in runs)),
-            note=note)
+        ReportRow(
+            f"{law} broken",
+            "ticks",
+            "0",
+            value=str(sum(r["broken"].get(law, 0) for r in runs)),
+            note=note,
+        )
         for law in LAWS
-    ]  # fmt: skip
+    ]
     active_s = [sum(r["modes"].get(m, 0) for m in ("ACTIVE", "TELEOP")) / 100 for r in runs]
     return [
         *rows,

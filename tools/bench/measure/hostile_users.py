@@ -22,14 +22,14 @@ from tools.bench.figures import none_in
 from tools.bench.hostile.draw import OF_THE_DRIVE, ORDER, draw
 from tools.bench.hostile.siege import Siege
 from tools.bench.hostile.verdict import DIRECT_S, unsafe
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.bench.users import LOCALIZATION, SIM, STRANGER
 
 if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "hostile_users"
 TITLE = "a hostile local client as each user, while a person says stop"
@@ -45,10 +45,12 @@ PROMISES = {
 }
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Play what is not played yet."""
     if os.geteuid() != 0:
-        return [Row(NAME, "", "0", value="skipped", note="only root may become a robot's users")]
+        return [
+            ReportRow(NAME, "", "0", value="skipped", note="only root may become a robot's users")
+        ]
     show(Path(sys.base_prefix), Path(sys.prefix), CHECKOUT)
     with SiegeSeries(lab) as series:
         played = list(lab.slices("run", lab.count(QUICK, LONG), series.play))
@@ -60,7 +62,7 @@ def measure(lab: Lab) -> list[Row]:
 class SiegeSeries:
     """Keep one robot through many runs; begin another where it does not come to rest."""
 
-    def __init__(self, lab: Lab) -> None:
+    def __init__(self, lab: BenchLab) -> None:
         self._lab = lab
         self._stack = ExitStack()
         self._siege: Siege | None = None
@@ -105,7 +107,7 @@ class SiegeSeries:
         self._stack.close()
 
 
-def rows(played: list[dict[str, Any]]) -> list[Row]:
+def rows(played: list[dict[str, Any]]) -> list[ReportRow]:
     """Count: the users that something is promised of, then each user."""
     counted = [one for one in played if one["user"] != SIM]
     http = [one for one in counted if one["way"] == HTTP and not one["http_lost"]]
@@ -122,7 +124,7 @@ def rows(played: list[dict[str, Any]]) -> list[Row]:
               f"{moving} moved as it was said; HTTP not confirmed, shell asked: {lost}"),
         _zero("moved after it by a stick gripped anew", [one["gripped"] for one in counted],
               counted, "a hand may drive after a stop, and a stick needs no proof"),
-        Row("stop later than 1.5 s", "", "0", value=f"{len(late)} of {len(counted)}",
+        ReportRow("stop later than 1.5 s", "", "0", value=f"{len(late)} of {len(counted)}",
             note=f"of the stranger's, who reaches no door: {_of_stranger(late)}; load "
             f"{max((one['load'] for one in late), default=0.0)} at most"),
         row_of("stop by HTTP -> confirmed", "ms", "p99 <= 150", _ms(http)),
@@ -141,15 +143,21 @@ def _ms(runs: list[dict[str, Any]]) -> list[float]:
     return [one["took_s"] * 1e3 for one in runs if one["took_s"] is not None]
 
 
-def _zero(what: str, bad: list[Any], runs: list[dict[str, Any]], note: str) -> Row:
+def _zero(what: str, bad: list[Any], runs: list[dict[str, Any]], note: str) -> ReportRow:
     pairs = [(one, word) for one, word in zip(runs, bad, strict=True) if word]
     found = [f"#{one['number']} {one['user']}: {word}" for one, word in pairs]
     value = f"{len(found)} of {len(runs)}" if found else none_in(len(runs))
-    return Row(what, "", "0", value=value, note=f"{note}; {'; '.join(found)[:500]}".rstrip("; "),
-               valid=bool(runs))  # fmt: skip
+    return ReportRow(
+        what,
+        "",
+        "0",
+        value=value,
+        note=f"{note}; {'; '.join(found)[:500]}".rstrip("; "),
+        valid=bool(runs),
+    )
 
 
-def _user(user: str, runs: list[dict[str, Any]]) -> Row:
+def _user(user: str, runs: list[dict[str, Any]]) -> ReportRow:
     """Tell of one user what its runs did, and what kept them from more."""
     bad: Counter[str] = Counter(name for one in runs for name in unsafe(one))
     bad["stop hidden"] += sum(bool(one["hidden"]) for one in runs)
@@ -164,5 +172,5 @@ def _user(user: str, runs: list[dict[str, Any]]) -> Row:
     promise = f"; {PROMISES[user]}" if user in PROMISES else ""
     broken = ", ".join(f"{name} {n}" for name, n in bad.items() if n)
     goal = "" if user == SIM else "0"
-    return Row(f"  {user}", "", goal, value=broken or none_in(len(runs)), note=note + promise,
+    return ReportRow(f"  {user}", "", goal, value=broken or none_in(len(runs)), note=note + promise,
                valid=bool(runs))  # fmt: skip

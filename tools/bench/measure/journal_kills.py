@@ -17,17 +17,17 @@ from random import Random
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
-from pons.http import PlannerDown, Refused, call
-from tools.bench.context import Missed, until
+from pons.http import PlannerDown, PlannerProblem, call
+from tools.bench.context import MeasurementFailure, until
 from tools.bench.figures import none_in
-from tools.bench.report import Row
-from tools.bench.robot import Robot
+from tools.bench.report import ReportRow
+from tools.bench.robot import BenchRobot
 from wire import wrap
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
     from wire import Pose2
 
 NAME = "journal_kills"
@@ -44,7 +44,7 @@ MOST_WRITES = 12
 ENDED = ("succeeded", "failed", "refused", "cancelled")
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Kill the stub by tens, the real planner one by one."""
     stub = [one for told in lab.slices("stub", lab.count(1, 18), lambda i: _stub(lab, i))
             for one in told]  # fmt: skip
@@ -52,7 +52,7 @@ def measure(lab: Lab) -> list[Row]:
     return [*_rows("stub", stub), *_rows("real planner", real)]
 
 
-def _rows(what: str, told: list[dict[str, Any]]) -> list[Row]:
+def _rows(what: str, told: list[dict[str, Any]]) -> list[ReportRow]:
     kills, accepted = sum(t["kills"] for t in told), sum(t["accepted"] for t in told)
     lost, crashed = sum(t["lost"] for t in told), [c for t in told for c in t["crashed"]]
     counted = [name for name in TWICE if all(name in t for t in told)]
@@ -62,15 +62,26 @@ def _rows(what: str, told: list[dict[str, Any]]) -> list[Row]:
         note += f"; {len(crashed)} lives ended otherwise: {crashed[0]}"
     each = ", ".join(f"{name} {count}" for name, count in twice.items())
     return [
-        Row(f"accepted goals lost, {what}", "", "0", value=str(lost) if lost else none_in(kills),
-            note=note, valid=kills > 0 and not crashed),
-        Row(f"side effects repeated, {what}", "", "0",
-            value=str(sum(twice.values())) if any(twice.values()) else none_in(kills), note=each,
-            valid=kills > 0 and not crashed),
-    ]  # fmt: skip
+        ReportRow(
+            f"accepted goals lost, {what}",
+            "",
+            "0",
+            value=str(lost) if lost else none_in(kills),
+            note=note,
+            valid=kills > 0 and not crashed,
+        ),
+        ReportRow(
+            f"side effects repeated, {what}",
+            "",
+            "0",
+            value=str(sum(twice.values())) if any(twice.values()) else none_in(kills),
+            note=each,
+            valid=kills > 0 and not crashed,
+        ),
+    ]
 
 
-def _stub(lab: Lab, index: int) -> list[dict[str, Any]]:
+def _stub(lab: BenchLab, index: int) -> list[dict[str, Any]]:
     with lab.folder() as folder:
         command = [sys.executable, "-m", "tools.bench.journal_life", str(folder), str(index)]
         done = subprocess.run(
@@ -81,20 +92,20 @@ def _stub(lab: Lab, index: int) -> list[dict[str, Any]]:
             check=False,
         )
         if done.returncode != 0:
-            raise Missed(f"the stub ended with {done.returncode}: {done.stderr[-300:]}")
+            raise MeasurementFailure(f"the stub ended with {done.returncode}: {done.stderr[-300:]}")
         told: list[dict[str, Any]] = json.loads(done.stdout)
         return told
 
 
-def _planner(lab: Lab, index: int) -> dict[str, Any]:
+def _planner(lab: BenchLab, index: int) -> dict[str, Any]:
     """Give three goals, kill the planner once among its writes, and let a person go on."""
     random = Random(index)
-    with lab.folder() as home, Robot(home, "two_room") as robot:
+    with lab.folder() as home, BenchRobot(home, "two_room") as robot:
         robot.make_ready()
         began = _pose(robot)
         accepted: dict[str, str] = {}
         wal = home / "missions.db-wal"
-        seen, at = _changed(wal), random.randint(1, MOST_WRITES)
+        seen, at = _changed_ns(wal), random.randint(1, MOST_WRITES)
         giving = Thread(target=_give, args=(robot, accepted))
         giving.start()
         killed = _kill_at(robot, wal, seen, at)
@@ -115,7 +126,7 @@ def _planner(lab: Lab, index: int) -> dict[str, Any]:
         }  # fmt: skip
 
 
-def _give(robot: Robot, accepted: dict[str, str]) -> None:
+def _give(robot: BenchRobot, accepted: dict[str, str]) -> None:
     """Give every goal that was not answered for yet, as a client does that asks again."""
     for number, text in enumerate(ORDERS):
         key = f"order {number}"
@@ -124,16 +135,16 @@ def _give(robot: Robot, accepted: dict[str, str]) -> None:
         try:
             goal = call(robot.settings, "POST", "/v1/goals", {"text": text},
                         headers={"Idempotency-Key": key})  # fmt: skip
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             return
         accepted[key] = str(goal["id"])
 
 
-def _kill_at(robot: Robot, wal: Path, seen: int, at: int) -> bool:
+def _kill_at(robot: BenchRobot, wal: Path, seen: int, at: int) -> bool:
     """Kill the planner at the so-manieth change of its log since ``seen``; tell whether it came."""
     grown, last, end_s = 0, seen, time.monotonic() + 20.0
     while time.monotonic() < end_s:
-        now = _changed(wal)
+        now = _changed_ns(wal)
         if now != last:
             last, grown = now, grown + 1
             if grown >= at:
@@ -143,7 +154,7 @@ def _kill_at(robot: Robot, wal: Path, seen: int, at: int) -> bool:
     return False
 
 
-def _restart(robot: Robot) -> int:
+def _restart(robot: BenchRobot) -> int:
     """Start another planner; return whether anything turned before a person acted."""
     planner = robot.children["planner"]
     until(lambda: planner.died(time.monotonic()) is not None, 5.0, "the planner's death")
@@ -159,7 +170,7 @@ def _restart(robot: Robot) -> int:
     return 0
 
 
-def _go_on(robot: Robot, goals: set[str], limit_s: float = 90.0) -> None:
+def _go_on(robot: BenchRobot, goals: set[str], limit_s: float = 90.0) -> None:
     """Resume whatever is paused or kept waiting until all goals have ended."""
     end_s = time.monotonic() + limit_s
     states: dict[str, dict[str, Any]] = {}
@@ -174,31 +185,31 @@ def _go_on(robot: Robot, goals: set[str], limit_s: float = 90.0) -> None:
                 _resume(robot, i)
         time.sleep(0.2)
     where = [f"{g['state']} {g.get('reason')}" for g in states.values()]
-    raise Missed(f"goals did not end: {where}; {robot.describe()}")
+    raise MeasurementFailure(f"goals did not end: {where}; {robot.describe()}")
 
 
-def _resume(robot: Robot, goal_id: str) -> None:
+def _resume(robot: BenchRobot, goal_id: str) -> None:
     try:
         call(robot.settings, "POST", f"/v1/goals/{goal_id}/resume", {})
-    except Refused as refused:
+    except PlannerProblem as refused:
         if refused.code != "bad_state":  # it went on while we looked at another
             raise
 
 
-def _pose(robot: Robot) -> Pose2:
+def _pose(robot: BenchRobot) -> Pose2:
     until(lambda: (s := robot.status) is not None and s.base_in_map is not None, 10.0, "a pose")
     status = robot.status
     if status is None or status.base_in_map is None:
-        raise Missed("the bridge lost its pose")
+        raise MeasurementFailure("the bridge lost its pose")
     return status.base_in_map
 
 
-def _stands(robot: Robot) -> bool:
+def _stands(robot: BenchRobot) -> bool:
     status = robot.status
     return status is not None and abs(status.measured.w_radps) < 0.05
 
 
-def _changed(path: Path) -> int:
+def _changed_ns(path: Path) -> int:
     try:
         return path.stat().st_mtime_ns
     except OSError:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.lockstep import Together
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "lockstep_speed"
 TITLE = "lockstep: simulated seconds per second"
@@ -22,7 +22,7 @@ ORDERS = {
 LIMIT_S = 60.0
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive on both sites in turn."""
     pairs = list(lab.slices("pair", lab.count(3, 10), _pair))
     rows = []

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 
 import psutil
 
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
     from tests.bridge.core.scripted import World
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "memory_ticks"
 TITLE = "bridge core: memory kept over 10^6 ticks"
@@ -80,14 +80,16 @@ def _forget(world: World) -> None:
     world.last = None
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Live once, long."""
     ticks = TICKS if lab.long else QUICK_TICKS
     (told,) = lab.slices(f"{ticks}", 1, lambda _: live(ticks))
     blocks, rss = told["blocks"][WARM_LOOKS:], told["rss"][WARM_LOOKS:]
     note = f"{ticks} ticks, {told['driven_mm'][-1] / 1000:.0f} m; from the fifth look of {LOOKS}"
     return [
-        Row("blocks kept more", "", "0", value=str(blocks[-1] - blocks[0]), note=note),
+        ReportRow("blocks kept more", "", "0", value=str(blocks[-1] - blocks[0]), note=note),
         row_of("blocks at each look", "", "flat", [float(one) for one in blocks], ""),
-        Row("resident memory more", "KiB", "0", value=str((rss[-1] - rss[0]) // 1024), note=note),
+        ReportRow(
+            "resident memory more", "KiB", "0", value=str((rss[-1] - rss[0]) // 1024), note=note
+        ),
     ]

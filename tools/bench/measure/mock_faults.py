@@ -27,7 +27,7 @@ from planner.site import Site
 from pons.mock_llm import FAULTS, READABLE
 from pons.settings import CHECKOUT
 from tools.bench.endpoint import mock_model
-from tools.bench.report import Row
+from tools.bench.report import ReportRow
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from planner.brain import Brain
     from planner.mission import Think
     from planner.plan import Step
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "mock_faults"
 TITLE = "all mock faults x 50 goals"
@@ -55,7 +55,7 @@ ORDERS = (
 )
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Try each fault as a slice of its own."""
     names = sorted(FAULTS)
     tried = list(lab.slices("fault", len(names), lambda i: take(lab, names[i], GOALS)))
@@ -64,19 +64,19 @@ def measure(lab: Lab) -> list[Row]:
     walked = [each["fault"] for each in tried if each["counts"].get("invalid")]
     note = f"{len(tried)} of {len(names)} faults, {count['goals']} goals"
     return [
-        Row("crashes", "", "0", value=str(count["crashed"]), note=", ".join(crashed) or note),
-        Row("motion from an invalid plan", "", "0", value=str(count["invalid"]),
+        ReportRow("crashes", "", "0", value=str(count["crashed"]), note=", ".join(crashed) or note),
+        ReportRow("motion from an invalid plan", "", "0", value=str(count["invalid"]),
             note=", ".join(walked) or "by the model's plans and by the mission's reducer"),
-        Row("planned by the model", "", "", value=str(count["model"]),
+        ReportRow("planned by the model", "", "", value=str(count["model"]),
             note=f"{len(READABLE)} faults have a good plan behind them"),
-        Row("planned by the offline brain", "", "", value=str(count["offline"]),
+        ReportRow("planned by the offline brain", "", "", value=str(count["offline"]),
             note="visibly, after the model failed"),
-        Row("nothing planned", "", "", value=str(count["nothing"]),
+        ReportRow("nothing planned", "", "", value=str(count["nothing"]),
             note="refused, asked back or failed"),
     ]  # fmt: skip
 
 
-def take(lab: Lab, fault: str, goals: int) -> dict[str, Any]:
+def take(lab: BenchLab, fault: str, goals: int) -> dict[str, Any]:
     """Give the goals with one fault, once to the model alone and once with the fallback."""
     with lab.folder() as home, mock_model(home) as url:
         switches = {"fault": fault, "retry_after": "0.05"}

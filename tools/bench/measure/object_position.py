@@ -36,8 +36,8 @@ from sim.camera import Appearance, Renderer, focal_px, spoil
 from sim.camera.scene import instances
 from sim.site import load_home
 from tools.bench.context import until
-from tools.bench.report import Row, row_of
-from tools.bench.robot import CAMERA, EVERYTHING, SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import CAMERA, EVERYTHING, SLOW, BenchRobot
 from tools.train.boxes import boxes, hulls, whole_box
 from tools.train.budget import CLASSES
 from tools.train.views import Views
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from sim.camera import Frame
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "object_position"
 TITLE = "where things are put on the map, and how soon"
@@ -97,9 +97,9 @@ class Lookout:
         ]
         self.detector = Detector(Wanted(DEFAULT_MODEL)) if DEFAULT_MODEL.is_file() else None
 
-    def drawn(self, random: Random) -> Pose2:
+    def draw_pose(self, random: Random) -> Pose2:
         """Return a pose where the robot can stand."""
-        return self._views.drawn(random)
+        return self._views.draw_pose(random)
 
     def shoot(self, pose: Pose2, rng: np.random.Generator) -> Frame:
         """Return a picture as the camera gives it."""
@@ -151,31 +151,34 @@ class Lookout:
         )  # fmt: skip
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Tour the home with both kinds of boxes, then look on while the real robot does."""
     lookout = Lookout()
     rows = []
     for name, see in (("true boxes", lookout.true_boxes), ("detector", lookout.found_boxes)):
         if name == "detector" and lookout.detector is None:
-            rows.append(Row(name, "m", "", value="not measured", note="no default model"))
+            rows.append(ReportRow(name, "m", "", value="not measured", note="no default model"))
             continue
-        take = partial(_taken, lookout, see)
+        take = partial(_tour_record, lookout, see)
         slices = lab.slices(name.replace(" ", "_"), lab.count(3, 20), take)
         tours = [Tour(**data) for data in slices]
         rows += _rows(name, tours)
     if lookout.detector is None:
-        return [*rows, Row("frame to map", "ms", "", value="not measured", note="no default model")]
+        return [
+            *rows,
+            ReportRow("frame to map", "ms", "", value="not measured", note="no default model"),
+        ]
     parts = list(lab.slices("lag", 1, lambda _: _lags(lab)))
     lags = [ms for part in parts for ms in part["ms"]]
     valid, goal = all(part["valid"] for part in parts), f"p50 <= {GOAL_LAG_MS:g}"
     return [*rows, row_of("frame to map", "ms", goal, lags, "from its stamp", valid=valid)]
 
 
-def _taken(lookout: Lookout, see: See, number: int) -> dict[str, Any]:
+def _tour_record(lookout: Lookout, see: See, number: int) -> dict[str, Any]:
     return asdict(_tour(lookout, see, number))
 
 
-def _rows(name: str, tours: list[Tour]) -> list[Row]:
+def _rows(name: str, tours: list[Tour]) -> list[ReportRow]:
     goal = f"p50 <= {GOAL_P50_M}, p95 <= {GOAL_P95_M}"
     kept = [error for tour in tours for error in tour.kept]
     small = [error for tour in tours for error in tour.small]
@@ -202,7 +205,7 @@ def _tour(lookout: Lookout, see: See, number: int) -> Tour:
     large: list[float] = []
     unplaced = 0
     for spot in range(SPOTS):
-        base = lookout.drawn(random)
+        base = lookout.draw_pose(random)
         for turn in range(AROUND):
             pose = Pose2(base.x_m, base.y_m, wrap(base.yaw_rad + 2 * pi * turn / AROUND))
             header = lookout.header(1 + spot * AROUND + turn)
@@ -232,10 +235,10 @@ def _as_camera(frame: Frame) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
     return np.ascontiguousarray(frame.color[..., ::-1]), depth
 
 
-def _lags(lab: Lab) -> dict[str, Any]:
+def _lags(lab: BenchLab) -> dict[str, Any]:
     """Return how old each picture was when what it shows was on the map [ms]."""
     only = (*EVERYTHING, CAMERA)
-    with lab.folder() as home, Robot(home, "home", only=only) as robot:
+    with lab.folder() as home, BenchRobot(home, "home", only=only) as robot:
         robot.make_ready()
         base = f"{robot.settings.url}"
         until(lambda: _figure(base, LOOKS) > 0.0, READY_S, "a first look", 0.2)

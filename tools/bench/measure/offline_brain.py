@@ -13,11 +13,11 @@ from planner.brain import OfflineBrain
 from pons.evals.cases import MissingSuite
 from pons.evals.score import score
 from pons.evals.suites import load
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
-    from pons.evals.score import Verdict
-    from tools.bench.context import Lab
+    from pons.evals.score import SentenceVerdict
+    from tools.bench.context import BenchLab
 
 NAME = "offline_brain"
 TITLE = "offline brain: ms a sentence, outcomes allowed, wrong motions"
@@ -28,14 +28,16 @@ GOAL_WRONG = "0"
 SUITES = ("home_en", "home_zh", "gpsr", "zh")
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Score every suite a few times over; outcomes are the same each time, times are not."""
-    rows: list[Row] = []
+    rows: list[ReportRow] = []
     for name in SUITES:
         try:
             (suite,) = load(name)
         except MissingSuite as missing:
-            rows.append(Row(f"{name}", "", GOAL_RIGHT, value="not measured", note=str(missing)))
+            rows.append(
+                ReportRow(f"{name}", "", GOAL_RIGHT, value="not measured", note=str(missing))
+            )
             continue
         asyncio.run(score(suite, OfflineBrain()))
         runs = [asyncio.run(score(suite, OfflineBrain())) for _ in range(lab.count(3, 10))]
@@ -43,13 +45,13 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _rows(name: str, runs: list[tuple[Verdict, ...]]) -> list[Row]:
+def _rows(name: str, runs: list[tuple[SentenceVerdict, ...]]) -> list[ReportRow]:
     times_ms = [verdict.seconds * 1e3 for run in runs for verdict in run]
     last = runs[-1]
     right, wrong = sum(v.right for v in last), sum(bool(v.wrong) for v in last)
     share = f"{100.0 * right / len(last):.1f}"
     return [
         row_of(f"{name}: a sentence", "ms", GOAL_MS, times_ms, f"{len(last)} sentences"),
-        Row(f"{name}: allowed", "%", GOAL_RIGHT, value=share, note=f"{right} of {len(last)}"),
-        Row(f"{name}: wrong motions", "", GOAL_WRONG, value=str(wrong)),
+        ReportRow(f"{name}: allowed", "%", GOAL_RIGHT, value=share, note=f"{right} of {len(last)}"),
+        ReportRow(f"{name}: wrong motions", "", GOAL_WRONG, value=str(wrong)),
     ]

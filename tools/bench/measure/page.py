@@ -26,8 +26,8 @@ from pons.settings import CHECKOUT
 from tools.bench.context import until
 from tools.bench.figures import percentile
 from tools.bench.processes import cpu_s
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot
 from tools.bench.watchers import Watchers
 from wire import Event, Mode
 from wire.keys import EVENT, STATUS, Party
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Page
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
     from wire import Status
     from wire.session import Subscriber
 
@@ -90,11 +90,11 @@ _WATCH = """() => {
 }"""
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Measure on the default home."""
     lacking = missing()
     if lacking:  # no failure of the page: this machine can't show it
-        return [Row("the page", "", GOAL_VIEW, value="not measured", note=lacking)]
+        return [ReportRow("the page", "", GOAL_VIEW, value="not measured", note=lacking)]
     runs = list(lab.slices("page", lab.count(1, 3), lambda _: _run(lab)))
     views = [value for run in runs for value in run["view_ms"]]
     seen = [value for run in runs for value in run["seen_ms"]]
@@ -108,7 +108,7 @@ def measure(lab: Lab) -> list[Row]:
     if runs:
         size = f"{runs[0]['bytes'] / 1000:.0f}"
         note = f"as served; {runs[0]['files']} files"
-        rows.append(Row("script and style, gzip", "kB", GOAL_SIZE, value=size, note=note))
+        rows.append(ReportRow("script and style, gzip", "kB", GOAL_SIZE, value=size, note=note))
     for what, goal in (("nobody watches", ""), ("one page", ""), (WATCHED, GOAL_CPU)):
         shares = [run["cpu"][what] for run in runs]
         if shares:
@@ -158,16 +158,16 @@ def browser(folder: Path) -> Iterator[Browser]:
             made.close()
 
 
-def _run(lab: Lab) -> dict[str, Any]:
+def _run(lab: BenchLab) -> dict[str, Any]:
     with ExitStack() as stack:
         home = stack.enter_context(lab.folder())
-        robot = stack.enter_context(Robot(home, "home"))
+        robot = stack.enter_context(BenchRobot(home, "home"))
         robot.make_ready()
         robot.forget()
         lab.say("planner alone")
         cpu = {"nobody watches": _cpu_share(robot)}
         chromium = stack.enter_context(browser(home))
-        sizes = _served(robot)
+        sizes = _served_sizes(robot)
         view_ms = [_first_view(lab, chromium, robot, number) for number in range(VIEWS)]
         page = _open(chromium, robot)
         lab.say("one page")
@@ -195,17 +195,17 @@ def _offset_s() -> float:
     return time.time() - time.monotonic()
 
 
-def _address(robot: Robot) -> str:
+def _address(robot: BenchRobot) -> str:
     return f"http://{robot.settings.host}:{robot.settings.port}/"
 
 
-def _served(robot: Robot) -> list[int]:
+def _served_sizes(robot: BenchRobot) -> list[int]:
     """Return the bytes of each script and style as they cross the wire."""
     index = gzip.decompress(_body(robot, "/"))
     return [len(_body(robot, path.decode())) for path in sorted(set(_ASSET.findall(index)))]
 
 
-def _body(robot: Robot, path: str) -> bytes:
+def _body(robot: BenchRobot, path: str) -> bytes:
     connection = HTTPConnection(robot.settings.host, robot.settings.port, timeout=5.0)
     try:
         connection.request("GET", path, headers={"Accept-Encoding": "gzip"})
@@ -214,7 +214,7 @@ def _body(robot: Robot, path: str) -> bytes:
         connection.close()
 
 
-def _first_view(lab: Lab, chromium: Browser, robot: Robot, number: int) -> float:
+def _first_view(lab: BenchLab, chromium: Browser, robot: BenchRobot, number: int) -> float:
     """Open the page with nothing cached; return when a person can use it [ms]."""
     lab.say(f"first view {number + 1}/{VIEWS}")
     context = chromium.new_context(viewport={"width": LAPTOP[0], "height": LAPTOP[1]})
@@ -227,14 +227,14 @@ def _first_view(lab: Lab, chromium: Browser, robot: Robot, number: int) -> float
         context.close()
 
 
-def _open(chromium: Browser, robot: Robot) -> Page:
+def _open(chromium: Browser, robot: BenchRobot) -> Page:
     page = chromium.new_page(viewport={"width": LAPTOP[0], "height": LAPTOP[1]})
     page.goto(_address(robot))
     page.wait_for_selector("#link[data-state=good]")
     return page
 
 
-def _cpu_share(robot: Robot, page: Page | None = None) -> float:
+def _cpu_share(robot: BenchRobot, page: Page | None = None) -> float:
     """Return the planner's CPU over a while [% of a core]; a page is kept going meanwhile."""
     _wait(SETTLE_S, page)
     pid, began_s = robot.pid("planner"), time.monotonic()
@@ -254,7 +254,7 @@ def _hears(statuses: Subscriber[Status]) -> bool:
     return statuses.newest() is not None
 
 
-def _changes(lab: Lab, robot: Robot, page: Page) -> list[float]:
+def _changes(lab: BenchLab, robot: BenchRobot, page: Page) -> list[float]:
     """Disarm and arm over and over; return how long each change of mode took to be drawn [ms]."""
     page.evaluate(_WATCH)
     offset_s = _offset_s()

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 from pons.http import call
 from tools.bench.context import until
 from tools.bench.figures import none_in
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot
 from wire import Mode
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
     from wire import Status
 
 NAME = "planner_silent"
@@ -32,7 +32,7 @@ FREEZE_S = 0.7
 SPEEDS_MPS = (0.5, 0.2)
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take a few of each, slow and fast; every slice is one robot, one kill and one freeze."""
     runs = list(lab.slices("planner", lab.count(1, 20), lambda i: _run(lab, i)))
     ticks = [float(round(age / TICK_S)) for run in runs for age in run["ages_s"]]
@@ -45,15 +45,15 @@ def measure(lab: Lab) -> list[Row]:
         note += f"; most {max(at, default=0)} at {fastest} m/s (n {len(at)})"
     return [
         row_of("real planner -> HOLD2", "ticks", GOAL, ticks, note, valid=speed >= SLOW),
-        Row("restarts unasked after a kill", "", "0",
+        ReportRow("restarts unasked after a kill", "", "0",
             value=f"{unasked} of {len(runs)}" if unasked else none_in(len(runs))),
     ]  # fmt: skip
 
 
-def _run(lab: Lab, index: int) -> dict[str, Any]:
+def _run(lab: BenchLab, index: int) -> dict[str, Any]:
     fastest_mps = SPEEDS_MPS[index % len(SPEEDS_MPS)]
     limits = {"max_speed_mps": fastest_mps}
-    with lab.folder() as home, Robot(home, "two_room", tapped=True, limits=limits) as robot:
+    with lab.folder() as home, BenchRobot(home, "two_room", tapped=True, limits=limits) as robot:
         robot.make_ready()
         robot.forget()
         goal_id = robot.say(ORDERS[0])
@@ -70,14 +70,14 @@ def _run(lab: Lab, index: int) -> dict[str, Any]:
         return {"ages_s": held, "unasked": unasked, "speed": speed, "fastest_mps": fastest_mps}
 
 
-def _freeze(robot: Robot) -> None:
+def _freeze(robot: BenchRobot) -> None:
     planner = robot.children["planner"]
     planner.signal(signal.SIGSTOP)
     time.sleep(FREEZE_S)
     planner.signal(signal.SIGCONT)
 
 
-def _kill(robot: Robot) -> int:
+def _kill(robot: BenchRobot) -> int:
     """Kill it, start another, and return whether anything moved before a person resumed."""
     planner = robot.children["planner"]
     planner.signal(signal.SIGKILL)

@@ -17,13 +17,13 @@ from bridge.core import step
 from bridge.recording.recorder import Recorder
 from bridge.recording.writer_process import Sizes
 from bridge.replay import replay
-from tools.bench.report import Row
+from tools.bench.report import ReportRow
 from tools.lockstep import Together
 from wire import Mode
 
 if TYPE_CHECKING:
     from bridge.core import BridgeState, CoreConfig, Decision, Inbox
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "replay_hour"
 TITLE = "black box: an hour recorded, read and replayed"
@@ -40,7 +40,7 @@ BACKLOG_BYTES = 200_000
 """Lockstep runs many times faster than a robot: it waits for the disk as no robot may."""
 
 
-class Recorded:
+class RecordedStep:
     """Be the core's step and hand each tick to a recorder."""
 
     def __init__(self, folder: Path) -> None:
@@ -61,7 +61,7 @@ class Recorded:
         return decision
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Record and replay slice after slice."""
     runs = list(lab.slices("drive", SLICES, lambda index: _drive(lab, index)))
     total = {name: sum(run[name] for run in runs) for name in runs[0]} if runs else {}
@@ -75,17 +75,17 @@ def measure(lab: Lab) -> list[Row]:
     size = f"{total['bytes'] / hours / 1e6:.0f}" if hours else "none"
     cpu = f"{100 * total['writer_s'] / (ticks / 100):.2f}" if hours else "none"
     return [
-        Row("differing ticks", "", "0", value=str(total.get("differing", "none")), note=note,
+        ReportRow("differing ticks", "", "0", value=str(total.get("differing", "none")), note=note,
             valid=whole),
-        Row("recording", "MB/h", "", value=size),
-        Row("writing process, at 100 ticks/s", "% CPU", "", value=cpu),
+        ReportRow("recording", "MB/h", "", value=size),
+        ReportRow("writing process, at 100 ticks/s", "% CPU", "", value=cpu),
     ]  # fmt: skip
 
 
-def _drive(lab: Lab, index: int) -> dict[str, float]:
+def _drive(lab: BenchLab, index: int) -> dict[str, float]:
     """Record one slice and replay its files as one run."""
     with lab.folder() as folder:
-        taken = Recorded(folder)
+        taken = RecordedStep(folder)
         world = Together(site="home", seed=100 + index, step=taken)
         tours = cycle(TOURS[index % len(TOURS) :] + TOURS[: index % len(TOURS)])
         goal: Any = None

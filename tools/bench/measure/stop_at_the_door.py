@@ -22,17 +22,17 @@ from pons.settings import CHECKOUT
 from tools.bench.chaos.faults import full_disk
 from tools.bench.chaos.house import mount, private_mounts, read_only, unmount
 from tools.bench.confirmation import CLI, WAYS
-from tools.bench.crowd import KINDS, Crowd
+from tools.bench.crowd import KINDS, CrowdProcess
 from tools.bench.figures import none_in, percentile
 from tools.bench.processes import rss_mb
-from tools.bench.report import Row, row_of
-from tools.bench.robot import Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import BenchRobot
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from tools.bench.confirmation import Stop
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "stop_at_the_door"
 TITLE = "stop by HTTP, CLI and page with something in the way -> confirmed"
@@ -51,14 +51,14 @@ LOADED = "import pons.__main__, pons.stop, pons.settings"
 """What ``pons stop`` has done before it can speak."""
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take 25 stops by each way under each condition, in a long run 100; a robot for each."""
     unmounted = private_mounts()
     rows = []
     for name in CONDITIONS:
         if name in NEED_MOUNTS and unmounted:
             lab.say(f"{name}: skipped, {unmounted}")
-            rows.append(Row(name, "", GOAL, value="skipped", note=unmounted))
+            rows.append(ReportRow(name, "", GOAL, value="skipped", note=unmounted))
             continue
         found = list(lab.slices(name, 1, lambda _, name=name: _run(lab, name)))  # type: ignore[misc]  # the default binds the loop's name
         rows += [row for run in found for row in _rows(name, run)]
@@ -70,7 +70,7 @@ def ways_of(name: str) -> tuple[str, ...]:
     return (CLI,) if name == HUNG else tuple(WAYS)
 
 
-def _rows(name: str, run: dict[str, Any]) -> list[Row]:
+def _rows(name: str, run: dict[str, Any]) -> list[ReportRow]:
     rows = []
     for way in ways_of(name):
         took_ms, lost = run[way]["took_ms"], run[way]["lost"]
@@ -84,14 +84,14 @@ def _rows(name: str, run: dict[str, Any]) -> list[Row]:
     return rows
 
 
-def _run(lab: Lab, name: str) -> dict[str, Any]:
+def _run(lab: BenchLab, name: str) -> dict[str, Any]:
     count = lab.count(QUICK, LONG)
     with ExitStack() as stack:
         home = stack.enter_context(lab.folder())
         if name in NEED_MOUNTS:
             mount("tmpfs", home, "tmpfs", 0, f"size={DISK_MB}m,mode=755")
             stack.callback(unmount, home)
-        robot = stack.enter_context(Robot(home, "two_room"))
+        robot = stack.enter_context(BenchRobot(home, "two_room"))
         robot.make_ready()
         stops = {way: stack.enter_context(WAYS[way](robot.settings)) for way in ways_of(name)}
         beside: dict[str, Any] = {}
@@ -109,11 +109,11 @@ def _run(lab: Lab, name: str) -> dict[str, Any]:
 
 
 @contextmanager
-def _in_the_way(robot: Robot, name: str, beside: dict[str, Any]) -> Iterator[None]:
+def _in_the_way(robot: BenchRobot, name: str, beside: dict[str, Any]) -> Iterator[None]:
     """Put a condition in force; tell what it was like."""
     home = robot.settings.home
     if name in KINDS:
-        with Crowd(robot.settings.port, name) as crowd:
+        with CrowdProcess(robot.settings.port, name) as crowd:
             yield
             beside.update(crowd.end())
     elif name == FULL:

@@ -17,19 +17,19 @@ from contextlib import contextmanager
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from pons.http import PlannerDown, Refused, call
-from tools.bench.context import Missed, until
+from pons.http import PlannerDown, PlannerProblem, call
+from tools.bench.context import MeasurementFailure, until
 from tools.bench.figures import none_in
-from tools.bench.lateness import stressed
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot
+from tools.bench.lateness import stress_cores
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot
 from tools.bench.stop_requests import WAYS, Note, notes_of, noting
 from wire import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "stop_under_load"
 TITLE = "stop under full CPU load -> first slower command"
@@ -44,7 +44,7 @@ WITHIN_S = 3.0
 SLOWER_MPS = 1e-4
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take 60 of each in a long run."""
     rows = []
     for way in WAYS:
@@ -64,19 +64,19 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _run(lab: Lab, way: str, index: int) -> dict[str, Any]:
+def _run(lab: BenchLab, way: str, index: int) -> dict[str, Any]:
     chance, way_of = Random(index), WAYS[way]
     sent: list[float] = []
     with lab.folder() as home, noting(home) as robot:
         robot.make_ready()
         robot.forget()
         for number in range(PER_SLICE):
-            with loaded():  # it ends by itself after 120 s, so not for the whole run
+            with load_cores():  # it ends by itself after 120 s, so not for the whole run
                 lab.say(f"{way} {number + 1}/{PER_SLICE}")
                 with way_of(robot) as stop:
                     _drive(robot, chance)
                     sent.append(stop())
-                until(lambda: _held(robot), WITHIN_S, "held")
+                until(lambda: _is_held(robot), WITHIN_S, "held")
         load = os.getloadavg()[0]
         speed = robot.speed
         notes = notes_of(robot)
@@ -107,10 +107,10 @@ def slower(notes: list[Note], sent_s: float) -> float | str:
 
 
 @contextmanager
-def loaded() -> Iterator[None]:
+def load_cores() -> Iterator[None]:
     """Keep every core busy: with stress-ng, else with a busy process for each."""
     if shutil.which("stress-ng") is not None:
-        with stressed(True):
+        with stress_cores(True):
             yield
         return
     busy = [
@@ -125,15 +125,15 @@ def loaded() -> Iterator[None]:
             process.wait()
 
 
-def _drive(robot: Robot, chance: Random) -> None:
+def _drive(robot: BenchRobot, chance: Random) -> None:
     """Give a goal, or resume the one that was stopped, until the robot drives at some moment."""
     end_s = time.monotonic() + DRIVE_S
     while not _moves(robot):
         if time.monotonic() > end_s:
-            raise Missed(f"driving: not within {DRIVE_S:.0f} s; {robot.describe()}")
+            raise MeasurementFailure(f"driving: not within {DRIVE_S:.0f} s; {robot.describe()}")
         try:
             _ask(robot)
-        except (PlannerDown, Refused):
+        except (PlannerDown, PlannerProblem):
             time.sleep(0.1)
         until_s = time.monotonic() + 1.0
         while time.monotonic() < until_s and not _moves(robot):
@@ -141,7 +141,7 @@ def _drive(robot: Robot, chance: Random) -> None:
         time.sleep(chance.uniform(0.0, 0.3))
 
 
-def _ask(robot: Robot) -> None:
+def _ask(robot: BenchRobot) -> None:
     status = robot.status
     if status is not None and status.mode in (Mode.ESTOPPED, Mode.FAULT):
         robot.operate("reset")
@@ -155,12 +155,12 @@ def _ask(robot: Robot) -> None:
         call(robot.settings, "POST", f"/v1/goals/{waiting[0]['id']}/resume", {})
 
 
-def _moves(robot: Robot) -> bool:
+def _moves(robot: BenchRobot) -> bool:
     status = robot.status
     active = status is not None and status.mode is Mode.ACTIVE
     return active and status is not None and abs(status.measured.v_mps) > MOVING_MPS
 
 
-def _held(robot: Robot) -> bool:
+def _is_held(robot: BenchRobot) -> bool:
     status = robot.status
     return status is not None and status.held is not None

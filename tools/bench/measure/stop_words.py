@@ -11,8 +11,8 @@ import time
 from planner.language.stop import StopReading, read_stop
 from pons.evals.cases import Case, MissingSuite
 from pons.evals.suites import load
-from tools.bench.context import Lab
-from tools.bench.report import Row, row_of
+from tools.bench.context import BenchLab
+from tools.bench.report import ReportRow, row_of
 
 NAME = "stop_words"
 TITLE = "stop lane: us a sentence, orders taken for a stop"
@@ -24,7 +24,7 @@ STOPPING = frozenset({"no", "negation", "stop"})
 """Groups of cases that hold denials and stops: they may stop the robot."""
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Read every sentence of the suites; the best of a few readings counts, for others run too."""
     cases: list[Case] = []
     for name in SUITES:
@@ -46,7 +46,9 @@ def measure(lab: Lab) -> list[Row]:
     bound = f"; 3/n {300.0 / len(orders):.2f} %" if not false else f": {false[:3]}"
     return [
         row_of("stop lane: a sentence", "us", GOAL_US, times_us, f"best of {rounds} readings"),
-        Row("orders taken for a stop", "%", GOAL_FALSE, value=share, note=f"{len(orders)}{bound}"),
+        ReportRow(
+            "orders taken for a stop", "%", GOAL_FALSE, value=share, note=f"{len(orders)}{bound}"
+        ),
     ]
 
 

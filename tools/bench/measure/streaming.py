@@ -17,14 +17,14 @@ from typing import TYPE_CHECKING, Any
 import httpx
 from websockets.sync.client import ClientConnection, connect
 
-from tools.bench.context import Missed, until
+from tools.bench.context import MeasurementFailure, until
 from tools.bench.endpoint import mock_model
-from tools.bench.report import Row, row_of
-from tools.bench.robot import SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import SLOW, BenchRobot
 from wire import Mode
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
     from wire import Status
 
 NAME = "streaming"
@@ -41,7 +41,7 @@ GOALS = 20
 SETTLE_S = 10.0
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Give 40 goals, in a long run 100; each is cancelled as soon as the robot follows it."""
     runs = list(lab.slices("robot", lab.count(2, 5), lambda index: _slice(lab, index)))
     first = [value for run in runs for value in run["first_ms"]]
@@ -59,12 +59,12 @@ def measure(lab: Lab) -> list[Row]:
     ]  # fmt: skip
 
 
-def _slice(lab: Lab, index: int) -> dict[str, Any]:
+def _slice(lab: BenchLab, index: int) -> dict[str, Any]:
     with ExitStack() as stack:
         home = stack.enter_context(lab.folder())
         url = stack.enter_context(mock_model(home))
         (home / "settings.toml").write_text(f'[model]\nurl = "{url}"\nname = "mock"\n')
-        robot = stack.enter_context(Robot(home, "two_room", tapped=True))
+        robot = stack.enter_context(BenchRobot(home, "two_room", tapped=True))
         robot.make_ready()
         httpx.post(f"{url}/chat/completions", json={"messages": []}, trust_env=False)  # it loads
         _mock(url, "POST", tokens_per_s=TOKENS_PER_S)
@@ -86,7 +86,9 @@ def _slice(lab: Lab, index: int) -> dict[str, Any]:
         wrote_s: list[float] = _mock(url, "GET")["wrote_s"]
         at_bridge_s: dict[str, float] = robot.end_bridge()["first_waypoint_s"]
         if len(wrote_s) != len(goals):
-            raise Missed(f"{len(goals)} goals, but {len(wrote_s)} streams were written to the end")
+            raise MeasurementFailure(
+                f"{len(goals)} goals, but {len(wrote_s)} streams were written to the end"
+            )
         return {
             "first_ms": first_ms,
             "routed_ms": [(b - a) * 1e3 for a, b in zip(wrote_s, path_s, strict=True)],
@@ -112,7 +114,7 @@ def _shown_s(page: ClientConnection, kind: str, goal: str) -> float:
         about = frame.get("change" if kind == "thinking" else "path")
         if frame["kind"] == kind and about is not None and about["goal"] == goal:
             return time.monotonic()
-    raise Missed(f"nothing of kind {kind} was shown of goal {goal}")
+    raise MeasurementFailure(f"nothing of kind {kind} was shown of goal {goal}")
 
 
 def _follows(status: Status | None, goal: str) -> bool:

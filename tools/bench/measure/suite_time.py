@@ -7,18 +7,18 @@ import subprocess
 import time
 from typing import TYPE_CHECKING, Any
 
-from tools.bench.machine import ROOT
-from tools.bench.report import Row, row_of
+from pons.machine import ROOT
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "suite_time"
 TITLE = "make test"
 LONG_ONLY = True
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Run it once or as often as a long run is repeated; a failed run is invalid."""
     runs = list(lab.slices("run", 1, lambda index: _run()))
     passed = all(run["exit"] == 0 for run in runs)

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 from tools.bench.figures import percentile
 from tools.bench.lateness import bridge_late_us, cyclictest_late_us
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "tick_lateness"
 TITLE = "lateness of a 100 Hz tick, idle"
@@ -24,14 +24,16 @@ SLICE_S = 2.0
 PERIOD_US = 10_000
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take pairs of slices; compare their medians."""
     pairs = list(lab.slices("pair", lab.count(PAIRS, 3 * PAIRS), lambda i: _pair(lab)))
     rows = []
     for name in ("bridge", "cyclictest"):
         slices = [pair[name] for pair in pairs if pair[name]]
         if not slices:
-            rows.append(Row(f"{name}", "us", "", value="absent", note="rt-tests not installed"))
+            rows.append(
+                ReportRow(f"{name}", "us", "", value="absent", note="rt-tests not installed")
+            )
             continue
         note = f"each of {len(slices)} slices of {SLICE_S:.0f} s"
         for label, share in (("median", 0.5), ("p99", 0.99)):
@@ -44,6 +46,6 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _pair(lab: Lab) -> dict[str, Any]:
+def _pair(lab: BenchLab) -> dict[str, Any]:
     bridge = bridge_late_us(lab, SLICE_S, stress=False)
     return {"bridge": bridge, "cyclictest": cyclictest_late_us(SLICE_S, PERIOD_US)}

@@ -14,16 +14,16 @@ from tools.bench.figures import percentile, poisson_upper_95
 from tools.bench.lateness import (
     bridge_late_us,
     compiled_loop,
+    count_missed,
     cpp_late_us,
     cyclictest_late_us,
-    missed,
     pacer_late_us,
-    stressed,
+    stress_cores,
 )
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "tick_stress"
 TITLE = "lateness of wake-ups beside cyclictest and C++, idle and under stress-ng"
@@ -36,18 +36,21 @@ ASLEEP = "cyclictest (--laptop)"
 Slice = dict[str, list[float]]
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Take slices idle, and loaded where stress-ng is installed."""
     rows = _rows("idle", list(lab.slices("idle", SLICES, lambda i: _slice(lab, stress=False))))
     if shutil.which("stress-ng") is None:
-        return [*rows, Row("stress", "us", "", value="absent", note="stress-ng not installed")]
+        return [
+            *rows,
+            ReportRow("stress", "us", "", value="absent", note="stress-ng not installed"),
+        ]
     loaded = list(lab.slices("stress", SLICES, lambda i: _slice(lab, stress=True)))
     return [*rows, *_rows("stress", loaded)]
 
 
-def _slice(lab: Lab, *, stress: bool) -> dict[str, Any]:
+def _slice(lab: BenchLab, *, stress: bool) -> dict[str, Any]:
     taken: Slice = {"bridge": bridge_late_us(lab, SLICE_S, stress=stress)}
-    with lab.folder() as folder, stressed(stress):
+    with lab.folder() as folder, stress_cores(stress):
         loop = compiled_loop(folder)
         taken["cyclictest"] = cyclictest_late_us(SLICE_S, PERIOD_US)
         taken[ASLEEP] = cyclictest_late_us(SLICE_S, PERIOD_US, awake=False)
@@ -58,8 +61,8 @@ def _slice(lab: Lab, *, stress: bool) -> dict[str, Any]:
     return taken
 
 
-def _rows(load: str, slices: list[Slice]) -> list[Row]:
-    rows: list[Row] = []
+def _rows(load: str, slices: list[Slice]) -> list[ReportRow]:
+    rows: list[ReportRow] = []
     for name in (
         "bridge",
         "cyclictest",
@@ -76,21 +79,25 @@ def _rows(load: str, slices: list[Slice]) -> list[Row]:
     return [*rows, *(row for other in others for row in _against(other, load, slices))]
 
 
-def _against(other: str, load: str, slices: list[Slice]) -> list[Row]:
+def _against(other: str, load: str, slices: list[Slice]) -> list[ReportRow]:
     """Compare the bridge with one of the others, slice by slice."""
     both = [(one["bridge"], one[other]) for one in slices if one[other]]
     if not both:
-        return [Row(f"{load}: bridge above {other}", "us", "", value="absent", note="not here")]
+        return [
+            ReportRow(f"{load}: bridge above {other}", "us", "", value="absent", note="not here")
+        ]
     rows = []
     for label, share, goal in (("p50", 0.5, "<= 60"), ("p99", 0.99, "<= 250")):
         added = [percentile(ours, share) - percentile(its, share) for ours, its in both]
         rows.append(row_of(f"{load}: bridge above {other}: {label}", "us", goal, added))
     ratio = median(percentile(ours, 0.99) / max(1.0, percentile(its, 0.99)) for ours, its in both)
     what = f"{load}: p99 of the bridge over {other}'s, median"
-    rows.append(Row(what, "x", "<= 2.5", value=f"{ratio:.2f}"))
-    ours = sum(missed(one, PERIOD_US) for one, _ in both)
-    its = sum(missed(one, PERIOD_US) for _, one in both)
+    rows.append(ReportRow(what, "x", "<= 2.5", value=f"{ratio:.2f}"))
+    ours = sum(count_missed(one, PERIOD_US) for one, _ in both)
+    its = sum(count_missed(one, PERIOD_US) for _, one in both)
     goal = f"<= {max(1.5 * its, poisson_upper_95(its)):.1f}"
     note = f"{other} missed {its}; each of {sum(len(one) for one, _ in both)} ticks"
-    rows.append(Row(f"{load}: ticks missed, beside {other}", "", goal, value=str(ours), note=note))
+    rows.append(
+        ReportRow(f"{load}: ticks missed, beside {other}", "", goal, value=str(ours), note=note)
+    )
     return rows

@@ -18,12 +18,12 @@ from contextlib import ExitStack, contextmanager, suppress
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from pons.http import Refused, call
+from pons.http import PlannerProblem, call
 from tools.bench.figures import NONE_SEEN_95, poisson_upper_95
-from tools.bench.lateness import cyclictest, missed
+from tools.bench.lateness import count_missed, cyclictest
 from tools.bench.measure import page
-from tools.bench.report import Row, row_of
-from tools.bench.robot import CAMERA, EVERYTHING, SLOW, Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import CAMERA, EVERYTHING, SLOW, BenchRobot
 from tools.bench.stalls import PERIOD_S, Stalls
 from wire import Event, Mode, Status, decode, load_robot
 from wire.keys import EVENT, STATUS, Party
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Page
 
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "unexplained_stops"
 TITLE = "stops that nobody asked for and missed ticks, page and picture open"
@@ -64,7 +64,7 @@ SILENT_S = 0.2
 """Statuses further apart than this say nothing of the time between them."""
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive slice after slice until three hours have been driven."""
     runs = list(lab.slices("drive", SLICES, lambda _: _drive(lab)))
     hours = sum(run["driven_s"] for run in runs) / 3600
@@ -93,36 +93,43 @@ def measure(lab: Lab) -> list[Row]:
     )
     before = [f"{stop['why']} {stop['stall_s'] * 1e3:.0f} ms" for r in runs for stop in r["stops"]]
     return [
-        Row("unexplained stops", "1/h", "<= 1", value=rate, note=note, valid=valid),
-        Row("stops after a host's stall over 100 ms", "", "", value=str(sum(stalled.values())),
-            note=f"{dict(stalled)}"),
-        Row("wake-ups late in the second before", "", "", value=", ".join(before[:8]) or "none"),
-        Row("all stops from ACTIVE", "", "", value=str(sum(stops.values())), note=told),
+        ReportRow("unexplained stops", "1/h", "<= 1", value=rate, note=note, valid=valid),
+        ReportRow(
+            "stops after a host's stall over 100 ms",
+            "",
+            "",
+            value=str(sum(stalled.values())),
+            note=f"{dict(stalled)}",
+        ),
+        ReportRow(
+            "wake-ups late in the second before", "", "", value=", ".join(before[:8]) or "none"
+        ),
+        ReportRow("all stops from ACTIVE", "", "", value=str(sum(stops.values())), note=told),
         _ticks(runs),
         row_of("looks of the detector", "1/s", "", [run["looks_per_s"] for run in runs]),
-    ]  # fmt: skip
+    ]
 
 
-def _ticks(runs: list[dict[str, Any]]) -> Row:
+def _ticks(runs: list[dict[str, Any]]) -> ReportRow:
     """Compare the bridge's missed ticks with cyclictest's in the same minutes."""
     runs = [run for run in runs if run["cyclictest"]["ticks"]]
     if not runs:
-        return Row("ticks missed", "", "", value="not compared", note="no cyclictest here")
+        return ReportRow("ticks missed", "", "", value="not compared", note="no cyclictest here")
     ours, its = (
         [sum(run[who][what] for run in runs) for what in ("missed", "ticks")]
         for who in ("bridge", "cyclictest")
     )
     goal = f"<= {max(1.5 * its[0], poisson_upper_95(its[0])):.1f}"
     note = f"of {ours[1]}; cyclictest {its[0]} of {its[1]}, in the same minutes"
-    return Row("ticks missed", "", goal, value=str(ours[0]), note=note)
+    return ReportRow("ticks missed", "", goal, value=str(ours[0]), note=note)
 
 
-def _drive(lab: Lab) -> dict[str, Any]:
+def _drive(lab: BenchLab) -> dict[str, Any]:
     """Drive one slice; every stop from ACTIVE is kept with its reason and its time."""
     with ExitStack() as stack:
         home = stack.enter_context(lab.folder())
         stack.enter_context(_full_rate())
-        robot = stack.enter_context(Robot(home, "home", only=(*EVERYTHING, CAMERA)))
+        robot = stack.enter_context(BenchRobot(home, "home", only=(*EVERYTHING, CAMERA)))
         robot.make_ready()
         robot.forget()
         opened = not page.missing()
@@ -130,14 +137,14 @@ def _drive(lab: Lab) -> dict[str, Any]:
             _open(stack.enter_context(page.browser(home)).new_page(), robot)
         ears = open_session(Party.JUDGE, load_robot(robot.settings.robot).id, home)
         stack.callback(ears.close)
-        watch = Watch(ears.subscriber(STATUS), ears.subscriber(EVENT))
+        watch = StopWatcher(ears.subscriber(STATUS), ears.subscriber(EVENT))
         stalls = Stalls()
         with stalls, cyclictest(SLICE_S, PERIOD_US) as ended:
-            looks, began_s, ticks = _looks(robot), time.monotonic(), _counted(robot)
+            looks, began_s, ticks = _looks(robot), time.monotonic(), _tick_counts(robot)
             goals = _tour(lab, robot, watch)
             late_us = ended()
             looks_per_s = (_looks(robot) - looks) / (time.monotonic() - began_s)
-            turned = [now - then for now, then in zip(_counted(robot), ticks, strict=True)]
+            turned = [now - then for now, then in zip(_tick_counts(robot), ticks, strict=True)]
         for stop in watch.stops:
             stop["stall_s"] = stalls.longest_before_s(stop["at_s"], WITHIN_S)
         return {
@@ -149,7 +156,7 @@ def _drive(lab: Lab) -> dict[str, Any]:
             "page": opened,
             "looks_per_s": looks_per_s,
             "bridge": {"ticks": turned[0], "missed": turned[1]},
-            "cyclictest": {"ticks": len(late_us), "missed": missed(late_us, PERIOD_US)},
+            "cyclictest": {"ticks": len(late_us), "missed": count_missed(late_us, PERIOD_US)},
         }
 
 
@@ -163,7 +170,7 @@ def _full_rate() -> Iterator[None]:
         del os.environ["PONS_VISION_RATE_HZ"]
 
 
-def _open(shown: Page, robot: Robot) -> None:
+def _open(shown: Page, robot: BenchRobot) -> None:
     """Open page and picture as a person does."""
     shown.goto(f"http://{robot.settings.host}:{robot.settings.port}/")
     shown.wait_for_selector("#link[data-state=good]")
@@ -171,7 +178,7 @@ def _open(shown: Page, robot: Robot) -> None:
     shown.wait_for_selector("#camera canvas")
 
 
-def _looks(robot: Robot) -> float:
+def _looks(robot: BenchRobot) -> float:
     """Return how many looks the planner's eyes have made."""
     url = f"http://{robot.settings.host}:{robot.settings.port}/metrics"
     with urllib.request.urlopen(url, timeout=5.0) as reply:
@@ -179,13 +186,13 @@ def _looks(robot: Robot) -> float:
     return float(found[1]) if found else 0.0
 
 
-def _counted(robot: Robot) -> tuple[int, int]:
+def _tick_counts(robot: BenchRobot) -> tuple[int, int]:
     """Return the bridge's ticks since its start, and how many of them it missed."""
     status = robot.status
     return (status.ticks.ticks, status.ticks.missed) if status else (0, 0)
 
 
-class Watch:
+class StopWatcher:
     """Hear statuses and events of one robot as a judge."""
 
     def __init__(self, statuses: Subscriber[Status], events: Subscriber[Event]) -> None:
@@ -214,7 +221,7 @@ class Watch:
             self.stops.append({"at_s": event.at_s, "why": why[0] if why else ""})
 
 
-def _tour(lab: Lab, robot: Robot, watch: Watch) -> dict[str, int]:
+def _tour(lab: BenchLab, robot: BenchRobot, watch: StopWatcher) -> dict[str, int]:
     """Give tour after tour; return how their goals ended."""
     ends: Counter[str] = Counter()
     end_s = time.monotonic() + SLICE_S
@@ -230,18 +237,18 @@ def _tour(lab: Lab, robot: Robot, watch: Watch) -> dict[str, int]:
     return dict(ends)
 
 
-def _look_for_a_second(watch: Watch) -> None:
+def _look_for_a_second(watch: StopWatcher) -> None:
     end_s = time.monotonic() + 1.0
     while time.monotonic() < end_s:
         watch.look()
         time.sleep(LOOK_S)
 
 
-def _go_on(robot: Robot, goal_id: str) -> None:
+def _go_on(robot: BenchRobot, goal_id: str) -> None:
     """Be the person who lets it go on after a stop."""
     status = robot.status
     if status is not None and status.mode is Mode.DISARMED:
         robot.operate("arm")
     if status is not None and status.held is not None:
-        with suppress(Refused):  # the goal may have ended meanwhile
+        with suppress(PlannerProblem):  # the goal may have ended meanwhile
             call(robot.settings, "POST", f"/v1/goals/{goal_id}/resume", {})

@@ -26,11 +26,11 @@ from planner.settings import VisionSettings
 from pons.settings import CHECKOUT
 from tools.bench.bare_net import BareNet
 from tools.bench.processes import rss_mb
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from wire import Image, ImageHeader
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "vision_overhead"
 TITLE = "looks beside the bare model, and the vision process's memory"
@@ -58,7 +58,7 @@ class Subject:
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class CameraPicture:
     """Hold one picture as the camera sends it."""
 
     color: bytes
@@ -67,21 +67,21 @@ class Shown:
     """16-bit PNG [mm]."""
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Measure each model that is there."""
-    rows: list[Row] = []
+    rows: list[ReportRow] = []
     for subject in _subjects():
         if subject.model.is_file():
-            rows += _measured(lab, subject)
+            rows += _measure_subject(lab, subject)
         else:
             note = f"no {subject.model.name} here"
-            rows.append(Row(subject.name, "", GOAL, value="not measured", note=note))
+            rows.append(ReportRow(subject.name, "", GOAL, value="not measured", note=note))
     return rows
 
 
-def _measured(lab: Lab, subject: Subject) -> list[Row]:
+def _measure_subject(lab: BenchLab, subject: Subject) -> list[ReportRow]:
     rounds = lab.count(12, 40)
-    rows: list[Row] = []
+    rows: list[ReportRow] = []
     for data in lab.slices(f"rounds.{subject.name}", 1, lambda _: _rounds(subject, rounds)):
         rows += _time_rows(subject, data)
     for data in lab.slices(f"worker.{subject.name}", 1, lambda _: _worker(subject)):
@@ -97,7 +97,7 @@ def _subjects() -> tuple[Subject, ...]:
     )
 
 
-def _time_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
+def _time_rows(subject: Subject, data: dict[str, Any]) -> list[ReportRow]:
     raw = data["raw"]
     base = f"{FRAMES} frames of {SIZE[0]}x{SIZE[1]}, {THREADS} thread, per frame, by rounds"
     rows = [row_of(f"{subject.name}: raw session.run", "ms", "", raw, base)]
@@ -125,12 +125,14 @@ def _time_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
         )
     else:
         rows.append(
-            Row(f"{subject.name}: OpenCV's dnn", "ms", "", value="none", note=data["refused"])
+            ReportRow(f"{subject.name}: OpenCV's dnn", "ms", "", value="none", note=data["refused"])
         )
     return rows
 
 
-def _bare_rows(subject: Subject, data: dict[str, Any], told: str, *, valid: bool) -> list[Row]:
+def _bare_rows(
+    subject: Subject, data: dict[str, Any], told: str, *, valid: bool
+) -> list[ReportRow]:
     bare = data["bare"]
     net = "the file from its first convolution to its last ones: no bytes, no boxes"
     over = [100 * (one / alone - 1) for one, alone in zip(data["look"], bare, strict=True)]
@@ -141,7 +143,7 @@ def _bare_rows(subject: Subject, data: dict[str, Any], told: str, *, valid: bool
     ]
 
 
-def _worker_rows(subject: Subject, data: dict[str, Any]) -> list[Row]:
+def _worker_rows(subject: Subject, data: dict[str, Any]) -> list[ReportRow]:
     pipe = f"{LOOKS} looks; what asking adds to what the process itself takes"
     return [
         row_of(f"{subject.name}: asking the process", "ms", "", data["pipe_ms"], pipe),
@@ -171,7 +173,7 @@ def _rounds(subject: Subject, count: int) -> dict[str, Any]:
         network.setInput(inputs[number])
         network.forward(network.getUnconnectedOutLayersNames())
 
-    def whole(one: Shown) -> None:
+    def whole(one: CameraPicture) -> None:
         detector.look(one.color, one.depth, SIZE, FOCAL_PX)
 
     ways: dict[str, tuple[Callable[[int], Any], Callable[[int], Any]]] = {
@@ -227,13 +229,13 @@ def _opencv(model: Path) -> tuple[Any, str]:
         return None, f"it can't read the model: {' '.join(str(error).split())[-80:]}"
 
 
-def frames(subject: Subject) -> Sequence[Shown]:
+def frames(subject: Subject) -> Sequence[CameraPicture]:
     """Return pictures that hold what the model knows: photographs for a stranger's, else drawn."""
     photographs = [] if subject.labels is None else sorted((OUTSIDE / "images").glob("*.jpg"))
-    return _photographed(photographs[:FRAMES]) if len(photographs) >= FRAMES else drawn_frames()
+    return _photographs(photographs[:FRAMES]) if len(photographs) >= FRAMES else drawn_frames()
 
 
-def _photographed(paths: Sequence[Path]) -> list[Shown]:
+def _photographs(paths: Sequence[Path]) -> list[CameraPicture]:
     """Return photographs with the depth of a floor that rises to 5 m, as noisy as a camera's."""
     import cv2
     import numpy as np
@@ -247,11 +249,11 @@ def _photographed(paths: Sequence[Path]) -> list[Shown]:
         depth = (floor_mm + rng.normal(0.0, 10.0, (high, wide))).astype(np.uint16)
         raw = [cv2.IMWRITE_PNG_COMPRESSION, 0]  # as the simulated camera sends it
         packed = cv2.imencode(".jpg", small)[1], cv2.imencode(".png", depth, raw)[1]
-        made.append(Shown(*(data.tobytes() for data in packed)))
+        made.append(CameraPicture(*(data.tobytes() for data in packed)))
     return made
 
 
-def drawn_frames() -> list[Shown]:
+def drawn_frames() -> list[CameraPicture]:
     """Return what the simulated camera sends from places where a thing is in sight."""
     import numpy as np
 
@@ -259,12 +261,12 @@ def drawn_frames() -> list[Shown]:
     from tools.bench.measure.object_position import Lookout
 
     lookout, random, rng = Lookout(), Random(SEED), np.random.default_rng(SEED)
-    made: list[Shown] = []
+    made: list[CameraPicture] = []
     while len(made) < FRAMES:
-        pose = lookout.drawn(random)
+        pose = lookout.draw_pose(random)
         frame = lookout.shoot(pose, rng)
         if lookout.true_boxes(frame, pose):
-            made.append(Shown(jpeg(frame), depth_png(frame)))
+            made.append(CameraPicture(jpeg(frame), depth_png(frame)))
     return made
 
 
@@ -273,10 +275,10 @@ def _worker(subject: Subject) -> dict[str, Any]:
     settings = VisionSettings(
         model=subject.model, labels=subject.labels, provider="cpu", threads=THREADS
     )
-    return asyncio.run(_asked(VisionWorker(settings), frames(subject)))
+    return asyncio.run(_ask_worker(VisionWorker(settings), frames(subject)))
 
 
-async def _asked(worker: VisionWorker, shown: Sequence[Shown]) -> dict[str, Any]:
+async def _ask_worker(worker: VisionWorker, shown: Sequence[CameraPicture]) -> dict[str, Any]:
     header = ImageHeader(
         boot_id="bench", seq=1, stamp_s=0.0, width=SIZE[0], height=SIZE[1],
         focal_px=FOCAL_PX, center_x_px=SIZE[0] / 2, center_y_px=SIZE[1] / 2,

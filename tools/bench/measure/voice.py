@@ -22,16 +22,16 @@ from planner.mission.site_view import vocabulary_of
 from planner.plan import Step, StepPlan, Vocabulary
 from planner.site import Site
 from planner.voice import Heard, read_wav
-from pons.http import Refused, call
+from pons.http import PlannerProblem, call
 from pons.settings import CHECKOUT
 from tools.bench.context import until
-from tools.bench.report import Row, row_of
-from tools.bench.robot import Robot
+from tools.bench.report import ReportRow, row_of
+from tools.bench.robot import BenchRobot
 from wire import Mode
 
 if TYPE_CHECKING:
     from planner.voice.sphinx import Sphinx
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "voice"
 TITLE = "WAV -> goal, spoken orders heard right, wrong motions"
@@ -70,11 +70,13 @@ CHATTER = (
 )
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Speak to the default home: 100 orders and as much that is none."""
     if shutil.which("espeak-ng") is None:
         return [
-            Row("spoken orders", "", GOAL_RIGHT, value="none", note="no espeak-ng", valid=False)
+            ReportRow(
+                "spoken orders", "", GOAL_RIGHT, value="none", note="no espeak-ng", valid=False
+            )
         ]
     times_ms = [ms for data in lab.slices("time", 1, lambda _: _time(lab)) for ms in data["ms"]]
     rows = [row_of(f"WAV of {SPEECH_S:g} s -> goal", "ms", GOAL_TIME, times_ms, "HTTP, home")]
@@ -83,7 +85,7 @@ def measure(lab: Lab) -> list[Row]:
     return rows
 
 
-def _heard_rows(heard: dict[str, Any]) -> list[Row]:
+def _heard_rows(heard: dict[str, Any]) -> list[ReportRow]:
     right = f"{100.0 * heard['right'] / heard['orders']:.0f}"
     told = (
         f"{heard['orders']} orders, {len(VOICES)} espeak-ng voices; {heard['asked']} ask for a yes"
@@ -92,12 +94,12 @@ def _heard_rows(heard: dict[str, Any]) -> list[Row]:
     bound = f"; 3/n {100.0 * 3 / tried:.1f} %" if not heard["wrong"] else ""
     none = f"of {heard['orders']} orders and {heard['chatter']} other sentences{bound}"
     return [
-        Row("orders heard right", "%", GOAL_RIGHT, value=right, note=told),
-        Row("wrong motions", "", GOAL_WRONG, value=str(heard["wrong"]), note=none),
+        ReportRow("orders heard right", "%", GOAL_RIGHT, value=right, note=told),
+        ReportRow("wrong motions", "", GOAL_WRONG, value=str(heard["wrong"]), note=none),
     ]
 
 
-def _listen(lab: Lab) -> dict[str, Any]:
+def _listen(lab: BenchLab) -> dict[str, Any]:
     from planner.voice.sphinx import Sphinx
 
     site = Site.load(CHECKOUT / "sites" / "home")
@@ -147,20 +149,20 @@ def _text(heard: Heard) -> str:
     return heard.transcript if heard.understood else ""
 
 
-def _time(lab: Lab) -> dict[str, Any]:
+def _time(lab: BenchLab) -> dict[str, Any]:
     recordings = [
-        _stretched(speak(f"go to the {place} then the {then}", "en-us+f3", 150))
+        _pad_to_length(speak(f"go to the {place} then the {then}", "en-us+f3", 150))
         for place, then in (("kitchen", "bedroom"), ("bedroom", "kitchen"))
     ]
     times_ms: list[float] = []
-    with lab.folder() as home, Robot(home, "home") as robot:
+    with lab.folder() as home, BenchRobot(home, "home") as robot:
         robot.make_ready()
         for number in range(GOALS + 1):
             lab.say(f"recording {number + 1}/{GOALS + 1}")
             began_s = time.monotonic()
             try:
                 spoken = _send(robot, recordings[number % 2])
-            except Refused as refused:
+            except PlannerProblem as refused:
                 lab.say(str(refused))
                 continue
             took_ms = (time.monotonic() - began_s) * 1e3
@@ -173,7 +175,7 @@ def _time(lab: Lab) -> dict[str, Any]:
     return {"ms": times_ms}
 
 
-def _send(robot: Robot, recording: bytes) -> dict[str, Any]:
+def _send(robot: BenchRobot, recording: bytes) -> dict[str, Any]:
     headers = {"Content-Type": "audio/wav"}
     spoken: dict[str, Any] = call(
         robot.settings, "POST", "/v1/voice", None, 30.0, headers, recording
@@ -181,7 +183,7 @@ def _send(robot: Robot, recording: bytes) -> dict[str, Any]:
     return spoken
 
 
-def _rests(robot: Robot) -> bool:
+def _rests(robot: BenchRobot) -> bool:
     status = robot.status
     return status is not None and status.mode is Mode.HOLD and abs(status.measured.v_mps) < 0.02
 
@@ -193,7 +195,7 @@ def speak(text: str, voice: str, wpm: int) -> bytes:
     return _wav(data[44 : len(data) // 2 * 2], int.from_bytes(data[24:28], "little"))
 
 
-def _stretched(recording: bytes) -> bytes:
+def _pad_to_length(recording: bytes) -> bytes:
     """Return the recording with silence up to SPEECH_S."""
     sound = read_wav(recording)
     missing = int(SPEECH_S * sound.rate_hz) * 2 - len(sound.pcm)

@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.odometry import along_arc
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.lockstep import Together, TooLong
 from tools.lockstep.constant_drive import ConstantDrive
 from tools.lockstep.homes import HALL_M, hall
@@ -22,7 +22,7 @@ from tools.lockstep.hostile import Person
 from wire import Mode, Pose2
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "walls_and_people"
 TITLE = "walls and people put ahead of a driving robot"
@@ -35,7 +35,7 @@ TICKS_S = 0.02
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class WalkTrial:
     """Tell what became of one thing put in the way."""
 
     far: bool
@@ -109,7 +109,7 @@ class Trials:
             world.teleport(Pose2(middle, middle, self.random.uniform(-3.0, 3.0)))
         self._run(60)
 
-    def trial(self, *, far: bool) -> Trial:
+    def trial(self, *, far: bool) -> WalkTrial:
         """Come up to speed, put something ahead, look for three seconds.
 
         Raises:
@@ -140,7 +140,7 @@ class Trials:
                 hit = before
             before = abs(world.twist.v_mps)
         v_mps, flow, gap, needed, allowed = told
-        return Trial(far, thing, by_hand, v_mps, flow, gap, needed, hit, allowed, least)
+        return WalkTrial(far, thing, by_hand, v_mps, flow, gap, needed, hit, allowed, least)
 
     def _put(self, *, far: bool) -> tuple[str, Pose2, tuple[float, float, float, float, float]]:
         """Find a place whose gap on the robot's true arc is at least what is needed, or less."""
@@ -179,7 +179,7 @@ def faster_than_allowed(one: dict[str, object]) -> bool:
     return isinstance(hit, float) and isinstance(allowed, float) and hit > allowed + SLACK_MPS
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Do the trials by slices."""
     took = [
         one for world in lab.slices("world", lab.count(QUICK_WORLDS, WORLDS), trials)
@@ -191,10 +191,10 @@ def measure(lab: Lab) -> list[Row]:
     touched = [float(one["contact_mps"]) for one in near if one["contact_mps"] is not None]
     note = f"{len(far)} trials; 0 means < {3 / max(1, len(far)):.3f} each"
     return [
-        Row("contacts, not nearer than a stop and a scan", "", "0", value=str(len(hits)),
+        ReportRow("contacts, not nearer than a stop and a scan", "", "0", value=str(len(hits)),
             note=note),
         row_of("clearance left, not nearer", "m", "", [float(one["least_m"]) for one in far]),
-        Row("nearer: contacts faster than braking allows", "", "0", value=str(len(fast)),
+        ReportRow("nearer: contacts faster than braking allows", "", "0", value=str(len(fast)),
             note=f"{len(near)} trials"),
         row_of("nearer: speed of contacts", "m/s", "", touched, f"{len(touched)} of {len(near)}"),
     ]  # fmt: skip

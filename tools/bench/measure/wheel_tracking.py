@@ -12,14 +12,14 @@ from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import rim_speeds
-from bridge.core.geometry.odometry import rolled
+from bridge.core.geometry.odometry import roll
 from sim import Hardware
-from tools.bench.report import Row, row_of
+from tools.bench.report import ReportRow, row_of
 from tools.lockstep import TICK_S, Together
 from wire import IDENTITY, Mode, Pose2, RobotDescription, compose, inverse
 
 if TYPE_CHECKING:
-    from tools.bench.context import Lab
+    from tools.bench.context import BenchLab
 
 NAME = "wheel_tracking"
 TITLE = "wheel control: PI with feed-forward against the dead zone's feed-forward alone"
@@ -41,7 +41,7 @@ METALS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class TrackedDrive:
     """Tell how one drive went."""
 
     rim_mmps: float
@@ -54,9 +54,11 @@ class Drive:
     seconds: float
 
 
-def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START) -> Drive:
+def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START) -> TrackedDrive:
     """Drive to the living room once."""
-    world = Together(seed=seed, start=start, robot=described(control=control), hardware=hardware)
+    world = Together(
+        seed=seed, start=start, robot=describe_robot(control=control), hardware=hardware
+    )
     base = world.scene.robot.base
     goal = world.say(GOAL)
     world.run_until(lambda w: w.status.mode is Mode.ACTIVE, LIMIT_S)
@@ -68,7 +70,7 @@ def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START)
         world.tick()
         sent = world.bridge.state.motion.limiter.sent
         left, right = rim_speeds(sent, base.wheel_separation_m)
-        meant_to = rolled(meant_to, left * TICK_S, right * TICK_S, base.wheel_separation_m)
+        meant_to = roll(meant_to, left * TICK_S, right * TICK_S, base.wheel_separation_m)
         metres += abs(world.twist.v_mps) * TICK_S
         real = rim_speeds(world.twist, base.wheel_separation_m)
         if world.bridge.state.mode is Mode.ACTIVE:
@@ -76,7 +78,7 @@ def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START)
             count += 2
     truly = compose(inverse(began), world.truth)
     odom = compose(inverse(odom_began), world.bridge.state.odometry.base_in_odom)
-    return Drive(
+    return TrackedDrive(
         rim_mmps=1e3 * sqrt(squares / max(1, count)),
         strayed_mm=1e3 * hypot(truly.x_m - meant_to.x_m, truly.y_m - meant_to.y_m) / metres,
         odometry_mm=1e3 * hypot(truly.x_m - odom.x_m, truly.y_m - odom.y_m) / metres,
@@ -85,7 +87,7 @@ def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START)
     )
 
 
-def described(*, control: bool) -> RobotDescription:
+def describe_robot(*, control: bool) -> RobotDescription:
     """Return the default robot, with wheel control or with the dead zone's feed-forward alone."""
     robot = RobotDescription()
     if control:
@@ -94,9 +96,9 @@ def described(*, control: bool) -> RobotDescription:
     return robot.model_copy(update={"drive": robot.drive.model_copy(update=plain)})
 
 
-def measure(lab: Lab) -> list[Row]:
+def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive each motor with and without control, pair by pair."""
-    rows: list[Row] = []
+    rows: list[ReportRow] = []
     for name, hardware in METALS.items():
         pairs = list(
             lab.slices(name, lab.count(2, PAIRS), lambda i, h=hardware: _pair(h, i + 1))  # type: ignore[misc]  # the default binds the loop's hardware

@@ -11,12 +11,12 @@ import httpx
 import pydantic
 
 from tools.bench.peers.loop import take_turns
-from tools.bench.peers.shape import Facts, check, plan_model
+from tools.bench.peers.shape import PeerFacts, check, plan_model
 
 
 def main(path: str) -> None:
     """Take turns with the bench."""
-    facts = Facts.load(path)
+    facts = PeerFacts.load(path)
     plan = plan_model(facts)
     schema = {"name": "plan", "schema": plan.model_json_schema()}
     body = {
@@ -30,12 +30,12 @@ def main(path: str) -> None:
     }
     client = httpx.AsyncClient(trust_env=False)
 
-    async def once() -> None:
+    async def plan_once() -> None:
         reply = await client.post(f"{facts.url}/chat/completions", json=body)
         written = reply.json()["choices"][0]["message"]["content"]
         check(plan.model_validate_json(written), facts)
 
-    take_turns("bare httpx", {"httpx": httpx.__version__, "pydantic": pydantic.VERSION}, once)
+    take_turns("bare httpx", {"httpx": httpx.__version__, "pydantic": pydantic.VERSION}, plan_once)
 
 
 if __name__ == "__main__":

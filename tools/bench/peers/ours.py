@@ -19,7 +19,7 @@ from planner.plan import Language
 from planner.settings import BudgetSettings, DayLimits, GoalLimits, ModelSettings
 from planner.site import Site
 from tools.bench.peers.loop import take_turns
-from tools.bench.peers.shape import Facts
+from tools.bench.peers.shape import PeerFacts
 
 MANY = 1_000_000_000
 UNBOUND = BudgetSettings(
@@ -30,21 +30,21 @@ UNBOUND = BudgetSettings(
 
 def main(path: str, home: Path) -> None:
     """Take turns with the bench."""
-    facts, count = Facts.load(path), 0
+    facts, count = PeerFacts.load(path), 0
     warm_up()
     purse = Purse(UNBOUND, Ledger(home), most_reply=1000)
     model = EndpointBrain(ModelSettings(url=facts.url, name="pons"), home, meter=purse)
     words = vocabulary_of(Site.load(Path(facts.site)))
     think = thinker(FallbackBrain(model, OfflineBrain()), words)
 
-    async def once() -> None:
+    async def plan_once() -> None:
         nonlocal count
         count += 1
         planned = await think(AskBrain(f"goal-{count}", facts.said, Language.EN))
         if planned.plan is None or planned.brain != model.tag:
             raise RuntimeError(f"the model did not plan: {planned}")
 
-    take_turns("pons", {}, once)
+    take_turns("pons", {}, plan_once)
     purse.close()
 
 

@@ -13,22 +13,22 @@ from pydantic_ai.models.openai import OpenAIChatModel
 from pydantic_ai.providers.openai import OpenAIProvider
 
 from tools.bench.peers.loop import take_turns
-from tools.bench.peers.shape import Facts, check, plan_model
+from tools.bench.peers.shape import PeerFacts, check, plan_model
 
 
 def main(path: str) -> None:
     """Take turns with the bench."""
-    facts = Facts.load(path)
+    facts = PeerFacts.load(path)
     provider = OpenAIProvider(base_url=facts.url, api_key="none")
     model = OpenAIChatModel("pydantic-ai", provider=provider)
     output = NativeOutput(plan_model(facts))
     agent = Agent(model, output_type=output, system_prompt=facts.system)
 
-    async def once() -> None:
+    async def plan_once() -> None:
         done = await agent.run(facts.order, model_settings={"temperature": 0.0})
         check(done.output, facts)
 
-    take_turns("pydantic-ai", {"pydantic-ai": version("pydantic-ai-slim")}, once)
+    take_turns("pydantic-ai", {"pydantic-ai": version("pydantic-ai-slim")}, plan_once)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from pydantic import BaseModel, create_model
 
 
 @dataclass(frozen=True, slots=True)
-class Facts:
+class PeerFacts:
     """Hold what the bench wrote down for its contenders."""
 
     url: str
@@ -29,14 +29,14 @@ class Facts:
     """That the endpoint's plan has."""
 
     @classmethod
-    def load(cls, path: str) -> Facts:
+    def load(cls, path: str) -> PeerFacts:
         """Read them."""
         content: Any = json.loads(Path(path).read_text("utf-8"))
         content |= {name: tuple(content[name]) for name in ("places", "kinds")}
         return cls(**content)
 
 
-def plan_model(facts: Facts) -> type[BaseModel]:
+def plan_model(facts: PeerFacts) -> type[BaseModel]:
     """Return the shape of a plan in this closed world."""
     place: Any = Literal[facts.places]
     kind: Any = Literal[facts.kinds]
@@ -51,7 +51,7 @@ def plan_model(facts: Facts) -> type[BaseModel]:
     return create_model("PlanOut", kind=(whole, ...), steps=(list[step], ...))
 
 
-def check(plan: Any, facts: Facts) -> None:
+def check(plan: Any, facts: PeerFacts) -> None:
     """Refuse to time what is no plan. Raises ValueError."""
     if not isinstance(plan, BaseModel) or len(plan.model_dump()["steps"]) != facts.steps:
         raise ValueError(f"no plan came back: {plan!r}")

@@ -6,12 +6,13 @@ import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { t } from "../i18n";
 import { fetchPicture } from "../net/api";
+import { moment, since, type Moment } from "../state/moment";
 import { now, shownStatus, sight, sightAt } from "../state/store";
 import { visible } from "../state/visible";
 import { Boxes } from "./Boxes";
 import { PERIOD_MS, Puller } from "./pull";
-import { blind, blindWords, boxed, hasCamera, type Drawn } from "./sight";
-import { lookWords } from "./words";
+import { blind, blindFor, blindWords, boxed, hasCamera, type Drawn } from "./sight";
+import { lookWords, pictureAgeWords } from "./words";
 
 const SLOT = "pons.camera";
 const DRIVEN = new Set(["ACTIVE", "TELEOP", "STOPPING"]);
@@ -20,9 +21,15 @@ const PICTURED = new Set(["no_detector", "detector_down"]);
 const UNNUMBERED_MS = 1000;
 
 const opened = signal(false);
-/** What was found in the picture that is on the screen, and whether one is there at all. */
+/** What was found in the picture that is on the screen, and when that picture came; null where there is none. */
 const drawn = signal<Drawn | null>(null);
-const pictured = signal(false);
+const pictured = signal<Moment | null>(null);
+/** How old the grey picture is, in words that change once a second; null where it is not grey. */
+const pictureAge = computed(() =>
+  blind.value === null || pictured.value === null
+    ? null
+    : pictureAgeWords(since(pictured.value, now.value)),
+);
 /** The look whose boxes lie over the picture now. */
 const shown = computed(() => boxed(drawn.value, blind.value, now.value));
 
@@ -47,6 +54,8 @@ export function Camera() {
       {blind.value !== null && (
         <p class="reason" id="blind" data-blind={blind.value} role="status">
           {blindWords.value}
+          {/* not read aloud at each second */}
+          <span aria-hidden="true"> {blindFor.value}</span>
         </p>
       )}
     </section>
@@ -73,17 +82,17 @@ function Picture() {
       end();
       puller.want(null);
       drawn.value = null;
-      pictured.value = false;
+      pictured.value = null;
     };
   }, []);
   const look = shown.value;
   return (
     <figure class={`picture ${blind.value === null ? "" : "stale"}`}>
-      <div class="screen" hidden={!pictured.value}>
+      <div class="screen" hidden={pictured.value === null}>
         <canvas ref={canvas} width={320} height={240} role="img" aria-label={t("camera.label")} />
         {look && <Boxes look={look} />}
       </div>
-      <figcaption class="fine">{look && lookWords(look)}</figcaption>
+      <figcaption class="fine">{look ? lookWords(look) : pictureAge.value}</figcaption>
     </figure>
   );
 }
@@ -97,7 +106,7 @@ async function show(canvas: HTMLCanvasElement | null): Promise<void> {
     if (canvas.height !== bitmap.height) canvas.height = bitmap.height;
     canvas.getContext("2d")?.drawImage(bitmap, 0, 0);
     bitmap.close();
-    pictured.value = true;
+    pictured.value = moment();
     const [look, at] = [sight.peek()?.look, sightAt.peek()];
     drawn.value = look && at ? { look, at } : null;
   } catch {

@@ -3,9 +3,9 @@ import { computed } from "@preact/signals";
 import { say, word } from "../i18n";
 import { since, type Moment } from "../state/moment";
 import { steady } from "../state/steady";
-import { known, now, sight } from "../state/store";
+import { blindAt, known, now, sight } from "../state/store";
 import type { Look, Thing } from "../wire/types";
-import { knownWords, orderTo, seenOnce } from "./words";
+import { blindForWords, knownWords, orderTo, seenOnce } from "./words";
 
 /** Old or doubtful things are told from those that are surely there. */
 const FAINT_S = 600;
@@ -33,6 +33,11 @@ export const blindWords = computed(() => {
   const message = sight.value?.message;
   return message ? say(message) : word("blind", blind.value);
 });
+
+/** For how long it is blind so, in words that change once a second; "" while it sees. */
+export const blindFor = computed(() =>
+  blindAt.value === null ? "" : blindForWords(since(blindAt.value, now.value)),
+);
 
 /** Boxes of an older look would lie beside what has moved on. */
 const OLDEST_LOOK_S = 1;

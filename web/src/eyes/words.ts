@@ -11,10 +11,26 @@ export const IN_VIEW_S = 3;
 export const orderTo = (thing: Pick<Thing, "name">): string =>
   t("objects.order", { what: say(thing.name) });
 
+/** Write an age without tenths: it is read, not watched. */
+export const wholeSeconds = (ageS: number): string =>
+  ageS < 10 ? t("unit.s", { n: fixed(ageS, 0) }) : seconds(ageS);
+
+/** Round an age down to what is shown of it: "at least" must hold. */
+function floored(ageS: number): number {
+  const unit = ageS < 120 ? 1 : ageS < 7200 ? 60 : 3600;
+  return Math.floor(ageS / unit) * unit;
+}
+
+/** Say for how long it has been blind; the page may have come later than the trouble. */
+export const blindForWords = (ageS: number): string =>
+  t("blind.for", { age: wholeSeconds(floored(ageS)) });
+
+/** Say how old a grey picture is. */
+export const pictureAgeWords = (ageS: number): string =>
+  t("camera.old", { age: wholeSeconds(floored(ageS)) });
+
 export const agoWords = (ageS: number): string =>
-  ageS < IN_VIEW_S
-    ? t("objects.now")
-    : t("objects.ago", { age: ageS < 10 ? t("unit.s", { n: fixed(ageS, 0) }) : seconds(ageS) });
+  ageS < IN_VIEW_S ? t("objects.now") : t("objects.ago", { age: wholeSeconds(ageS) });
 
 export const percent = (share: number): string => fixed(share * 100, 0, "%");
 

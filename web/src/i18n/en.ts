@@ -166,10 +166,12 @@ export const en = {
   "camera.title": "Camera",
   "camera.label": "What the camera sees",
   "camera.nothing": "Nothing that it knows is in view.",
+  "camera.old": "This picture is {age} old.",
 
   "blind.no_camera": "This robot has no camera.",
   "blind.no_detector": "No detector is set, so things in the picture are not told apart.",
   "blind.camera_silent": "No picture comes from the camera.",
+  "blind.for": "For at least {age}.",
   "blind.camera_frozen": "The camera sends one and the same picture again and again.",
   "blind.camera_unusable": "The camera's pictures can't be used: is its lens covered?",
   "blind.detector_down": "The detector does not answer; it is being started anew.",

@@ -164,10 +164,12 @@ export const zh: Record<Key, string> = {
   "camera.title": "摄像头",
   "camera.label": "摄像头看到的画面",
   "camera.nothing": "画面中没有它认识的东西。",
+  "camera.old": "此画面是{age}前的。",
 
   "blind.no_camera": "这台机器人没有摄像头。",
   "blind.no_detector": "没有设置检测模型，无法识别画面中的物体。",
   "blind.camera_silent": "摄像头没有传来画面。",
+  "blind.for": "至少已持续{age}。",
   "blind.camera_frozen": "摄像头一直发送同一张画面。",
   "blind.camera_unusable": "摄像头的画面无法使用，镜头可能被遮住。",
   "blind.detector_down": "检测进程没有响应，正在重新启动。",

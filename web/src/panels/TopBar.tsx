@@ -81,7 +81,7 @@ function Link() {
   return (
     <span class={`chip link ${state}`} id="link" data-state={state}>
       <span class="dot" aria-hidden="true" />
-      {text}
+      <span class="clip">{text}</span>
     </span>
   );
 }

@@ -30,6 +30,7 @@ export type Model = {
   readonly placesVersion: number; // changes when a place is taught or forgotten
   readonly sight: Sight | null;
   readonly sightAt: Moment | null;
+  readonly blindAt: Moment | null; // when this page first heard that it is blind so
   readonly things: readonly KnownThing[];
   readonly about: About | null;
   readonly path: Path | null;
@@ -52,6 +53,7 @@ export const EMPTY: Model = {
   placesVersion: 0,
   sight: null,
   sightAt: null,
+  blindAt: null,
   things: [],
   about: null,
   path: null,
@@ -64,6 +66,12 @@ export const EMPTY: Model = {
   gaps: 0,
   wantsSnapshot: false,
 };
+
+/** Return since when it is blind for the same reason, as far as this page has heard. */
+function blindSince(model: Model, sight: Sight, now: Moment): Moment | null {
+  if (sight.blind === null) return null;
+  return sight.blind === model.sight?.blind ? model.blindAt : now;
+}
 
 /** Begin a new connection: seq counts anew, what was known stays and grows old. */
 export function connected(model: Model): Model {
@@ -96,6 +104,7 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         placesVersion: frame.places_version,
         sight: frame.sight,
         sightAt: now,
+        blindAt: blindSince(model, frame.sight, now),
         things: retold(model.things, frame.sight.things, now),
         about: frame.about,
         path: frame.path,
@@ -123,7 +132,8 @@ function take(model: Model, frame: Frame, now: Moment): Model {
       return { ...model, usage: frame.usage };
     case "sight": {
       const things = retold(model.things, frame.sight.things, now);
-      return { ...model, sight: frame.sight, sightAt: now, things };
+      const blindAt = blindSince(model, frame.sight, now);
+      return { ...model, sight: frame.sight, sightAt: now, blindAt, things };
     }
     case "places":
       return { ...model, placesVersion: frame.version };

@@ -35,6 +35,7 @@ export const usage = computed(() => model.value.usage);
 export const placesVersion = computed(() => model.value.placesVersion);
 export const sight = computed(() => model.value.sight);
 export const sightAt = computed(() => model.value.sightAt);
+export const blindAt = computed(() => model.value.blindAt);
 /** The things that the robot remembers, each with when it was last spoken of. */
 export const known = computed(() => model.value.things);
 export const about = computed(() => model.value.about);

@@ -23,11 +23,20 @@ from planner.language.grammar.grammar import (
     wait,
 )
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.motion_steps import move, patrol, patrol_all, turn, wander
 from planner.language.grammar.numbers import EN_ANGLE, EN_DURATION, EN_LENGTH, TIMES
 from planner.language.grammar.parse_result import Meaning, Reading, Rule
 from planner.language.grammar.small_talk import Topic
-from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
+from planner.language.grammar.step_builders import (
+    HOW_LONG,
+    WHERE_ARE_YOU,
+    WHERE_TO,
+    missing,
+    move,
+    patrol,
+    patrol_all,
+    turn,
+    wander,
+)
 from planner.plan import Code
 
 _LEAD = (

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from re import Match
 
+from planner.language.folding import CHINESE
 from planner.language.grammar.en.words import PREP, THE, loc, sure_loc
 from planner.language.grammar.grammar import Build, lacks, rule, where
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.object_targets import HOW_EN, by_neighbour
+from planner.language.grammar.objects import HOW_EN, by_neighbour
 from planner.language.grammar.parse_result import Meaning, Problem, Reading, Rule, Steps
 from planner.language.grammar.step_builders import (
     count,
@@ -20,7 +21,7 @@ from planner.language.grammar.step_builders import (
 )
 from planner.plan import Code
 
-_TWORD = r"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/\u3400-\u9fff-]+"
+_TWORD = rf"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/{CHINESE}-]+"
 _THING = rf"(?:{THE})?(?:{_TWORD} )*?{_TWORD}"
 _COUNTED = r"(?!(?:on|to|down|up|me|in|with|from)\b)[a-z0-9 '/-]+?"
 _ANY_THING = rf"(?!(?:what|who|whether|if|how|that|which|where|why)\b)(?:{_THING}|{THE}{MARK})"

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar import past_tense, relative_position
-from planner.language.grammar.denial import EXCEPTIONS_EN
+from planner.language.grammar.checks import EXCEPTIONS_EN
 from planner.language.grammar.en import driving, objects, people
 from planner.language.grammar.en.words import PERSON
 from planner.language.grammar.grammar import Grammar, lacks, next_place, rule, unread

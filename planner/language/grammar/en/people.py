@@ -8,9 +8,8 @@ from re import Match
 from planner.language.grammar.en.words import DESCRIPTION, PERSON, THE, loc
 from planner.language.grammar.grammar import QUOTE, ahead, lacks, rule, where
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.object_targets import known
+from planner.language.grammar.objects import known, several
 from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
-from planner.language.grammar.quantifiers import several
 from planner.language.grammar.small_talk import Topic, told, topic_of
 from planner.language.grammar.step_builders import (
     follow,

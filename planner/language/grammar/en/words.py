@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from planner.language.folding import CHINESE
 from planner.language.grammar.lexicon import MARK, NAME
 
 THE = r"(?:the |a |an |my |our |your |this |that )?"
@@ -18,7 +19,7 @@ _SPOT = rf"{THE}{MARK}(?: room| area)?(?: (?:in|of) {THE}{MARK})?"
 # Words that no description of a person or thing goes past: another phrase begins there.
 WORD = r"(?!(?:to|in|at|on|from|for|and|into|onto|with|near|by|back|then|you|me)\b)[a-z0-9'/-]+"
 _DESCRIBES = (
-    r"(?!(?:into|from)\b|to (?!(?:the|their|his|her) (?:left|right)))[a-z0-9'/\u3400-\u9fff-]+"
+    rf"(?!(?:into|from)\b|to (?!(?:the|their|his|her) (?:left|right)))[a-z0-9'/{CHINESE}-]+"
 )
 DESCRIPTION = rf"(?:{_DESCRIBES} )*?{_DESCRIBES}(?<! in)(?<! at)(?<! on)(?<! near)(?<! by)"
 _WHO = (

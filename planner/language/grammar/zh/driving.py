@@ -21,8 +21,15 @@ from planner.language.grammar.grammar import (
     wait,
 )
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.motion_steps import (
+from planner.language.grammar.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
+from planner.language.grammar.parse_result import Meaning, Reading, Rule, Steps
+from planner.language.grammar.small_talk import Topic
+from planner.language.grammar.step_builders import (
+    HOW_LONG,
+    WHERE_ARE_YOU,
+    WHERE_TO,
     in_all,
+    missing,
     move,
     patrol,
     patrol_all,
@@ -30,10 +37,6 @@ from planner.language.grammar.motion_steps import (
     turn_and_move,
     wander,
 )
-from planner.language.grammar.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
-from planner.language.grammar.parse_result import Meaning, Reading, Rule, Steps
-from planner.language.grammar.small_talk import Topic
-from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
 from planner.language.grammar.zh.words import ALL_ROOMS, GO
 from planner.plan import Code, Say
 

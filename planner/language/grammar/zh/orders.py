@@ -8,11 +8,11 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar import past_tense, relative_position
-from planner.language.grammar.denial import EXCEPTIONS_ZH
+from planner.language.grammar.checks import EXCEPTIONS_ZH
 from planner.language.grammar.grammar import Grammar, lacks, next_place, rule, unread
 from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.manipulation import lacks_arm
-from planner.language.grammar.zh import driving, objects, people, relations
+from planner.language.grammar.zh import driving, objects, people
 from planner.language.grammar.zh.words import ALL_ROOMS, GO, IN, SEE, VERB
 from planner.plan import Code
 
@@ -100,7 +100,7 @@ CHINESE = Grammar(
         *driving.RULES[:-2],
         *people.GUIDE,
         *past_tense.CHINESE,
-        *relations.RULES,
+        *objects.NEIGHBOUR_RULES,
         rule(rf"{_NO_LOOK}(?!{_WITH_ARM}).*{_ARM}.*", unread),
         rule(rf"{_NO_LOOK}.*{_ARM}.*", lacks_arm),
         *relative_position.CHINESE,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from re import Match
 
 from planner.language.grammar.grammar import QUOTE, lacks, rule, where
+from planner.language.grammar.objects import several
 from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
-from planner.language.grammar.quantifiers import several
 from planner.language.grammar.small_talk import Topic, told, topic_of
 from planner.language.grammar.step_builders import (
     follow,

@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.authority.fence_request import hear_fence
-from bridge.core.modes.operator import nonce_text
-from bridge.core.state_fence import FenceArrived, FenceDone
+from bridge.core.authority.requests import nonce_text
+from bridge.core.inbox import FenceArrival, FenceDone
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
 from tests.bridge.core.test_quick_core import tick_of
@@ -28,7 +28,7 @@ def send(
     """Put a request in the next tick, as the link hands it over."""
     shown = world.status.nonce if world.status is not None else "none"
     used = (shown if nonce is None else nonce) if proof else None
-    arrived = FenceArrived(request_id, "cli", used, authentic, TEXT if authentic else "")
+    arrived = FenceArrival(request_id, "cli", used, authentic, TEXT if authentic else "")
     world.extra = replace(world.extra, fences=(*world.extra.fences, arrived))
     return request_id
 
@@ -185,7 +185,7 @@ def test_half_a_second_of_standing_is_long_enough() -> None:
         tick = tick_of(reached("disarmed"))
         tick.s.drive.still_since_s = tick.now_s - still_s
         tick.robot_in_map = tick.s.odometry.base_in_odom
-        arrived = FenceArrived("f1", "cli", nonce_text(tick), authentic=True, text=TEXT)
+        arrived = FenceArrival("f1", "cli", nonce_text(tick), authentic=True, text=TEXT)
         hear_fence(tick, arrived)
         codes = [item.answer.code for item in tick.s.operator.answers if item.answer.id == "f1"]
         assert codes == (["not_standing"] if refused else [])

@@ -15,7 +15,7 @@ from bridge.core.authority.grants import (
     OPERATOR_METRES,
     OPERATOR_SECONDS,
 )
-from bridge.core.sensing.fence import build_fence
+from bridge.core.geometry.fence import build_fence
 from bridge.core.state_orders import MAX_MISSIONS
 from tests.bridge.core.fake_planner import MAP_ID, FakePlanner
 from tests.bridge.core.scripted import World, config

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.authority.horizon_checks import check_horizon
-from bridge.core.sensing.fence import build_fence
+from bridge.core.geometry.fence import build_fence
 from wire.commands import Waypoint
 from wire.geometry import Pose2
 

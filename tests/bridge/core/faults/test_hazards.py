@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from bridge.core.faults.docs import safety_md
+from bridge.core.faults.detectors import DETECTORS
 from bridge.core.faults.fault_table import ROWS
 from bridge.core.faults.hazards import HAZARDS, LAWS, Hazard
-from bridge.core.modes.mode_logic import DETECTORS
+from bridge.core.safety_page import safety_md
 
 HERE = Path(__file__).parents[1]
 GATES = ("OBSTACLE", "FENCE", "CONTACT")

@@ -55,7 +55,7 @@ def test_the_lidar_stands_where_the_robot_says() -> None:
 def test_an_empty_scan_is_a_picture_of_nothing() -> None:
     made = picture([])
     assert (made.beams, made.returns, made.nearest_m) == (0, 0, None)
-    assert not made.sector(0.0, 1.0).known
+    assert not made.sector(0.0, 1.0).is_known
     assert not made.sector(0.0, 1.0).covered
 
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from bridge.core.geometry.odometry import OdometryState, advance, along_arc, rolled
+from bridge.core.geometry.odometry import OdometryState, advance, along_arc, roll
 from wire.geometry import IDENTITY, Pose2, Twist2
 from wire.robot import Base
 from wire.sensors import DriveState
@@ -44,12 +44,12 @@ def reading(left: float, right: float, *, boot: str = "a", speed: float = 0.0) -
     ],
 )
 def test_arcs_are_exact(left: float, right: float, x: float, y: float, yaw: float) -> None:
-    pose = rolled(IDENTITY, left, right, 1.0)
+    pose = roll(IDENTITY, left, right, 1.0)
     assert (pose.x_m, pose.y_m, pose.yaw_rad) == pytest.approx((x, y, yaw))
 
 
 def test_driving_from_a_set_pose_goes_along_its_heading() -> None:
-    pose = rolled(Pose2(5.0, -2.0, pi / 2), 1.0, 1.0, 1.0)
+    pose = roll(Pose2(5.0, -2.0, pi / 2), 1.0, 1.0, 1.0)
     assert (pose.x_m, pose.y_m, pose.yaw_rad) == pytest.approx((5.0, -1.0, pi / 2))
 
 

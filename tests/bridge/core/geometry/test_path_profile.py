@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from bridge.core.geometry.path_profile import PLANNED_DECEL, Path, prepare, regulated
+from bridge.core.geometry.path_profile import PLANNED_DECEL, Path, prepare, regulate
 from wire.commands import Waypoint
 from wire.robot import Limits
 
@@ -23,7 +23,7 @@ def point(x: float, y: float, speed: float = 0.5) -> Waypoint:
 # nav2's regulated pure pursuit, requested 1.0 m/s, its radius 2.7 m and floor 0.25 m/s.
 @pytest.mark.parametrize(("curve", "speed"), [(0.7407, 0.5), (1000.0, 0.25), (0.0, 1.0)])
 def test_curves_are_taken_slower(curve: float, speed: float) -> None:
-    assert regulated(1.0, curve, 2.7, 0.25) == pytest.approx(speed, abs=0.01)
+    assert regulate(1.0, curve, 2.7, 0.25) == pytest.approx(speed, abs=0.01)
 
 
 def test_nothing_is_the_empty_path() -> None:

@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from bridge.core.modes.mode_table import (
-    LATCHED,
-    MOVING,
-    POWERED,
-    TRANSITIONS,
-    Cause,
-    Fact,
-    Request,
-    after,
-)
+from bridge.core.modes.mode_table import LATCHED, TRANSITIONS, Cause, Fact, RequestCause, after
+from bridge.core.tick_context import MOVING, POWERED
 from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 
-CAUSES: tuple[Cause, ...] = (*Action, *Request, *Fact)
+CAUSES: tuple[Cause, ...] = (*Action, *RequestCause, *Fact)
 
 
 @table("cause", CAUSES)
@@ -28,15 +20,15 @@ def test_what_is_absent_changes_nothing(mode: Mode, cause: Cause) -> None:
 def test_every_transition_obeys_the_laws(key: tuple[Mode, Cause], to: Mode) -> None:
     mode, cause = key
     if to in POWERED and mode not in POWERED:
-        assert cause is Request.ARM, "powered implies armed by a person"
+        assert cause is RequestCause.ARM, "powered implies armed by a person"
     if mode in LATCHED:
-        assert cause in {Request.RESET, Fact.UNPROVEN_RESET, Request.ESTOP}
+        assert cause in {RequestCause.RESET, Fact.UNPROVEN_RESET, RequestCause.ESTOP}
         assert to not in POWERED, "a reset never powers the robot"
     if isinstance(cause, Action):
         assert to not in MOVING, "no row ever makes the robot move"
         assert SEVERITY[cause] >= SEVERITY[Action.HOLD2], "NONE and CAP change no mode"
     if to in MOVING:
-        assert cause in {Fact.CALLED, Fact.CLEARED, Request.TELEOP}
+        assert cause in {Fact.CALLED, Fact.CLEARED, RequestCause.TELEOP}
 
 
 @table("mode", sorted(POWERED))
@@ -49,8 +41,11 @@ def test_a_row_that_takes_torque_ends_every_powered_mode(mode: Mode, action: Act
 
 @table("mode", [mode for mode in Mode if mode is not Mode.ESTOPPED])
 def test_a_protective_stop_is_obeyed_everywhere(mode: Mode) -> None:
-    assert after(mode, Request.ESTOP) is Mode.ESTOPPED
+    assert after(mode, RequestCause.ESTOP) is Mode.ESTOPPED
 
 
 def test_nothing_leaves_boot_but_the_self_test_or_a_stop() -> None:
-    assert {cause for mode, cause in TRANSITIONS if mode is Mode.BOOT} == {Fact.UP, Request.ESTOP}
+    assert {cause for mode, cause in TRANSITIONS if mode is Mode.BOOT} == {
+        Fact.UP,
+        RequestCause.ESTOP,
+    }

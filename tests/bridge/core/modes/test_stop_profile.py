@@ -9,15 +9,14 @@ from pydantic import TypeAdapter
 
 from bridge.core.geometry.kinematics import fastest_rim, saturate
 from bridge.core.modes.stop_profile import (
-    NO_STOP,
-    StopPlan,
     plan_stop,
-    planned,
     planned_rim_mps,
+    planned_twist,
     too_long,
     too_slow,
 )
-from bridge.core.motion.limiter import LimiterState, Profile, shape
+from bridge.core.motion.limiter import shape
+from bridge.core.state_motion import NO_STOP, LimiterState, Profile, StopPlan
 from wire.geometry import STILL, Twist2
 from wire.robot import Base, Limits
 
@@ -32,21 +31,21 @@ moving = st.builds(Twist2, st.floats(-0.5, 0.5), st.floats(-1, 1)).map(
 def test_an_ordinary_stop_takes_speed_over_deceleration_and_the_jerk_time() -> None:
     plan = plan_stop(LimiterState(Twist2(0.5, 0.0)), BASE, LIMITS, Profile.STOP)
     assert plan.duration_s == pytest.approx(0.5 / 1.0 + 1.0 / 10.0)
-    assert planned(plan, 0.0) == Twist2(0.5, 0.0)
-    assert planned(plan, 0.3).v_mps == pytest.approx(0.25)
-    assert planned(plan, 0.6) == STILL
+    assert planned_twist(plan, 0.0) == Twist2(0.5, 0.0)
+    assert planned_twist(plan, 0.3).v_mps == pytest.approx(0.25)
+    assert planned_twist(plan, 0.6) == STILL
 
 
 def test_a_stop_begun_while_braking_is_shorter() -> None:
     braking = LimiterState(Twist2(0.5, 0.0), -1.0, -1.0)
     plan = plan_stop(braking, BASE, LIMITS, Profile.STOP)
     assert plan.duration_s == pytest.approx(0.45 / 1.0 + 1.0 / 10.0)
-    assert planned(plan, 0.2).v_mps == pytest.approx(0.3)
+    assert planned_twist(plan, 0.2).v_mps == pytest.approx(0.3)
 
 
 def test_standstill_needs_no_plan() -> None:
     assert plan_stop(LimiterState(), BASE, LIMITS, Profile.STOP) == NO_STOP
-    assert planned(NO_STOP, 1.0) == STILL
+    assert planned_twist(NO_STOP, 1.0) == STILL
     odd = LimiterState(Twist2(float("nan"), 0.0))
     assert plan_stop(odd, BASE, LIMITS, Profile.STOP) == NO_STOP
 

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bridge.core import CoreConfig, initial
-from bridge.core.motion.brake_learning import BETTER_STOPS, after_cut, after_stop, weak_share
+from bridge.core.motion.brake_learning import BETTER_STOPS, after_cut, after_stop
 from bridge.core.motion.braking import stop_length_m
-from bridge.core.state_braking import LEAST_SHARE, MOST_LAG_S, UNLEARNT, Learnt, Ramp
+from bridge.core.state_motion import LEAST_SHARE, MOST_LAG_S, UNLEARNT, Learnt, Ramp
 from tests.bridge.core.fake_planner import PERIOD_S, FakeDrive
 from tests.bridge.core.scripted import World, config
 from wire import DriveState, Mode, RobotDescription, Twist2
@@ -125,7 +125,7 @@ def test_weak_brakes_cap_every_source_by_their_share_and_say_so() -> None:
     assert (status.limits.by, status.limits.v_mps) == ("weak_brakes", 0.2)
     assert status.braking.learnt
     assert status.braking.decel_mps2 == pytest.approx(0.4)
-    assert weak_share(Learnt(decel_share=0.5)) == 1.0, "half is not under half"
+    assert Learnt(decel_share=0.5).speed_share() == 1.0, "half is not under half"
 
 
 def test_with_the_cap_a_stop_of_weak_brakes_is_not_too_slow() -> None:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.motion.contact_gate import contact_gate, touched
+from bridge.core.motion.contact_gate import contact_gate, touched_input
 from tests.bridge.core.fake_planner import FakeDrive
 from tests.bridge.core.scripted import World
 from wire import STILL, DriveState, Mode, Twist2
@@ -22,7 +22,7 @@ def state(*pressed: str) -> DriveState:
 @pytest.mark.parametrize("v_mps", [-0.4, 0.0, 0.4])
 def test_an_input_that_is_not_told_counts_as_pressed(unsaid: str, v_mps: float) -> None:
     silent, felt = state().model_copy(update={unsaid: None}), state(unsaid)
-    assert touched(silent, v_mps) == touched(felt, v_mps)
+    assert touched_input(silent, v_mps) == touched_input(felt, v_mps)
     assert contact_gate(silent, Twist2(v_mps, 1.0)) == contact_gate(felt, Twist2(v_mps, 1.0))
 
 
@@ -40,12 +40,12 @@ def test_nothing_goes_on_into_it_and_nothing_else_is_fast(
 ) -> None:
     felt = state(*pressed)
     passed = contact_gate(felt, Twist2(v, w))
-    assert touched(felt, passed.v_mps) is None
+    assert touched_input(felt, passed.v_mps) is None
     assert abs(passed.v_mps) <= 0.1 + 1e-12
     assert abs(passed.w_radps) <= 0.3 + 1e-12
     assert passed.v_mps * v >= 0.0
     assert passed.w_radps * w >= 0.0
-    if touched(felt, v) is None and abs(v) > 1e-6:
+    if touched_input(felt, v) is None and abs(v) > 1e-6:
         assert passed.w_radps * v == pytest.approx(w * passed.v_mps), "the curve stays"
 
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import path_decel_mps2, reaction_s, speed_scale, speed_within
-from bridge.core.motion.free_distance import MARGIN_M, REACH_M, FreeLength, free_length
+from bridge.core.motion.free_distance import FreeLength, free_length
+from bridge.core.sensing.look_distance import MARGIN_M, REACH_M
 from tests.laws import at_least
 from wire.geometry import IDENTITY, Pose2, Twist2, compose
 from wire.robot import Base, LidarConfig, Limits
@@ -202,7 +203,7 @@ def test_beside_a_wall_only_what_loses_no_clearance_passes(direction: float) -> 
     scale = {}
     for name, twist in {"fore": Twist2(0.5, 0.0), "turn": Twist2(0.0, 1.0)}.items():
         free = free_length(made, IDENTITY, twist, RADIUS)
-        scale[name] = speed_scale(free, twist, BASE, LIMITS, 0.3)
+        scale[name] = speed_scale(free.s_m, twist, BASE, LIMITS, 0.3, touching=free.touching)
     assert scale["turn"] == pytest.approx(0.3)
     towards = cos(direction)
     if towards > 0.01:
@@ -214,7 +215,7 @@ def test_beside_a_wall_only_what_loses_no_clearance_passes(direction: float) -> 
 def test_turning_in_place_needs_no_room_but_the_disc() -> None:
     made = picture(wall(IDENTITY, DISC + 0.001, 0.4))
     free = free_length(made, IDENTITY, Twist2(0.0, 1.0), RADIUS)
-    assert speed_scale(free, Twist2(0.0, 1.0), BASE, LIMITS, 0.3) == 1.0
+    assert speed_scale(free.s_m, Twist2(0.0, 1.0), BASE, LIMITS, 0.3, touching=free.touching) == 1.0
 
 
 @pytest.mark.parametrize("odd", [float("nan"), inf, -inf])
@@ -237,7 +238,9 @@ def test_no_motion_raises(v: float, w: float, x: float, y: float, yaw: float) ->
     made = picture(wall(IDENTITY, 0.5, 1.0))
     free = free_length(made, Pose2(x, y, yaw), Twist2(v, w), RADIUS)
     assert 0.0 <= free.s_m <= REACH_M
-    assert 0.0 <= speed_scale(free, Twist2(v, w), BASE, LIMITS, 0.3) <= 1.0
+    assert (
+        0.0 <= speed_scale(free.s_m, Twist2(v, w), BASE, LIMITS, 0.3, touching=free.touching) <= 1.0
+    )
 
 
 @given(st.floats(0.001, 3), st.floats(0.05, 5), st.floats(0, 1))

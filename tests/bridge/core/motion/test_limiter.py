@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from bridge.core.geometry.kinematics import fastest_rim, rim_speeds, saturate
-from bridge.core.motion.limiter import LimiterState, Profile, shape, stopping_m, tick_length
+from bridge.core.motion.limiter import shape, stopping_m, tick_length
+from bridge.core.state_motion import LimiterState, Profile
 from wire.geometry import STILL, Twist2
 from wire.robot import Base, Limits
 

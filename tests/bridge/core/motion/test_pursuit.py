@@ -14,23 +14,16 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from bridge.core.geometry.odometry import along_arc
-from bridge.core.geometry.path_profile import prepare
-from bridge.core.motion.limiter import LimiterState, shape
-from bridge.core.motion.pursuit import (
-    NEW,
-    FollowState,
-    carried,
-    follow,
-    look_ahead_m,
-    reached,
-    residuals,
-)
+from bridge.core.geometry.path_profile import prepare, residuals
+from bridge.core.motion.limiter import shape
+from bridge.core.motion.pursuit import carry_over, follow, is_reached, look_ahead_m
+from bridge.core.state_motion import NEW, FollowState, LimiterState
 from wire.commands import Waypoint
 from wire.geometry import STILL, Pose2, Twist2
 from wire.robot import Base, Limits
 
 if TYPE_CHECKING:
-    from bridge.core.motion.pursuit import Follow
+    from bridge.core.motion.pursuit import PursuitCommand
 
 BASE, LIMITS, LAG = Base(), Limits(), 0.06
 Corners = list[tuple[float, float]]
@@ -77,7 +70,7 @@ class Drive:
     """Hold what a simulated drive came to."""
 
     pose: Pose2
-    last: Follow
+    last: PursuitCommand
     seconds: float
     strayed_m: float
     fastest_mps: float
@@ -101,7 +94,7 @@ def drive(
             )
             points = points[near:]
             way = pieces(points)
-            state, path = carried(state), prepare(points, LIMITS)
+            state, path = carry_over(state), prepare(points, LIMITS)
         answer = follow(state, path, pose, memory.sent, BASE, LIMITS, LAG)
         state = answer.state
         memory = shape(answer.target, memory, BASE, LIMITS, 0.01)
@@ -223,7 +216,7 @@ def test_an_end_missed_by_little_or_too_often_is_left_at_that() -> None:
 def test_the_next_horizon_forgets_what_was_given_up() -> None:
     given_up = FollowState(along_m=1.99, settled=True, tries=3)
     path = prepare(route(STRAIGHT), LIMITS)
-    answer = follow(carried(given_up), path, Pose2(0.0, 0.0, 0.0), STILL, BASE, LIMITS, LAG)
+    answer = follow(carry_over(given_up), path, Pose2(0.0, 0.0, 0.0), STILL, BASE, LIMITS, LAG)
     assert answer.state.tries == 0
     assert answer.target.v_mps > 0.0
 
@@ -256,7 +249,7 @@ def test_the_look_ahead_grows_with_speed(speed: float, ahead: float) -> None:
     ],
 )
 def test_reached_is_a_tenth(x: float, yaw: float, heading: float | None, there: bool) -> None:
-    assert reached(*residuals(0.0, 0.0, heading, Pose2(x, 0.0, yaw))) is there
+    assert is_reached(*residuals(0.0, 0.0, heading, Pose2(x, 0.0, yaw))) is there
 
 
 wild = st.builds(Twist2, st.floats(), st.floats())

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from bridge.core.geometry.kinematics import wheels_of
-from bridge.core.modes.mode_table import MOVING
-from bridge.core.motion.wheel_control import AT_REST, Wheel
+from bridge.core.state_motion import AT_REST, Wheel
+from bridge.core.tick_context import MOVING
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
 from wire import STILL, Mode, RobotDescription

@@ -10,14 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.motion.wheel_control import (
-    AT_REST,
-    CORRECTION_MPS,
-    CREEP_RADPS,
-    DOUBT_S,
-    Wheel,
-    turned,
-)
+from bridge.core.motion.wheel_control import CORRECTION_MPS, CREEP_RADPS, DOUBT_S, control_wheel
+from bridge.core.state_motion import AT_REST, Wheel
 from wire import RobotDescription
 from wire.robot import DriveConfig, Limits
 
@@ -55,7 +49,7 @@ def step(
     trusted: bool = True,
     stopping: bool = False,
 ) -> Wheel:
-    return turned(wheel, meant, by, reading, DT_S, robot, trusted=trusted, stopping=stopping)
+    return control_wheel(wheel, meant, by, reading, DT_S, robot, trusted=trusted, stopping=stopping)
 
 
 def bound_of(meant: float, robot: RobotDescription) -> float:

@@ -26,7 +26,7 @@ from planner.plan import (
     places_of,
     validate_plan,
 )
-from pons.mock_llm.replies import GARBAGE, HOSTILE_COUNT, hallucinated, hostile
+from pons.mock_llm.replies import GARBAGE, HOSTILE_COUNT, hallucinate, hostile
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import GO
 
@@ -115,7 +115,7 @@ def test_no_garbage_is_a_plan(text: str) -> None:
 
 
 def test_a_place_that_does_not_exist_is_named_with_those_that_do() -> None:
-    judged = judge(json.dumps(hallucinated(json.loads(GO))), HOME)
+    judged = judge(json.dumps(hallucinate(json.loads(GO))), HOME)
     assert isinstance(judged, Unusable)
     assert "unknown_place: wine_cellar" in str(judged)
     assert "front_door" in str(judged)

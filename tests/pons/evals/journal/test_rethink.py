@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from planner.language.catalogue import message
 from planner.mission import MissionJournal
 from planner.mission.effects import Journal
 from planner.mission.state import Mission
@@ -22,17 +23,16 @@ from planner.plan import (
     Say,
     StepPlan,
     Wait,
-    message,
     plan_record,
     same,
 )
 from planner.settings import BudgetSettings
 from pons.__main__ import main
-from pons.evals.journal.compare import Difference, difference, told
-from pons.evals.journal.drive import Driven, drive
+from pons.evals.journal.compare import Difference, difference, plan_line
+from pons.evals.journal.drive import drive
 from pons.evals.journal.recorded import NoJournal, read
 from pons.evals.journal.show import verdict
-from pons.evals.journal.think import Again
+from pons.evals.journal.think import DriveResult, SecondThought
 from pons.settings import CHECKOUT
 from tests.pons.mock_llm.mocks import running_mock
 from wire import Misconfigured
@@ -82,7 +82,7 @@ def test_the_first_plan_of_each_sentence_is_the_decision(tmp_path: Path) -> None
         mission("c", "wait", StepPlan(steps=(Wait(seconds=1.0),)), accepted_at=(1.0, 2.0, 0.5)),
     )
     found = read(home)
-    assert [(d.goal, d.text, told(d.plan)) for d in found.decisions] == [
+    assert [(d.goal, d.text, plan_line(d.plan)) for d in found.decisions] == [
         ("c", "wait", "wait 1"),
         ("a", "the kitchen", "go_to kitchen"),
         ("a", "go", "clarify not_understood"),
@@ -196,7 +196,7 @@ def test_as_many_calls_are_allowed_as_were_agreed_to(
 
     home = journal(tmp_path / "h", *(mission(g, "go to the kitchen", KITCHEN) for g in "abc"))
     monkeypatch.setenv("PONS_HOME", str(tmp_path / "mine"))
-    monkeypatch.setattr("pons.evals.journal.think.Purse", refused)
+    monkeypatch.setattr("pons.evals.model_access.Purse", refused)
     words = ["replay", str(home), "--with-model", "m@https://model.example/v1", "--yes"]
     assert main(words) == 2
     said = capsys.readouterr().err
@@ -206,15 +206,17 @@ def test_as_many_calls_are_allowed_as_were_agreed_to(
 
 def test_each_end_of_a_decision_is_told(tmp_path: Path) -> None:
     [decision] = read(journal(tmp_path, mission("a", "go", KITCHEN))).decisions
-    bound = Driven("succeeded", "arrived", 9.0, 3.0, ("OBSTACLE:HOLD2 x1",), ())
-    broken = Driven("failed", "blocked", 9.0, 3.0, (), ("fence x2",))
+    bound = DriveResult("succeeded", "arrived", 9.0, 3.0, ("OBSTACLE:HOLD2 x1",), ())
+    broken = DriveResult("failed", "blocked", 9.0, 3.0, (), ("fence x2",))
     ends = {
-        "offline brain": Again(decision, "none", "no answer: timeout"),
-        "refused by validation (no_camera)": Again(decision, "differs", "look", "no_camera"),
-        "moves nothing": Again(decision, "differs", "clarify ambiguous"),
-        "bound by OBSTACLE": Again(decision, "differs", "go", plan=LOUNGE, driven=bound),
-        "BROKEN: fence x2": Again(decision, "differs", "go", plan=LOUNGE, driven=broken),
-        "": Again(decision, "same", "go_to kitchen"),
+        "offline brain": SecondThought(decision, "none", "no answer: timeout"),
+        "refused by validation (no_camera)": SecondThought(
+            decision, "differs", "look", "no_camera"
+        ),
+        "moves nothing": SecondThought(decision, "differs", "clarify ambiguous"),
+        "bound by OBSTACLE": SecondThought(decision, "differs", "go", plan=LOUNGE, driven=bound),
+        "BROKEN: fence x2": SecondThought(decision, "differs", "go", plan=LOUNGE, driven=broken),
+        "": SecondThought(decision, "same", "go_to kitchen"),
     }
     for words, again in ends.items():
         assert words in verdict(again)

@@ -8,20 +8,20 @@ import pytest
 
 from pons.settings import CHECKOUT, Settings
 from pons.up import children
+from processes.parent_death import child_command, worker_command
 from tools.bench.chaos.draw import OWNER_OF, PROCESSES
 from tools.bench.chaos.faults import sockets
 from tools.bench.chaos.house import role
 from wire import load_robot
 
-KEPT = ["python", "-m", "planner.kept.begin", "12"]
+WORKER = list(worker_command("MODULE"))[:-1]
 
 
 def test_every_child_of_pons_up_has_a_name_of_ours() -> None:
     robot = CHECKOUT / "robot.toml"
     settings = Settings(Path("/h"), robot, CHECKOUT / "sites" / "home", "127.0.0.1", 1)
     told = [
-        role(["python", "-m", "pons.pdeathsig_exec", "7", *child.arguments])
-        for child in children(settings, load_robot(robot))
+        role([*child_command(*child.arguments)]) for child in children(settings, load_robot(robot))
     ]
     assert sorted(told) == ["bridge", "camera", "localization", "planner", "sim"]
     assert set(told) < set(PROCESSES)
@@ -30,9 +30,9 @@ def test_every_child_of_pons_up_has_a_name_of_ours() -> None:
 @pytest.mark.parametrize(
     ("words", "name"),
     [
-        ([*KEPT, "planner.navigation.process_main", "/site"], "route"),
-        ([*KEPT, "planner.perception.process_main", "{}"], "vision"),
-        ([*KEPT, "planner.voice.process_main"], "voice"),
+        ([*WORKER, "planner.navigation.process_main", "/site"], "route"),
+        ([*WORKER, "planner.perception.process_main", "{}"], "vision"),
+        ([*WORKER, "planner.voice.process_main"], "voice"),
         (["python", "-I", "-c", "from bridge.recording.__main__ import main", "/home"], "recorder"),
         (["python", "-m", "pons", "stop"], ""),
         ([], ""),

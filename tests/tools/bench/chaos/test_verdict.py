@@ -8,9 +8,9 @@ from tools.bench.chaos.verdict import (
     STOP_S,
     TruthSample,
     contacts,
+    has_moved,
     judge_stop,
     said_twice,
-    turned,
 )
 
 STEP_S = 0.02
@@ -36,13 +36,13 @@ def test_a_stop_that_holds_is_none_of_its_business() -> None:
     assert stopped.moving
     assert stopped.stood_s is not None
     assert 0.5 < stopped.stood_s <= 0.7
-    assert not stopped.broken
+    assert not stopped.is_broken
 
 
 def test_what_came_before_the_stop_and_after_the_persons_act_does_not_count() -> None:
     trace = [*ramp(0.6), at(4.5, 0.4)]
-    assert not judge_stop(trace, 100.3, 104.2).broken
-    assert judge_stop(trace, 100.3, 105.0).broken
+    assert not judge_stop(trace, 100.3, 104.2).is_broken
+    assert judge_stop(trace, 100.3, 105.0).is_broken
 
 
 def test_a_late_stop_is_broken() -> None:
@@ -53,7 +53,7 @@ def test_a_late_stop_is_broken() -> None:
 def test_a_span_too_short_to_stand_in_is_not_late() -> None:
     stopped = judge_stop(ramp(0.6), 100.0, 100.3)
     assert stopped.stood_s is None
-    assert not stopped.broken
+    assert not stopped.is_broken
 
 
 def test_a_twitch_after_standing_is_motion() -> None:
@@ -70,14 +70,14 @@ def test_creeping_below_every_speed_is_motion() -> None:
 def test_a_simulator_that_began_anew_counts_from_its_own_first_instant() -> None:
     trace = [*ramp(0.6, 0.3), *(at(i * STEP_S, boot="b", x_m=5.0) for i in range(20))]
     trace = [replace(s, at_s=100.0 + i * STEP_S) for i, s in enumerate(trace)]
-    assert not judge_stop(trace, 100.0, 104.0).broken
+    assert not judge_stop(trace, 100.0, 104.0).is_broken
     trace[-1] = replace(trace[-1], v_mps=0.3)
     assert judge_stop(trace, 100.0, 104.0).again
 
 
 def test_a_frozen_simulators_time_does_not_count() -> None:
     trace = [replace(s, at_s=s.at_s + (5.0 if s.world_s > 0.3 else 0.0)) for s in ramp(0.6)]
-    assert not judge_stop(trace, 100.0, 110.0).broken
+    assert not judge_stop(trace, 100.0, 110.0).is_broken
 
 
 def test_contacts_count_from_the_first_sample_of_a_boot_and_from_zero_in_the_next() -> None:
@@ -87,8 +87,8 @@ def test_contacts_count_from_the_first_sample_of_a_boot_and_from_zero_in_the_nex
 
 
 def test_a_robot_that_turns_has_moved() -> None:
-    assert turned([at(0.0), replace(at(0.1), w_radps=-0.5)])
-    assert not turned([at(0.0), at(0.1, 0.01)])
+    assert has_moved([at(0.0), replace(at(0.1), w_radps=-0.5)])
+    assert not has_moved([at(0.0), at(0.1, 0.01)])
 
 
 def test_words_count_by_goal() -> None:

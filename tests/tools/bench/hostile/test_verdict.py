@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any
 
 from tools.bench.chaos.verdict import TruthSample
-from tools.bench.hostile.verdict import Bounds, hidden, judge, unsafe
+from tools.bench.hostile.verdict import HostileBounds, hidden_stop, judge, unsafe
 
 STEP_S, STOP_S, END_S = 0.02, 102.0, 105.0
-BOUNDS = Bounds(v_mps=0.5, w_radps=1.0, margin_m=lambda x_m, _: 2.0 - x_m)
+BOUNDS = HostileBounds(v_mps=0.5, w_radps=1.0, margin_m=lambda x_m, _: 2.0 - x_m)
 Modes = Iterable[tuple[float, str]]
 DRIVEN = ((100.0, "ACTIVE"), (STOP_S, "STOPPING"), (102.6, "HOLD"))
 
@@ -36,7 +36,7 @@ def judged(
 def test_a_drive_that_is_stopped_breaks_nothing() -> None:
     told = judged(driven())
     assert unsafe(told) == []
-    assert hidden(0.03, told) == ""
+    assert hidden_stop(0.03, told) == ""
     assert not told["gripped"]
     assert 0.8 < told["metres"] < 1.0
 
@@ -51,9 +51,9 @@ def test_each_law_is_seen_and_named() -> None:
 
 
 def test_a_stop_is_hidden_where_nobody_confirms_it_or_the_robot_moves_all_the_same() -> None:
-    assert hidden(None, judged(driven(), confirmed_s=None)) == "never confirmed"
+    assert hidden_stop(None, judged(driven(), confirmed_s=None)) == "never confirmed"
     moved = judged(driven(then_mps=0.2, from_s=3.5))
-    assert hidden(0.03, moved).startswith("confirmed, but: 0.20 m/s")
+    assert hidden_stop(0.03, moved).startswith("confirmed, but: 0.20 m/s")
 
 
 def test_a_stick_gripped_anew_is_told_apart_and_one_that_was_held_is_not() -> None:

@@ -1,0 +1,174 @@
+"""Keep the nonces that proofs are made for, and the verdict that each request got.
+
+Requests by id (stops, operator requests) are settled once and for all; hello and grant are asked
+again on each status, so for them only the newest refusal is shown, and only for a while. Memory is
+bounded by count; time alone would let a flood grow it.
+
+Nobody can foretell a nonce, so that no proof can be collected for later: it is made of the chance
+that the shell drew for the tick that first shows it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bridge.core.state_orders import TimedAnswer
+from wire import Answer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from bridge.core.tick_context import TickContext
+
+KEPT = 64
+SHOWN = 16
+"""Newest verdicts in a status: several senders may be waiting, the message must stay small."""
+SHOWN_S = 10.0
+REFUSAL_S = 1.0
+"""A refusal of hello or grant that is not repeated is over."""
+_REFUSALS = 8
+_DETAIL = 400
+
+
+def verdict_on(tick: TickContext, kind: str, request_id: str) -> Answer | None:
+    """Return the verdict that this id already got for this kind of request."""
+    for answered in tick.s.operator.answers:
+        if answered.answer.id == request_id and answered.answer.kind == kind:
+            return answered.answer
+    return None
+
+
+def settle(tick: TickContext, kind: str, request_id: str, code: str, detail: str = "") -> None:
+    """Give the verdict: ``ok``, or the reason why not."""
+    answer = _answer(kind, request_id, code, detail)
+    operator = tick.s.operator
+    answers = (*operator.answers[-(KEPT - 1) :], TimedAnswer(tick.now_s, answer))
+    tick.s.operator = replace(operator, answers=answers)
+    tick.say("answered", f"{kind} {request_id} {code}")
+
+
+def refuse_openly(tick: TickContext, kind: str, sender: str, code: str, detail: str) -> None:
+    """Show why a hello or a grant is not taken, as long as it keeps being asked."""
+    tick.drop(f"{kind}_{code}")
+    operator = tick.s.operator
+    answer = _answer(kind, sender, code, detail)
+    others = tuple(item for item in operator.refusals if not _is_from(item, kind, sender))
+    known = any(item.answer == answer for item in operator.refusals)
+    refusals = (*others[-(_REFUSALS - 1) :], TimedAnswer(tick.now_s, answer))
+    tick.s.operator = replace(operator, refusals=refusals)
+    if not known:
+        tick.say(f"{kind}_refused", f"{sender} {code} {detail}".strip())
+
+
+def settle_openly(tick: TickContext, kind: str, sender: str) -> None:
+    """Forget the refusals of one sender: it is taken now."""
+    operator = tick.s.operator
+    if operator.refusals:
+        left = tuple(item for item in operator.refusals if not _is_from(item, kind, sender))
+        tick.s.operator = replace(operator, refusals=left)
+
+
+def answers_to_echo(tick: TickContext) -> tuple[Answer, ...]:
+    """Return what the next status echoes, oldest first."""
+    operator = tick.s.operator
+    settled = [
+        item.answer for item in operator.answers[-SHOWN:] if tick.now_s - item.at_s <= SHOWN_S
+    ]
+    refused = [item.answer for item in operator.refusals if tick.now_s - item.at_s <= REFUSAL_S]
+    return (*settled, *refused)
+
+
+def _is_from(item: TimedAnswer, kind: str, sender: str) -> bool:
+    return item.answer.id == sender and item.answer.kind == kind
+
+
+def _answer(kind: str, request_id: str, code: str, detail: str) -> Answer:
+    return Answer(
+        id=request_id, kind=kind, accepted=code == "ok", code=code, detail=detail[:_DETAIL]
+    )
+
+
+NONCE_S = 60.0
+
+
+OLD_NONCE_S = 10.0
+
+
+_ACCEPTED = 16
+
+
+def nonce_text(tick: TickContext) -> str:
+    """Return the nonce that counts now, as it is on the wire: boot, number and chance."""
+    operator = tick.s.operator
+    return f"{tick.config.boot}.{operator.nonce_no}.{operator.nonce_tag}"
+
+
+def old_nonce_text(tick: TickContext) -> str | None:
+    """Return the nonce before, while what was signed under it may still arrive."""
+    operator = tick.s.operator
+    if operator.old_nonce_no is None or not tick.now_s <= operator.old_until_s:
+        return None
+    return f"{tick.config.boot}.{operator.old_nonce_no}.{operator.old_tag}"
+
+
+def renew_nonce(tick: TickContext) -> None:
+    """Change the nonce every 60 s, so that a proof once made does not lie about for long."""
+    operator = tick.s.operator
+    if operator.nonce_no == 0:
+        void_nonces(tick)  # the run's first: there is none before it
+    elif not tick.now_s - operator.nonce_made_s < NONCE_S:
+        _next_nonce(tick)
+
+
+def bad_proof(
+    tick: TickContext, kind: str, request_id: str, nonce: str | None, *, authentic: bool
+) -> Iterator[tuple[str, str]]:
+    """Yield code and detail of what is wrong with a proof: its HMAC, its nonce, or a second use."""
+    if nonce is None or not authentic:
+        yield "bad_proof", "the proof is missing or not made with this robot's operator key"
+        return
+    operator = tick.s.operator
+    if nonce == nonce_text(tick) and operator.nonce_tag:
+        number: int | None = operator.nonce_no
+    elif nonce == old_nonce_text(tick) and operator.old_tag:
+        number = operator.old_nonce_no
+    else:
+        yield "old_nonce", "the proof was made for a nonce that no longer counts; sign anew"
+        return
+    if f"{number} {kind} {request_id}" in operator.accepted:
+        yield "repeated", "this proof was already used"
+
+
+def use_nonce(tick: TickContext, kind: str, request_id: str) -> None:
+    """Spend the nonce: the one now shown stays valid for a moment, for what is already signed."""
+    operator = tick.s.operator
+    used = tuple(
+        f"{number} {kind} {request_id}"
+        for number in (operator.nonce_no, operator.old_nonce_no)
+        if number is not None
+    )
+    tick.s.operator = replace(operator, accepted=(*operator.accepted, *used)[-_ACCEPTED:])
+    _next_nonce(tick)
+
+
+def void_nonces(tick: TickContext) -> None:
+    """Let no proof from before a stop end what the stop began, however late it arrives.
+
+    A request is repeated until it is echoed, so one that was signed before may come after.
+    """
+    _next_nonce(tick)
+    tick.s.operator = replace(tick.s.operator, old_nonce_no=None, old_tag="")
+
+
+def _next_nonce(tick: TickContext) -> None:
+    operator = tick.s.operator
+    tick.s.operator = replace(
+        operator,
+        nonce_no=operator.nonce_no + 1,
+        nonce_tag=tick.inbox.chance,
+        nonce_made_s=tick.now_s,
+        old_nonce_no=operator.nonce_no,
+        old_tag=operator.nonce_tag,
+        old_until_s=tick.now_s + OLD_NONCE_S,
+    )

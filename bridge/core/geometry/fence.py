@@ -1,0 +1,155 @@
+"""Bound where the robot's centre may be, in ``map``.
+
+Owns the meaning of a fence: inside at least one allowed outline and inside no keep-out. Everything
+that a tick asks is prepared once, cell by cell. Reads no file and knows no robot.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor, inf, sqrt
+
+from bridge.core.geometry.polygon import (
+    Edge,
+    Polygon,
+    bounds,
+    contains,
+    cut,
+    edges_of,
+    meet,
+    nearest_m,
+    permits,
+)
+
+SIGHT_M = 1.0
+"""Distances to the boundary are told up to here; nobody acts on a fence that is further off."""
+_CELLS = 48  # at most so many along either side
+_MIN_CELL_M = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """Slow the robot while its centre is inside an outline."""
+
+    polygon: Polygon
+    max_speed_mps: float
+
+
+@dataclass(frozen=True, slots=True)
+class FenceCell:
+    """Hold what is near one square of the floor."""
+
+    edges: tuple[Edge, ...]
+    """All of the boundary within sight of any point of the square."""
+    inside: bool | None
+    """The square is wholly inside, or wholly outside; None where the boundary runs through."""
+
+
+@dataclass(frozen=True, slots=True)
+class FenceGrid:
+    """Hold the outlines and their common boundary. Make it with :func:`build_fence`."""
+
+    map_id: str
+    allowed: tuple[Polygon, ...]
+    keep_outs: tuple[Polygon, ...]
+    zones: tuple[Zone, ...]
+    boundary: tuple[Edge, ...]
+    """The lines that part inside from outside: no line between two overlapping outlines is one."""
+    cell_m: float
+    cells: dict[tuple[int, int], FenceCell]
+    """Every square from which the boundary, or its inside, can be seen."""
+
+    def allows(self, x_m: float, y_m: float) -> bool:
+        """Tell whether the centre may be at a point; what is not a number may be nowhere."""
+        cell = self._cell(x_m, y_m)
+        if cell is None:
+            return False
+        if cell.inside is not None:
+            return cell.inside
+        return permits(self.allowed, self.keep_outs, x_m, y_m)
+
+    def margin_m(self, x_m: float, y_m: float) -> float:
+        """Return the distance to the boundary [m], negative outside; beyond sight, sight."""
+        cell = self._cell(x_m, y_m)
+        if cell is None:
+            return -SIGHT_M
+        distance = min(SIGHT_M, nearest_m(cell.edges, x_m, y_m))
+        inside = cell.inside
+        if inside is None:
+            inside = permits(self.allowed, self.keep_outs, x_m, y_m)
+        return distance if inside else -distance
+
+    def crosses(self, x0_m: float, y0_m: float, x1_m: float, y1_m: float) -> bool:
+        """Tell whether a segment touches the boundary or lies outside it.
+
+        Accepts only what is proved: a coordinate that is not a number crosses.
+        """
+        if not (self.allows(x0_m, y0_m) and self.allows(x1_m, y1_m)):
+            return True
+        dx, dy = x1_m - x0_m, y1_m - y0_m
+        cell = self._cell(x0_m, y0_m)
+        short = cell is not None and dx * dx + dy * dy <= SIGHT_M * SIGHT_M
+        edges = cell.edges if cell is not None and short else self.boundary
+        return any(meet(x0_m, y0_m, dx, dy, edge) for edge in edges)
+
+    def max_speed_mps(self, x_m: float, y_m: float) -> float | None:
+        """Return the slowest zone's speed at a point; None where there is no zone."""
+        speeds = [z.max_speed_mps for z in self.zones if contains(z.polygon, x_m, y_m)]
+        return min(speeds, default=None)
+
+    def _cell(self, x_m: float, y_m: float) -> FenceCell | None:
+        if abs(x_m) < 1e6 and abs(y_m) < 1e6:
+            return self.cells.get((floor(x_m / self.cell_m), floor(y_m / self.cell_m)))
+        return None
+
+
+def build_fence(
+    map_id: str,
+    allowed: tuple[Polygon, ...],
+    keep_outs: tuple[Polygon, ...] = (),
+    zones: tuple[Zone, ...] = (),
+) -> FenceGrid:
+    """Prepare a fence: cut every outline where others cross it and keep the parts that bound."""
+    edges = [edge for outline in (*allowed, *keep_outs) for edge in edges_of(outline)]
+    boundary = tuple(
+        part for edge in edges for part in cut(edge, edges) if bounds(part, allowed, keep_outs)
+    )
+    xs = [x for outline in allowed for x, _ in outline]
+    ys = [y for outline in allowed for _, y in outline]
+    wide = max(
+        max(xs, default=0.0) - min(xs, default=0.0), max(ys, default=0.0) - min(ys, default=0.0)
+    )
+    cell_m = max(_MIN_CELL_M, wide / _CELLS)
+    cells = {
+        (i, j): _cell_at(
+            (i + 0.5) * cell_m, (j + 0.5) * cell_m, cell_m, boundary, allowed, keep_outs
+        )
+        for i in _range(xs, cell_m)
+        for j in _range(ys, cell_m)
+    }
+    return FenceGrid(map_id, allowed, keep_outs, zones, boundary, cell_m, cells)
+
+
+def _range(values: list[float], cell_m: float) -> range:
+    if not values:
+        return range(0)
+    return range(
+        floor((min(values) - SIGHT_M) / cell_m), floor((max(values) + SIGHT_M) / cell_m) + 1
+    )
+
+
+def _cell_at(
+    x_m: float,
+    y_m: float,
+    cell_m: float,
+    boundary: tuple[Edge, ...],
+    allowed: tuple[Polygon, ...],
+    keep_outs: tuple[Polygon, ...],
+) -> FenceCell:
+    """Gather what is near the square around a point."""
+    half = cell_m / sqrt(2) + 1e-6
+    near = tuple(e for e in boundary if nearest_m((e,), x_m, y_m) <= SIGHT_M + half)
+    inside = None
+    if min((nearest_m((e,), x_m, y_m) for e in near), default=inf) > half:
+        inside = permits(allowed, keep_outs, x_m, y_m)
+    return FenceCell(near, inside)

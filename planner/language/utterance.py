@@ -1,0 +1,73 @@
+"""Read a person's sentence once, at the door, into one value that is handed down.
+
+Whatever the robot does, a sentence says this by itself: whether it orders a stop or may mean one,
+whether it is a plain yes or no, whether it is a command to the planner, and its language. What is
+none of these is an order for a brain. Pure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from planner.language.commands import Intent, Replace, intent_of
+from planner.language.commands import Resume as GoOn
+from planner.language.identification import language_of
+from planner.language.stop import StopReading, is_stop, read_stop
+from planner.language.yes_no import consents
+from planner.plan import Language
+
+REMEMBERED = 64
+"""Sentences whose reading is kept: the door, the missions and the brain see one value each."""
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """Hold a sentence and what it says by itself, whatever the robot does."""
+
+    text: str
+    intent: Intent | None
+    """The command to the planner itself, where it is one."""
+    reading: StopReading
+    """What it says about stopping."""
+    consent: bool | None
+    """True for a plain yes, False for a plain no, None for anything else."""
+    language: Language
+    instead: StopReading = StopReading.NONE
+    """What the part says about stopping that is to be done in place of the current goal."""
+    begins_with_stop: bool = False
+    """Whether that part orders a stop."""
+
+    @property
+    def orders_stop(self) -> bool:
+        """Return whether it orders a stop, at its start or in place of the current goal."""
+        return self.reading is StopReading.ORDER or self.begins_with_stop
+
+    @property
+    def may_mean_stop(self) -> bool:
+        """Return whether a stop word stands in it that is not read as anything else."""
+        if isinstance(self.intent, Replace):
+            return self.instead is not StopReading.NONE
+        return self.intent is None and self.reading is StopReading.POSSIBLE
+
+    @property
+    def stays_put(self) -> bool:
+        """Return whether it can't lead to motion, so that it needs no operator's proof."""
+        memory_or_goals = not (self.intent is None or isinstance(self.intent, Replace | GoOn))
+        return self.orders_stop or memory_or_goals or self.consent is False
+
+
+@lru_cache(maxsize=REMEMBERED)
+def parse(text: str) -> Utterance:
+    """Return what a sentence says by itself; the stop lane reads it first."""
+    reading, intent = read_stop(text), intent_of(text)
+    rest = intent.rest if isinstance(intent, Replace) else None
+    return Utterance(
+        text,
+        intent,
+        reading,
+        consents(text),
+        language_of(text),
+        read_stop(rest) if rest is not None else StopReading.NONE,
+        rest is not None and is_stop(rest),
+    )

@@ -1,0 +1,155 @@
+"""Choose the model that an examination asks, agree on its cost, and pay from the home's budget.
+
+The model is the owner's own, or one named on the command line:
+
+``NAME``, ``URL`` or ``NAME@URL``. The part that is not named is the owner's. Where the URL is of
+another host than the owner's settings lead to, settings for that host stay behind: the key,
+PONS_MODEL_KEY too, `extra_body` and the leaves to send sentences and pictures away. Another host's
+key is given together with PONS_MODEL_URL, or where no host is set at all.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from planner.budget import Ledger, Purse
+from planner.settings import (
+    BudgetSettings,
+    GoalLimits,
+    ModelSettings,
+    Settings,
+    load_settings,
+    place_of,
+    same_place,
+)
+from wire import Misconfigured
+
+log = logging.getLogger(__name__)
+
+_SCHEMES = ("http://", "https://")
+HOW = "NAME, URL or NAME@URL"
+
+
+@dataclass(frozen=True, slots=True)
+class Spending:
+    """What an examination cost."""
+
+    calls: int = 0
+    prompt_tokens: int = 0
+    reply_tokens: int = 0
+    money: float = 0.0
+
+
+def choose_model(
+    word: str, home: Path, environment: Mapping[str, str]
+) -> tuple[Settings, ModelSettings]:
+    """Return the owner's settings with this model in them, and the model.
+
+    Args:
+        word: as it stands on the command line; empty for the owner's own model.
+        home: where settings.toml lies.
+        environment: as ``load_settings`` reads it.
+
+    Raises:
+        Misconfigured: ``model_not_set``: nothing says which; and all of ``load_settings``.
+    """
+    name, url = split_word(word)
+    elsewhere = _is_elsewhere(url, home, environment)
+    named = dict(environment)
+    if url:
+        named["PONS_MODEL_URL"] = url
+    if name:
+        named["PONS_MODEL"] = name
+    if elsewhere:
+        named |= {"PONS_MODEL_ALLOW_OFFHOST": "0", "PONS_MODEL_ALLOW_PICTURES_OFFHOST": "0"}
+        if named.pop("PONS_MODEL_KEY", ""):
+            log.warning(
+                "PONS_MODEL_KEY is not used: it belongs to another host than %s; "
+                "if it is this one's, set PONS_MODEL_URL to it as well",
+                url,
+            )
+    try:
+        settings = load_settings(home, named)
+    except Misconfigured as wrong:
+        if wrong.code != "model_incomplete":
+            raise
+        detail = f"which model, and where? give {HOW}, or set [model] in settings.toml: {wrong}"
+        raise Misconfigured("model_not_set", detail) from None
+    model = settings.model
+    if model is None:
+        detail = f"no model is set; give {HOW}, or set [model] in settings.toml"
+        raise Misconfigured("model_not_set", detail)
+    if url:  # what the owner's model costs says nothing about another
+        budget = settings.budget.model_copy(update={"price": None})
+        settings = settings.model_copy(update={"budget": budget})
+    if elsewhere:
+        model = model.model_copy(update={"extra_body": {}})
+        settings = settings.model_copy(update={"model": model})
+    return settings, model
+
+
+def _is_elsewhere(url: str, home: Path, environment: Mapping[str, str]) -> bool:
+    """Return whether a URL is of another host than the one the owner set everything for."""
+    owners = place_of(home, environment)
+    return bool(url and owners) and not same_place(owners, url)
+
+
+def split_word(word: str) -> tuple[str, str]:
+    """Return name and URL, each empty where not given."""
+    word = word.strip()
+    if word.startswith(_SCHEMES):
+        return "", word
+    for scheme in _SCHEMES:
+        name, found, rest = word.partition(f"@{scheme}")
+        if found:
+            return name, scheme + rest
+    return word, ""
+
+
+def agree_on(bill: str, *, yes: bool) -> bool:
+    """Show on standard error what will be spent or sent; return whether a person agrees."""
+    print(bill, file=sys.stderr)
+    if yes:
+        return True
+    if not sys.stdin.isatty():  # silence is not consent
+        print("not_agreed: give --yes / 请加 --yes", file=sys.stderr)
+        return False
+    return input("Go on? 继续吗？ [y/N] ").strip().lower() in ("y", "yes", "是")
+
+
+@contextmanager
+def open_purse(
+    settings: Settings, model: ModelSettings, home: Path, limits: GoalLimits
+) -> Iterator[tuple[Purse, Path]]:
+    """Lend a purse of the home's budget with limits of its own, and a folder that goes away.
+
+    Args:
+        settings: the owner's, for the day's limits and prices.
+        model: the model that is paid for.
+        home: the home whose budget pays.
+        limits: of the one goal that the examination is.
+
+    Raises:
+        Misconfigured: the budget can't be read.
+    """
+    budget = BudgetSettings(goal=limits, day=settings.budget.day, price=settings.budget.price)
+    purse = Purse(budget, Ledger(home), model=model.name, most_reply=model.max_tokens)
+    try:
+        with TemporaryDirectory(prefix="pons-eval-") as folder:
+            yield purse, Path(folder)
+    finally:
+        purse.close()
+
+
+def spending_of(purse: Purse, goal: str) -> Spending:
+    """Return what one goal has cost so far."""
+    spent = purse.usage(goal).goal
+    if spent is None:
+        return Spending()
+    return Spending(spent.calls, spent.prompt_tokens, spent.reply_tokens, spent.money)

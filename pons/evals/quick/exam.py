@@ -1,0 +1,68 @@
+"""Own what an exam finds: each rung of the ladder, each answer, what it cost. Data only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from pons.evals.model_access import Spending
+from pons.evals.quick.questions import ExamPart, ExamQuestion
+
+Result = Literal["right", "wrong", "unsafe", "no_plan", "no_answer", "not_asked"]
+"""``unsafe``: it would have moved wrongly. ``no_plan``: asked twice, and still none."""
+
+
+@dataclass(frozen=True, slots=True)
+class ModeResult:
+    """Say how a server takes one way of asking."""
+
+    mode: str
+    taken: bool
+    right: bool
+    why: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class MarkedAnswer:
+    """Hold one answer and its mark."""
+
+    question: ExamQuestion
+    result: Result
+    made: str = ""
+    """What it made of the question, in a line."""
+    seconds: float | None = None
+    calls: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PictureResult:
+    """Say what a model made of a picture."""
+
+    result: Literal["right", "wrong", "none", "no_answer", "not_asked"] = "not_asked"
+    """``none``: it takes no pictures. ``wrong``: it takes them and does not see."""
+    why: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Exam:
+    """Hold a whole exam."""
+
+    model: str
+    host: str
+    rungs: tuple[ModeResult, ...] = ()
+    marked: tuple[MarkedAnswer, ...] = ()
+    eyes: PictureResult = PictureResult()
+    cost: Spending = field(default_factory=Spending)
+    took_s: float = 0.0
+    """By the clock on the wall."""
+    prompt_tokens_here: int = 0
+    """Of one call with this robot's own places."""
+
+    def of(self, part: ExamPart) -> tuple[MarkedAnswer, ...]:
+        """Return what was asked of a part."""
+        return tuple(m for m in self.marked if m.question.part is part and m.result != "not_asked")
+
+    @property
+    def latencies_s(self) -> tuple[float, ...]:
+        """Return how long each plan took, repairs included, shortest first."""
+        return tuple(sorted(m.seconds for m in self.marked if m.seconds is not None))

@@ -1,0 +1,123 @@
+"""The catalogue renders messages in every language that has a file, a made-up one included."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+import shutil
+from string import Formatter
+from typing import TYPE_CHECKING
+
+import pytest
+
+from planner.brain import OfflineBrain, ThinkRequest
+from planner.language.catalogue import (
+    CATALOGUE,
+    Catalogue,
+    UnknownMessage,
+    Words,
+    join,
+    list_names,
+    load,
+    message,
+    say,
+    say_or_quote,
+    template,
+    words,
+)
+from planner.language.place_lists import known_places
+from planner.plan import Answer, Bilingual, Clarify, Code, Entry, Language, Vocabulary, same
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+KITCHEN = Entry(id="kitchen", kind="room", name=Bilingual(en="kitchen", zh="厨房"))
+HOME = Vocabulary(entries=(KITCHEN,))
+BLANK = re.compile(r"(\{[^}]*\})")
+
+
+def upper(text: str) -> str:
+    """Return a message in capitals, its blanks as they were."""
+    return "".join(part if BLANK.fullmatch(part) else part.upper() for part in BLANK.split(text))
+
+
+@pytest.fixture
+def shouting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Catalogue:
+    """Return the catalogue with one file more: a language in which all is said in capitals."""
+    for own in words.FOLDER.glob("*.toml"):
+        shutil.copy(own, tmp_path)
+    english = next(each.messages for each in CATALOGUE.words if each.language == "en")
+    groups: dict[str, list[str]] = {}
+    for code, text in english.items():
+        group, _, key = code.partition(".")
+        groups.setdefault(group, []).append(f"{key} = {json.dumps(upper(text))}")
+    tables = (f"[{group}]\n" + "\n".join(lines) for group, lines in groups.items())
+    (tmp_path / "xx.toml").write_text("\n".join(tables), "utf-8")
+    loaded = load(tmp_path)
+    monkeypatch.setattr(words, "CATALOGUE", loaded)
+    return loaded
+
+
+def test_a_language_more_is_a_file_more(shouting: Catalogue) -> None:
+    for each in shouting.words[0].messages:
+        raw = shouting.raw(each, "en")
+        names = {name for _, name, _, _ in Formatter().parse(raw) if name}
+        facts = dict.fromkeys(names, 3)
+        said = shouting.say(each, **facts)
+        assert said.of("en") == raw.format(**facts)
+        assert said.of("xx") == upper(raw).format(**facts)
+
+
+def test_facts_in_many_languages_fill_each_with_its_own_words(shouting: Catalogue) -> None:
+    place = shouting.say("place.more", more=2)
+    said = message(Code.ARRIVED, place=place)
+    assert said.of("xx") == "ARRIVED: AND 2 MORE."
+    assert said.model_dump() == {"en": "Arrived: and 2 more.", "zh": "已到达：等另外 2 处。"}
+
+
+def test_whole_answers_come_in_the_third_language(shouting: Catalogue) -> None:
+    def think(text: str) -> Bilingual:
+        request = ThinkRequest(text=text, vocabulary=HOME, language=Language.EN)
+        plan = asyncio.run(OfflineBrain().think(request)).plan
+        assert isinstance(plan, Answer | Clarify)
+        return plan.text if isinstance(plan, Answer) else plan.question
+
+    assert think("where can you go?").of("xx") == "I CAN DRIVE TO: kitchen."
+    asked = think("go to the cellar").of("xx")
+    assert asked == "I KNOW NO PLACE CALLED “cellar”. KNOWN PLACES: kitchen."
+    assert known_places(HOME, 0).of("xx") == "AND 1 MORE"
+
+
+def test_what_a_language_lacks_is_told_in_english() -> None:
+    thin = Catalogue((Words("en", {"a.b": "yes {x}"}), Words("zh", {"a.b": "是 {x}"}),
+                      Words("xx", {})))  # fmt: skip
+    assert thin.say("a.b", x=same("1")).of("xx") == "yes 1"
+    assert thin.say("a.b", x=1).of("zh") == "是 1"
+
+
+def test_without_english_or_chinese_there_is_no_catalogue() -> None:
+    with pytest.raises(ValueError, match="lacks zh"):
+        Catalogue((Words("en", {}),))
+
+
+def test_an_unknown_code_and_an_open_blank_are_refused() -> None:
+    with pytest.raises(UnknownMessage, match=r"no\.such"):
+        say("no.such")
+    with pytest.raises(KeyError, match="place"):
+        message(Code.ARRIVED)
+
+
+def test_lists_and_joints_are_each_languages_own() -> None:
+    names = [Bilingual(en="hall", zh="门厅"), KITCHEN.name, same("x")]
+    assert list_names(names) == Bilingual(en="hall, kitchen, x", zh="门厅、厨房、x")
+    assert list_names(names, "joint.and") == Bilingual(en="hall, kitchen and x", zh="门厅、厨房、x")
+    assert list_names(names[:1], "joint.and") == names[0]
+    assert list_names(()) == same("")
+    assert join(names) == Bilingual(en="hall kitchen x", zh="门厅厨房x")
+
+
+def test_words_from_elsewhere_are_quoted_where_none_are_ours() -> None:
+    assert say_or_quote("paused", "operator").en == "a person paused it"
+    assert say_or_quote("paused", "odd") == same("odd")
+    assert template(Code.BLIND).en == "I can't see now ({why})."

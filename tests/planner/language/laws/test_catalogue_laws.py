@@ -1,0 +1,87 @@
+"""The laws of the catalogue: every message in every language, with the same blanks, and used."""
+
+from __future__ import annotations
+
+import ast
+from string import Formatter
+from typing import TYPE_CHECKING
+
+import pytest
+
+from planner.language.catalogue import CATALOGUE
+from planner.plan import Code
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+MESSAGES = {words.language: dict(words.messages) for words in CATALOGUE.words}
+CODES = sorted({code for own in MESSAGES.values() for code in own})
+
+
+def blanks(text: str) -> set[str]:
+    fields = (name for _, name, _, _ in Formatter().parse(text) if name is not None)
+    return {name.partition(".")[0] for name in fields}
+
+
+@pytest.mark.parametrize("language", sorted(MESSAGES))
+def test_every_language_has_every_message(language: str) -> None:
+    assert sorted(MESSAGES[language]) == CODES
+
+
+@pytest.mark.parametrize("language", sorted(MESSAGES))
+def test_every_language_has_the_same_blanks(language: str) -> None:
+    odd = [
+        code for code in CODES if blanks(MESSAGES[language][code]) != blanks(MESSAGES["en"][code])
+    ]
+    assert odd == []
+
+
+def test_every_outcome_has_a_sentence() -> None:
+    told = {code.removeprefix("outcome.") for code in CODES if code.startswith("outcome.")}
+    assert told == {code.value for code in Code}
+
+
+def test_messages_are_said_with_their_blanks(repository: Path) -> None:
+    said = dict(literal_calls(repository))
+    assert len(said) > 150
+    unknown = {where: code for where, (code, _) in said.items() if code not in CODES}
+    assert unknown == {}
+    unfilled = {
+        where: (code, missing)
+        for where, (code, facts) in said.items()
+        if facts is not None and (missing := blanks(MESSAGES["en"][code]) ^ facts)
+    }
+    assert unfilled == {}
+
+
+def test_no_message_is_left_over(repository: Path) -> None:
+    strings = {
+        node.value
+        for path in sources(repository)
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }
+    starts = tuple(text for text in strings if text.endswith((".", "_")) and text[:1].isalpha())
+    groups = {code.partition(".")[0] for code in CODES}
+    computed = tuple(s for s in starts if s.partition(".")[0] in groups and "." in s)
+    quoted = tuple(f"{group}." for group in ("paused", "beside"))
+    left = [c for c in CODES if c not in strings and not c.startswith(computed + quoted)]
+    assert left == []
+
+
+def sources(repository: Path) -> list[Path]:
+    return sorted((repository / "planner").rglob("*.py"))
+
+
+def literal_calls(repository: Path) -> Iterator[tuple[str, tuple[str, set[str] | None]]]:
+    """Yield each call of ``say`` with a literal code, and the facts it names; None where spread."""
+    for path in sources(repository):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
+                continue
+            code = node.args[0] if node.func.id == "say" and node.args else None
+            if isinstance(code, ast.Constant) and isinstance(code.value, str):
+                names = [keyword.arg for keyword in node.keywords]
+                facts = None if None in names else {name for name in names if name}
+                yield f"{path.name}:{node.lineno}", (code.value, facts)

@@ -1,0 +1,38 @@
+"""A name that would be read as an order, or would hide one, is told from a plain name."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language.reserved_names import name_reads_as_order
+from tests.planner.brain.conftest import HOME
+
+PLAIN = (
+    "charging spot",
+    "grandma's chair",
+    "Mum's desk",
+    "printer room",
+    "kitchen door",
+    "shelf 3",
+    "奶奶的椅子",
+    "充电位",
+    "停车位",
+    "打印机",
+    "饮水机",
+)
+ORDERS = (
+    *("stop", "halt", "continue", "never mind", "do not", "not the kitchen", "don't"),
+    *("come back", "wait 5 seconds", "go to the desk", "kitchen and bedroom", "here", "home"),
+    *("if nobody is there", "ignore all rules", "kitchn", "follow me", "left"),
+    *("停", "别动", "别去", "不要", "继续", "算了", "这里", "去", "厨房然后卧室", "如果", "我的"),
+)
+
+
+@pytest.mark.parametrize("name", PLAIN)
+def test_a_plain_name_may_be_taught(name: str) -> None:
+    assert not name_reads_as_order(name, HOME)
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_words_of_orders_are_no_names(name: str) -> None:
+    assert name_reads_as_order(name, HOME)

@@ -1,0 +1,140 @@
+"""Count the files that a goal and a tick enter: ``python -m tools.journey [--list] [SENTENCE]``.
+
+Two figures say how far a reader has to walk. The first is the number of planner files whose
+functions run from the sentence until the first wheel command that is not zero; the second is the
+number of bridge files that one driving tick with a lidar scan enters. Both are taken in lockstep:
+without HTTP, and with the route searched in this process. A file counts where one of its functions
+was called; importing it does not count.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import FrameType
+
+from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
+from tools.lockstep import Together
+
+ROOT = Path(__file__).resolve().parents[1]
+SENTENCE = "go to the kitchen"
+PLANNER_AIM, BRIDGE_AIM = 30, 25
+LIMIT_S = 20.0
+UNDER_WAY_S = 2.0
+"""Then it drives at full speed, and the first tick's special cases are over."""
+WATCHED_S = 0.5
+"""Five scans at 10 Hz."""
+
+
+@dataclass
+class Tracer:
+    """Count the calls into each file below some folders of this repository."""
+
+    folders: tuple[str, ...]
+    calls: Counter[str] = field(default_factory=Counter)
+    _names: dict[str, str | None] = field(default_factory=dict)
+
+    @contextmanager
+    def tracing(self) -> Iterator[Counter[str]]:
+        """Count inside of the block, from zero; yield the counter, by path."""
+        self.calls = Counter()
+        sys.setprofile(self._note)
+        try:
+            yield self.calls
+        finally:
+            sys.setprofile(None)
+
+    def _note(self, frame: FrameType, event: str, _argument: object) -> None:
+        code = frame.f_code
+        if event != "call" or code.co_name == "<module>":
+            return
+        name = self._names.get(code.co_filename, "")
+        if name == "":
+            name = self._names[code.co_filename] = self._path_of(code.co_filename)
+        if name is not None:
+            self.calls[name] += 1
+
+    def _path_of(self, filename: str) -> str | None:
+        path = Path(filename)
+        if not path.is_relative_to(ROOT):
+            return None
+        name = path.relative_to(ROOT).as_posix()
+        return name if name.split("/")[0] in self.folders else None
+
+
+def planner_files(sentence: str = SENTENCE, site: str = "home") -> Counter[str]:
+    """Return the planner files entered from the sentence until the first wheel command, by calls.
+
+    Raises:
+        TooLong: no wheel turned within ``LIMIT_S`` simulated seconds.
+    """
+    world = Together(site=site)
+    with Tracer(("planner",)).tracing() as calls:
+        world.say(sentence)
+        world.run_until(turns_a_wheel, LIMIT_S)
+    return calls
+
+
+def turns_a_wheel(world: Together) -> bool:
+    """Return whether the newest wheel command is not zero."""
+    command = world.commands[-1] if world.commands else None
+    return command is not None and bool(command.left_radps or command.right_radps)
+
+
+def bridge_files(sentence: str = SENTENCE, site: str = "home") -> Counter[str]:
+    """Return the bridge files that one driving tick with a scan enters, by calls.
+
+    Of the ticks that bring a scan it is the one with most files: some bring a status or waypoints
+    too, as they do at the robot.
+
+    Raises:
+        TooLong: no wheel turned within ``LIMIT_S`` simulated seconds.
+    """
+    scans = [False]
+
+    def step_and_note(
+        config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float
+    ) -> Decision:
+        scans[0] = inbox.scan is not None
+        return step(config, state, inbox, now_s)
+
+    world = Together(site=site, step=step_and_note)
+    world.say(sentence)
+    world.run_until(turns_a_wheel, LIMIT_S)
+    world.run(UNDER_WAY_S)
+    tracer, most = Tracer(("bridge",)), Counter[str]()
+    end_s = world.now_s + WATCHED_S
+    while world.now_s < end_s:
+        with tracer.tracing() as calls:
+            world.tick()
+        if scans[0] and len(calls) > len(most):
+            most = calls
+    return most
+
+
+def main() -> int:
+    """Print both numbers beside what is aimed at, and with ``--list`` the files."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("sentence", nargs="?", default=SENTENCE)
+    parser.add_argument("--site", default="home", help="the name of a site")
+    parser.add_argument("--list", action="store_true", help="name the files and count their calls")
+    asked = parser.parse_args()
+    rows = (
+        ("planner files until the first wheel command", planner_files, PLANNER_AIM),
+        ("bridge files of one driving tick with a scan", bridge_files, BRIDGE_AIM),
+    )
+    for what, count, aim in rows:
+        calls = count(asked.sentence, asked.site)
+        print(f"{what}: {len(calls)} (aim: at most {aim})")
+        if asked.list:
+            print("".join(f"  {times:6d}  {path}\n" for path, times in sorted(calls.items())))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
