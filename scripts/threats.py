@@ -59,7 +59,9 @@ ASKERS = (
           "reach the wheels or the lidar"),
     ThreatAsker("the bridge's and the drive's users, and root",
           "everything", "be guarded against by this software"),
-    ThreatAsker("a user of the machine in none of the groups", "nothing", "connect anywhere"),
+    ThreatAsker("a user of the machine in none of the groups",
+          "ask at the planner's HTTP port: without tokens that is all that an operator's token may",
+          "connect to any door of the robot"),
 )  # fmt: skip
 
 _CONNECTIONS = "planner/api/test_connections.py"
@@ -142,6 +144,9 @@ THREATS = (
            "By hand 50 m and 600 s after a signed act; a metre outside counts ten (`HAND_BUDGET`)",
            ("bridge/core/authority/test_grants.py::test_a_hand_stands_when_its_metres_are_spent_and_a_signed_act_renews_them",
             "bridge/core/authority/test_grants.py::test_a_metre_outside_the_fence_counts_ten_of_the_hands")),
+    Threat("A stick gripped anew after a person's stop, by a client without a proof",
+           "A stop takes what a hand may drive; only a signed act (resume, arm) gives it anew",
+           ("bridge/core/authority/test_grants.py::test_after_a_stop_no_stick_moves_the_robot_before_a_signed_act",)),
     Threat("A person's proof is collected for later",
            "Nonces hold 64 bits of chance drawn for the tick, and none outlives a stop, a protective stop "
            "or a disarm; a proof binds kind, robot, run, request and nonce, a fence's also its text",

@@ -10,7 +10,7 @@ from pons.conformance.driver import pack
 
 if TYPE_CHECKING:
     from pons.conformance.driver import Breaker, Sent
-    from pons.conformance.fault_context import FaultStage
+    from pons.conformance.fault_context import FaultContext
     from wire import OwnerKind, Status
 
 X: OwnerKind = "external"
@@ -36,7 +36,7 @@ class Fault:
 
     name: str
     what: str
-    play: Callable[[FaultStage], None]
+    play: Callable[[FaultContext], None]
     """Prepares, calls ``begin`` and, unless the return is the end, ``end``."""
     noticed_s: dict[OwnerKind, float]
     """Where it must stand: within which the bridge must have begun to stop."""
@@ -78,11 +78,11 @@ def _bytes(what: object) -> bytes:
 
 
 def spoil(
-    make: Callable[[FaultStage], Breaker], *, stand: bool = True
-) -> Callable[[FaultStage], None]:
+    make: Callable[[FaultContext], Breaker], *, stand: bool = True
+) -> Callable[[FaultContext], None]:
     """Return the play of a brain whose words go wrong, until it stands or for a while."""
 
-    def play(stage: FaultStage) -> None:
+    def play(stage: FaultContext) -> None:
         stage.begin(make(stage))
         if stand:
             stage.until_standing()

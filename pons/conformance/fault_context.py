@@ -38,7 +38,7 @@ class NotBegun(Exception):
 
 
 @dataclass
-class FaultStage:
+class FaultContext:
     """Hold one play of one fault."""
 
     adapter: Adapter

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.fault_context import FaultStage
+    from pons.conformance.fault_context import FaultContext
     from wire import Status
 
 AHEAD = 3
@@ -38,7 +38,7 @@ AGAIN = 4
 HOUR_S = 3600.0
 
 
-def _replay(stage: FaultStage) -> Breaker:
+def _replay(stage: FaultContext) -> Breaker:
     """Say what was said in the last seconds once more, byte for byte."""
     recorded, turn = list(stage.driver.sent), count()
 
@@ -48,7 +48,7 @@ def _replay(stage: FaultStage) -> Breaker:
     return breaker
 
 
-def _renumber(stage: FaultStage) -> Breaker:
+def _renumber(stage: FaultContext) -> Breaker:
     """Say the newest commands once more with fresh numbers, the owner silent otherwise."""
     recorded = [item for item in stage.driver.sent if item[0] in COMMANDS][-4:]
     turn = count()
@@ -69,13 +69,13 @@ def _shift_seen(change: int) -> Breaker:
     return everything(shift)
 
 
-def _stale_seen(stage: FaultStage) -> Breaker:
+def _stale_seen(stage: FaultContext) -> Breaker:
     """Go on talking about one status for ever."""
     seen = stage.status.seq
     return everything(lambda message, _status: message | {"seen": seen})
 
 
-def _stale_used(stage: FaultStage) -> Breaker:
+def _stale_used(stage: FaultContext) -> Breaker:
     """Live, but think on one status for ever."""
     used = stage.status.seq
 
@@ -85,14 +85,14 @@ def _stale_used(stage: FaultStage) -> Breaker:
     return everything(freeze)
 
 
-def _no_heartbeat(_stage: FaultStage) -> Breaker:
+def _no_heartbeat(_stage: FaultContext) -> Breaker:
     def breaker(said: list[tuple[str, Message]], _status: Status) -> list[Sent]:
         return [(key, pack(message)) for key, message in said if key != "cmd/heartbeat"]
 
     return breaker
 
 
-def _reorder(stage: FaultStage) -> Breaker:
+def _reorder(stage: FaultContext) -> Breaker:
     """Keep three commands back and send them in the wrong order."""
     kept: list[Sent] = []
 
@@ -109,17 +109,17 @@ def _reorder(stage: FaultStage) -> Breaker:
     return breaker
 
 
-def _duplicate(_stage: FaultStage) -> Breaker:
+def _duplicate(_stage: FaultContext) -> Breaker:
     def breaker(said: list[tuple[str, Message]], _status: Status) -> list[Sent]:
         return [(key, pack(message)) for key, message in said for _ in range(3)]
 
     return breaker
 
 
-def _skew(offset_s: float, rate: float) -> Callable[[FaultStage], None]:
+def _skew(offset_s: float, rate: float) -> Callable[[FaultContext], None]:
     """Return the play of a brain whose clock is wrong and runs wrong."""
 
-    def play(stage: FaultStage) -> None:
+    def play(stage: FaultContext) -> None:
         began_s = time.monotonic()
 
         def clock() -> float:

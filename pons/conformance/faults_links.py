@@ -14,7 +14,7 @@ from pons.conformance.worker_processes import FLOODER
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.conformance.fault_context import FaultStage
+    from pons.conformance.fault_context import FaultContext
 
 FLOOD_HZ, JUNK_HZ = 10_000, 1_000
 FLOODED_S = 0.1
@@ -29,14 +29,14 @@ KEPT_S = 1.0
 AFTER_S = 0.6
 
 
-def _kill(stage: FaultStage) -> None:
+def _kill(stage: FaultContext) -> None:
     puppet = stage.hand_over()
     stage.begin()
     puppet.process.send_signal(signal.SIGKILL)
     stage.until_standing()
 
 
-def _frozen(stage: FaultStage) -> None:
+def _frozen(stage: FaultContext) -> None:
     puppet = stage.hand_over()
     stage.begin()
     puppet.process.send_signal(signal.SIGSTOP)
@@ -47,7 +47,7 @@ def _frozen(stage: FaultStage) -> None:
         puppet.process.send_signal(signal.SIGCONT)
 
 
-def _half_open(stage: FaultStage) -> None:
+def _half_open(stage: FaultContext) -> None:
     proxy = Proxy(stage.adapter.door())
     stage.stack.callback(proxy.close)
     stage.hand_over(proxy.address)
@@ -56,7 +56,7 @@ def _half_open(stage: FaultStage) -> None:
     stage.until_standing()
 
 
-def _buffer(stage: FaultStage) -> None:
+def _buffer(stage: FaultContext) -> None:
     """Keep a second of commands back, and deliver them when who sent them is gone."""
     proxy = Proxy(stage.adapter.door())
     stage.stack.callback(proxy.close)
@@ -72,8 +72,8 @@ def _buffer(stage: FaultStage) -> None:
     stage.wait(AFTER_S)
 
 
-def _flood(task: Callable[[FaultStage], dict[str, Any]]) -> Callable[[FaultStage], None]:
-    def play(stage: FaultStage) -> None:
+def _flood(task: Callable[[FaultContext], dict[str, Any]]) -> Callable[[FaultContext], None]:
+    def play(stage: FaultContext) -> None:
         flooder = stage.borrow()
         stage.until(stage.drives_fast, "driving before the flood")
         stage.begin()
@@ -84,7 +84,7 @@ def _flood(task: Callable[[FaultStage], dict[str, Any]]) -> Callable[[FaultStage
     return play
 
 
-def _stop_in_flood(stage: FaultStage) -> None:
+def _stop_in_flood(stage: FaultContext) -> None:
     """Say stop, as one does until it is echoed, on a key that is full of junk."""
     flooder = stage.borrow()
     flooder.go({"be": FLOODER, "key": "cmd/stop", "text": '{"id": [[[', "hertz": FLOOD_HZ})
@@ -98,7 +98,7 @@ def _stop_in_flood(stage: FaultStage) -> None:
     stage.until_standing()
 
 
-def _valid(stage: FaultStage) -> dict[str, Any]:
+def _valid(stage: FaultContext) -> dict[str, Any]:
     """Return a flood of messages that each look like the owner's newest command."""
     brain, status = stage.brain, stage.status
     _, message = (
@@ -107,16 +107,16 @@ def _valid(stage: FaultStage) -> dict[str, Any]:
     return {"key": stage.command_key, "template": message, "hertz": FLOOD_HZ}
 
 
-def _heartbeats(stage: FaultStage) -> dict[str, Any]:
+def _heartbeats(stage: FaultContext) -> dict[str, Any]:
     key, message = stage.brain.heartbeat(stage.status)
     return {"key": key, "template": message, "hertz": FLOOD_HZ, "numbered": "used"}
 
 
-def _malformed_task(stage: FaultStage) -> dict[str, Any]:
+def _malformed_task(stage: FaultContext) -> dict[str, Any]:
     return {"key": stage.command_key, "text": '{"v_mps": NaN, "points": 7}', "hertz": JUNK_HZ}
 
 
-def _silent(stage: FaultStage) -> None:
+def _silent(stage: FaultContext) -> None:
     stage.begin(mute)
     stage.until_standing()
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.fault_context import FaultStage
+    from pons.conformance.fault_context import FaultContext
     from pons.conformance.reference_client import Said
     from wire import Status
 
@@ -43,7 +43,7 @@ WALL_STEP_M = 0.2
 HAND = "kit-hand"
 
 
-def _old_epoch(_stage: FaultStage) -> Breaker:
+def _old_epoch(_stage: FaultContext) -> Breaker:
     def before(message: Message, status: Status) -> object:
         boot, _, counter = status.epoch.rpartition("-")
         return message | ({"epoch": f"{boot}-{max(0, int(counter) - 1)}"})
@@ -51,7 +51,7 @@ def _old_epoch(_stage: FaultStage) -> Breaker:
     return everything(before)
 
 
-def _other_owner(_stage: FaultStage) -> Breaker:
+def _other_owner(_stage: FaultContext) -> Breaker:
     def rename(message: Message, _status: Status) -> object:
         field = "source_id" if "source_id" in message else "planner_id"
         return message | {field: "intruder"}
@@ -59,7 +59,7 @@ def _other_owner(_stage: FaultStage) -> Breaker:
     return everything(rename)
 
 
-def eager(stage: FaultStage, brain: ReferenceBrain, status: Status) -> list[Said]:
+def eager(stage: FaultContext, brain: ReferenceBrain, status: Status) -> list[Said]:
     """Return all that a brain could say to be driven, whether or not it may."""
     said = [brain.heartbeat(status), brain.grant(status)]
     seq = number(time.monotonic())
@@ -72,10 +72,10 @@ def eager(stage: FaultStage, brain: ReferenceBrain, status: Status) -> list[Said
 
 def pushing(
     change: Callable[[str, Message, Status], Message], *, hello: bool = False
-) -> Callable[[FaultStage], None]:
+) -> Callable[[FaultContext], None]:
     """Return the play of a resting owner who says everything that could move the robot, changed."""
 
-    def play(stage: FaultStage) -> None:
+    def play(stage: FaultContext) -> None:
         stage.rest()
         stage.brain.new_mission()
 
@@ -107,7 +107,7 @@ def _believing(**wrong: object) -> Callable[[str, Message, Status], Message]:
     return lambda key, message, _status: message | (wrong if key == "cmd/hello" else {})
 
 
-def _two_brains(stage: FaultStage) -> None:
+def _two_brains(stage: FaultContext) -> None:
     """Let a second brain claim everything beside a live owner that asks for nothing."""
     stage.rest()
     other = ReferenceBrain(stage.brain.kind, "intruder", stage.brain.track)
@@ -120,7 +120,7 @@ def _two_brains(stage: FaultStage) -> None:
     stage.wait(REST_S)
 
 
-def _spend(stage: FaultStage) -> None:
+def _spend(stage: FaultContext) -> None:
     """Ask for little, and again and again for the same mission."""
     stage.rest()
     stage.brain.metres = SMALL_M
@@ -137,7 +137,7 @@ def _spend(stage: FaultStage) -> None:
     stage.wait(0.5)
 
 
-def _after_stop(stage: FaultStage) -> None:
+def _after_stop(stage: FaultContext) -> None:
     """Go on in the new epoch as if nobody had said stop."""
 
     def breaker(_said: list[Said], status: Status) -> list[Sent]:
@@ -151,7 +151,7 @@ def _after_stop(stage: FaultStage) -> None:
     stage.wait(0.4)
 
 
-def _forge_proof(stage: FaultStage) -> None:
+def _forge_proof(stage: FaultContext) -> None:
     """Clear a stop with no proof, a wrong one, and one that was used."""
     stage.rest()
     used = json.loads(stage.adapter.operate("resume"))
@@ -175,7 +175,7 @@ def _forge_proof(stage: FaultStage) -> None:
     stage.wait(REST_S)
 
 
-def _hand(stage: FaultStage, v_mps: float, *, dead_man: bool) -> None:
+def _hand(stage: FaultContext, v_mps: float, *, dead_man: bool) -> None:
     status = stage.status
     message = {
         "source_id": HAND, "epoch": status.epoch, "seq": number(time.monotonic()),
@@ -185,14 +185,14 @@ def _hand(stage: FaultStage, v_mps: float, *, dead_man: bool) -> None:
     stage.wait(PULSE_S)
 
 
-def _no_dead_man(stage: FaultStage) -> None:
+def _no_dead_man(stage: FaultContext) -> None:
     stage.rest()
     stage.begin()
     for _ in range(12):
         _hand(stage, 0.5, dead_man=False)
 
 
-def _held_from_the_start(stage: FaultStage) -> None:
+def _held_from_the_start(stage: FaultContext) -> None:
     """Hold the dead-man without ever having shown it released."""
     stage.rest()
     stage.begin()
@@ -200,7 +200,7 @@ def _held_from_the_start(stage: FaultStage) -> None:
         _hand(stage, 0.5, dead_man=True)
 
 
-def _hand_gone(stage: FaultStage) -> None:
+def _hand_gone(stage: FaultContext) -> None:
     """Steer by hand as one should, then vanish with the dead-man held."""
     stage.rest()
     for _ in range(4):
@@ -216,8 +216,8 @@ def _hand_gone(stage: FaultStage) -> None:
     stage.until_standing()
 
 
-def _off_the_path(shift: Callable[[Message, int], Message]) -> Callable[[FaultStage], Breaker]:
-    def make(_stage: FaultStage) -> Breaker:
+def _off_the_path(shift: Callable[[Message, int], Message]) -> Callable[[FaultContext], Breaker]:
+    def make(_stage: FaultContext) -> Breaker:
         def change(message: Message, _status: Status) -> object:
             points = [shift(dict(point), n) for n, point in enumerate(message["points"])]
             return message | {"points": points}
@@ -227,7 +227,7 @@ def _off_the_path(shift: Callable[[Message, int], Message]) -> Callable[[FaultSt
     return make
 
 
-def _through_walls(stage: FaultStage) -> Breaker:
+def _through_walls(stage: FaultContext) -> Breaker:
     """Lead straight off to the left, farther than any site is wide."""
     heading_rad = stage.brain.track.heading_rad
     dx, dy = -sin(heading_rad) * WALL_STEP_M, cos(heading_rad) * WALL_STEP_M
@@ -245,7 +245,7 @@ def _through_walls(stage: FaultStage) -> Breaker:
     return commands(change)
 
 
-def _wrong_map(_stage: FaultStage) -> Breaker:
+def _wrong_map(_stage: FaultContext) -> Breaker:
     return commands(lambda message, _status: message | {"map_id": "0123456789abcdef"})
 
 

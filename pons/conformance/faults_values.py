@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from pons.conformance.driver import Breaker, Sent
     from pons.conformance.fault import Message
-    from pons.conformance.fault_context import FaultStage
+    from pons.conformance.fault_context import FaultContext
     from wire import Status
 
 HUGE_BYTES = (7_000_000, 10_000_000)
@@ -26,10 +26,10 @@ JUNK = (
 )  # fmt: skip
 
 
-def poison_field(value: object) -> Callable[[FaultStage], Breaker]:
+def poison_field(value: object) -> Callable[[FaultContext], Breaker]:
     """Put a value where a number belongs, another field each time."""
 
-    def make(stage: FaultStage) -> Breaker:
+    def make(stage: FaultContext) -> Breaker:
         def change(message: Message, _status: Status) -> object:
             if stage.external:
                 return message | {stage.chance.choice(("v_mps", "w_radps")): value}
@@ -44,7 +44,7 @@ def poison_field(value: object) -> Callable[[FaultStage], Breaker]:
     return make
 
 
-def _too_fast(_stage: FaultStage) -> Breaker:
+def _too_fast(_stage: FaultContext) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         if "points" in message:
             return message | {"points": [p | {"speed_mps": 9.0} for p in message["points"]]}
@@ -54,7 +54,7 @@ def _too_fast(_stage: FaultStage) -> Breaker:
     return commands(change)
 
 
-def _jerky(stage: FaultStage) -> Breaker:
+def _jerky(stage: FaultContext) -> Breaker:
     """Ask for full speed one way and the other in turn."""
 
     def change(message: Message, _status: Status) -> object:
@@ -64,7 +64,7 @@ def _jerky(stage: FaultStage) -> Breaker:
     return commands(change)
 
 
-def _wrong_types(stage: FaultStage) -> Breaker:
+def _wrong_types(stage: FaultContext) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         field, wrong = stage.chance.choice(
             [("epoch", 7), ("seen", "1"), ("seq", 1.5), ("seq", True), ("dead_man", 1),
@@ -79,11 +79,11 @@ def _wrong_types(stage: FaultStage) -> Breaker:
     return commands(change)
 
 
-def _junk(stage: FaultStage) -> Breaker:
+def _junk(stage: FaultContext) -> Breaker:
     return commands(lambda _message, _status: stage.chance.choice(JUNK))
 
 
-def _truncate(stage: FaultStage) -> Breaker:
+def _truncate(stage: FaultContext) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         whole = pack(message)
         return whole[: stage.chance.randrange(1, len(whole))]
@@ -91,7 +91,7 @@ def _truncate(stage: FaultStage) -> Breaker:
     return commands(change)
 
 
-def _flip_bits(stage: FaultStage) -> Breaker:
+def _flip_bits(stage: FaultContext) -> Breaker:
     def change(message: Message, _status: Status) -> object:
         whole = bytearray(pack(message))
         for _ in range(stage.chance.choice((1, 1, 2, 8))):
@@ -101,12 +101,12 @@ def _flip_bits(stage: FaultStage) -> Breaker:
     return commands(change)
 
 
-def _unknown_field(stage: FaultStage) -> Breaker:
+def _unknown_field(stage: FaultContext) -> Breaker:
     extra = stage.chance.choice(("priority", "override_safety", "stamp_s"))
     return commands(lambda message, _status: message | {extra: 1})
 
 
-def _twice_the_field(_stage: FaultStage) -> Breaker:
+def _twice_the_field(_stage: FaultContext) -> Breaker:
     """Say a field twice with two values: parsers differ in which one they take."""
 
     def change(message: Message, _status: Status) -> object:
@@ -115,7 +115,7 @@ def _twice_the_field(_stage: FaultStage) -> Breaker:
     return commands(change)
 
 
-def _huge(stage: FaultStage) -> None:
+def _huge(stage: FaultContext) -> None:
     """Say something enormous beside good commands."""
     left = list(HUGE_BYTES)
     whole = {size: b'{"v_mps":"' + b"x" * size + b'"}' for size in HUGE_BYTES}
@@ -128,7 +128,7 @@ def _huge(stage: FaultStage) -> None:
     stage.wait(1.5)
 
 
-def _into_the_wall(stage: FaultStage) -> None:
+def _into_the_wall(stage: FaultContext) -> None:
     """Drive on at full speed where the line turns back, until something keeps it from there."""
     way = 1.0 if stage.brain.heading > 0 else -1.0
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from pons.conformance import verdict
 from pons.conformance.driver import BrainDriver, mute, plain
 from pons.conformance.fault import W, X
-from pons.conformance.fault_context import FaultStage, NotBegun
+from pons.conformance.fault_context import FaultContext, NotBegun
 from pons.conformance.reference_client import METRES, ReferenceBrain
 from pons.conformance.retry_policy import Fairness
 from pons.conformance.scheduler_probe import Pulse
@@ -157,7 +157,7 @@ class Runner:
         cells = self._judge(from_s, facts_s) | {"stands": stands, AGAIN: drives_again}
         return cells, trouble is None
 
-    def _try(self, stage: FaultStage, fault: Fault) -> str | None:
+    def _try(self, stage: FaultContext, fault: Fault) -> str | None:
         """Play it once; return why it could not begin."""
         with stage.stack:
             try:
@@ -205,8 +205,8 @@ class Runner:
             time.sleep(0.005)
         return MatrixCell(True, ", ".join((f"{time.monotonic() - began_s:.1f} s", *acts)))
 
-    def _stage(self) -> FaultStage:
-        return FaultStage(self._adapter, self.driver, self._helpers, self._chance, PATIENCE_S)
+    def _stage(self) -> FaultContext:
+        return FaultContext(self._adapter, self.driver, self._helpers, self._chance, PATIENCE_S)
 
     def _owns(self) -> bool:
         status = self._adapter.status()
@@ -225,7 +225,7 @@ class Runner:
         return "resume" if status.held is not None else None
 
 
-def _stands(stage: FaultStage, fault: Fault) -> MatrixCell:
+def _stands(stage: FaultContext, fault: Fault) -> MatrixCell:
     noticed_s = fault.noticed_s.get(stage.brain.kind)
     if noticed_s is None and not fault.rest:
         return NOT_ASKED

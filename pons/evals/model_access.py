@@ -38,7 +38,7 @@ HOW = "NAME, URL or NAME@URL"
 
 @dataclass(frozen=True, slots=True)
 class Spending:
-    """What an examination cost."""
+    """Count the calls and tokens that an examination cost."""
 
     calls: int = 0
     prompt_tokens: int = 0

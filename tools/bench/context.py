@@ -32,7 +32,7 @@ class Measure(Protocol):
 
 
 class MeasurementFailure(Exception):
-    """What a measurement waited for did not come."""
+    """An event that a measurement waited for did not come in time."""
 
 
 TROUBLE = (MeasurementFailure, Misconfigured, PlannerDown, PlannerProblem, OSError, SubprocessError)

@@ -125,3 +125,5 @@ WAYS: dict[str, Callable[[BenchRobot], AbstractContextManager[Stop]]] = {
     "CLI": by_cli,
     "WebSocket": by_socket,
 }
+STANDING_WAYS = {name: way for name, way in WAYS.items() if way is not by_sentence}
+"""Ways that hold a robot that stands; a stop word within a sentence holds one that moves."""

@@ -25,7 +25,7 @@ Array = Any
 
 
 class ExportRefusal(Exception):
-    """What would be written is not what was fitted, or too large."""
+    """The exported file differs from the fitted network, or is too large."""
 
 
 def compare(net: Net, data: bytes) -> float:

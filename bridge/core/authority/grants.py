@@ -72,6 +72,15 @@ def renew_budgets(tick: TickContext) -> None:
     )
 
 
+def void_hand_budget(tick: TickContext) -> None:
+    """Take from a hand on the stick all that it may drive, until a person signs an act.
+
+    Messages of a stick bear no proof: any client at the bridge's door could otherwise drive on
+    after a person's stop.
+    """
+    tick.s.grants = replace(tick.s.grants, hand_metres=0.0, hand_seconds=0.0)
+
+
 def end_grant(tick: TickContext) -> None:
     """End the grant; what it had left stays in the book for another grant of the same mission."""
     tick.s.grants = tick.s.grants.return_budget()

@@ -30,8 +30,8 @@ WORDS: dict[str, tuple[str, str]] = {
         "允许的距离或时间已用完，需要新的目标或由人恢复。",
     ),
     "HAND_BUDGET": (
-        "The distance or time for driving by hand is used up; let go of the stick, then resume.",
-        "手动驾驶的距离或时间已用完，请松开手柄，再由人恢复。",
+        "Nothing is left for driving by hand, or a stop took it; let go of the stick, then resume.",
+        "手动驾驶的额度已用完，或已被停止命令收回；请松开手柄，再由人恢复。",
     ),
     "LIDAR_STALE": (
         "The lidar sends nothing new; the robot holds.",

@@ -108,7 +108,8 @@ ROWS: tuple[FaultRow, ...] = (
          "mission or an operator act clears it",
          _do("at once", _HOLD2, "WX", clean_s=0.0)),
     _row("HAND_BUDGET", "the 50 m and 600 s that a hand on the stick may drive after an operator's "
-         "signed act are spent, a metre outside the fence as ten; arm or resume gives them anew",
+         "signed act are spent, a metre outside the fence as ten, or a stop took them; arm or "
+         "resume gives them anew",
          _do("at once", _HOLD2, "T", clean_s=0.0)),
     _row("LIDAR_STALE", "age of the newest scan over 250 ms, or 5 equal scans while the robot "
          "moved 0.02 m",

@@ -186,15 +186,16 @@ def _points(
     returns, least = 0, inf
     xs: list[float] = []
     ys: list[float] = []
-    for index, r in enumerate(ranges):
+    for r, cosine, sine in zip(ranges, cosines, sines, strict=True):
         if r is None or not r <= high:  # what is not a number is no return either
             continue
         returns += 1
         if r <= far:
-            seen = max(r, low)
-            least = min(least, seen)
-            xs.append(lidar_x_m + seen * cosines[index])
-            ys.append(lidar_y_m + seen * sines[index])
+            seen = r if r > low else low  # noqa: FURB136  # max and min double the time of this loop
+            if seen < least:
+                least = seen
+            xs.append(lidar_x_m + seen * cosine)
+            ys.append(lidar_y_m + seen * sine)
     return returns, least if xs else None, xs, ys
 
 

@@ -110,12 +110,12 @@ class Catalogue:
         """Return names as a list; ``last`` stands before its last one."""
         several = tuple(names)
 
-        def listed(language: str) -> str:
+        def list_in(language: str) -> str:
             own = [name.of(language) for name in several]
             before = self.raw("joint.name", language).join(own[:-1])
             return f"{before}{self.raw(last, language)}{own[-1]}" if before else "".join(own)
 
-        return self.build(listed)
+        return self.build(list_in)
 
 
 def load(folder: Path) -> Catalogue:

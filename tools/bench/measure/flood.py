@@ -20,7 +20,7 @@ from tools.bench.context import until
 from tools.bench.figures import poisson_upper_95
 from tools.bench.lateness import cyclictest_late_us
 from tools.bench.report import ReportRow, row_of
-from tools.bench.stop_requests import WAYS, notes_of, noting
+from tools.bench.stop_requests import STANDING_WAYS, notes_of, noting
 from wire import Event
 from wire.keys import EVENT, Party
 from wire.session import open_session
@@ -56,7 +56,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
         goal = f"all <= {theirs} or {poisson_upper_95(theirs):.0f}" if name == "bridge" else ""
         note = f"{sum(counts):.0f} in {len(pairs)} slices, {seconds:.0f} s"
         rows.append(row_of(f"{name}: gaps over 3.5 periods a slice", "", goal, counts, note))
-    for way in WAYS:
+    for way in STANDING_WAYS:
         took_ms = [value for run in runs for value in run["stops"][way]]
         lost = sum(run["lost"][way] for run in runs)
         note = f"{lost} of {len(took_ms) + lost} not held; load {_loads(runs)}"
@@ -144,12 +144,12 @@ def _await_status(robot: BenchRobot) -> Status:
 
 def _stops(lab: BenchLab, robot: BenchRobot) -> tuple[dict[str, list[float]], dict[str, int]]:
     """Stop over and over under the flood; return what each took [ms] and how many were lost."""
-    took: dict[str, list[float]] = {way: [] for way in WAYS}
-    lost = dict.fromkeys(WAYS, 0)
+    took: dict[str, list[float]] = {way: [] for way in STANDING_WAYS}
+    lost = dict.fromkeys(STANDING_WAYS, 0)
     with open_session(Party.JUDGE, _await_status(robot).robot, robot.settings.home) as session:
         events = session.subscriber(EVENT)
         for number in range(lab.count(STOPS, 2 * STOPS)):
-            for way, way_of in WAYS.items():
+            for way, way_of in STANDING_WAYS.items():
                 lab.say(f"stop {number + 1} by {way}")
                 robot.operate("resume")
                 events.drain()

@@ -155,6 +155,32 @@ def test_a_hand_stands_when_its_metres_are_spent_and_a_signed_act_renews_them() 
     assert way_m(world) > stood_m + 0.1
 
 
+@pytest.mark.parametrize("driven_by", ["nobody", "hand"])
+def test_after_a_stop_no_stick_moves_the_robot_before_a_signed_act(driven_by: str) -> None:
+    """A client without a proof once let go, gripped again and drove 1.2 s after a person's stop."""
+    world = World().armed()
+    world.teleop(held=False)
+    world.tick()
+    if driven_by == "hand":
+        steer(world, 0.3, 1.0)
+    world.stop()
+    world.run(2.0)
+    stood_m = way_m(world)
+    for _ in range(3):
+        world.teleop(held=False)
+        world.run(0.2)
+        steer(world, 0.3, 1.0)
+        assert world.is_in(Mode.HOLD)
+        assert "HAND_BUDGET.0" in world.rows()
+    assert way_m(world) == pytest.approx(stood_m, abs=1e-3)
+    world.op("resume")
+    world.run(0.1)
+    world.teleop(held=False)
+    world.tick()
+    steer(world, 0.3, 1.0)
+    assert world.is_in(Mode.TELEOP)
+
+
 def test_a_hand_stands_when_its_seconds_are_spent() -> None:
     world = World().armed()
     world.state.grants = replace(left(world), hand_seconds=0.5)
