@@ -16,7 +16,7 @@ from wire import Pose2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Begun:
+class _StepActivity:
     record: int
     """The journal entry that says this step started; nothing moves or speaks before it is safe."""
     metres: float = 0.0
@@ -26,7 +26,7 @@ class _Begun:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Driving(_Begun):
+class Driving(_StepActivity):
     """Drive one leg to a goal: its route is searched, streamed, lost and searched again."""
 
     goal: Pose2
@@ -81,7 +81,7 @@ class Driving(_Begun):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Retrying(_Begun):
+class Retrying(_StepActivity):
     """Stand, and ask the skill again soon: it had nothing to do yet, or its way was shut."""
 
     retry_s: float
@@ -93,7 +93,7 @@ class Retrying(_Begun):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Observing(_Begun):
+class Observing(_StepActivity):
     """Stand and take pictures in."""
 
     since_s: float
@@ -118,7 +118,7 @@ class Observing(_Begun):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AskingImage(_Begun):
+class AskingImage(_StepActivity):
     """Stand until a question about the picture is answered."""
 
     since_s: float
@@ -131,19 +131,19 @@ class AskingImage(_Begun):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Waiting(_Begun):
+class Waiting(_StepActivity):
     """Stand until a time."""
 
     until_s: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Speaking(_Begun):
+class Speaking(_StepActivity):
     """Say the step's words as soon as its beginning is on disk."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Asking(_Begun):
+class Asking(_StepActivity):
     """Ask a person as soon as the step's beginning is on disk."""
 
     question: Bilingual
@@ -152,7 +152,7 @@ class Asking(_Begun):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Thinking(_Begun):
+class Thinking(_StepActivity):
     """Stand while the brain thinks again."""
 
 

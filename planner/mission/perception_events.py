@@ -191,12 +191,12 @@ def _lay_anew(turn: Transaction, leg: Driving, act: Drive) -> None:
         notes=act.notes,
         then=act.then,
         otherwise=act.otherwise,
-        limit_s=_extended(leg.moving_s, act.limit_s),
-        limit_m=_extended(leg.metres, act.limit_m),
+        limit_s=_raise_limit(leg.moving_s, act.limit_s),
+        limit_m=_raise_limit(leg.metres, act.limit_m),
     )
     ask_route(turn, detour=False)
 
 
-def _extended(spent: float, limit: float | None) -> float | None:
-    """Return the bound of a leg that goes on, of which so much was spent before it was laid."""
+def _raise_limit(spent: float, limit: float | None) -> float | None:
+    """Return the limit of a leg that goes on, of which so much was spent before it was laid."""
     return spent + limit if limit is not None else None
