@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 HTTP_HEAD_START_S = 0.15
 HTTP_TIMEOUT_S = 2.5
 CONFIRMED = "stop taken, the robot ramps to a stand / 已收到停止，正在停稳 (bridge confirmed)"
+SENT = "stop sent; asking the bridge itself / 停止已发出，正在向 bridge 核实"
 SAID_BY_PLANNER = (
     "the planner says that the bridge took the stop / 规划器称 bridge 已收到停止 "
     "(not asked from here: {why})"
@@ -33,6 +34,8 @@ def run(settings: Settings) -> int:
     by_http = _Attempt(settings)
     by_http.start()
     by_http.join(HTTP_HEAD_START_S)
+    if by_http.confirmed:  # loading the wire takes longer than the stop itself
+        print(SENT, file=sys.stderr, flush=True)
     out_of_reach = _out_of_reach(settings) if by_http.confirmed else None
     trouble = out_of_reach or _straight_to_the_bridge(settings)
     if trouble is None:

@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from pons.stop import CONFIRMED, SAID_BY_PLANNER
+from pons.stop import CONFIRMED, SAID_BY_PLANNER, SENT
 from tests.pons.lying_planner import lying_planner
 from tests.pons.standing_bridge import StandingBridge
 from wire.doors import BRIDGE_DOOR
@@ -286,8 +286,10 @@ def test_a_planner_that_says_confirmed_is_not_believed_where_the_bridge_is_silen
             bridge.listen()
         done = pons(home, "stop", port=liar)
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr.startswith("no_bridge: the bridge itself did not confirm the stop")
-    assert "Planner: it says that the bridge confirmed, and is not believed. " in done.stderr
+    sent, _, told = done.stderr.partition("\n")
+    assert sent == SENT
+    assert told.startswith("no_bridge: the bridge itself did not confirm the stop")
+    assert "Planner: it says that the bridge confirmed, and is not believed. " in told
 
 
 def test_the_bridge_is_asked_even_where_the_planner_has_confirmed(
