@@ -14,7 +14,7 @@ from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
-from planner.mission import Memory, MissionJournal, Missions, Rules
+from planner.mission import KnownPlaces, MissionJournal, Missions, Rules
 from planner.navigation import RouteLimits, RouteWorker
 from planner.perception_factory import Opening, eyes_of, looker_of
 from planner.robot_service import LinkedRobot
@@ -71,7 +71,7 @@ class Planner:
         limits = RouteLimits.of(self.description)
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
         radius_m = self.description.base.radius_m
-        self.memory = Memory(self.site, TaughtPlaces.in_home(where.home), radius_m=radius_m)
+        self.memory = KnownPlaces(self.site, TaughtPlaces.in_home(where.home), radius_m=radius_m)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
         self.ears = VoiceWorker(self._spoken())

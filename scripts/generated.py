@@ -29,6 +29,7 @@ class Generator:
 GENERATORS = (
     Generator("wire.docs", "docs/wire.md"),
     Generator("bridge.core.safety_page", "docs/safety.md"),
+    Generator("planner.mission.docs", "docs/missions.md"),
     Generator("sim.site", "sites/"),
     Generator("planner.openapi", "openapi.json"),
     Generator("scripts.page_words", "web/src/i18n/"),

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from planner.brain import Brain
     from planner.budget import Usage
-    from planner.mission import Leg, Memory
+    from planner.mission import KnownPlaces, Leg
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
     from planner.site import FenceProposals, Site
@@ -152,7 +152,7 @@ class Services(Protocol):
     def site(self) -> Site: ...
 
     @property
-    def memory(self) -> Memory: ...
+    def memory(self) -> KnownPlaces: ...
 
     @property
     def fences(self) -> FenceProposals: ...

@@ -28,8 +28,8 @@ Errors (all ``MissionError`` with ``code`` and bilingual ``message``): unknown_g
 409, nothing_to_resume 409, queue_full 429, idempotency_conflict 409, journal_unavailable 503.
 
 The lockstep harness uses ``Engine`` instead: feed ``status``/``event``/``routed``/``journalled``,
-send ``Output.messages`` to the bridge, answer ``Output.effects``. ``advance`` and ``wish`` are
-pure.
+send ``Output.messages`` to the bridge, answer ``Output.effects``. ``advance`` and
+``motion_request`` are pure.
 """
 
 from planner.mission.api_view import goal_of
@@ -40,8 +40,8 @@ from planner.mission.effects import (
     DropBrain,
     Effect,
     Journal,
+    MotionRequest,
     SayAloud,
-    Wish,
 )
 from planner.mission.engine import Engine, Leg, Output
 from planner.mission.errors import (
@@ -72,19 +72,18 @@ from planner.mission.events import (
     Tick,
 )
 from planner.mission.journal import MissionJournal
-from planner.mission.known_places import Kept, Lesson, Memory
+from planner.mission.known_places import Kept, KnownPlaces, Lesson
 from planner.mission.loop import Clocks
-from planner.mission.reducer import advance, wish
+from planner.mission.reducer import advance, motion_request
 from planner.mission.service import Missions
 from planner.mission.site_view import facts_of
-from planner.mission.state import Book, Facts, Mission, Rules, Target
+from planner.mission.state import Mission, MissionState, Rules, SiteView, Target
 from planner.mission.tasks import Router, Think
 
 __all__ = [
     "AskBrain",
     "AskRoute",
     "BadState",
-    "Book",
     "Cancel",
     "Changed",
     "Clocks",
@@ -93,19 +92,20 @@ __all__ = [
     "Effect",
     "Engine",
     "Event",
-    "Facts",
     "IdempotencyConflict",
     "Journal",
     "JournalDown",
     "Journalled",
     "Kept",
+    "KnownPlaces",
     "Leg",
     "Lesson",
-    "Memory",
     "Mission",
     "MissionError",
     "MissionJournal",
+    "MissionState",
     "Missions",
+    "MotionRequest",
     "Move",
     "NothingToResume",
     "Output",
@@ -120,6 +120,7 @@ __all__ = [
     "Rules",
     "SayAloud",
     "Seen",
+    "SiteView",
     "Stopped",
     "Submitted",
     "Subscription",
@@ -127,9 +128,8 @@ __all__ = [
     "Think",
     "Tick",
     "UnknownGoal",
-    "Wish",
     "advance",
     "facts_of",
     "goal_of",
-    "wish",
+    "motion_request",
 ]

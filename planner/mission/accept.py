@@ -7,7 +7,7 @@ from collections import deque
 KEPT = 1000
 
 
-class Accepted:
+class WaypointLatency:
     """Measure from a goal's acceptance to its first waypoint on the wire [s]."""
 
     def __init__(self) -> None:

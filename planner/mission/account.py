@@ -15,7 +15,7 @@ from planner.plan import Bilingual, Code, StepState, same
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from planner.mission.state import Facts, Mission
+    from planner.mission.state import Mission, SiteView
     from planner.plan import StepRecord
 
 DRIVEN = frozenset({"go_to", "return_home", "come_back"})
@@ -26,7 +26,7 @@ _IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
 _OBJECT_STEPS = frozenset({"find", "count", "follow", "go_to_object"})
 
 
-def account(facts: Facts, mission: Mission, code: Code, said: Bilingual | None) -> Bilingual:
+def account(facts: SiteView, mission: Mission, code: Code, said: Bilingual | None) -> Bilingual:
     """Return what came of each step, and ``said`` where no step has said it yet.
 
     Args:
@@ -61,7 +61,7 @@ def outcome_code(mission: Mission) -> Code:
     return Code.DONE
 
 
-def place_name(facts: Facts, mission: Mission, step: StepRecord | None) -> Bilingual:
+def place_name(facts: SiteView, mission: Mission, step: StepRecord | None) -> Bilingual:
     """Name a step's destination for a person."""
     if step is not None and step.kind == "come_back":
         return say("account.start")
@@ -79,12 +79,12 @@ def _place(mission: Mission, step: StepRecord) -> str:
     return step.place or ""
 
 
-def _name(facts: Facts, place: str) -> Bilingual:
+def _name(facts: SiteView, place: str) -> Bilingual:
     target = facts.targets.get(place)
     return target.name if target is not None else same(place or "?")
 
 
-def _told(facts: Facts, mission: Mission) -> Iterator[Bilingual]:
+def _told(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
     """Yield the sentences of the steps that were begun; arrivals in a row are one."""
     steps, arrived, instead = mission.steps, list[Bilingual](), False
     mended = _mended(mission)
@@ -122,7 +122,7 @@ def _mended(mission: Mission) -> int:
     return max(there or failed, default=0)
 
 
-def _failed_later(facts: Facts, mission: Mission, index: int) -> bool:
+def _failed_later(facts: SiteView, mission: Mission, index: int) -> bool:
     """Tell whether a later drive to the same place did not come there."""
     name = place_name(facts, mission, mission.steps[index])
     later = (s for s in mission.steps[index + 1 :] if s.kind in DRIVEN and s.state not in _IDLE)
@@ -134,7 +134,7 @@ def _arrived(names: Sequence[Bilingual]) -> Bilingual:
     return message(Code.ARRIVED, place=join(names, "joint.then"))
 
 
-def _sentences(facts: Facts, step: StepRecord) -> Iterator[Bilingual]:
+def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
     """Yield what came of one step; nothing of one that was not begun."""
     if step.visited and step.places:
         names = [_name(facts, place) for place in step.places[: step.visited]]
@@ -181,7 +181,7 @@ def _amount(step: StepRecord) -> Bilingual:
     return say("account.amount", came=came, asked=asked)
 
 
-def _undone(facts: Facts, mission: Mission, code: Code) -> Bilingual | None:
+def _undone(facts: SiteView, mission: Mission, code: Code) -> Bilingual | None:
     """Name the steps that nothing else accounts for; of a plan of one step its end is enough."""
     if code in (Code.CANCELLED, Code.DECLINED) or len(mission.steps) < 2:
         return None
@@ -191,7 +191,7 @@ def _undone(facts: Facts, mission: Mission, code: Code) -> Bilingual | None:
     return say("account.not_done", names=list_names(names))
 
 
-def _left(facts: Facts, mission: Mission, step: StepRecord) -> Bilingual | None:
+def _left(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual | None:
     """Name a step that was not done and of which nothing was said; else None."""
     said = step.said is not None or step.answer is not None or step.reason == "perhaps_said"
     if step.state is StepState.SUCCEEDED or said or step.kind == "decide":
@@ -201,7 +201,7 @@ def _left(facts: Facts, mission: Mission, step: StepRecord) -> Bilingual | None:
     return _asked(facts, mission, step)
 
 
-def _asked(facts: Facts, mission: Mission, step: StepRecord) -> Bilingual:
+def _asked(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual:
     """Name what a step asks for: ``going to the kitchen``, ``去厨房``."""
     text = step.object or step.text or ""
     if step.kind in _OBJECT_STEPS:

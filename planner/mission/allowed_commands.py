@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from planner.mission.errors import BadState, MissionError, UnknownGoal
 from planner.mission.events import Cancel, ChangeSpeed, Command, Confirm, Move, Pause, Reply, Resume
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission, MissionState
 from planner.plan import GoalState
 
 ALLOWED: dict[type[Command], frozenset[GoalState]] = {
@@ -27,7 +27,7 @@ ALLOWED: dict[type[Command], frozenset[GoalState]] = {
 }
 
 
-def refusal(book: Book, command: Command) -> MissionError | None:
+def refusal(book: MissionState, command: Command) -> MissionError | None:
     """Return why a command can't be obeyed now, or None."""
     mission = book.missions.get(command.id)
     if mission is None:
@@ -45,6 +45,11 @@ def refusal(book: Book, command: Command) -> MissionError | None:
 
 
 def _bad(mission: Mission, command: Command, allowed: frozenset[GoalState]) -> BadState:
-    name = type(command).__name__.lower()
     states = tuple(sorted(state.value for state in allowed))
-    return BadState(mission.id, {"reply": "answer"}.get(name, name), mission.state, states)
+    return BadState(mission.id, api_name(type(command)), mission.state, states)
+
+
+def api_name(command: type[Command]) -> str:
+    """Return what a command is called in the API."""
+    name = command.__name__.lower()
+    return {"reply": "answer"}.get(name, name)

@@ -10,18 +10,19 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
 from planner.mission.open_questions import WAITS, asks, confirms
-from planner.mission.outcomes import ended
+from planner.mission.outcomes import ended_outcome
 from planner.mission.queue import finish
-from planner.mission.state import MAX_OPEN, Book, Mission
+from planner.mission.state import MAX_OPEN, Mission, MissionState
+from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, GoalState, Outcome, same
 
 if TYPE_CHECKING:
-    from planner.mission.transaction import Turn
+    from planner.mission.transaction import Transaction
 
 SUPERSEDED = "superseded"
 
 
-def end_unanswered(turn: Turn) -> None:
+def end_unanswered(turn: Transaction) -> None:
     """End every goal whose question nobody answered in time; note since when the others wait."""
     asked_s: dict[str, float] = {}
     limit_s = turn.book.rules.answer_s
@@ -31,14 +32,14 @@ def end_unanswered(turn: Turn) -> None:
         since_s = turn.book.asked_s.get(mission.id, turn.now_s)
         if turn.now_s - since_s > limit_s:
             said = message(Code.NO_ANSWER, text=_asked(mission), seconds=f"{limit_s:.0f}")
-            _end(turn, mission, said, GoalState.FAILED, Code.NO_ANSWER.value)
+            _end(turn, mission, said, GoalFact.UNANSWERED, Code.NO_ANSWER.value)
         else:
             asked_s[mission.id] = since_s
     if asked_s != turn.book.asked_s:
         turn.set(asked_s=asked_s)
 
 
-def ask_anew(turn: Turn, mission: Mission) -> None:
+def ask_anew(turn: Transaction, mission: Mission) -> None:
     """Forget since when a goal waits: it was answered, and may ask again."""
     left = {i: s for i, s in turn.book.asked_s.items() if i != mission.id}
     turn.set(asked_s=left)
@@ -49,7 +50,7 @@ def waiting_since(missions: dict[str, Mission], now_s: float) -> dict[str, float
     return {m.id: now_s for m in missions.values() if m.state in WAITS}
 
 
-def close_older(turn: Turn, new: Mission) -> None:
+def close_older(turn: Transaction, new: Mission) -> None:
     """End the brain's questions about older orders of the same source: a new order came instead.
 
     A question of a step and a plan that waits for its yes stay: they have their time.
@@ -60,13 +61,13 @@ def close_older(turn: Turn, new: Mission) -> None:
             _make_way(turn, mission, new.text)
 
 
-def has_room(book: Book) -> bool:
+def has_room(book: MissionState) -> bool:
     """Tell whether one more order can be taken, perhaps in place of a question."""
     open_ = [m for m in book.missions.values() if not m.ended]
     return len(open_) < MAX_OPEN or any(m.state in WAITS for m in open_)
 
 
-def make_room(turn: Turn, text: str) -> None:
+def make_room(turn: Transaction, text: str) -> None:
     """End the oldest questions while goals are more than may be open: about orders first."""
     while True:
         open_ = [m for m in turn.book.missions.values() if not m.ended]
@@ -84,18 +85,20 @@ def _about_order(mission: Mission) -> bool:
     return mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
 
 
-def _make_way(turn: Turn, mission: Mission, newer: str) -> None:
+def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:
     asked, newer = _asked(mission), newer[:60]
     said = say("question.superseded", asked=asked, newer=newer)
-    _end(turn, mission, said, GoalState.CANCELLED, SUPERSEDED)
+    _end(turn, mission, said, GoalFact.SUPERSEDED, SUPERSEDED)
 
 
 def _asked(mission: Mission) -> Bilingual:
     return mission.outcome.message if mission.outcome is not None else same(mission.text[:200])
 
 
-def _end(turn: Turn, mission: Mission, said: Bilingual, state: GoalState, reason: str) -> None:
+def _end(
+    turn: Transaction, mission: Mission, said: Bilingual, cause: GoalFact, reason: str
+) -> None:
     now_unix_s = turn.now_s + turn.book.wall_offset_s
-    outcome: Outcome = ended(turn.book.facts, mission, None, turn.book.status, now_unix_s,
+    outcome: Outcome = ended_outcome(turn.book.facts, mission, turn.book.status, now_unix_s,
                              code=Code.NO_ANSWER, said=said)  # fmt: skip
-    finish(turn, mission, state, outcome, reason)
+    finish(turn, mission, cause, outcome, reason)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from planner.language.commands import Resume
 from planner.language.utterance import Utterance
+from planner.mission.goal_reference import goal_to_resume
 from planner.mission.open_questions import WAITS, asks_freely, takes_yes
-from planner.mission.queue import to_resume
-from planner.mission.state import Book
+from planner.mission.state import MissionState
 
 
-def meant(book: Book, said: Utterance) -> tuple[str, ...]:
+def meant(book: MissionState, said: Utterance) -> tuple[str, ...]:
     """Return the goals whose question a sentence may answer; one alone is beyond doubt.
 
     None unless it is a plain yes or no and one of them takes it. A question that takes neither (a
@@ -19,7 +19,7 @@ def meant(book: Book, said: Utterance) -> tuple[str, ...]:
     if said.consent is None:
         return ()
     intent = said.intent
-    if not (intent is None or (isinstance(intent, Resume) and to_resume(book) is None)):
+    if not (intent is None or (isinstance(intent, Resume) and goal_to_resume(book) is None)):
         return ()  # "go on" is a yes where there is nothing else to go on with
     waiting = [m for m in book.missions.values() if m.state in WAITS]
     taking = {m.id: m.updated_unix_s for m in waiting if takes_yes(m)}

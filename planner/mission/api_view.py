@@ -5,7 +5,8 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from math import isfinite
 
-from planner.mission.state import Book, Mission
+from planner.mission.activity import Driving, Retrying, Waiting
+from planner.mission.state import Mission, MissionState
 from planner.plan import Goal, PlanRecord
 
 Progress = dict[str, float | int | str]
@@ -13,7 +14,7 @@ Progress = dict[str, float | int | str]
 """
 
 
-def goal_of(book: Book, mission: Mission) -> Goal:
+def goal_of(book: MissionState, mission: Mission) -> Goal:
     """Return a mission as a goal, with its place in the queue."""
     position = book.queue.index(mission.id) if mission.id in book.queue else None
     return Goal(
@@ -31,24 +32,24 @@ def goal_of(book: Book, mission: Mission) -> Goal:
     )
 
 
-def progress_of(book: Book) -> Progress | None:
+def progress_of(book: MissionState) -> Progress | None:
     """Return what is left of the running step: metres, radians or seconds; None of no motion."""
-    mission, walk = book.missions.get(book.running or ""), book.walk
-    if mission is None or walk is None or mission.now is None:
+    mission, activity = book.missions.get(book.running or ""), book.activity
+    if mission is None or activity is None or mission.now is None:
         return None
     step, left = mission.now, dict[str, float]()
-    if walk.until_s is not None:
+    if isinstance(activity, Waiting):
         left["left_s"] = (
-            round(max(0.0, walk.until_s - book.status_s)) if isfinite(book.status_s) else 0
+            round(max(0.0, activity.until_s - book.status_s)) if isfinite(book.status_s) else 0
         )
-    elif walk.kind == "drive" and step.kind == "turn":
-        left["left_rad"] = round((step.angle_rad or 0.0) - mission.done - walk.amount, 2)
-    elif walk.kind == "drive" and walk.left_m is not None:
-        left["left_m"] = round(walk.left_m, 2)
+    elif isinstance(activity, (Driving, Retrying)) and step.kind == "turn":
+        left["left_rad"] = round((step.angle_rad or 0.0) - mission.done - activity.amount, 2)
+    elif isinstance(activity, Driving) and activity.left_m is not None:
+        left["left_m"] = round(activity.left_m, 2)
     return {"goal": mission.id, "step": mission.step, **left} if left else None
 
 
-def _plan_now(book: Book, mission: Mission) -> PlanRecord | None:
+def _plan_now(book: MissionState, mission: Mission) -> PlanRecord | None:
     """Return the plan with what is left of the step that runs now."""
     plan = mission.plan
     progress = progress_of(book) if mission.id == book.running else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.mission.motion_on_yes import first_deed
 from planner.mission.skills.look import looks_round
-from planner.mission.state import Facts, Mission
+from planner.mission.state import Mission, SiteView
 from planner.plan import Bilingual, Code, Outcome, StepRecord, same
 
 BACK = ""
@@ -14,7 +14,7 @@ ROAMS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point", "lo
 """Steps that lead where the eyes say, and not to a place."""
 
 
-def needs_yes(facts: Facts, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
+def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
     """Return what a person is asked before these new steps are walked, or None.
 
     ``new_place``: the person named where to go, or what to; a brain that found that shut must not
@@ -38,7 +38,7 @@ def _confirm(why: Bilingual) -> Outcome:
 
 
 def _elsewhere(
-    facts: Facts, before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]
+    facts: SiteView, before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]
 ) -> Bilingual | None:
     """Say which place is new, if one is."""
     known = {place for step in before for place in _places(facts, step)}
@@ -72,7 +72,7 @@ def _sought(step: StepRecord) -> tuple[str, str, str | None, int | None, int | N
     return step.kind, what, step.place, step.x, step.y
 
 
-def _places(facts: Facts, step: StepRecord) -> tuple[str, ...]:
+def _places(facts: SiteView, step: StepRecord) -> tuple[str, ...]:
     if step.kind == "return_home":
         return (facts.home,)
     if step.kind == "come_back":
@@ -80,7 +80,7 @@ def _places(facts: Facts, step: StepRecord) -> tuple[str, ...]:
     return (step.place,) if step.place else step.places
 
 
-def _name(facts: Facts, place: str) -> Bilingual:
+def _name(facts: SiteView, place: str) -> Bilingual:
     if place == BACK:
         return say("confirmation.start")
     target = facts.targets.get(place)

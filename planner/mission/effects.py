@@ -1,4 +1,4 @@
-"""List what the reducer may ask of the world. Motion is not among them: see ``wish``.
+"""List what the reducer may ask of the world. Motion is not among them: see ``motion_request``.
 
 What is streamed to the bridge is a level, not an event, so that no lost effect can keep a robot
 moving: after every step the caller reads ``wish(book)`` anew.
@@ -132,7 +132,7 @@ Effect = (
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class MotionRequest:
     """Say what the bridge should be asked for now. Empty: stand, and ask for nothing."""
 
     mission: str | None = None
@@ -141,4 +141,4 @@ class Wish:
     """Stream this leg's path; None: stand."""
 
 
-STAND = Wish()
+STAND = MotionRequest()

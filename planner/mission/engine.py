@@ -10,11 +10,12 @@ from dataclasses import dataclass
 from math import hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
-from planner.mission.effects import AskRoute, Effect, Journal, Wish
+from planner.mission.activity import Driving
+from planner.mission.effects import AskRoute, Effect, Journal, MotionRequest
 from planner.mission.events import Event, Journalled, Routed, Seen
-from planner.mission.reducer import advance, wish
+from planner.mission.reducer import advance, motion_request
 from planner.mission.skills import Way
-from planner.mission.state import Book
+from planner.mission.state import MissionState
 from planner.navigation import Horizon, LegPath, RoutePoint, cut
 from wire import Record, Status
 
@@ -54,19 +55,19 @@ class Following:
 class Engine:
     """Be one robot's missions in one thread."""
 
-    def __init__(self, book: Book, identity: Identity) -> None:
+    def __init__(self, book: MissionState, identity: Identity) -> None:
         self.book = book
         self._identity = identity
         self._owner = OwnerState()
         self._path: LegPath | None = None
         self._following: Following | None = None
-        self._wish = Wish()
+        self._wish = MotionRequest()
         self._used = 0
 
     @property
     def leg(self) -> Leg | None:
         """Return the leg that is wanted now, for people to see; None while standing is wanted."""
-        following, wanted = self._following, wish(self.book)
+        following, wanted = self._following, motion_request(self.book)
         if following is None or (following.mission, following.leg) != (wanted.mission, wanted.leg):
             return None
         return Leg(following.mission, following.leg, following.path.points)
@@ -137,7 +138,7 @@ class Engine:
         return effects
 
     def _speak(self, now_s: float) -> tuple[Record, ...]:
-        status, wanted = self.book.status, wish(self.book)
+        status, wanted = self.book.status, motion_request(self.book)
         if status is None or wanted == self._wish:
             return ()
         course = self._course(self._cut(status))
@@ -146,16 +147,17 @@ class Engine:
 
     def _adopt(self) -> None:
         """Make the path that just came the one of the new leg, if the reducer took it."""
-        walk, running = self.book.walk, self.book.running
-        if walk is None or running is None or walk.leg is None or self._path is None:
+        activity, running = self.book.activity, self.book.running
+        leg = activity.leg if isinstance(activity, Driving) else None
+        if running is None or leg is None or self._path is None:
             return
         now = self._following
-        if now is None or (now.mission, now.leg) != (running, walk.leg):
-            self._following = Following(running, walk.leg, self._path)
+        if now is None or (now.mission, now.leg) != (running, leg):
+            self._following = Following(running, leg, self._path)
 
     def _cut(self, status: Status) -> Horizon | None:
         """Cut the horizon of the leg that is wanted, on the pose of this status."""
-        following, wanted = self._following, wish(self.book)
+        following, wanted = self._following, motion_request(self.book)
         pose = status.base_in_map
         if following is None or pose is None:
             return None
@@ -177,7 +179,7 @@ class Engine:
 
     def _course(self, horizon: Horizon | None) -> Course:
         """Return what is wanted of the bridge now; ``horizon`` was cut on the status answered."""
-        self._wish = wanted = wish(self.book)
+        self._wish = wanted = motion_request(self.book)
         following = self._following
         ours = following is not None and (following.mission, following.leg) == (
             wanted.mission,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.mission.skills.perception import Answer as EyeAnswer
-from planner.mission.state import Facts, Mission
+from planner.mission.state import Mission, SiteView
 from planner.perception.snapshot import Sight
 from planner.plan import Answer, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
 from wire import Status
@@ -165,7 +165,7 @@ class Restarted:
 class Known:
     """A place was taught, moved or forgotten: these are the places now."""
 
-    facts: Facts
+    facts: SiteView
 
 
 @dataclass(frozen=True, slots=True)

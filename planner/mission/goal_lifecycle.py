@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from planner.language.catalogue import message, say
 from planner.language.utterance import parse
+from planner.mission.activity import Thinking
 from planner.mission.answer_timeouts import ask_anew, close_older, make_room, waiting_since
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
@@ -20,13 +21,13 @@ from planner.mission.open_questions import (
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import unwalkable
 from planner.mission.queue import (
+    acknowledge_hold,
     cancel,
     clear_hold,
     enqueue,
     finish,
     hold_now,
     hold_queue,
-    pardon,
     pause_planning,
     pause_running,
     release_answered,
@@ -35,8 +36,9 @@ from planner.mission.queue import (
 from planner.mission.replan import fingerprint, rethought
 from planner.mission.skills import NOTHING
 from planner.mission.spoken_status import go_on_told, stop_told
-from planner.mission.state import Book, Mission
-from planner.mission.transaction import Turn
+from planner.mission.state import Mission, MissionState
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (
     Answer,
     Bilingual,
@@ -61,14 +63,14 @@ IN_HAND = frozenset(
 UNCONFIRMED = say("goal.unconfirmed")
 
 
-def submit(turn: Turn, event: Submitted) -> None:
+def submit(turn: Transaction, event: Submitted) -> None:
     """Take a goal in. One id is one goal: a repeated id changes nothing."""
     if event.id in turn.book.missions:
         return
     if event.stop or event.doubtful_stop:
         stop(turn)
     elif event.resumes:
-        pardon(turn)
+        acknowledge_hold(turn)
     if not (event.stop or event.local):
         make_room(turn, event.text)
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
@@ -79,7 +81,7 @@ def submit(turn: Turn, event: Submitted) -> None:
         order=order,
         text=event.text,
         language=event.language,
-        state=GoalState.PLANNING,
+        state=FIRST,
         confirm=event.confirm,
         replace=event.replace,
         first=event.first,
@@ -99,20 +101,24 @@ def submit(turn: Turn, event: Submitted) -> None:
         if asking is not None:
             reply(turn, asking, event.text)
         return
-    _think(turn, mission)
+    _think(turn, turn.put(mission))
 
 
-def _stopped(turn: Turn, mission: Mission, echoed: bool) -> None:
+def _stopped(turn: Transaction, mission: Mission, echoed: bool) -> None:
     if echoed:
         said = Outcome(code=Code.STOPPED, message=stop_told(turn.book))
-        finish(turn, mission, GoalState.SUCCEEDED, said)
+        finish(turn, mission, PersonCause.ORDERS_STOP, said)
         return
     said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
-    turn.put(mission, state=GoalState.FAILED, reason="bridge_silent", outcome=said)
+    turn.move_to(mission, PersonCause.STOP_UNHEARD, reason="bridge_silent", outcome=said)
 
 
-def _think(turn: Turn, mission: Mission) -> None:
-    turn.put(mission, state=GoalState.PLANNING, reason=None, outcome=None, plan=None)
+def _think_anew(turn: Transaction, mission: Mission, cause: Cause) -> None:
+    """Have a brain think about an order again that waited for a person until now."""
+    _think(turn, turn.move_to(mission, cause, reason=None, outcome=None, plan=None))
+
+
+def _think(turn: Transaction, mission: Mission) -> None:
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
     said = exchanges_of(mission)
@@ -120,11 +126,11 @@ def _think(turn: Turn, mission: Mission) -> None:
                        order=mission.text, exchanges=said))  # fmt: skip
 
 
-def planned(turn: Turn, event: Planned) -> None:
+def planned(turn: Transaction, event: Planned) -> None:
     """Take the brain's answer, if somebody still waits for it."""
     mission = turn.mission(event.id)
-    walk = turn.book.walk
-    if mission is not None and mission is turn.running and walk and walk.kind == "think":
+    thinks = isinstance(turn.book.activity, Thinking)
+    if mission is not None and mission is turn.running and thinks:
         rethought(turn, mission, event)
         return
     if mission is None or mission.state is not GoalState.PLANNING:
@@ -135,9 +141,10 @@ def planned(turn: Turn, event: Planned) -> None:
         return
     if plan is None:
         outcome = event.failure or _bad_plan("no answer")
-        state = GoalState.FAILED if outcome.code is Code.MODEL_UNAVAILABLE else GoalState.REFUSED
-        turn.put(mission, brain=event.brain)
-        finish(turn, turn.book.missions[mission.id], state, outcome, outcome.code.value)
+        unavailable = outcome.code is Code.MODEL_UNAVAILABLE
+        mission = turn.put(mission, brain=event.brain)
+        cause = BrainCause.FAILS if unavailable else BrainCause.REFUSES
+        finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
     if isinstance(plan, StepPlan | Clarify):  # surely an order
@@ -145,71 +152,62 @@ def planned(turn: Turn, event: Planned) -> None:
     match plan:
         case Answer():
             words = message(Code.ANSWERED, text=plan.text)
-            _done(turn, mission, GoalState.SUCCEEDED, Code.ANSWERED, Outcome(
-                code=Code.ANSWERED, message=words))  # fmt: skip
+            outcome = Outcome(code=Code.ANSWERED, message=words)
+            finish(turn, mission, BrainCause.ANSWERS, outcome)
         case Refuse():
             told = go_on_told(turn.book, plan.reason, turn.now_s)
             outcome = Outcome(code=plan.code, message=told)
-            _done(turn, mission, GoalState.REFUSED, plan.code, outcome)
+            finish(turn, mission, BrainCause.REFUSES, outcome, plan.code.value)
         case Clarify():
             told = go_on_told(turn.book, plan.question, turn.now_s)
             said = Outcome(code=plan.code, message=told)
-            turn.put(
-                mission, state=GoalState.NEEDS_CLARIFICATION, reason=plan.code.value, outcome=said
-            )
+            turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
             _walkable(turn, mission)
 
 
-def _ask_what_was_meant(book: Book, mission: Mission) -> Bilingual:
+def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
     """Ask whether a sentence with a stop word in it was an order to do something."""
     told, text = stop_told(book), mission.text[:60]
     return say("goal.doubtful_stop", told=told, text=text)
 
 
-def _done(turn: Turn, mission: Mission, state: GoalState, code: Code, outcome: Outcome) -> None:
-    reason = code.value if state is GoalState.REFUSED else None
-    finish(turn, mission, state, outcome, reason)
-
-
-def _walkable(turn: Turn, mission: Mission) -> None:
+def _walkable(turn: Transaction, mission: Mission) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
         _stopped(turn, mission, echoed=True)
         return
     if outcome is not None:
-        finish(turn, mission, GoalState.REFUSED, outcome, outcome.code.value)
+        finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
     if mission.doubtful_stop:
         said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
-        turn.put(
-            mission, state=GoalState.AWAITING_CONFIRMATION, reason="doubtful_stop", outcome=said
-        )
+        turn.move_to(mission, BrainCause.NEEDS_YES, reason="doubtful_stop", outcome=said)
     elif mission.confirm:
-        turn.put(mission, state=GoalState.AWAITING_CONFIRMATION)
+        turn.move_to(mission, BrainCause.NEEDS_YES)
     else:
-        ready(turn, mission)
+        ready(turn, mission, BrainCause.PLANS)
 
 
 def _bad_plan(why: str) -> Outcome:
     return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
 
 
-def ready(turn: Turn, mission: Mission) -> None:
+def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
     clear_hold(turn, mission)
     if mission.begun:  # it was asked under way, and goes on where it stood
         release_answered(turn)
-        enqueue(turn, mission, first=True)
+        enqueue(turn, mission, cause, first=True)
         return
     if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
         cancel(turn, replaced)
-    enqueue(turn, mission, first=mission.replace or mission.first)
+    enqueue(turn, mission, cause, first=mission.replace or mission.first)
 
 
-def _in_hand(turn: Turn, new: Mission) -> Mission | None:
+def _in_hand(turn: Transaction, new: Mission) -> Mission | None:
     """Return what "forget that" means: the running goal, else the newest that thinks or asks.
 
     A goal that a person paused keeps its place, and so do those that wait.
@@ -220,12 +218,12 @@ def _in_hand(turn: Turn, new: Mission) -> Mission | None:
     return max(open_, key=lambda m: m.order, default=None)
 
 
-def confirm(turn: Turn, mission: Mission) -> None:
+def confirm(turn: Transaction, mission: Mission) -> None:
     """Take a person's yes."""
-    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)))
+    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)), PersonCause.AGREES)
 
 
-def reply(turn: Turn, mission: Mission, text: str) -> None:
+def reply(turn: Transaction, mission: Mission, text: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = turn.put(mission, given_under_hold=hold_now(turn))
     ask_anew(turn, mission)
@@ -235,58 +233,58 @@ def reply(turn: Turn, mission: Mission, text: str) -> None:
     elif agreed is False and (order is not None or confirms(mission)):
         take_no(turn, mission)
     elif confirms(mission) and agreed:
-        ready(turn, mission)
+        ready(turn, mission, PersonCause.AGREES)
     elif confirms(mission):
         ask_plainly(turn, mission)
     else:
         _reply_about_order(turn, mission, order if agreed and order is not None else text)
 
 
-def _reply_about_order(turn: Turn, mission: Mission, text: str) -> None:
+def _reply_about_order(turn: Transaction, mission: Mission, text: str) -> None:
     """Think about the order again, with the brain's own question and this answer to it."""
     said = mission.outcome.message.of(mission.language) if mission.outcome is not None else ""
     unknown = ("" for _ in mission.replies[len(mission.questions) :])
     questions = (*mission.questions, *unknown, said)
     replies = (*mission.replies, text)
-    _think(turn, turn.put(mission, replies=replies, questions=questions))
+    mission = turn.put(mission, replies=replies, questions=questions)
+    _think_anew(turn, mission, PersonCause.EXPLAINS)
 
 
-def pause(turn: Turn, mission: Mission) -> None:
+def pause(turn: Transaction, mission: Mission) -> None:
     """Pause a goal; if it was running, those who wait are kept waiting."""
     reason = PauseReason.OPERATOR.value
     if mission.state is GoalState.RUNNING:
-        pause_running(turn, reason)
+        pause_running(turn, reason, PersonCause.PAUSES)
     elif mission.state is GoalState.PLANNING:
         pause_planning(turn, mission, reason)
     else:
         turn.put(mission, held=True, kept=True)
 
 
-def resume(turn: Turn, mission: Mission) -> None:
+def resume(turn: Transaction, mission: Mission) -> None:
     """Go on with a paused goal and let the queue go on; or let one that is kept waiting go."""
-    pardon(turn)
+    acknowledge_hold(turn)
     if mission.state is GoalState.QUEUED:
         turn.put(mission, held=False, kept=False)
         return
     release_queue(turn)
     if mission.plan is None or not mission.steps:
-        _think(turn, mission)
+        _think_anew(turn, mission, PersonCause.RESUMES_UNPLANNED)
     else:
-        turn.put(mission, outcome=None)
-        enqueue(turn, turn.book.missions[mission.id], first=True)
+        enqueue(turn, turn.put(mission, outcome=None), PersonCause.RESUMES, first=True)
 
 
-def stop(turn: Turn) -> None:
+def stop(turn: Transaction) -> None:
     """Stand. Running and thinking goals pause; those who wait are kept waiting."""
     reason = PauseReason.STOP.value
-    pause_running(turn, reason)
+    pause_running(turn, reason, PersonCause.PAUSES)
     for mission in tuple(turn.book.missions.values()):
         if mission.state is GoalState.PLANNING:
             pause_planning(turn, mission, reason)
     turn.set(pardoned=None, pardon_until_s=float("-inf"))
 
 
-def restart(turn: Turn, event: Restarted) -> None:
+def restart(turn: Transaction, event: Restarted) -> None:
     """Take up the journal of a process that is gone: nothing of it goes on by itself."""
     missions = {m.id: m for m in sorted(event.missions, key=lambda m: m.order)}
     order = max((m.order for m in missions.values()), default=0)
@@ -294,7 +292,7 @@ def restart(turn: Turn, event: Restarted) -> None:
         missions=missions,
         queue=_queue(event, missions),
         running=None,
-        walk=None,
+        activity=None,
         order=order,
         wall_offset_s=event.wall_offset_s,
         asked_s=waiting_since(missions, turn.now_s),
@@ -303,17 +301,17 @@ def restart(turn: Turn, event: Restarted) -> None:
         if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
             reason = PauseReason.PLANNER_RESTARTED.value
             leg = mission.leg + LEGS_UNWRITTEN
-            turn.put(mission, state=GoalState.PAUSED, reason=reason, leg=leg)
+            turn.move_to(mission, GoalFact.RESTARTED, reason=reason, leg=leg)
         if not mission.ended and mission.map_id != turn.book.facts.map_id:
             _forget_poses(turn, turn.book.missions[mission.id])
     hold_queue(turn)
 
 
-def _forget_poses(turn: Turn, mission: Mission) -> None:
+def _forget_poses(turn: Transaction, mission: Mission) -> None:
     """Drop where a goal began on another map: a point of that map is nowhere on this one."""
     if mission.map_id and mission.began_at is not None:  # better unfinished than done twice
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
-        finish(turn, mission, GoalState.FAILED, said, "map_changed")
+        finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "map_changed")
     elif mission.map_id:
         mission = turn.put(mission, accepted_at=None, notes=NOTHING)
         if mission.state is GoalState.PAUSED:

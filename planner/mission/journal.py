@@ -76,7 +76,7 @@ class GoalKey:
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class JournalContents:
     """Hold what a journal gives a new process."""
 
     missions: tuple[Mission, ...]
@@ -133,7 +133,7 @@ class MissionJournal:
             self._ended = 0
             self._prune()
 
-    def load(self) -> Kept:
+    def load(self) -> JournalContents:
         """Read what a new process needs: all open missions, the newest ended ones, the keys.
 
         Raises:
@@ -155,7 +155,7 @@ class MissionJournal:
             (self._mission(row.record) for row in (*open_, *ended)), key=lambda m: m.order
         )
         keys = tuple(GoalKey(row.key, row.body, row.goal) for row in reversed(kept))
-        return Kept(tuple(missions), tuple(json.loads(queue or "[]")), keys)
+        return JournalContents(tuple(missions), tuple(json.loads(queue or "[]")), keys)
 
     def close(self) -> None:
         """Give the connections back."""

@@ -9,14 +9,14 @@ from collections.abc import Callable
 from planner.mission.effects import Journal
 from planner.mission.errors import JournalDown
 from planner.mission.journal import GoalKey, MissionJournal
-from planner.mission.journal_thread import JournalWriter, Wanted
+from planner.mission.journal_thread import JournalWriter, PendingEntry
 
 log = logging.getLogger(__name__)
 
 SAFE_WITHIN_S = 3.0
 
 
-class Safekeeping:
+class JournalSync:
     """Own the writer; ``on_safe`` is called in the loop with each entry that is on disk."""
 
     def __init__(self, journal: MissionJournal, on_safe: Callable[[int], None]) -> None:
@@ -29,7 +29,7 @@ class Safekeeping:
 
     def write(self, entry: Journal, key: GoalKey | None = None) -> None:
         """Have an entry written; returns at once."""
-        self._writer.write(Wanted(entry, key))
+        self._writer.write(PendingEntry(entry, key))
 
     async def wait(self, entry: int) -> None:
         """Wait until an entry is on disk.

@@ -20,7 +20,7 @@ RETRY_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class PendingEntry:
     """Hold one entry to write, and the key of the request that caused it, if there was one."""
 
     entry: Journal
@@ -39,12 +39,12 @@ class JournalWriter:
         self._journal = journal
         self._done = done
         self._failed = failed
-        self._wanted: queue.SimpleQueue[Wanted | None] = queue.SimpleQueue()
+        self._wanted: queue.SimpleQueue[PendingEntry | None] = queue.SimpleQueue()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._run, name="journal", daemon=True)
         self._thread.start()
 
-    def write(self, wanted: Wanted) -> None:
+    def write(self, wanted: PendingEntry) -> None:
         """Have an entry written; returns at once."""
         self._wanted.put(wanted)
 
@@ -57,7 +57,7 @@ class JournalWriter:
             self._journal.close()
 
     def _run(self) -> None:
-        waiting: list[Wanted] = []
+        waiting: list[PendingEntry] = []
         while True:
             ending = self._take(waiting)
             if waiting and self._try(waiting):
@@ -67,7 +67,7 @@ class JournalWriter:
             if ending and (not waiting or self._closing.is_set()):
                 return
 
-    def _take(self, waiting: list[Wanted]) -> bool:
+    def _take(self, waiting: list[PendingEntry]) -> bool:
         """Add all that waits; block only when there is nothing to do. Say whether to end."""
         try:
             item = self._wanted.get(block=not waiting)
@@ -79,7 +79,7 @@ class JournalWriter:
         except queue.Empty:
             return False
 
-    def _try(self, waiting: list[Wanted]) -> bool:
+    def _try(self, waiting: list[PendingEntry]) -> bool:
         entries = tuple(item.entry for item in waiting)
         keys = tuple(item.key for item in waiting if item.key is not None)
         try:

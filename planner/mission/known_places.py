@@ -22,7 +22,7 @@ from planner.language.reserved_names import name_reads_as_order
 from planner.language.yes_no import consents
 from planner.mission.bridge_status import standing
 from planner.mission.site_view import facts_of, vocabulary_of
-from planner.mission.state import Facts
+from planner.mission.state import SiteView
 from planner.mission.tasks import Router
 from planner.navigation import RouteFailure, RouteRequest
 from planner.plan import Vocabulary
@@ -84,7 +84,7 @@ def _now() -> datetime:
     return datetime.now(UTC)
 
 
-class Memory:
+class KnownPlaces:
     """Be what the planner knows of places. Reads the file once, when it is made."""
 
     def __init__(
@@ -126,7 +126,7 @@ class Memory:
         return self._vocabulary
 
     @property
-    def facts(self) -> Facts:
+    def facts(self) -> SiteView:
         """Return the places as the reducer knows them."""
         return self._facts
 

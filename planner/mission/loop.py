@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from planner.bridge_client import Link, LinkError
-from planner.mission.accept import Accepted
+from planner.mission.accept import WaypointLatency
 from planner.mission.api_view import Progress, goal_of, progress_of
 from planner.mission.bridge_status import at_rest
 from planner.mission.detector_words import Wording
@@ -36,12 +36,12 @@ from planner.mission.event_hub import Hub
 from planner.mission.events import Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
 from planner.mission.journal import GoalKey, MissionJournal
-from planner.mission.journal_sync import Safekeeping
+from planner.mission.journal_sync import JournalSync
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
-from planner.mission.state import Book, Rules
-from planner.mission.tasks import Answers, Helpers, Router, Think
+from planner.mission.state import MissionState, Rules
+from planner.mission.tasks import Answers, MissionTasks, Router, Think
 from planner.mission.warmup import warm_up
 from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints
@@ -73,13 +73,13 @@ class Loop:
 
     def __init__(self, engine: Engine, link: Link, journal: MissionJournal, clocks: Clocks) -> None:
         self.hub = Hub()
-        self.accepted = Accepted()
+        self.accepted = WaypointLatency()
         self._engine, self._link, self._journal, self._clocks = engine, link, journal, clocks
         self._collector = Collector()
         self._key_now: GoalKey | None = None
-        self._helpers: Helpers | None = None
+        self._helpers: MissionTasks | None = None
         self._wording: Wording | None = None
-        self._safe: Safekeeping | None = None
+        self._safe: JournalSync | None = None
         self._task: asyncio.Task[None] | None = None
         self._broken: BaseException | None = None
         self._ticked_s = self._told_s = float("-inf")
@@ -91,7 +91,7 @@ class Loop:
         self._acts: dict[str, OpRequest] = {}
 
     @property
-    def book(self) -> Book:
+    def book(self) -> MissionState:
         """Return the book as it stands."""
         return self._engine.book
 
@@ -132,11 +132,11 @@ class Loop:
         """
         kept = await asyncio.to_thread(self._journal.load)
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
-        self._safe = Safekeeping(self._journal, self._on_safe)
+        self._safe = JournalSync(self._journal, self._on_safe)
         answers = Answers(
             self.event, self._on_routed, self._link.obstacles, self.event, self._break
         )
-        self._helpers = Helpers(think, router, answers, self._door)
+        self._helpers = MissionTasks(think, router, answers, self._door)
         self._wording = Wording(self.book.eyes.classes, self._helpers.spawn, self._seen_anew)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         self.event(Restarted(kept.missions, kept.queue, offset_s))

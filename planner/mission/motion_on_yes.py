@@ -17,13 +17,13 @@ from planner.plan import Bilingual, StepRecord, same
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.state import Facts, Mission, Rules
+    from planner.mission.state import Mission, Rules, SiteView
 
 DO_THAT = say("deed.do_that")
 _UNTIL = frozenset({"ask", "decide"})
 
 
-def upon_yes(facts: Facts, mission: Mission) -> Bilingual | None:
+def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
     """Return what the robot does next upon a yes to the question of the current step.
 
     None where nothing moves before the next question or thought.
@@ -38,7 +38,7 @@ def upon_yes(facts: Facts, mission: Mission) -> Bilingual | None:
     return first_deed(facts, gated)
 
 
-def first_deed(facts: Facts, steps: Iterable[StepRecord]) -> Bilingual | None:
+def first_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual | None:
     """Say what the first of these steps that may move the robot does; None where none moves."""
     step = next(filter(moves, steps), None)
     if step is None:

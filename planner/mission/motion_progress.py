@@ -15,8 +15,9 @@ from planner.mission.queue import finish, standing_hold
 from planner.mission.skills.move import along
 from planner.mission.skills.turn import turned_rad
 from planner.mission.state import Mission
-from planner.mission.transaction import Turn
-from planner.plan import Code, GoalState, Outcome, PauseReason
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
+from planner.plan import Code, Outcome, PauseReason
 from wire import Mode, Pose2, Status
 
 BY_AMOUNT = frozenset({"turn", "move"})
@@ -24,7 +25,7 @@ BY_AMOUNT = frozenset({"turn", "move"})
 STEERED = say("goal.steered")
 
 
-def measure_from(turn: Turn, mission: Mission, pose: Pose2 | None) -> Mission:
+def measure_from(turn: Transaction, mission: Mission, pose: Pose2 | None) -> Mission:
     """Note where a measured step begins, or began: what is done lies behind the robot."""
     step = mission.now
     if step is None or pose is None or step.kind not in BY_AMOUNT or mission.began_at is not None:
@@ -38,7 +39,7 @@ def measure_from(turn: Turn, mission: Mission, pose: Pose2 | None) -> Mission:
     return turn.put(mission, began_at=began)
 
 
-def settle_amounts(turn: Turn, pose: Pose2 | None) -> None:
+def settle_amounts(turn: Transaction, pose: Pose2 | None) -> None:
     """Settle what is done of every interrupted step, while the robot is where it left off."""
     if pose is None:
         return
@@ -54,12 +55,12 @@ def settle_amounts(turn: Turn, pose: Pose2 | None) -> None:
         turn.put(mission, done=round(done, 5), began_at=None)
 
 
-def hand_steers(turn: Turn, status: Status) -> bool:
+def hand_steers(turn: Transaction, status: Status) -> bool:
     """Tell whether a hand steers now, or has and no person has acted since."""
     return status.mode is Mode.TELEOP or standing_hold(turn) == PauseReason.TELEOP.value
 
 
-def forget_beginnings(turn: Turn) -> None:
+def forget_beginnings(turn: Transaction) -> None:
     """Measure no step across a way that a hand steered.
 
     What odometry counted until the pause is done. A planner that died counted nothing: how far its
@@ -70,6 +71,6 @@ def forget_beginnings(turn: Turn) -> None:
             continue
         if mission.reason == PauseReason.PLANNER_RESTARTED.value:
             said = Outcome(code=Code.NOT_REACHED, message=STEERED)
-            finish(turn, mission, GoalState.FAILED, said, "steered_meanwhile")
+            finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "steered_meanwhile")
         else:
             turn.put(mission, began_at=None)

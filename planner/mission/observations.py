@@ -9,7 +9,7 @@ from __future__ import annotations
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.language.catalogue import list_names, say
 from planner.language.formatting import angle, metres
-from planner.mission.state import Facts, Mission
+from planner.mission.state import Mission, SiteView
 from planner.plan import Bilingual, StepRecord, StepState, same
 
 RESULTS = {
@@ -19,7 +19,7 @@ RESULTS = {
 }
 
 
-def observed(facts: Facts, mission: Mission) -> tuple[Observation, ...]:
+def observed(facts: SiteView, mission: Mission) -> tuple[Observation, ...]:
     """Return one observation a step that is over, and the question of a step that decides."""
     over = mission.steps[: mission.step]
     now = mission.now
@@ -45,7 +45,9 @@ def _is_over(step: StepRecord) -> bool:
     return answered or step.kind == "decide" or step.state is StepState.FAILED
 
 
-def _observation(facts: Facts, mission: Mission, step: StepRecord, *, newest: bool) -> Observation:
+def _observation(
+    facts: SiteView, mission: Mission, step: StepRecord, *, newest: bool
+) -> Observation:
     answered = step.kind == "ask" and step.answer is not None
     result = "answered" if answered else RESULTS.get(step.state, "succeeded")
     detail = _detail(facts, step)
@@ -56,7 +58,7 @@ def _observation(facts: Facts, mission: Mission, step: StepRecord, *, newest: bo
     )
 
 
-def _detail(facts: Facts, step: StepRecord) -> Bilingual:
+def _detail(facts: SiteView, step: StepRecord) -> Bilingual:
     text = step.text or ""
     if step.said is not None:
         return step.said
@@ -78,7 +80,7 @@ def _detail(facts: Facts, step: StepRecord) -> Bilingual:
             return _where(facts, step)
 
 
-def _where(facts: Facts, step: StepRecord) -> Bilingual:
+def _where(facts: SiteView, step: StepRecord) -> Bilingual:
     wanted = (step.place,) if step.place else step.places
     names = [facts.targets[p].name if p in facts.targets else same(p) for p in wanted]
     if step.reason is None:

@@ -14,12 +14,20 @@ from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
 from planner.mission.motion_on_yes import DO_THAT, first_deed, upon_yes
 from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
-from planner.mission.skills import Cannot
+from planner.mission.scene import scene_of
+from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, declined
 from planner.mission.state import Mission
-from planner.mission.step_execution import scene_of
-from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepState, same
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import PersonCause
+from planner.plan import (
+    Bilingual,
+    Code,
+    GoalState,
+    Outcome,
+    StepState,
+    same,
+)
 
 MAX_ANSWER = 2000
 WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
@@ -66,21 +74,23 @@ def takes_yes(mission: Mission) -> bool:
     return asks(mission) or confirms(mission) or offered(mission) is not None
 
 
-def take_sentence(turn: Turn, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
+def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
     """End a goal whose words answer another; return whose they answer, None of several."""
     names = list_names(same(f"“{turn.book.missions[asked].text[:60]}”") for asked in asking)
     if len(asking) > 1:
         said = say("question.for_none", names=names)
         outcome = Outcome(code=Code.AMBIGUOUS, message=said)
-        turn.put(mission, state=GoalState.REFUSED, reason=Code.AMBIGUOUS.value, outcome=outcome)
+        turn.move_to(
+            mission, PersonCause.MAY_MEAN_SEVERAL, reason=Code.AMBIGUOUS.value, outcome=outcome
+        )
         return None
     said = say("question.taken", names=names)
     outcome = Outcome(code=Code.ANSWERED, message=said)
-    turn.put(mission, state=GoalState.SUCCEEDED, outcome=outcome)
+    turn.move_to(mission, PersonCause.ANSWERS_ANOTHER, outcome=outcome)
     return turn.book.missions[asking[0]]
 
 
-def take_answer(turn: Turn, mission: Mission, text: str) -> None:
+def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
     """Write the answer into its step, and go on in it first of all who wait.
 
     What ends the goal ends it now, whatever else runs or holds the robot.
@@ -92,13 +102,13 @@ def take_answer(turn: Turn, mission: Mission, text: str) -> None:
     release_answered(turn)
     if mission.now is not None and mission.now.kind == "ask":
         act = ask(scene_of(turn, mission).but(mission.notes))
-        if isinstance(act, Cannot) and act.said is not None:
+        if isinstance(act, Fail) and act.said is not None:
             decline(turn, mission, act.said)
             return
-    enqueue(turn, turn.put(mission, outcome=None), first=True)
+    enqueue(turn, turn.put(mission, outcome=None), PersonCause.AGREES, first=True)
 
 
-def take_no(turn: Turn, mission: Mission) -> None:
+def take_no(turn: Transaction, mission: Mission) -> None:
     """End a goal whose plan or only offer a person said no to."""
     if mission.begun:
         release_answered(turn)
@@ -106,7 +116,7 @@ def take_no(turn: Turn, mission: Mission) -> None:
     decline(turn, mission, declined(deed))
 
 
-def ask_plainly(turn: Turn, mission: Mission) -> None:
+def ask_plainly(turn: Transaction, mission: Mission) -> None:
     """Ask for a yes or no to a plan, after an answer that is neither."""
     asked = mission.outcome.message if mission.outcome is not None else _shall_i(mission.text)
     if not asked.en.startswith(_YES_OR_NO.en):

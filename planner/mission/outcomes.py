@@ -8,8 +8,15 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.mission.account import MOTION, account, place_name
 from planner.mission.skills.look import looks_round
-from planner.mission.state import Facts, Mission, Walk
-from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState
+from planner.mission.state import Mission, SiteView
+from planner.plan import (
+    Bilingual,
+    Code,
+    Outcome,
+    Spot,
+    StepRecord,
+    StepState,
+)
 from planner.site.polygon import area_m2, contains
 from wire import Pose2, Status
 
@@ -27,7 +34,7 @@ def moves(step: StepRecord) -> bool:
     return step.kind in MOTION or step.kind in SEEKS
 
 
-def spot_at(facts: Facts, pose: Pose2 | None, place: str | None = None) -> Spot:
+def spot_at(facts: SiteView, pose: Pose2 | None, place: str | None = None) -> Spot:
     """Name where a pose is: its room and the point itself."""
     if pose is None:
         return Spot(place=place)
@@ -45,7 +52,7 @@ def spot_at(facts: Facts, pose: Pose2 | None, place: str | None = None) -> Spot:
     )
 
 
-def asked_spot(facts: Facts, mission: Mission, step: StepRecord) -> Spot | None:
+def asked_spot(facts: SiteView, mission: Mission, step: StepRecord) -> Spot | None:
     """Name where a step was to go, or None where it goes nowhere."""
     if step.kind == "come_back":
         return spot_at(facts, accepted_at(mission))
@@ -60,20 +67,17 @@ def accepted_at(mission: Mission) -> Pose2 | None:
     return Pose2(*mission.accepted_at) if mission.accepted_at is not None else None
 
 
-def limits(mission: Mission, walk: Walk | None) -> tuple[str, ...]:
+def limits(mission: Mission) -> tuple[str, ...]:
     """Return the bridge's names for what held the speed down, the longest first."""
-    counts = dict(mission.limited)
-    for name, count in (walk.limited if walk is not None else {}).items():
-        counts[name] = counts.get(name, 0) + count
+    counts = mission.limited
     total = sum(counts.values())
     named = sorted((-n, name) for name, n in counts.items() if n >= MIN_LIMIT_SHARE * total)
     return tuple(name for _, name in named[:MAX_LIMITS_NAMED])
 
 
-def ended(
-    facts: Facts,
+def ended_outcome(
+    facts: SiteView,
     mission: Mission,
-    walk: Walk | None,
     status: Status | None,
     now_unix_s: float,
     *,
@@ -94,9 +98,9 @@ def ended(
         asked=asked_spot(facts, mission, last) if last is not None else None,
         reached=(last.reached if last is not None and last.reached else None)
         or (spot_at(facts, pose) if tried else None),
-        metres=round(mission.metres + (walk.metres if walk is not None else 0.0), 3),
+        metres=round(mission.metres, 3),
         seconds=round(max(0.0, now_unix_s - mission.created_unix_s), 3),
-        limited_by=limits(mission, walk),
+        limited_by=limits(mission),
     )
 
 
@@ -106,7 +110,7 @@ def thoughts(count: int) -> Bilingual:
 
 
 def failure(
-    facts: Facts, mission: Mission, step: StepRecord | None, code: Code, row: str
+    facts: SiteView, mission: Mission, step: StepRecord | None, code: Code, row: str
 ) -> Bilingual:
     """Return the sentence of a mission that failed on its way."""
     if code in (Code.BLOCKED, Code.NO_ROUTE):

@@ -7,17 +7,18 @@ place that was moved is laid anew.
 from __future__ import annotations
 
 from planner.language.catalogue import list_names, message
-from planner.mission.queue import end_running, finish, settle_walk
-from planner.mission.state import Facts, Mission
+from planner.mission.queue import end_running, finish, settle_activity
+from planner.mission.state import Mission, SiteView
 from planner.mission.step_execution import begin_step
-from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepRecord, StepState
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
+from planner.plan import Bilingual, Code, Outcome, StepRecord, StepState
 
 GONE = "place_gone"
 _AHEAD = (StepState.PENDING, StepState.RUNNING)
 
 
-def on_known(turn: Turn, facts: Facts) -> None:
+def on_known(turn: Transaction, facts: SiteView) -> None:
     """Let the book know these places from now on."""
     before = turn.book.facts
     turn.set(facts=facts)
@@ -28,7 +29,7 @@ def on_known(turn: Turn, facts: Facts) -> None:
     _lay_anew(turn, before)
 
 
-def _gone(mission: Mission, before: Facts, now: Facts) -> str | None:
+def _gone(mission: Mission, before: SiteView, now: SiteView) -> str | None:
     """Return a place that a goal still has to visit and that is no more, or None."""
     if mission.ended:
         return None
@@ -41,22 +42,22 @@ def _named(step: StepRecord) -> tuple[str, ...]:
     return (step.place,) if step.place else step.places
 
 
-def _end(turn: Turn, mission: Mission, name: Bilingual, facts: Facts) -> None:
+def _end(turn: Transaction, mission: Mission, name: Bilingual, facts: SiteView) -> None:
     known = list_names(target.name for target in facts.targets.values())
     said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
     if turn.book.running == mission.id:
-        end_running(turn, GoalState.FAILED, Code.UNKNOWN_PLACE, GONE, said=said)
+        end_running(turn, GoalFact.PLACE_GONE, Code.UNKNOWN_PLACE, GONE, said=said)
         return
     outcome = Outcome(code=Code.UNKNOWN_PLACE, message=said)
-    finish(turn, mission, GoalState.FAILED, outcome, GONE)
+    finish(turn, mission, GoalFact.PLACE_GONE, outcome, GONE)
 
 
-def _lay_anew(turn: Turn, before: Facts) -> None:
+def _lay_anew(turn: Transaction, before: SiteView) -> None:
     """Begin the running step again where its place is another point now."""
-    walk = turn.book.walk
-    if turn.running is None or walk is None or walk.target is None:
+    leg = turn.driving
+    if turn.running is None or leg is None or leg.target is None:
         return
-    old, new = before.targets.get(walk.target), turn.book.facts.targets.get(walk.target)
+    old, new = before.targets.get(leg.target), turn.book.facts.targets.get(leg.target)
     if old is not None and new is not None and old.pose != new.pose:
-        settle_walk(turn)
+        settle_activity(turn)
         begin_step(turn)

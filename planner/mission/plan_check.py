@@ -1,4 +1,9 @@
-"""Be the last gate before a plan is walked: it trusts no brain and no validation before it."""
+"""Be the last gate before a plan is carried out: first plans, new ones under way, resumed by a yes.
+
+It trusts no brain and no validation before it, and knows what those do not: the detector's classes
+as they are now, and whether a model can point. Eyes that fail later end their own step
+(``planner.mission.skills.act_of``).
+"""
 
 from __future__ import annotations
 
@@ -7,16 +12,26 @@ from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import meant, picks_out
 from planner.mission.skills.object_questions import unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
-from planner.mission.state import Book, Facts, Mission
-from planner.plan import NEEDS_DETECTOR, Bilingual, Code, Language, Outcome, StepRecord, same
+from planner.mission.state import Mission, MissionState, SiteView
+from planner.plan import (
+    NEEDS_DETECTOR,
+    Bilingual,
+    Code,
+    Language,
+    Outcome,
+    StepRecord,
+    same,
+)
 
 NO_STEPS = say("plan.no_steps")
 UP_TO = frozenset({"go_to_object", "follow"})
 """The robot goes up to what these name: any other of its kind is the wrong one."""
 
 
-def unwalkable(book: Book, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
-    """Return why these steps can't all be walked, or None. Nothing has moved yet."""
+def unwalkable(
+    book: MissionState, mission: Mission, steps: tuple[StepRecord, ...]
+) -> Outcome | None:
+    """Return why these steps can't all be carried out, or None. Nothing has moved yet."""
     if not steps:
         return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=NO_STEPS))
     for step in steps:
@@ -26,7 +41,7 @@ def unwalkable(book: Book, mission: Mission, steps: tuple[StepRecord, ...]) -> O
     return _unknown_place(book.facts, steps) or _unknown_thing(book, mission.language, steps)
 
 
-def _unknown_place(facts: Facts, steps: tuple[StepRecord, ...]) -> Outcome | None:
+def _unknown_place(facts: SiteView, steps: tuple[StepRecord, ...]) -> Outcome | None:
     named = (p for s in steps for p in ((s.place,) if s.place else s.places))
     unknown = next((p for p in named if p not in facts.targets), None)
     if unknown is None:
@@ -36,7 +51,9 @@ def _unknown_place(facts: Facts, steps: tuple[StepRecord, ...]) -> Outcome | Non
     return Outcome(code=Code.UNKNOWN_PLACE, message=said)
 
 
-def _unknown_thing(book: Book, language: Language, steps: tuple[StepRecord, ...]) -> Outcome | None:
+def _unknown_thing(
+    book: MissionState, language: Language, steps: tuple[StepRecord, ...]
+) -> Outcome | None:
     """Return why a thing can't be looked for: the detector does not know it, nor can a model tell.
 
     A vision model can point at anything, but only at what is in the picture: enough to go there. It
@@ -49,7 +66,7 @@ def _unknown_thing(book: Book, language: Language, steps: tuple[StepRecord, ...]
     return None
 
 
-def _unknown_in(book: Book, language: Language, step: StepRecord) -> Bilingual | None:
+def _unknown_in(book: MissionState, language: Language, step: StepRecord) -> Bilingual | None:
     eyes = book.eyes
     if eyes.model and step.kind in ("go_to_object", "look"):
         return None

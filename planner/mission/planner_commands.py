@@ -27,10 +27,10 @@ from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
+from planner.mission.goal_reference import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.known_places import Lesson
-from planner.mission.queue import to_resume
 from planner.mission.spoken_status import doing, where
-from planner.plan import Answer, Bilingual, Code, GoalState, Refuse
+from planner.plan import Answer, Bilingual, Code, Refuse
 from planner.site import PlaceRefused
 
 if TYPE_CHECKING:
@@ -38,21 +38,21 @@ if TYPE_CHECKING:
 
     from planner.mission.errors import MissionError
     from planner.mission.events import Command
-    from planner.mission.known_places import Memory
-    from planner.mission.state import Book, Mission
+    from planner.mission.known_places import KnownPlaces
+    from planner.mission.state import Mission, MissionState
     from planner.mission.tasks import Think
 
 SPOKEN_BY = "sentence"
 
 
-class Local:
+class PlannerCommands:
     """Think about what the planner itself is told; hand everything else to the brain."""
 
     def __init__(
         self,
         think: Think,
-        memory: Memory,
-        book: Callable[[], Book],
+        memory: KnownPlaces,
+        book: Callable[[], MissionState],
         command: Callable[[Command], MissionError | None],
         age_s: Callable[[], float],
     ) -> None:
@@ -88,13 +88,13 @@ class Local:
             case Forget(name):
                 return await self._forget(name)
             case Pause():
-                return self._each("pause", events.Pause, to_pause(self._book(), mission.id))
+                return self._each("pause", events.Pause, goal_to_pause(self._book(), mission.id))
             case Cancel():
                 own = mission.id if mission.replies else None
-                found = current(self._book(), mission.id)
+                found = goal_to_end(self._book(), mission.id)
                 return self._each("cancel", events.Cancel, found or own)
             case Resume():
-                return self._each("resume", events.Resume, to_resume(self._book(), mission.id))
+                return self._each("resume", events.Resume, goal_to_resume(self._book(), mission.id))
             case Doing():
                 return Answer(text=doing(self._book(), self._age_s(), mission.id))
             case Slower() | Faster():
@@ -172,34 +172,3 @@ def not_kept(refused: PlaceRefused) -> Refuse:
 def _by_person(mission: Mission, ask: AskBrain) -> bool:
     """Tell whether the words are the person's own newest ones, not a model's question."""
     return ask.text == mission.words
-
-
-_OPEN = (
-    GoalState.PLANNING,
-    GoalState.NEEDS_CLARIFICATION,
-    GoalState.AWAITING_CONFIRMATION,
-    GoalState.PAUSED,
-    GoalState.QUEUED,
-)
-
-
-def current(book: Book, asking: str | None = None) -> str | None:
-    """Return the goal that a person means by "that": the running one, else the newest open one."""
-    if book.running is not None:
-        return book.running
-    others = [m for m in book.missions.values() if not m.ended and m.id != asking]
-    for state in _OPEN:
-        found = [m for m in others if m.state is state]
-        if found:
-            return max(found, key=lambda m: m.order).id
-    return None
-
-
-def to_pause(book: Book, asking: str | None = None) -> str | None:
-    """Return the goal that a person wants paused."""
-    if book.running is not None:
-        return book.running
-    thinking = [
-        m for m in book.missions.values() if m.state is GoalState.PLANNING and m.id != asking
-    ]
-    return max(thinking, key=lambda m: m.order).id if thinking else None

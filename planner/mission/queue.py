@@ -8,29 +8,46 @@ with the answer, too.
 from __future__ import annotations
 
 from planner.language.catalogue import message
+from planner.mission.activity import (
+    TIMED,
+    Activity,
+    AskingImage,
+    Driving,
+    Observing,
+    Thinking,
+)
 from planner.mission.effects import ClearHold, DropBrain
-from planner.mission.outcomes import ended, failure
-from planner.mission.state import Book, Mission, Walk
-from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState
+from planner.mission.outcomes import ended_outcome, failure
+from planner.mission.skills.skill_state import Notes
+from planner.mission.state import Mission
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
+from planner.plan import (
+    Bilingual,
+    Code,
+    GoalState,
+    Outcome,
+    PauseReason,
+    StepState,
+)
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""
 
 
-def enqueue(turn: Turn, mission: Mission, *, first: bool = False) -> None:
-    """Let a planned mission wait for the robot."""
+def enqueue(turn: Transaction, mission: Mission, cause: Cause, *, first: bool = False) -> None:
+    """Let a planned mission wait for the robot; ``cause`` is why it may."""
     waiting = tuple(i for i in turn.book.queue if i != mission.id)
-    turn.put(mission, state=GoalState.QUEUED, reason=None, held=False, kept=False)
+    turn.move_to(mission, cause, reason=None, held=False, kept=False)
     turn.set(queue=(mission.id, *waiting) if first else (*waiting, mission.id))
 
 
-def dequeue(turn: Turn, mission_id: str) -> None:
+def dequeue(turn: Transaction, mission_id: str) -> None:
     """Take a mission out of the queue, if it is there."""
     turn.set(queue=tuple(i for i in turn.book.queue if i != mission_id))
 
 
-def hold_queue(turn: Turn) -> None:
+def hold_queue(turn: Transaction) -> None:
     """Keep everyone who waits now waiting until a person acts."""
     for mission_id in turn.book.queue:
         mission = turn.book.missions[mission_id]
@@ -38,7 +55,7 @@ def hold_queue(turn: Turn) -> None:
             turn.put(mission, held=True, kept=True)
 
 
-def release_queue(turn: Turn) -> None:
+def release_queue(turn: Transaction) -> None:
     """Let those who were kept waiting take their turns."""
     for mission_id in turn.book.queue:
         mission = turn.book.missions[mission_id]
@@ -46,7 +63,7 @@ def release_queue(turn: Turn) -> None:
             turn.put(mission, held=False, kept=False)
 
 
-def release_answered(turn: Turn) -> None:
+def release_answered(turn: Transaction) -> None:
     """Let those take their turns who waited for an answer and for nothing else."""
     for mission_id in turn.book.queue:
         mission = turn.book.missions[mission_id]
@@ -54,29 +71,29 @@ def release_answered(turn: Turn) -> None:
             turn.put(mission, held=False)
 
 
-def hold_now(turn: Turn) -> str | None:
+def hold_now(turn: Transaction) -> str | None:
     """Return the id of the bridge's hold that stands now, or None."""
     held = turn.book.status.held if turn.book.status is not None else None
     return held.id if held is not None else None
 
 
-def pardon(turn: Turn) -> None:
+def acknowledge_hold(turn: Transaction) -> None:
     """Note that a person acted: the hold that stands now is about to be cleared."""
     turn.set(pardoned=hold_now(turn), pardon_until_s=turn.now_s + PARDON_S)
 
 
-def clear_hold(turn: Turn, mission: Mission) -> None:
+def clear_hold(turn: Transaction, mission: Mission) -> None:
     """Clear the hold under which a person gave this goal, now that its plan is accepted.
 
     A hold that began after the person spoke stays: nobody has answered that one.
     """
     held = hold_now(turn)
     if held is not None and held == mission.given_under_hold:
-        pardon(turn)
+        acknowledge_hold(turn)
         turn.emit(ClearHold(mission.id))
 
 
-def standing_hold(turn: Turn) -> str | None:
+def standing_hold(turn: Transaction) -> str | None:
     """Return the pause reason of a hold that no person has answered, or None."""
     status = turn.book.status
     if status is None or status.held is None:
@@ -85,52 +102,60 @@ def standing_hold(turn: Turn) -> str | None:
     return None if pardoned else status.held.reason.value
 
 
-def settle_walk(turn: Turn) -> Mission | None:
+def settle_activity(turn: Transaction) -> Mission | None:
     """Write what the running step measured into its mission; the robot is free afterwards."""
-    mission, walk = turn.running, turn.book.walk
-    if mission is not None and walk is not None:
+    mission, activity = turn.running, turn.book.activity
+    if mission is not None and activity is not None:
         limited = dict(mission.limited)
-        for name, count in walk.limited.items():
+        counted = activity.limited if isinstance(activity, Driving) else {}
+        for name, count in counted.items():
             limited[name] = limited.get(name, 0) + count
-        metres = round(mission.metres + walk.metres, 4)
-        done = round(mission.done + walk.amount, 5)
+        metres = round(mission.metres + activity.metres, 4)
+        done = round(mission.done + activity.amount, 5)
         mission = turn.put(mission, metres=metres, limited=limited, done=done)
-        if walk.since_s is not None:
-            mission = _settle_step(turn, mission, walk)
-        if walk.kind == "think":  # nobody waits for this thought any more
+        if isinstance(activity, TIMED) and activity.since_s is not None:
+            mission = _settle_step(turn, mission, activity, activity.since_s)
+        if isinstance(activity, Thinking):  # nobody waits for this thought any more
             turn.emit(DropBrain(mission.id))
-    turn.set(walk=None)
+    turn.set(activity=None)
     return mission
 
 
-def _settle_step(turn: Turn, mission: Mission, walk: Walk) -> Mission:
+def _settle_step(
+    turn: Transaction, mission: Mission, activity: Activity, since_s: float
+) -> Mission:
     """Write what a step that looks has spent, and what its skill remembers."""
-    since_s = walk.since_s if walk.since_s is not None else turn.now_s
     return turn.put(
         mission,
         step_s=round(mission.step_s + max(0.0, turn.now_s - since_s), 3),
-        step_m=round(mission.step_m + walk.metres, 4),
-        notes=walk.notes if walk.notes is not None else mission.notes,
+        step_m=round(mission.step_m + activity.metres, 4),
+        notes=notes_now(mission, activity),
     )
 
 
-def pause_running(turn: Turn, reason: str) -> None:
+def notes_now(mission: Mission, activity: Activity | None) -> Notes:
+    """Return what the skill of the running step remembers now."""
+    kept = activity.notes if isinstance(activity, (Driving, Observing, AskingImage)) else None
+    return kept if kept is not None else mission.notes
+
+
+def pause_running(turn: Transaction, reason: str, cause: Cause = GoalFact.INTERRUPTED) -> None:
     """Stand still and keep the running mission's place; those who wait are kept waiting."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is not None:
         if reason == PauseReason.TELEOP.value:  # from now on another hand moves the robot
             mission = turn.put(mission, began_at=None)
-        turn.put(mission, state=GoalState.PAUSED, reason=reason, outcome=_hint(reason))
+        turn.move_to(mission, cause, reason=reason, outcome=_hint(reason))
         turn.set(running=None)
     hold_queue(turn)
 
 
-def step_aside(
-    turn: Turn, mission: Mission, state: GoalState, reason: str | None, said: Outcome | None
+def yield_robot(
+    turn: Transaction, mission: Mission, cause: Cause, reason: str | None, said: Outcome | None
 ) -> None:
     """Leave the robot standing and free while a person is asked; who waits is kept waiting."""
-    turn.set(running=None, walk=None)
-    turn.put(mission, state=state, reason=reason, outcome=said)
+    turn.set(running=None, activity=None)
+    turn.move_to(mission, cause, reason=reason, outcome=said)
     for mission_id in turn.book.queue:
         if not turn.book.missions[mission_id].held:
             turn.put(turn.book.missions[mission_id], held=True)
@@ -143,39 +168,39 @@ def _hint(reason: str) -> Outcome | None:
     return Outcome(code=Code.NOT_ARMED, message=message(Code.NOT_ARMED))
 
 
-def pause_planning(turn: Turn, mission: Mission, reason: str) -> None:
+def pause_planning(turn: Transaction, mission: Mission, reason: str) -> None:
     """Stop thinking about a goal; a resume thinks anew."""
     turn.emit(DropBrain(mission.id))
-    turn.put(mission, state=GoalState.PAUSED, reason=reason)
+    turn.move_to(mission, PersonCause.PAUSES, reason=reason)
 
 
 def end_running(
-    turn: Turn,
-    state: GoalState,
+    turn: Transaction,
+    cause: Cause,
     code: Code,
     reason: str | None = None,
     row: str = "",
     said: Bilingual | None = None,
 ) -> None:
     """End the running mission with its figures; steps never begun are skipped."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     said = said or failure(turn.book.facts, mission, mission.now, code, row)
-    finish(turn, mission, state, ended(
-        turn.book.facts, mission, None, turn.book.status, turn.now_s + turn.book.wall_offset_s,
+    finish(turn, mission, cause, ended_outcome(
+        turn.book.facts, mission, turn.book.status, turn.now_s + turn.book.wall_offset_s,
         code=code, said=said,
     ), reason)  # fmt: skip
 
 
 def finish(
-    turn: Turn, mission: Mission, state: GoalState, outcome: Outcome, reason: str | None = None
+    turn: Transaction, mission: Mission, cause: Cause, outcome: Outcome, reason: str | None = None
 ) -> None:
     """Write the end of a mission, wherever it stood, and free what it had."""
     plan = mission.plan
     if plan is not None and plan.steps:
         after = {StepState.RUNNING: StepState.FAILED, StepState.PENDING: StepState.SKIPPED}
-        cancelled = state is GoalState.CANCELLED
+        cancelled = next_state(mission.state, cause) is GoalState.CANCELLED
         steps = tuple(
             s.model_copy(
                 update={
@@ -187,31 +212,29 @@ def finish(
             for s in plan.steps
         )  # fmt: skip
         plan = plan.model_copy(update={"steps": steps})
-    turn.put(
-        mission, state=state, outcome=outcome, reason=reason, plan=plan, held=False, kept=False
-    )
+    turn.move_to(mission, cause, outcome=outcome, reason=reason, plan=plan, held=False, kept=False)
     dequeue(turn, mission.id)
     if turn.book.running == mission.id:
-        turn.set(running=None, walk=None)
+        turn.set(running=None, activity=None)
 
 
-def cancel(turn: Turn, mission: Mission) -> None:
+def cancel(turn: Transaction, mission: Mission) -> None:
     """End a goal because somebody asked."""
     if mission.state is GoalState.PLANNING:
         turn.emit(DropBrain(mission.id))
     if turn.book.running == mission.id:
-        end_running(turn, GoalState.CANCELLED, Code.CANCELLED)
+        end_running(turn, PersonCause.CANCELS, Code.CANCELLED)
         return
     outcome = Outcome(code=Code.CANCELLED, message=message(Code.CANCELLED))
     if mission.metres > 0.0:
-        outcome = ended(
-            turn.book.facts, mission, None, turn.book.status,
+        outcome = ended_outcome(
+            turn.book.facts, mission, turn.book.status,
             turn.now_s + turn.book.wall_offset_s, code=Code.CANCELLED, said=outcome.message,
         )  # fmt: skip
-    finish(turn, mission, GoalState.CANCELLED, outcome)
+    finish(turn, mission, PersonCause.CANCELS, outcome)
 
 
-def reorder(turn: Turn, mission_id: str, before: str | None) -> None:
+def reorder(turn: Transaction, mission_id: str, before: str | None) -> None:
     """Put a queued mission before another, or last."""
     others = [i for i in turn.book.queue if i != mission_id]
     at = others.index(before) if before is not None and before in others else len(others)
@@ -220,7 +243,7 @@ def reorder(turn: Turn, mission_id: str, before: str | None) -> None:
         turn.put(turn.book.missions[moved])
 
 
-def next_up(turn: Turn) -> Mission | None:
+def next_up(turn: Transaction) -> Mission | None:
     """Return the mission that may have the robot now, or None."""
     if turn.book.running is not None or standing_hold(turn) is not None:
         return None
@@ -230,18 +253,10 @@ def next_up(turn: Turn) -> Mission | None:
     return next((m for m in waiting if not m.held), None)
 
 
-def note_step(turn: Turn, mission: Mission, **changes: object) -> Mission:
+def note_step(turn: Transaction, mission: Mission, **changes: object) -> Mission:
     """Change the record of the mission's current step."""
     if mission.plan is None:
         return mission
     steps = list(mission.plan.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
     return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
-
-
-def to_resume(book: Book, asking: str | None = None) -> str | None:
-    """Return the goal that was paused last, else the first that is kept waiting."""
-    paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
-    if paused:
-        return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
-    return next((i for i in book.queue if book.missions[i].held), None)

@@ -9,18 +9,23 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from planner.language.commands import Cancel as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import Resume as GoOn
+from planner.mission.allowed_commands import refusal
 from planner.mission.answer_timeouts import has_room
 from planner.mission.answered_question import meant
 from planner.mission.bridge_status import at_rest
-from planner.mission.planner_commands import current
+from planner.mission.events import Cancel, Reply
+from planner.mission.goal_reference import goal_to_end
+from planner.mission.open_questions import takes_yes
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
     from planner.language.utterance import Utterance
-    from planner.mission.events import Submitted
-    from planner.mission.state import Book
+    from planner.mission.errors import MissionError
+    from planner.mission.events import Command, Submitted
+    from planner.mission.state import MissionState
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""
@@ -40,7 +45,7 @@ class Reception:
 
 
 def receive(
-    book: Book, said: Utterance, given: Submitted, now_s: float, *, answers: bool = True
+    book: MissionState, said: Utterance, given: Submitted, now_s: float, *, answers: bool = True
 ) -> Reception:
     """Return what is to be done with a sentence that came now.
 
@@ -70,11 +75,61 @@ def receive(
         asking=asking,
         local=local,
     )
-    takes_back = current(book) if first else None
+    takes_back = goal_to_end(book) if first else None
     return Reception(marked, takes_back=takes_back, crowded=full and not local)
 
 
-def is_active(book: Book, now_s: float) -> bool:
+@dataclass(frozen=True, slots=True)
+class AnswerReception:
+    """Say what is to be done with words that came as the answer to one goal's question."""
+
+    refused: MissionError | None = None
+    """The goal takes no answer now."""
+    stops: bool = False
+    """The bridge is told to stop before anything else."""
+    command: Command | None = None
+    """What the words do to the goal; after a stop, where its state still allows it."""
+    sentence: str | None = None
+    """What is then taken in as a goal of its own, beside the question."""
+    answers: bool = True
+    """That goal may answer a question."""
+
+
+def receive_answer(
+    book: MissionState, said: Utterance, goal_id: str, now_s: float
+) -> AnswerReception:
+    """Return what is to be done with words that came as the answer to a goal.
+
+    What is said to the planner itself ("where are you", "hold on") is done beside the question,
+    which stays open: no sentence that needs no proof is ever taken as the answer.
+    """
+    intent = said.intent
+    if said.orders_stop or (said.consent is None and hears_stop(book, said, now_s)):
+        ends = Cancel(goal_id) if isinstance(intent, Replace) else None
+        return AnswerReception(stops=True, command=ends)
+    if (error := refusal(book, Reply(goal_id, said.text))) is not None:
+        return AnswerReception(refused=error)
+    if isinstance(intent, TakeBack):
+        return AnswerReception(command=Cancel(goal_id))
+    own_question = takes_yes(book.missions[goal_id])  # "go on" may be its answer
+    if said.stays_put or (isinstance(intent, GoOn) and not own_question):
+        return AnswerReception(sentence=said.text)
+    if isinstance(intent, Replace):
+        return AnswerReception(command=Cancel(goal_id), sentence=intent.rest, answers=False)
+    return AnswerReception(command=Reply(goal_id, said.text))
+
+
+def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
+    """Return whether these words would stop the robot now, whatever else they may mean."""
+    return said.orders_stop or (said.may_mean_stop and is_active(book, now_s))
+
+
+def awaits_answer(book: MissionState) -> bool:
+    """Return whether a question waits for a yes or no."""
+    return any(takes_yes(mission) for mission in book.missions.values())
+
+
+def is_active(book: MissionState, now_s: float) -> bool:
     """Return whether anything moves, is about to move, or waits; in doubt it does."""
     thinking = any(m.state is GoalState.PLANNING for m in book.missions.values())
     if book.running is not None or book.queue or thinking:

@@ -2,13 +2,14 @@
 
 Laws, each held by a test: never two missions run; nothing moves or speaks before the journal holds
 its beginning; after a restart nothing moves until a person acts; a stop ends all streaming at once.
-What the bridge should be asked for is a level, read from the book by ``wish``.
+What the bridge should be asked for is a level, read from the book by ``motion_request``.
 """
 
 from __future__ import annotations
 
+from planner.mission.activity import AskingImage, Driving
 from planner.mission.allowed_commands import refusal
-from planner.mission.effects import STAND, AskBrain, Effect, Wish
+from planner.mission.effects import STAND, AskBrain, Effect, MotionRequest
 from planner.mission.events import (
     Cancel,
     ChangeSpeed,
@@ -47,21 +48,23 @@ from planner.mission.perception_events import on_sight, on_told
 from planner.mission.places_changed import on_known
 from planner.mission.queue import cancel, reorder
 from planner.mission.speed_cap import change_speed
-from planner.mission.state import Book
+from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
 from planner.mission.step_execution import speak_if_safe, start_next
-from planner.mission.transaction import Turn
+from planner.mission.transaction import Transaction
 from planner.plan import NEEDS_CAMERA
 
-__all__ = ["AskBrain", "advance", "wish"]
+__all__ = ["AskBrain", "advance", "motion_request"]
 
 
-def advance(book: Book, event: Event, now_s: float) -> tuple[Book, tuple[Effect, ...]]:
+def advance(
+    book: MissionState, event: Event, now_s: float
+) -> tuple[MissionState, tuple[Effect, ...]]:
     """Return the next book and what to ask of the world. Same arguments, same answer.
 
-    A command that the state doesn't allow changes nothing; ask ``table.refusal`` why.
+    A command that the state doesn't allow changes nothing; ask ``allowed_commands.refusal`` why.
     """
-    turn = Turn(book, now_s)
+    turn = Transaction(book, now_s)
     if isinstance(event, (Cancel, Pause, Resume, Confirm, Reply, Move, ChangeSpeed)):
         _command(turn, event)
     else:
@@ -71,7 +74,7 @@ def advance(book: Book, event: Event, now_s: float) -> tuple[Book, tuple[Effect,
     return turn.close()
 
 
-def wish(book: Book) -> Wish:
+def motion_request(book: MissionState) -> MotionRequest:
     """Return what the bridge should be asked for now.
 
     A grant may be asked for as soon as a mission that drives has the robot; a leg is streamed only
@@ -80,25 +83,27 @@ def wish(book: Book) -> Wish:
     mission = book.missions.get(book.running) if book.running is not None else None
     if mission is None or not any(map(moves, mission.steps[mission.step :])):
         return STAND
-    walk = book.walk
-    driven = walk is not None and walk.kind == "drive" and book.safe >= walk.record
-    return Wish(mission.id, walk.leg if walk is not None and driven else None)
+    activity = book.activity
+    driven = isinstance(activity, Driving) and book.safe >= activity.record
+    return MotionRequest(
+        mission.id, activity.leg if isinstance(activity, Driving) and driven else None
+    )
 
 
-def asked_about_picture(book: Book) -> int | None:
+def asked_about_picture(book: MissionState) -> int | None:
     """Return the ticket of the question about the picture whose answer is waited for, if one is."""
-    walk = book.walk
-    return walk.ticket if walk is not None and walk.kind == "inquire" else None
+    activity = book.activity
+    return activity.ticket if isinstance(activity, AskingImage) else None
 
 
-def looks(book: Book) -> bool:
+def looks(book: MissionState) -> bool:
     """Tell whether the running step needs eyes now."""
     mission = book.missions.get(book.running) if book.running is not None else None
     return mission is not None and mission.now is not None and mission.now.kind in NEEDS_CAMERA
 
 
 def _fact(
-    turn: Turn,
+    turn: Transaction,
     event: Submitted
     | Planned
     | Routed
@@ -136,7 +141,7 @@ def _fact(
             on_known(turn, event.facts)
 
 
-def _command(turn: Turn, event: Command) -> None:
+def _command(turn: Transaction, event: Command) -> None:
     mission = turn.mission(event.id)
     if mission is None or refusal(turn.book, event) is not None:
         return

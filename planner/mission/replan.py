@@ -13,17 +13,18 @@ from planner.language.catalogue import message, say
 from planner.mission.confirmation import needs_yes
 from planner.mission.events import Planned
 from planner.mission.plan_check import NO_STEPS, unwalkable
-from planner.mission.queue import clear_hold, end_running, note_step, step_aside
+from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
+from planner.mission.scene import scene_of
 from planner.mission.skills.ask import ask_again
 from planner.mission.state import Mission
-from planner.mission.step_execution import begin_step, carry_out, next_step, scene_of
+from planner.mission.step_execution import begin_step, carry_out, next_step
 from planner.mission.step_failure import give_up
-from planner.mission.transaction import Turn
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import BrainCause, Cause, GoalFact
 from planner.plan import (
     Answer,
     Clarify,
     Code,
-    GoalState,
     Outcome,
     Plan,
     PlanRecord,
@@ -44,9 +45,9 @@ def fingerprint(steps: tuple[StepRecord, ...]) -> str:
     return json.dumps([s.model_dump(mode="json", include=asked) for s in steps], sort_keys=True)
 
 
-def rethought(turn: Turn, mission: Mission, event: Planned) -> None:
+def rethought(turn: Transaction, mission: Mission, event: Planned) -> None:
     """Take the answer of a brain that was asked again while the goal runs."""
-    turn.set(walk=None)
+    turn.set(activity=None)
     if event.brain is not None:
         mission = turn.put(mission, brain=event.brain)
     plan = event.plan
@@ -59,7 +60,7 @@ def rethought(turn: Turn, mission: Mission, event: Planned) -> None:
         return
     refused = unwalkable(turn.book, mission, steps) or _same_again(mission, steps)
     if refused is not None:
-        _end(turn, mission, GoalState.FAILED, refused)
+        _end(turn, mission, GoalFact.STEP_FAILS, refused)
         return
     _adopt(turn, mission, steps)
 
@@ -83,7 +84,7 @@ def _answered(mission: Mission) -> bool:
 
 
 def _of_no_use(
-    turn: Turn, mission: Mission, event: Planned, steps: tuple[StepRecord, ...] | None
+    turn: Transaction, mission: Mission, event: Planned, steps: tuple[StepRecord, ...] | None
 ) -> bool:
     """Tell whether a thought leaves nothing better than to ask the person once more."""
     if steps is not None:
@@ -100,30 +101,32 @@ def _same_again(mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | No
     return Outcome(code=Code.BAD_PLAN, message=said)
 
 
-def _no_steps(turn: Turn, mission: Mission, plan: Plan | None, failure: Outcome | None) -> None:
+def _no_steps(
+    turn: Transaction, mission: Mission, plan: Plan | None, failure: Outcome | None
+) -> None:
     decides = mission.failure is None
     if isinstance(plan, Answer) and decides:
         note_step(turn, mission, state=StepState.SUCCEEDED)
         said = message(Code.ANSWERED, text=plan.text)
-        end_running(turn, GoalState.SUCCEEDED, Code.ANSWERED, said=said)
+        end_running(turn, BrainCause.ANSWERS, Code.ANSWERED, said=said)
         return
     if isinstance(plan, Refuse):
-        _end(turn, mission, GoalState.REFUSED, Outcome(code=plan.code, message=plan.reason))
+        _end(turn, mission, BrainCause.REFUSES, Outcome(code=plan.code, message=plan.reason))
         return
     why = message(Code.BAD_PLAN, why=NO_STEPS)
-    _end(turn, mission, GoalState.FAILED, failure or Outcome(code=Code.BAD_PLAN, message=why))
+    _end(turn, mission, GoalFact.STEP_FAILS, failure or Outcome(code=Code.BAD_PLAN, message=why))
 
 
-def _end(turn: Turn, mission: Mission, state: GoalState, why: Outcome) -> None:
+def _end(turn: Transaction, mission: Mission, cause: Cause, why: Outcome) -> None:
     """End the goal; where a step had failed, that failure is what is told."""
     if mission.failure is not None:
         give_up(turn, mission)
         return
     note_step(turn, mission, state=StepState.FAILED, reason=why.code.value)
-    end_running(turn, state, why.code, why.code.value, said=why.message)
+    end_running(turn, cause, why.code, why.code.value, said=why.message)
 
 
-def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
+def _adopt(turn: Transaction, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
     question, heard = needs_yes(turn.book.facts, mission, steps), _answered(mission)
     if mission.failure is None:
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
@@ -137,7 +140,7 @@ def _adopt(turn: Turn, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
     mission = next_step(turn, mission)
     if mission.confirm or question is not None:
         reason = None if question is None else "new_plan" if heard else "new_place"
-        step_aside(turn, mission, GoalState.AWAITING_CONFIRMATION, reason, question)
+        yield_robot(turn, mission, BrainCause.NEEDS_YES, reason, question)
     else:
         clear_hold(turn, mission)
         begin_step(turn)

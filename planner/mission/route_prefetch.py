@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from math import hypot
 
 from planner.mission.bridge_status import standing
-from planner.mission.state import Book
+from planner.mission.state import MissionState
 from planner.mission.tasks import Router
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.plan import GoTo, ReturnHome, Step
@@ -40,7 +40,7 @@ class RouteAhead:
     def __init__(
         self,
         router: Router,
-        book: Callable[[], Book],
+        book: Callable[[], MissionState],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._router, self._book, self._clock = router, book, clock

@@ -9,15 +9,14 @@ from __future__ import annotations
 import asyncio
 import dataclasses
 import uuid
+from typing import TYPE_CHECKING, Any
 
 from planner.brain.image_questions import Looker
 from planner.brain.interface import Brain
 from planner.bridge_client import Identity, Link, StopResult
-from planner.language.commands import Cancel as TakeBack
-from planner.language.commands import Replace
-from planner.language.commands import Resume as GoOn
-from planner.language.utterance import Utterance, parse
+from planner.language.utterance import parse
 from planner.mission.allowed_commands import refusal
+from planner.mission.api_view import goal_of
 from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
@@ -26,6 +25,7 @@ from planner.mission.errors import (
     MissionError,
     NothingToResume,
     QueueFull,
+    UnknownGoal,
 )
 from planner.mission.events import (
     Cancel,
@@ -40,32 +40,34 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
+from planner.mission.goal_reference import goal_to_resume
 from planner.mission.idempotency import Repeats, body_of
 from planner.mission.journal import MissionJournal
-from planner.mission.known_places import Memory
+from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
-from planner.mission.open_questions import takes_yes
 from planner.mission.plan_request import thinker
-from planner.mission.planner_commands import Local
-from planner.mission.queue import to_resume
-from planner.mission.reception import is_active, receive
+from planner.mission.planner_commands import PlannerCommands
+from planner.mission.reception import awaits_answer, hears_stop, receive, receive_answer
 from planner.mission.route_prefetch import RouteAhead
-from planner.mission.service_view import Shown
-from planner.mission.state import Book, Rules
+from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import Router
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, Language
 from planner.site import Site
 from wire import OpRequest, RobotDescription
 
+if TYPE_CHECKING:
+    from planner.mission.engine import Leg
+    from planner.mission.event_hub import Subscription
 
-class Missions(Shown):
+
+class Missions:
     """Take goals, drive them, answer for them. See the package's door for the API."""
 
     def __init__(
         self,
         *,
-        site: Site | Memory,
+        site: Site | KnownPlaces,
         robot: RobotDescription,
         link: Link,
         router: Router,
@@ -75,17 +77,17 @@ class Missions(Shown):
         clocks: Clocks | None = None,
     ) -> None:
         """Put the parts together; ``site`` is a site, or the memory of its places."""
-        self.link, self.memory = link, site if isinstance(site, Memory) else Memory(site)
+        self.link, self.memory = link, site if isinstance(site, KnownPlaces) else KnownPlaces(site)
         self.memory.use(link, router)
         site = self.memory.site
         planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
-        engine = Engine(Book(self.memory.facts), identity)
+        engine = Engine(MissionState(self.memory.facts), identity)
         self._clocks, self._robot = clocks or Clocks(), robot
-        super().__init__(Loop(engine, link, journal, self._clocks), planner_id)
+        self._loop, self.planner_id = Loop(engine, link, journal, self._clocks), planner_id
         self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
         self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
-        self._think = Local(
+        self._think = PlannerCommands(
             self._ask_brain, self.memory, lambda: self._book, self._obey, self._age_s
         ).think
         self._repeats = Repeats()
@@ -175,15 +177,11 @@ class Missions(Shown):
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, whatever else they may mean."""
-        return self._stops_at(parse(text))
-
-    def _stops_at(self, said: Utterance) -> bool:
-        active = is_active(self._book, self._clocks.monotonic())
-        return said.orders_stop or (said.may_mean_stop and active)
+        return hears_stop(self._book, parse(text), self._clocks.monotonic())
 
     def awaits_answer(self) -> bool:
         """Return whether a question waits for a yes or no."""
-        return any(takes_yes(mission) for mission in self._book.missions.values())
+        return awaits_answer(self._book)
 
     async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
         """Wait until a goal is written down; what can't be is taken back."""
@@ -218,32 +216,24 @@ class Missions(Shown):
     async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; an order to stop always stops.
 
-        What is said to the planner itself ("where are you", "hold on") is done beside the question,
-        which stays open: no sentence that needs no proof is ever taken as the answer.
+        ``reception.receive_answer`` says what the words do.
 
         Raises:
             UnknownGoal, BadState: as named.
         """
-        said = parse(text)
-        intent = said.intent
-        if said.orders_stop or (said.consent is None and self._stops_at(said)):
+        heard = receive_answer(self._book, parse(text), goal_id, self._clocks.monotonic())
+        if heard.refused is not None:
+            raise heard.refused
+        if heard.stops:
             await self.stop("answer")
-            if isinstance(intent, Replace):
-                self._obey(Cancel(goal_id))
+            if heard.command is not None:
+                self._obey(heard.command)
             return self.goal(goal_id)
-        if (error := refusal(self._book, Reply(goal_id, text))) is not None:
-            raise error
-        if isinstance(intent, TakeBack):
-            return await self.cancel(goal_id)
-        own_question = takes_yes(self._book.missions[goal_id])  # "go on" may be its answer
-        if said.stays_put or (isinstance(intent, GoOn) and not own_question):
-            await self.submit(text, act=act)
-            return self.goal(goal_id)
-        if isinstance(intent, Replace):
-            taken_back = await self.cancel(goal_id)
-            await self.submit(intent.rest, act=act, answers=False)
-            return taken_back
-        return await self._command(Reply(goal_id, text), act)
+        if heard.command is not None:
+            await self._command(heard.command, act if isinstance(heard.command, Reply) else None)
+        if heard.sentence is not None:
+            await self.submit(heard.sentence, act=act, answers=heard.answers)
+        return self.goal(goal_id)
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal:
         """Put a queued goal before another, or last. Raises UnknownGoal, BadState."""
@@ -256,7 +246,64 @@ class Missions(Shown):
         self._loop.event(Stopped(source))
         return await saying
 
+    # What is told --------------------------------------------------------------------------------
+
+    @property
+    def failed(self) -> BaseException | None:
+        """Return what ended the mission loop, if something did: the process should end then."""
+        return self._loop.failed
+
+    @property
+    def journal_trouble(self) -> str | None:
+        """Return why the journal can't be written, or None."""
+        return self._loop.trouble
+
+    @property
+    def first_waypoint_s(self) -> tuple[float, ...]:
+        """Return the newest times from a goal's acceptance to its first waypoint [s]."""
+        return tuple(self._loop.accepted.seconds)
+
+    def goal(self, goal_id: str) -> Goal:
+        """Return a goal.
+
+        Raises:
+            UnknownGoal: there is none of that id at hand.
+        """
+        mission = self._book.missions.get(goal_id)
+        if mission is None:
+            raise UnknownGoal(goal_id, tuple(self._book.missions))
+        return goal_of(self._book, mission)
+
+    def goals(self, limit: int = 50) -> tuple[Goal, ...]:
+        """Return goals: first all that are open, then those that ended, each newest first."""
+        by_age = sorted(self._book.missions.values(), key=lambda m: (m.ended, -m.order))
+        return tuple(goal_of(self._book, mission) for mission in by_age[: max(0, limit)])
+
+    def path(self) -> Leg | None:
+        """Return the leg that is driven now, with its whole path."""
+        return self._loop.leg
+
+    def subscribe(self) -> Subscription:
+        """Iterate over (seq, event) from now on; take a ``snapshot`` after, and drop older seqs."""
+        return self._loop.hub.subscribe()
+
+    def snapshot(self) -> dict[str, Any]:
+        """Return where everything stands, with the seq of the newest event it contains."""
+        status = self._book.status
+        return {
+            "seq": self._loop.hub.seq,
+            "planner_id": self.planner_id,
+            "running": self._book.running,
+            "queue": list(self._book.queue),
+            "goals": [goal.model_dump(mode="json") for goal in self.goals()],
+            "status": status.model_dump(mode="json") if status is not None else None,
+        }
+
     # Inside -------------------------------------------------------------------------------------
+
+    @property
+    def _book(self) -> MissionState:
+        return self._loop.book
 
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
@@ -264,7 +311,7 @@ class Missions(Shown):
         return self.goal(given.id)
 
     def _newest_paused(self) -> str:
-        if (goal_id := to_resume(self._book)) is None:
+        if (goal_id := goal_to_resume(self._book)) is None:
             raise NothingToResume
         return goal_id
 

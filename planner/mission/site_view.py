@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from planner.mission.state import Facts, Target
+from planner.mission.state import SiteView, Target
 from planner.plan import Bilingual, Entry, Vocabulary
 from planner.site import Place, Site
 
 
-def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> Facts:
+def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> SiteView:
     """Return the rooms and places of a site, and the taught ones, as targets; and its home."""
     places = (*site.places, *taught)
-    return Facts({place.id: _target(place) for place in places}, site.home.id, site.map_id)
+    return SiteView({place.id: _target(place) for place in places}, site.home.id, site.map_id)
 
 
 def _target(place: Place) -> Target:

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission
-    from planner.mission.transaction import Turn
+    from planner.mission.transaction import Transaction
 
 LEAST_SPEED_SHARE = 0.25
 """Slower than that a robot blocks people's way for minutes; who wants less says stop."""
 
 
-def change_speed(turn: Turn, mission: Mission, *, slower: bool) -> None:
+def change_speed(turn: Transaction, mission: Mission, *, slower: bool) -> None:
     """Halve the speed cap of a running goal, or double it up to the whole; no lower than a quarter.
 
     The bridge's own limits hold as ever: this can only make the robot slower than planned.

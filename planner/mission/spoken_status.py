@@ -8,7 +8,7 @@ from planner.language.catalogue import message, say, say_or_quote
 from planner.mission.account import place_name
 from planner.mission.bridge_status import standing, worst_row
 from planner.mission.outcomes import spot_at
-from planner.mission.state import Book, Facts, Mission
+from planner.mission.state import Mission, MissionState, SiteView
 from planner.plan import Bilingual, Code, GoalState, same
 from wire import Pose2, Status
 
@@ -21,13 +21,13 @@ STOPPED = message(Code.STOPPED)
 STOPPING = say("status.stopping")
 
 
-def stop_told(book: Book) -> Bilingual:
+def stop_told(book: MissionState) -> Bilingual:
     """Say that a stop was confirmed; that the robot stands only where it does."""
     status = book.status
     return STOPPED if status is not None and standing(status) else STOPPING
 
 
-def go_on_told(book: Book, said: Bilingual, now_s: float) -> Bilingual:
+def go_on_told(book: MissionState, said: Bilingual, now_s: float) -> Bilingual:
     """Say beside a refusal or a question that the robot is still on another goal, where it is."""
     running = book.missions.get(book.running or "")
     if running is None:
@@ -38,7 +38,7 @@ def go_on_told(book: Book, said: Bilingual, now_s: float) -> Bilingual:
     return say("status.drives_for" if moves and fresh else "status.is_at", said=said, text=text)
 
 
-def where(book: Book, age_s: float) -> Bilingual:
+def where(book: MissionState, age_s: float) -> Bilingual:
     """Say where the robot is, or that nobody knows."""
     status = book.status
     if status is None:
@@ -52,7 +52,7 @@ def where(book: Book, age_s: float) -> Bilingual:
     return say("status.at", spot=spot)
 
 
-def _spot(facts: Facts, pose: Pose2) -> Bilingual:
+def _spot(facts: SiteView, pose: Pose2) -> Bilingual:
     room = spot_at(facts, pose).room
     near = min(
         (t for t in facts.targets.values() if not t.room),
@@ -71,7 +71,7 @@ def _spot(facts: Facts, pose: Pose2) -> Bilingual:
     return say("status.spot_near", place=by) if by is not None else say("status.spot_unknown")
 
 
-def doing(book: Book, age_s: float, asking: str = "") -> Bilingual:
+def doing(book: MissionState, age_s: float, asking: str = "") -> Bilingual:
     """Say what the robot does now; the goal that asks (``asking``) is not counted."""
     motion = _motion(book.status, age_s)
     task = _task(book, asking)
@@ -91,7 +91,7 @@ def _motion(status: Status | None, age_s: float) -> Bilingual:
     return say("status.moves", speed=speed)
 
 
-def _task(book: Book, asking: str) -> Bilingual:
+def _task(book: MissionState, asking: str) -> Bilingual:
     running = book.missions.get(book.running or "")
     if running is not None:
         return _running(book, running)
@@ -108,7 +108,7 @@ def _task(book: Book, asking: str) -> Bilingual:
     return say("status.idle")
 
 
-def _running(book: Book, mission: Mission) -> Bilingual:
+def _running(book: MissionState, mission: Mission) -> Bilingual:
     at, count = mission.step + 1, len(mission.steps)
     step = mission.steps[mission.step] if mission.step < count else None
     name = place_name(book.facts, mission, step) if step is not None else None

@@ -1,19 +1,19 @@
-"""Own what is remembered of missions: one record each, and the book of one robot.
+"""Own what is remembered of missions: one record each, and the state of one robot.
 
-A ``Mission`` is what the journal keeps; it changes only at transitions. ``Walk`` is what the
-running step needs between two statuses and dies with the process. Data only, no clock: ``*_s`` are
-on the caller's monotonic clock, ``*_unix_s`` for people.
+A ``Mission`` is what the journal keeps; it changes only at transitions. What the running step needs
+between two statuses is its ``Activity``. Data only, no clock: ``*_s`` are on the caller's monotonic
+clock, ``*_unix_s`` for people.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
 
 from pydantic import Field
 
-from planner.mission.skills.actions import UNSEEN, Way
-from planner.mission.skills.perception import NO_EYES, Eyesight, Wanted
+from planner.mission.activity import Activity
+from planner.mission.skills.actions import UNSEEN
+from planner.mission.skills.perception import NO_EYES, Eyesight
 from planner.mission.skills.skill_state import NOTHING, Notes
 from planner.perception.snapshot import Sight
 from planner.plan import (
@@ -149,7 +149,7 @@ class Target:
 
 
 @dataclass(frozen=True, slots=True)
-class Facts:
+class SiteView:
     """Hold what the reducer knows of the site. No map: routes are somebody else's."""
 
     targets: dict[str, Target]
@@ -170,91 +170,18 @@ class Rules:
 
 
 @dataclass(frozen=True, slots=True)
-class Walk:
-    """Remember the running step between two statuses."""
-
-    kind: Literal["drive", "gaze", "inquire", "wait", "say", "ask", "think"]
-    record: int
-    """The journal entry that says this step started; nothing moves or speaks before it is safe."""
-    goal: Pose2 | None = None
-    heading: bool = False
-    """The goal's yaw matters too."""
-    way: Way = Way.ROUTE
-    target: str | None = None
-    """The place that is driven to."""
-    limit_s: float | None = None
-    limit_m: float | None = None
-    """The skill's budget for this leg."""
-    moving_s: float = 0.0
-    """Time for which the leg was followed and nothing held it."""
-    left_m: float | None = None
-    """Along the path, as of the newest status."""
-    since_s: float | None = None
-    """When this act began, where the step's time is counted."""
-    notes: Notes | None = None
-    """What the skill remembers while this act lasts."""
-    then: Notes | None = None
-    """And once it is done."""
-    otherwise: Notes | None = None
-    """And where its way is shut; None: then the step fails."""
-    wanted: Wanted | None = None
-    """As soon as this is seen for sure the skill is asked again."""
-    watch: bool = False
-    """The skill is asked again as the sight changes."""
-    asked_s: float | None = None
-    """When it was asked last."""
-    looks: int = 0
-    """New pictures that a gaze still waits for."""
-    look_seq: int = -1
-    """The newest picture that was counted."""
-    gazed: int = 0
-    """Pictures that were counted."""
-    gaze_s: float | None = None
-    """Since when the robot stands and pictures count."""
-    gaze_until_s: float | None = None
-    """When a gaze, or the wait for an answer about a picture, ends anyhow."""
-    amount: float = 0.0
-    """What odometry says was done in this leg, as in ``Mission.done``."""
-    until_s: float | None = None
-    """When a wait ends."""
-    question: Bilingual | None = None
-    """What a person is asked."""
-    aloud: bool = True
-    """A question is spoken; False where it was perhaps spoken before."""
-    ticket: int | None = None
-    """The route that is being searched."""
-    ticket_detour: bool = False
-    """It is to lead round what the lidar sees."""
-    leg: int | None = None
-    """The leg that is streamed; None: stand."""
-    route_when_standing: bool = False
-    routes: int = 0
-    """Routes asked for in this step because one was lost or refused, not because of obstacles."""
-    detours_failed: int = 0
-    detours: int = 0
-    retry_s: float | None = None
-    """When the next try is due after a failed route."""
-    blocked_since_s: float | None = None
-    refused_since_s: float | None = None
-    row_since_s: float | None = None
-    idle_since_s: float | None = None
-    jumped: bool = False
-    metres: float = 0.0
-    limited: dict[str, int] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class Book:
+class MissionState:
     """Hold all missions of one robot. Frozen; dictionaries in it are replaced, never changed."""
 
-    facts: Facts
+    facts: SiteView
     rules: Rules = Rules()
     wall_offset_s: float = 0.0
     """Unix time less the monotonic clock that ``now_s`` is on."""
     missions: dict[str, Mission] = field(default_factory=dict)
     queue: tuple[str, ...] = ()
     running: str | None = None
-    walk: Walk | None = None
+    activity: Activity | None = None
+    """What the running goal does now; dies with the process."""
     status: Status | None = None
     status_s: float = float("-inf")
     eyes: Eyesight = NO_EYES

@@ -6,6 +6,7 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
+from planner.mission.activity import AskingImage, Driving, Observing, Retrying
 from planner.mission.answer_timeouts import end_unanswered
 from planner.mission.bridge_status import (
     GATES,
@@ -17,18 +18,18 @@ from planner.mission.bridge_status import (
     shows,
     standing,
 )
-from planner.mission.legs import ask_route, detour_if_due, lost_route
+from planner.mission.legs import abandon_route, ask_route, detour_if_due
 from planner.mission.motion_progress import forget_beginnings, hand_steers, settle_amounts
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import end_gaze_if_due, on_standing, stand_while_blind
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
-from planner.mission.skills import Cannot
+from planner.mission.skills import Fail
 from planner.mission.skills.drive_to_place import place_gone
-from planner.mission.state import Walk
 from planner.mission.step_execution import begin_step, end_wait_if_due, on_arrival
 from planner.mission.step_failure import fail_step
-from planner.mission.transaction import Turn
-from planner.plan import Code, GoalState, PauseReason, fault
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
+from planner.plan import Code, PauseReason, fault
 from wire import Mode, Status
 
 SILENCE_S = 5.0
@@ -42,7 +43,7 @@ IDLE_S = 30.0
 REFUSED_S = 0.5
 
 
-def on_status(turn: Turn, status: Status, off_path: bool, left_m: float | None) -> None:
+def on_status(turn: Transaction, status: Status, off_path: bool, left_m: float | None) -> None:
     """Judge one status; ``left_m`` is the way left on the path that is streamed."""
     before = turn.book.status
     if before is not None and before.boot == status.boot and status.seq <= before.seq:
@@ -62,13 +63,13 @@ def on_status(turn: Turn, status: Status, off_path: bool, left_m: float | None) 
         _progress(turn, status, off_path)
 
 
-def on_tick(turn: Turn) -> None:
+def on_tick(turn: Transaction) -> None:
     """Let time pass: waits end, silence is noticed, a question is not waited on for ever."""
     end_unanswered(turn)
     if turn.running is None:
         return
-    walk = turn.book.walk
-    if walk is not None and walk.kind == "drive" and turn.now_s - turn.book.status_s > SILENCE_S:
+    moving = isinstance(turn.book.activity, (Driving, Retrying))
+    if moving and turn.now_s - turn.book.status_s > SILENCE_S:
         pause_running(turn, fault("BRAIN_GONE"))
         return
     end_wait_if_due(turn)
@@ -76,27 +77,28 @@ def on_tick(turn: Turn) -> None:
 
 
 def _measure(
-    turn: Turn, before: Status | None, status: Status, since_s: float, left_m: float | None
+    turn: Transaction, before: Status | None, status: Status, since_s: float, left_m: float | None
 ) -> None:
     """Add up what odometry says, for how long the leg was followed, and what limited it."""
-    walk, mission = turn.book.walk, turn.running
-    if walk is None or mission is None or mission.now is None:
+    activity, mission = turn.book.activity, turn.running
+    if activity is None or mission is None or mission.now is None:
         return
-    limited, moving_s = walk.limited, walk.moving_s
-    if status.leg is not None and status.leg.following and walk.leg == status.leg.leg:
+    turning = mission.now.kind == "turn"
+    turn.change(
+        metres=activity.metres + driven_m(before, status),
+        amount=activity.amount + amount_done(before, status, turning=turning),
+    )
+    if not isinstance(activity, Driving):
+        return
+    limited, moving_s = activity.limited, activity.moving_s
+    if status.leg is not None and status.leg.following and activity.leg == status.leg.leg:
         limited = {**limited, status.limits.by: limited.get(status.limits.by, 0) + 1}
         if not (status.blocked or holding_rows(status)):
             moving_s += since_s
-    turn.walk(
-        metres=walk.metres + driven_m(before, status),
-        amount=walk.amount + amount_done(before, status, turning=mission.now.kind == "turn"),
-        limited=limited,
-        moving_s=moving_s,
-        left_m=left_m,
-    )
+    turn.change(limited=limited, moving_s=moving_s, left_m=left_m)
 
 
-def _interrupted(turn: Turn, status: Status, silent_s: float) -> bool:
+def _interrupted(turn: Transaction, status: Status, silent_s: float) -> bool:
     """Pause or fail the running mission where something stronger than its plan says so."""
     hold = standing_hold(turn)
     if hold is not None:
@@ -122,13 +124,13 @@ def _fault_reason(status: Status) -> str:
     return fault(max(rows, key=lambda r: r.for_s).row if rows else "HELD")
 
 
-def _drives_on(turn: Turn) -> bool:
+def _drives_on(turn: Transaction) -> bool:
     """Tell whether the running mission drives now or will."""
     mission = turn.running
     return mission is not None and any(map(moves, mission.steps[mission.step :]))
 
 
-def _spent(turn: Turn, status: Status) -> bool:
+def _spent(turn: Transaction, status: Status) -> bool:
     mission = turn.running
     if mission is None:
         return False
@@ -140,28 +142,28 @@ def _spent(turn: Turn, status: Status) -> bool:
             pause_running(turn, PauseReason.BUDGET.value)  # goes on once a person has acted
             return True
     elif code == "budget" or (ours and shows(status, "BUDGET")):
-        end_running(turn, GoalState.FAILED, Code.OUT_OF_BUDGET, "budget")
+        end_running(turn, GoalFact.STEP_FAILS, Code.OUT_OF_BUDGET, "budget")
         return True
     if ours and shows(status, "STUCK"):
-        end_running(turn, GoalState.FAILED, Code.FAULT, "stuck", row="STUCK")
+        end_running(turn, GoalFact.STEP_FAILS, Code.FAULT, "stuck", row="STUCK")
         return True
     return False
 
 
-def _held_too_long(turn: Turn, status: Status) -> bool:
-    walk = turn.book.walk
-    if walk is None or walk.kind != "drive":
+def _held_too_long(turn: Transaction, status: Status) -> bool:
+    activity = turn.book.activity
+    if not isinstance(activity, (Driving, Retrying)):
         return False
     rows = holding_rows(status)
     if not (rows or status.blocked):
-        if walk.row_since_s is not None:
-            turn.walk(row_since_s=None)
+        turn.change(row_since_s=None)
         return False
-    since_s = walk.row_since_s if walk.row_since_s is not None else turn.now_s
-    turn.walk(row_since_s=since_s)
+    since_s = activity.row_since_s if activity.row_since_s is not None else turn.now_s
+    turn.change(row_since_s=since_s)
     others = [r for r in rows if r.row not in GATES]
-    if walk.otherwise is not None and not others and turn.now_s - since_s > PATIENCE_S:
-        fail_step(turn, Cannot(Code.BLOCKED, "blocked"))  # the step goes on without this leg
+    spare = isinstance(activity, Driving) and activity.otherwise is not None
+    if spare and not others and turn.now_s - since_s > PATIENCE_S:
+        fail_step(turn, Fail(Code.BLOCKED, "blocked"))  # the step goes on without this leg
         return True
     if turn.now_s - since_s <= (ROW_S if others else OBSTACLE_S):
         return False
@@ -170,70 +172,72 @@ def _held_too_long(turn: Turn, status: Status) -> bool:
     return True
 
 
-def _progress(turn: Turn, status: Status, off_path: bool) -> None:
+def _progress(turn: Transaction, status: Status, off_path: bool) -> None:
     end_wait_if_due(turn)
-    walk = turn.book.walk
-    if walk is not None and walk.kind in ("gaze", "inquire"):
-        on_standing(turn, walk)
-        return
-    if stand_while_blind(turn):
-        return
-    if walk is None or walk.kind != "drive" or on_arrival(turn) or _off_limits(turn, walk):
+    match turn.book.activity:
+        case Observing() | AskingImage():
+            on_standing(turn)
+        case Retrying(retry_s=retry_s) if turn.now_s >= retry_s and not shows(status, "POSE_JUMP"):
+            begin_step(turn)
+        case Driving() as leg:
+            _drive_on(turn, leg, status, off_path)
+
+
+def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -> None:
+    """Arrive, or see that the way is still one: searched, streamed, followed, within its limits."""
+    if stand_while_blind(turn) or on_arrival(turn) or _off_limits(turn, leg):
         return
     if shows(status, "POSE_JUMP"):
-        if not walk.jumped:
-            turn.walk(jumped=True, leg=None, ticket=None, route_when_standing=True)
-        walk = turn.book.walk or walk
-    if off_path and walk.leg is not None:
-        lost_route(turn)
-    elif walk.route_when_standing:
+        if not leg.jumped:
+            turn.change(jumped=True, leg=None, ticket=None, route_when_standing=True)
+        leg = turn.driving or leg
+    if off_path and leg.leg is not None:
+        abandon_route(turn)
+    elif leg.route_when_standing:
         _route_standing(turn, status)
-    elif walk.retry_s is not None and turn.now_s >= walk.retry_s and walk.ticket is None:
-        if walk.goal is None:
-            begin_step(turn)
-        else:
-            ask_route(turn, detour=walk.detours_failed > 0)
-    elif walk.leg is not None:
-        _watch_leg(turn, status, walk)
+    elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
+        ask_route(turn, detour=leg.detours_failed > 0)
+    elif leg.leg is not None:
+        _watch_leg(turn, status, leg)
 
 
-def _off_limits(turn: Turn, walk: Walk) -> bool:
+def _off_limits(turn: Transaction, leg: Driving) -> bool:
     """End a leg whose place is gone, or that spends more than its skill's budget."""
-    if walk.target is not None and walk.target not in turn.book.facts.targets:
-        fail_step(turn, place_gone(turn.book.facts, walk.target))
-    elif walk.limit_s is not None and not walk.moving_s <= walk.limit_s:
-        fail_step(turn, Cannot(Code.BLOCKED, "too_slow"))
-    elif walk.limit_m is not None and not walk.metres <= walk.limit_m:
-        fail_step(turn, Cannot(Code.BLOCKED, "too_far"))
+    if leg.target is not None and leg.target not in turn.book.facts.targets:
+        fail_step(turn, place_gone(turn.book.facts, leg.target))
+    elif leg.limit_s is not None and not leg.moving_s <= leg.limit_s:
+        fail_step(turn, Fail(Code.BLOCKED, "too_slow"))
+    elif leg.limit_m is not None and not leg.metres <= leg.limit_m:
+        fail_step(turn, Fail(Code.BLOCKED, "too_far"))
     else:
         return False
     return True
 
 
-def _route_standing(turn: Turn, status: Status) -> None:
+def _route_standing(turn: Transaction, status: Status) -> None:
     if standing(status) and not shows(status, "POSE_JUMP"):
         ask_route(turn, detour=False)
 
 
-def _watch_leg(turn: Turn, status: Status, walk: Walk) -> None:
+def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     """Follow the leg that is streamed: blocked, refused, or forgotten by the bridge."""
     mission, leg = turn.running, status.leg
     ours = leg is not None and mission is not None and leg.mission == mission.id
-    ours = ours and leg is not None and leg.leg == walk.leg
+    ours = ours and leg is not None and leg.leg == driving.leg
     refused = ours and leg is not None and leg.refusal is not None
     quiet = not (ours and leg is not None and leg.following)
     quiet = quiet and not status.blocked and not holding_rows(status)
-    blocked_s = _since(walk.blocked_since_s, status.blocked, turn.now_s)
-    refused_s = _since(walk.refused_since_s, refused, turn.now_s)
-    idle_s = _since(walk.idle_since_s, quiet, turn.now_s)
-    turn.walk(blocked_since_s=blocked_s, refused_since_s=refused_s, idle_since_s=idle_s)
+    blocked_s = _since(driving.blocked_since_s, status.blocked, turn.now_s)
+    refused_s = _since(driving.refused_since_s, refused, turn.now_s)
+    idle_s = _since(driving.idle_since_s, quiet, turn.now_s)
+    turn.change(blocked_since_s=blocked_s, refused_since_s=refused_s, idle_since_s=idle_s)
     if refused_s is not None and turn.now_s - refused_s > REFUSED_S:
-        turn.walk(refused_since_s=None)
-        lost_route(turn)
+        turn.change(refused_since_s=None)
+        abandon_route(turn)
     elif idle_s is not None and turn.now_s - idle_s > IDLE_S:
         pause_running(turn, PauseReason.BLOCKED.value)
-    elif blocked_s is not None and walk.ticket is None:
-        detour_if_due(turn, walk, blocked_s)
+    elif blocked_s is not None and driving.ticket is None:
+        detour_if_due(turn, driving, blocked_s)
 
 
 def _since(since_s: float | None, true_now: bool, now_s: float) -> float | None:

@@ -8,56 +8,71 @@ from __future__ import annotations
 
 from planner.language.catalogue import message
 from planner.mission.account import outcome_code
+from planner.mission.activity import (
+    Asking,
+    AskingImage,
+    Driving,
+    Observing,
+    Retrying,
+    Speaking,
+    Waiting,
+)
 from planner.mission.bridge_status import cannot_move, standing
 from planner.mission.effects import AskEyes, SayAloud
-from planner.mission.legs import RETRY_S, ask_route, lost_route
-from planner.mission.motion_on_yes import can_think, upon_yes
+from planner.mission.legs import RETRY_S, abandon_route, ask_route
 from planner.mission.motion_progress import measure_from, settle_amounts
 from planner.mission.outcomes import (
-    accepted_at,
-    ended,
+    ended_outcome,
     moves,
     spot_at,
     thoughts,
 )
-from planner.mission.queue import finish, next_up, note_step, pause_running, settle_walk, step_aside
+from planner.mission.queue import (
+    finish,
+    next_up,
+    note_step,
+    pause_running,
+    settle_activity,
+    yield_robot,
+)
+from planner.mission.scene import pose_now, scene_of
 from planner.mission.skills import (
-    Act,
     Answer,
-    Cannot,
-    Done,
+    AskImage,
     Drive,
-    Gaze,
-    Inquire,
-    Later,
+    Fail,
+    Finish,
     Notes,
+    Observe,
     Question,
-    Scene,
+    Retry,
+    SkillAction,
     Skip,
     Speak,
     Stand,
     Think,
     act_of,
 )
-from planner.mission.state import Mission, Walk
+from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
-from planner.mission.transaction import Turn
-from planner.plan import Code, GoalState, Outcome, StepState
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
+from planner.plan import Code, Outcome, StepState
 from planner.site.polygon import contains
 from wire import Pose2
 
 
-def start_next(turn: Turn) -> None:
+def start_next(turn: Transaction) -> None:
     """Give the robot to the next in the queue, as long as it is free."""
     while (mission := next_up(turn)) is not None:
-        settle_amounts(turn, _pose(turn))
+        settle_amounts(turn, pose_now(turn))
         mission = turn.book.missions[mission.id]
         turn.set(queue=tuple(i for i in turn.book.queue if i != mission.id), running=mission.id)
-        turn.put(mission, state=GoalState.RUNNING, reason=None, outcome=None)
+        turn.move_to(mission, GoalFact.TURN, reason=None, outcome=None)
         begin_step(turn)
 
 
-def begin_step(turn: Turn) -> None:
+def begin_step(turn: Transaction) -> None:
     """Begin the current step of the running mission, or end a mission that has no more."""
     mission = turn.running
     if mission is None:
@@ -71,136 +86,94 @@ def begin_step(turn: Turn) -> None:
         return
     cause = cannot_move(turn.book.status) if moves(step) else None
     if cause is not None:
-        turn.set(walk=None)
+        turn.set(activity=None)
         pause_running(turn, cause)
         return
-    mission = measure_from(turn, mission, _pose(turn))
+    mission = measure_from(turn, mission, pose_now(turn))
     carry_out(turn, mission, act_of(scene_of(turn, mission)))
 
 
-def scene_of(
-    turn: Turn, mission: Mission, gazed_s: float | None = None, answer: Answer | None = None
-) -> Scene:
-    """Return what the skill of the current step is told; ``gazed_s``: a gaze has just ended."""
-    walk = turn.book.walk
-    since_s = walk.since_s if walk is not None and walk.since_s is not None else turn.now_s
-    return Scene(
-        step=mission.steps[mission.step],
-        facts=turn.book.facts,
-        pose=_pose(turn),
-        began=Pose2(*mission.began_at) if mission.began_at is not None else None,
-        done=mission.done,
-        part=mission.part,
-        accepted=accepted_at(mission),
-        language=mission.language,
-        notes=walk.notes if walk is not None and walk.notes is not None else mission.notes,
-        eyes=turn.book.eyes,
-        sight=turn.book.sight,
-        now_s=turn.now_s,
-        gazed_s=gazed_s,
-        spent_s=mission.step_s + max(0.0, turn.now_s - since_s),
-        spent_m=mission.step_m + (walk.metres if walk is not None else 0.0),
-        answer=answer,
-        upon=upon_yes(turn.book.facts, mission),
-        thinks=can_think(turn.book.rules, mission),
-    )
-
-
-def _pose(turn: Turn) -> Pose2 | None:
-    return turn.book.status.base_in_map if turn.book.status is not None else None
-
-
-def carry_out(turn: Turn, mission: Mission, act: Act) -> None:
+def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
     """Do what a skill asked for."""
     match act:
         case Drive():
-            _drive(turn, act)
-        case Gaze():
+            _drive(turn, mission, act)
+        case Observe():
             _gaze(turn, mission, act)
-        case Inquire():
+        case AskImage():
             _inquire(turn, mission, act)
-        case Later():
+        case Retry():
             _later(turn, mission)
         case Stand():
             note_step(turn, mission, state=StepState.RUNNING, reason=None)
             until_s = turn.now_s + act.seconds
-            turn.set(walk=Walk("wait", turn.next_entry, until_s=until_s))
+            turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
         case Speak():
             note_step(turn, mission, state=StepState.RUNNING, reason=None)
-            turn.set(walk=Walk("say", turn.next_entry))
+            turn.set(activity=Speaking(record=turn.next_entry))
         case Question():
             _ask(turn, mission, act)
         case Think():
             _decide(turn, mission, act)
-        case Done():
+        case Finish():
             finish_step(turn, StepState.SUCCEEDED, **act.figures, **_result(act))
         case Skip():
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
-        case Cannot():
+        case Fail():
             fail_step(turn, act)
 
 
-def _drive(turn: Turn, act: Drive) -> None:
-    mission = turn.running
-    if mission is None:
-        return
+def _drive(turn: Transaction, mission: Mission, act: Drive) -> None:
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    turn.set(
-        walk=Walk(
-            "drive",
-            turn.next_entry,
-            goal=act.goal,
-            heading=act.heading,
-            way=act.way,
-            target=act.target,
-            limit_s=act.limit_s,
-            limit_m=act.limit_m,
-            since_s=turn.now_s,
-            notes=act.notes,
-            then=act.then,
-            otherwise=act.otherwise,
-            wanted=act.wanted,
-            watch=act.watch,
-            asked_s=turn.now_s,
-        )
+    leg = Driving(
+        record=turn.next_entry,
+        goal=act.goal,
+        heading=act.heading,
+        way=act.way,
+        target=act.target,
+        limit_s=act.limit_s,
+        limit_m=act.limit_m,
+        since_s=turn.now_s,
+        asked_s=turn.now_s,
+        notes=act.notes,
+        then=act.then,
+        otherwise=act.otherwise,
+        wanted=act.wanted,
+        watch=act.watch,
     )
+    turn.set(activity=leg)
     ask_route(turn, detour=False)
 
 
-def _gaze(turn: Turn, mission: Mission, act: Gaze) -> None:
+def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    turn.set(
-        walk=Walk(
-            "gaze",
-            turn.next_entry,
-            since_s=turn.now_s,
-            notes=act.notes,
-            then=act.then,
-            wanted=act.wanted,
-            watch=act.watch,
-            asked_s=turn.now_s,
-            looks=act.looks,
-            gaze_until_s=turn.now_s + act.seconds,
-        )
+    observing = Observing(
+        record=turn.next_entry,
+        since_s=turn.now_s,
+        asked_s=turn.now_s,
+        until_s=turn.now_s + act.seconds,
+        looks=act.looks,
+        notes=act.notes,
+        then=act.then,
+        wanted=act.wanted,
+        watch=act.watch,
     )
+    turn.set(activity=observing)
 
 
-def _inquire(turn: Turn, mission: Mission, act: Inquire) -> None:
-    """Ask about the picture, standing; whoever answers does so by the ticket."""
+def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
+    """Ask about the picture, standing; the answer comes with the ticket."""
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
     ticket = turn.book.tickets + 1
-    turn.set(
-        tickets=ticket,
-        walk=Walk(
-            "inquire",
-            turn.next_entry,
-            since_s=turn.now_s,
-            notes=act.notes,
-            then=act.then,
-            ticket=ticket,
-            gaze_until_s=turn.now_s + act.seconds,
-        ),
+    asking = AskingImage(
+        record=turn.next_entry,
+        since_s=turn.now_s,
+        ticket=ticket,
+        until_s=turn.now_s + act.seconds,
+        notes=act.notes,
+        then=act.then,
     )
+    turn.set(tickets=ticket, activity=asking)
     ask = AskEyes(
         *(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y),
         views=act.views,
@@ -209,47 +182,48 @@ def _inquire(turn: Turn, mission: Mission, act: Inquire) -> None:
     turn.emit(ask)
 
 
-def _result(act: Done) -> dict[str, object]:
+def _result(act: Finish) -> dict[str, object]:
     """Return what a step that looks came to, for its record."""
     return {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
 
 
 def go_on(
-    turn: Turn,
+    turn: Transaction,
     then: Notes | None,
     *,
     gazed_s: float | None = None,
     answer: Answer | None = None,
 ) -> None:
     """Go on in the step after a gaze or an answer: ask its skill what is next."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     mission = turn.put(mission, part=mission.part + 1, notes=then or mission.notes)
     carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
 
 
-def _later(turn: Turn, mission: Mission) -> None:
+def _later(turn: Transaction, mission: Mission) -> None:
     """Try again soon; how long what holds has stood runs on, so that no wait lasts for ever."""
-    retry_s, walk = turn.now_s + RETRY_S, turn.book.walk
-    if walk is not None and walk.kind == "drive":
-        turn.walk(retry_s=retry_s)
+    retry_s = turn.now_s + RETRY_S
+    if isinstance(turn.book.activity, Retrying):
+        turn.change(retry_s=retry_s)
         return
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s))
+    turn.set(activity=Retrying(record=turn.next_entry, retry_s=retry_s))
 
 
-def _ask(turn: Turn, mission: Mission, act: Question) -> None:
+def _ask(turn: Transaction, mission: Mission, act: Question) -> None:
     """Ask a person. What was answered before was about another question: it is forgotten."""
     notes = act.notes if act.notes is not None else mission.notes
     begun = mission.steps[mission.step].state is StepState.RUNNING
     again = begun and notes == mission.notes  # then it was perhaps said
     mission = turn.put(mission, notes=notes)
     note_step(turn, mission, state=StepState.RUNNING, reason=None, answer=None)
-    turn.set(walk=Walk("ask", turn.next_entry, question=act.text, aloud=not again))
+    asking = Asking(record=turn.next_entry, question=act.text, aloud=not again)
+    turn.set(activity=asking)
 
 
-def _decide(turn: Turn, mission: Mission, act: Think) -> None:
+def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
     notes = act.notes if act.notes is not None else mission.notes
     begun = mission.steps[mission.step].state is StepState.RUNNING
     if begun and notes == mission.notes:  # paused meanwhile: it was counted
@@ -257,33 +231,33 @@ def _decide(turn: Turn, mission: Mission, act: Think) -> None:
         return
     if mission.decides >= turn.book.rules.decides:
         said = message(Code.OUT_OF_BUDGET, budget=thoughts(turn.book.rules.decides))
-        fail_step(turn, Cannot(Code.OUT_OF_BUDGET, "thoughts", said))
+        fail_step(turn, Fail(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
     think(turn, turn.put(mission, decides=mission.decides + 1, notes=notes))
 
 
-def on_arrival(turn: Turn) -> bool:
+def on_arrival(turn: Transaction) -> bool:
     """Go on in the step if the bridge says that its leg is done; say whether that happened."""
-    mission, walk, status = turn.running, turn.book.walk, turn.book.status
-    if mission is None or walk is None or status is None or walk.leg is None:
+    mission, driving, status = turn.running, turn.driving, turn.book.status
+    if mission is None or driving is None or status is None or driving.leg is None:
         return False
     leg, pose = status.leg, status.base_in_map
-    if leg is None or (leg.mission, leg.leg) != (mission.id, walk.leg):
+    if leg is None or (leg.mission, leg.leg) != (mission.id, driving.leg):
         return False
     if not (leg.reached and standing(status)) or pose is None:
         return False
-    if _outside(turn, walk, pose):
-        lost_route(turn)
+    if _outside(turn, driving, pose):
+        abandon_route(turn)
         return True
-    settled = settle_walk(turn)
+    settled = settle_activity(turn)
     if settled is None:
         return True
-    mission = turn.put(settled, part=settled.part + 1, notes=walk.then or settled.notes)
-    figures = {"reached": spot_at(turn.book.facts, pose, walk.target)}
+    mission = turn.put(settled, part=settled.part + 1, notes=driving.then or settled.notes)
+    figures = {"reached": spot_at(turn.book.facts, pose, driving.target)}
     residuals = {
         "residual_m": round(leg.residual_m, 4),
-        "residual_rad": round(leg.residual_rad, 4) if walk.heading else None,
+        "residual_rad": round(leg.residual_rad, 4) if driving.heading else None,
     }
     mission = note_step(turn, mission, **figures, **residuals)
     if mission.steps[mission.step].kind == "patrol":
@@ -292,59 +266,59 @@ def on_arrival(turn: Turn) -> bool:
     return True
 
 
-def _outside(turn: Turn, walk: Walk, pose: Pose2) -> bool:
+def _outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
     """Tell whether the leg ended short of the room that it was to."""
-    target = turn.book.facts.targets.get(walk.target) if walk.target is not None else None
+    target = turn.book.facts.targets.get(driving.target or "")
     if target is None or not target.room or target.polygon is None:
         return False
     return not contains(target.polygon, pose.x_m, pose.y_m)
 
 
-def finish_step(turn: Turn, state: StepState, **record: object) -> None:
+def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
     """Write the end of a step and begin the next."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     next_step(turn, note_step(turn, mission, state=state, **record))
     begin_step(turn)
 
 
-def next_step(turn: Turn, mission: Mission) -> Mission:
+def next_step(turn: Transaction, mission: Mission) -> Mission:
     """Point at the next step."""
     return to_step(turn, mission, mission.step + 1)
 
 
-def speak_if_safe(turn: Turn) -> None:
+def speak_if_safe(turn: Transaction) -> None:
     """Say the words of a step whose beginning is on disk; a question then waits for its answer."""
-    mission, walk = turn.running, turn.book.walk
-    if mission is None or walk is None or turn.book.safe < walk.record:
+    mission, activity = turn.running, turn.book.activity
+    if mission is None or activity is None or turn.book.safe < activity.record:
         return
-    if walk.kind == "say":
+    if isinstance(activity, Speaking):
         text = mission.steps[mission.step].text or "" if mission.now is not None else ""
         turn.emit(SayAloud(mission.id, text))
         finish_step(turn, StepState.SUCCEEDED)
-    elif walk.kind == "ask" and walk.question is not None:
-        if walk.aloud:
-            turn.emit(SayAloud(mission.id, walk.question.of(mission.language)))
+    elif isinstance(activity, Asking):
+        if activity.aloud:
+            turn.emit(SayAloud(mission.id, activity.question.of(mission.language)))
         turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
-        said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=walk.question))
-        step_aside(turn, mission, GoalState.NEEDS_CLARIFICATION, "asked", said)
+        said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=activity.question))
+        yield_robot(turn, mission, GoalFact.STEP_ASKS, "asked", said)
 
 
-def end_wait_if_due(turn: Turn) -> None:
+def end_wait_if_due(turn: Transaction) -> None:
     """End a wait whose time is over."""
-    walk = turn.book.walk
-    if walk is not None and walk.until_s is not None and turn.now_s >= walk.until_s:
+    activity = turn.book.activity
+    if isinstance(activity, Waiting) and turn.now_s >= activity.until_s:
         finish_step(turn, StepState.SUCCEEDED)
 
 
-def _succeed(turn: Turn, mission: Mission) -> None:
+def _succeed(turn: Transaction, mission: Mission) -> None:
     if mission.failure is not None:
         end_failed(turn, mission, mission.failure.message)
         return
     now_unix_s = turn.now_s + turn.book.wall_offset_s
     code = outcome_code(mission)
-    outcome = ended(
-        turn.book.facts, mission, None, turn.book.status, now_unix_s, code=code, said=None
+    outcome = ended_outcome(
+        turn.book.facts, mission, turn.book.status, now_unix_s, code=code, said=None
     )
-    finish(turn, mission, GoalState.SUCCEEDED, outcome)
+    finish(turn, mission, GoalFact.STEPS_OVER, outcome)

@@ -9,15 +9,17 @@ from __future__ import annotations
 
 from planner.language.catalogue import say
 from planner.mission.account import BACK
+from planner.mission.activity import Retrying, Thinking
 from planner.mission.declined_goals import decline
 from planner.mission.effects import AskBrain
 from planner.mission.observations import exchanges_of, observed
 from planner.mission.outcomes import failure, spot_at
-from planner.mission.queue import end_running, note_step, settle_walk
-from planner.mission.skills import NOTHING, Cannot, Notes
-from planner.mission.state import Mission, Walk
-from planner.mission.transaction import Turn
-from planner.plan import Bilingual, Code, GoalState, Outcome, StepState
+from planner.mission.queue import end_running, note_step, settle_activity
+from planner.mission.skills import NOTHING, Fail, Notes
+from planner.mission.state import Mission
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
+from planner.plan import Bilingual, Code, Outcome, StepState
 
 MENDABLE = frozenset(
     {Code.NO_ROUTE, Code.BLOCKED, Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE}
@@ -31,17 +33,17 @@ AGAIN_S = 1.0
 """A way that is shut stays so for a while: a step that goes on without it is asked no sooner."""
 
 
-def fail_step(turn: Turn, cannot: Cannot) -> None:
+def fail_step(turn: Transaction, cannot: Fail) -> None:
     """End the running step without success; then think again, or end the goal.
 
     A leg whose skill knows what to do without it ends alone, and the step goes on. What a person
     declined ends at once: no other plan is thought about.
     """
-    walk = turn.book.walk
-    if walk is not None and walk.otherwise is not None and cannot.code in SHUT:
-        _without(turn, walk.otherwise)
+    leg = turn.driving
+    if leg is not None and leg.otherwise is not None and cannot.code in SHUT:
+        _without(turn, leg.otherwise)
         return
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     if cannot.code is Code.DECLINED and cannot.said is not None:
@@ -61,17 +63,18 @@ def fail_step(turn: Turn, cannot: Cannot) -> None:
     give_up(turn, mission)
 
 
-def _without(turn: Turn, notes: Notes) -> None:
+def _without(turn: Transaction, notes: Notes) -> None:
     """Go on in the step without this leg: its skill is asked soon, standing."""
-    mission = settle_walk(turn)
+    mission = settle_activity(turn)
     if mission is None:
         return
     turn.put(mission, notes=notes)
     retry_s = turn.now_s + AGAIN_S
-    turn.set(walk=Walk("drive", turn.next_entry, retry_s=retry_s, since_s=turn.now_s))
+    again = Retrying(record=turn.next_entry, retry_s=retry_s, since_s=turn.now_s)
+    turn.set(activity=again)
 
 
-def give_up(turn: Turn, mission: Mission) -> None:
+def give_up(turn: Transaction, mission: Mission) -> None:
     """End the running goal with what failed in it, where no way back is left to drive."""
     why = mission.failure
     if why is not None and why.code in IN_VAIN and _go_back(turn, mission):
@@ -79,17 +82,17 @@ def give_up(turn: Turn, mission: Mission) -> None:
     end_failed(turn, mission, why.message if why is not None else None)
 
 
-def end_failed(turn: Turn, mission: Mission, said: Bilingual | None) -> None:
+def end_failed(turn: Transaction, mission: Mission, said: Bilingual | None) -> None:
     """End the running goal by its failure, told in these words."""
     code = mission.failure.code if mission.failure is not None else Code.BAD_PLAN
     failed = [s for s in mission.steps[: mission.step + 1] if s.state is StepState.FAILED]
     looked = [s for s in failed if s.kind not in BACK] or failed
     reason = looked[-1].reason if looked else None
     own = failed[-1].said if failed else None  # a step that failed tells why by itself
-    end_running(turn, GoalState.FAILED, code, reason, said=own or said)
+    end_running(turn, GoalFact.STEP_FAILS, code, reason, said=own or said)
 
 
-def _go_back(turn: Turn, mission: Mission) -> bool:
+def _go_back(turn: Transaction, mission: Mission) -> bool:
     """Leave out all that was still to be done but the first way back; say if there is one."""
     left = range(mission.step + 1, len(mission.steps))
     pending = (i for i in left if mission.steps[i].state is StepState.PENDING)
@@ -103,7 +106,7 @@ def _go_back(turn: Turn, mission: Mission) -> bool:
     )
     mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": steps}))
     to_step(turn, mission, back)
-    turn.set(walk=Walk("drive", turn.next_entry, retry_s=turn.now_s))
+    turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
     return True
 
 
@@ -114,7 +117,7 @@ def _beside(before: Outcome, said: Bilingual) -> Outcome:
     return Outcome(code=before.code, message=both)
 
 
-def to_step(turn: Turn, mission: Mission, index: int) -> Mission:
+def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:
     """Point at a step, of which nothing is done yet."""
     return turn.put(
         mission,
@@ -128,11 +131,11 @@ def to_step(turn: Turn, mission: Mission, index: int) -> Mission:
     )
 
 
-def think(turn: Turn, mission: Mission) -> None:
+def think(turn: Transaction, mission: Mission) -> None:
     """Have the brain think again, standing, with all that came of the goal so far."""
     facts, status = turn.book.facts, turn.book.status
     room = spot_at(facts, status.base_in_map if status is not None else None).room
-    turn.set(walk=Walk("think", turn.next_entry))
+    turn.set(activity=Thinking(record=turn.next_entry))
     turn.emit(
         AskBrain(
             mission.id,

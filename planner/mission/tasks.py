@@ -42,7 +42,7 @@ class Answers:
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
 
 
-class Helpers:
+class MissionTasks:
     """Own the tasks."""
 
     def __init__(

@@ -8,14 +8,16 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from planner.mission.activity import Driving
 from planner.mission.effects import Changed, Effect, Journal
-from planner.mission.state import MAX_ENDED, Book, Mission, Walk
+from planner.mission.state import MAX_ENDED, Mission, MissionState
+from planner.mission.transitions import Cause, ForbiddenTransition, next_state
 
 
-class Turn:
+class Transaction:
     """Work on one event."""
 
-    def __init__(self, book: Book, now_s: float) -> None:
+    def __init__(self, book: MissionState, now_s: float) -> None:
         self._before = book
         self.book = book
         self.now_s = now_s
@@ -39,7 +41,24 @@ class Turn:
         return self.mission(self.book.running)
 
     def put(self, mission: Mission, **changes: Any) -> Mission:
-        """Keep a mission with changes, stamped."""
+        """Keep a mission with changes, stamped. Its state is changed by ``move_to`` alone.
+
+        Raises:
+            ForbiddenTransition: ``changes`` name another state.
+        """
+        if changes.get("state", mission.state) is not mission.state:
+            raise ForbiddenTransition("the state is changed by move_to, with its cause")
+        return self._keep(mission, changes)
+
+    def move_to(self, mission: Mission, cause: Cause, **changes: Any) -> Mission:
+        """Bring a mission into the state that the table gives for a cause, with changes.
+
+        Raises:
+            ForbiddenTransition: the table gives none.
+        """
+        return self._keep(mission, {**changes, "state": next_state(mission.state, cause)})
+
+    def _keep(self, mission: Mission, changes: dict[str, Any]) -> Mission:
         stamp = self.now_s + self.book.wall_offset_s
         # Wall clocks step back; a record's times never do.
         changes["updated_unix_s"] = max(stamp, mission.updated_unix_s)
@@ -47,19 +66,26 @@ class Turn:
         self.set(missions={**self.book.missions, mission.id: changed})
         return changed
 
-    def walk(self, **changes: Any) -> Walk | None:
-        """Change the running step's memory, if a step runs."""
-        walk = self.book.walk
-        if walk is not None and any(getattr(walk, k) != v for k, v in changes.items()):
-            self.set(walk=replace(walk, **changes))
-        return self.book.walk
+    @property
+    def driving(self) -> Driving | None:
+        """Return the leg that the running step drives, or None where it does something else."""
+        activity = self.book.activity
+        return activity if isinstance(activity, Driving) else None
+
+    def change(self, **changes: Any) -> None:
+        """Change fields of what the running step does, if it does anything."""
+        activity = self.book.activity
+        if activity is None:
+            return
+        if any(getattr(activity, name) != value for name, value in changes.items()):
+            self.set(activity=replace(activity, **changes))
 
     @property
     def next_entry(self) -> int:
         """Return the journal entry that will hold what this turn changes."""
         return self.book.written + 1
 
-    def close(self) -> tuple[Book, tuple[Effect, ...]]:
+    def close(self) -> tuple[MissionState, tuple[Effect, ...]]:
         """Journal what changed, before anything else is asked; forget the oldest ended goals."""
         before = self._before.missions
         changed = tuple(m for i, m in self.book.missions.items() if before.get(i) is not m)

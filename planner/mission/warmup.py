@@ -14,10 +14,10 @@ from planner.language.object_names import prepare
 from planner.mission.skills.viewpoints import near_spot, spots_in
 
 if TYPE_CHECKING:
-    from planner.mission.state import Facts
+    from planner.mission.state import SiteView
 
 
-def warm_up(facts: Facts, classes: tuple[str, ...] = ()) -> None:
+def warm_up(facts: SiteView, classes: tuple[str, ...] = ()) -> None:
     """Work out the spots of every room, and how to read words: in these classes, and in all.
 
     Takes long: call it off the event loop.

@@ -1,6 +1,8 @@
-"""Judge a plan against the closed world: the last gate before a mission may walk it.
+"""Judge what a brain wrote against the site's names and the kinds of steps that can be run.
 
-Trusts no brain, the built-in one included. Collects every reason, then decides once.
+It collects every reason, so that a model can be asked to write the plan better. It sees neither the
+detector's classes nor what a person said: ``planner.mission.plan_check`` judges a plan whole before
+any of it is carried out, whatever was found here.
 """
 
 from __future__ import annotations
@@ -45,7 +47,7 @@ def validate_plan(
     runnable: frozenset[str] = RUNNABLE,
     blind: Code = Code.NO_CAMERA,
 ) -> StepPlan | Answer | Clarify | Refuse | Rejection:
-    """Return the plan itself where it may be walked, else every reason why it may not.
+    """Return the plan itself where no reason speaks against it, else every reason that does.
 
     ``blind`` is the code of a step that needs eyes and can't be run. Bounds of numbers hold from
     birth (the models refuse them), so they are not looked at again.

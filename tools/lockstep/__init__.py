@@ -7,9 +7,9 @@ seen and what can go wrong.
 
 from tools.lockstep.bus import Bus
 from tools.lockstep.disturbance import Disturbance
-from tools.lockstep.goal_handle import Said
+from tools.lockstep.goal_handle import GoalHandle
 from tools.lockstep.latencies import TICK_S, Pace
 from tools.lockstep.together import Together
 from tools.lockstep.world import TooLong, World
 
-__all__ = ["TICK_S", "Bus", "Disturbance", "Pace", "Said", "Together", "TooLong", "World"]
+__all__ = ["TICK_S", "Bus", "Disturbance", "GoalHandle", "Pace", "Together", "TooLong", "World"]

@@ -27,7 +27,7 @@ KEPT_STATUSES = 4_000
 KEPT_EVENTS = 4_000
 
 
-class BridgeSide:
+class BridgeProcess:
     """Connect the core to the bus and remember what it said."""
 
     def __init__(self, config: CoreConfig, port: Port, step: Step, now_s: float) -> None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from wire import Pose2, Status
 
 
-class Steady(HostilePlanner):
+class ConstantDrive(HostilePlanner):
     """Own the robot and keep asking for the same arc."""
 
     def __init__(self, world: Together) -> None:

@@ -39,7 +39,7 @@ class Taken:
     detections: tuple[Detection, ...]
 
 
-class EyesSide:
+class PerceptionProcess:
     """See for one planner after the other."""
 
     def __init__(self, scene: Scene, finder: Finder) -> None:

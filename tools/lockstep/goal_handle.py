@@ -10,14 +10,14 @@ from planner.plan import ENDED
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from planner.mission.state import Book
+    from planner.mission.state import MissionState
     from planner.plan import Goal, GoalState
 
 
-class Said:
+class GoalHandle:
     """Be what a person who gave a goal sees of it."""
 
-    def __init__(self, goal_id: str, book: Callable[[], Book]) -> None:
+    def __init__(self, goal_id: str, book: Callable[[], MissionState]) -> None:
         self.id = goal_id
         self._book = book
 

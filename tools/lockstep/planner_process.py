@@ -25,15 +25,15 @@ from planner.mission.effects import (
 )
 from planner.mission.engine import Engine, Output
 from planner.mission.events import Cancel, Event, Restarted, Sighted, Stopped, Submitted, Tick, Told
-from planner.mission.known_places import Memory
+from planner.mission.known_places import KnownPlaces
 from planner.mission.plan_request import thinker
-from planner.mission.planner_commands import Local
+from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import receive
 from planner.mission.site_view import facts_of
 from planner.mission.skills import Answer, Eyesight, Way
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission, MissionState
 from planner.navigation import RouteFailure, RouteRequest
-from tools.lockstep.request_retry import Insistence, Request
+from tools.lockstep.request_retry import Request, RequestRetry
 from tools.lockstep.run_coroutine import at_once
 from wire import VIRTUAL_KEY, OpKind, Scan, Status, Stop, signed_request
 
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from planner.perception.snapshot import Sight
     from planner.plan import Language
     from tools.lockstep.bus import Port
-    from tools.lockstep.eyes import EyesSide
+    from tools.lockstep.eyes import PerceptionProcess
     from tools.lockstep.latencies import Pace
     from tools.lockstep.scene import Scene
     from wire.session import Session
@@ -68,7 +68,7 @@ class Notebook:
         self.queue = entry.queue
 
 
-class PlannerSide:
+class PlannerProcess:
     """Connect the mission engine to the bus."""
 
     def __init__(
@@ -82,21 +82,21 @@ class PlannerSide:
         now_s: float,
     ) -> None:
         self.planner_id = planner_id
-        self._eyes: EyesSide | None = None
+        self._eyes: PerceptionProcess | None = None
         self.said: list[str] = []
         self._scene, self._port, self._pace = scene, port, pace
-        self._memory, self._now_s = Memory(scene.site), now_s
+        self._memory, self._now_s = KnownPlaces(scene.site), now_s
         self._notebook = notebook
         self.think_with(brain)
         self._bus = WireBus(cast("Session", port))
-        self._insistence = Insistence(pace)
+        self._insistence = RequestRetry(pace)
         self._later: list[tuple[int, int, Callable[[float], Output]]] = []
         self._count = 0
         self._status: Status | None = None
         self._scan: Scan | None = None
         robot, site = scene.robot, scene.site
         identity = Identity(planner_id, robot.hash, scene.fence_hash, site.map_id)
-        self.engine = Engine(Book(facts_of(site)), identity)
+        self.engine = Engine(MissionState(facts_of(site)), identity)
         kept = tuple(notebook.missions.values())
         self._do(self.engine.event(Restarted(kept, notebook.queue, WALL_OFFSET_S), now_s))
 
@@ -114,7 +114,7 @@ class PlannerSide:
         """Let this brain turn sentences into plans."""
         self._brain = brain
 
-    def see_with(self, eyes: EyesSide) -> None:
+    def see_with(self, eyes: PerceptionProcess) -> None:
         """Use these eyes from now on."""
         self._eyes = eyes
         eyesight = Eyesight(self._scene.robot.camera, eyes.classes)
@@ -221,7 +221,9 @@ class PlannerSide:
     def _thinking(self, ask: AskBrain) -> Callable[[float], Output]:
         book = self.engine.book
         brain = thinker(self._brain, self._scene.vocabulary, None, book.means, book.eyes.classes)
-        local = Local(brain, self._memory, lambda: self.engine.book, self._obey, self._age_s)
+        local = PlannerCommands(
+            brain, self._memory, lambda: self.engine.book, self._obey, self._age_s
+        )
         event = at_once(local.think(ask))
         return lambda now_s: self.engine.event(event, now_s)
 

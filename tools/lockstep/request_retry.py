@@ -23,7 +23,7 @@ class Request:
     answer: Answer | None = None
 
 
-class Insistence:
+class RequestRetry:
     """Keep what is being asked."""
 
     def __init__(self, pace: Pace) -> None:

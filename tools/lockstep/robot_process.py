@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from tools.lockstep.bus import Port
 
 
-class RobotSide:
+class RobotProcess:
     """Connect a simulated robot to the bus."""
 
     def __init__(self, robot: SimRobot, port: Port) -> None:
@@ -41,7 +41,7 @@ class RobotSide:
             self._truth.put(report.truth)
 
 
-class LocalizationSide:
+class LocalizationProcess:
     """Connect the localization stand-in to the bus."""
 
     def __init__(self, stand_in: StandIn, port: Port) -> None:

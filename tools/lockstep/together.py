@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from planner.mission.events import Cancel, Pause, Reply, Resume
-from tools.lockstep.eyes import EyesSide
-from tools.lockstep.goal_handle import Said
+from tools.lockstep.eyes import PerceptionProcess
+from tools.lockstep.goal_handle import GoalHandle
 from tools.lockstep.truth_detector import TruthFinder
 from tools.lockstep.world import TooLong, World
 from wire import Mode
@@ -42,16 +42,16 @@ class Together(World):
 
     # What a person does -------------------------------------------------------------------------
 
-    def say(self, text: str, language: Language | None = None) -> Said:
+    def say(self, text: str, language: Language | None = None) -> GoalHandle:
         """Give a goal in words."""
         self._goals += 1
         goal = self.goal(f"goal-{self._goals}")
         self.planner.say(goal.id, text, language, self.now_s)
         return goal
 
-    def goal(self, goal_id: str) -> Said:
+    def goal(self, goal_id: str) -> GoalHandle:
         """Follow a goal that was given before: in a copy of a world, its own."""
-        return Said(goal_id, lambda: self.planner.engine.book)
+        return GoalHandle(goal_id, lambda: self.planner.engine.book)
 
     def think_with(self, brain: Brain) -> None:
         """Let another brain turn sentences into plans from now on."""
@@ -62,21 +62,21 @@ class Together(World):
         """Order a stop through the API."""
         return self.planner.order_stop(source, self.now_s)
 
-    def cancel(self, goal: Said) -> None:
+    def cancel(self, goal: GoalHandle) -> None:
         """End a goal."""
         self.planner.event(Cancel(goal.id), self.now_s)
 
-    def pause(self, goal: Said) -> None:
+    def pause(self, goal: GoalHandle) -> None:
         """Keep a goal's place, standing."""
         self.planner.event(Pause(goal.id), self.now_s)
 
-    def resume(self, goal: Said) -> None:
+    def resume(self, goal: GoalHandle) -> None:
         """Go on with a goal; clears the bridge's hold as the API's handler does."""
         if self.status.held is not None:
             self.planner.operate("resume")
         self.planner.event(Resume(goal.id), self.now_s)
 
-    def answer(self, goal: Said, text: str) -> None:
+    def answer(self, goal: GoalHandle, text: str) -> None:
         """Answer a goal's question."""
         self.planner.event(Reply(goal.id, text), self.now_s)
 
@@ -112,11 +112,11 @@ class Together(World):
                 raise TooLong(f"not armed; {self.describe()}")
         self.run_until(lambda w: w.status.mode is Mode.HOLD, limit_s)
 
-    def open_eyes(self, finder: Finder | None = None) -> EyesSide:
+    def open_eyes(self, finder: Finder | None = None) -> PerceptionProcess:
         """Let the planner see from now on, by the simulator's truth or by another finder."""
         if self.eyes is None:
             camera, seed = self.scene.robot.camera, self.seed
-            self.eyes = EyesSide(self.scene, finder or TruthFinder(camera, seed))
+            self.eyes = PerceptionProcess(self.scene, finder or TruthFinder(camera, seed))
             self.planner.see_with(self.eyes)
         elif finder is not None:
             self.eyes.look_with(finder)

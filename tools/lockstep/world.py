@@ -13,11 +13,11 @@ from bridge.core import CoreConfig, step
 from localization.standin import StandIn
 from planner.brain import OfflineBrain
 from sim import Hardware, SimRobot
-from tools.lockstep.bridge_process import BridgeSide, Step
+from tools.lockstep.bridge_process import BridgeProcess, Step
 from tools.lockstep.bus import Bus
 from tools.lockstep.latencies import TICK_S, Pace, ticks
-from tools.lockstep.planner_process import Notebook, PlannerSide
-from tools.lockstep.robot_process import LocalizationSide, RobotSide
+from tools.lockstep.planner_process import Notebook, PlannerProcess
+from tools.lockstep.robot_process import LocalizationProcess, RobotProcess
 from tools.lockstep.scene import folder_of, scene
 from wire import RobotDescription
 from wire.keys import Party
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from planner.brain import Brain
-    from tools.lockstep.eyes import EyesSide
+    from tools.lockstep.eyes import PerceptionProcess
     from wire import DriveCommand, Pose2, Status, Twist2
 
 START_S = 1_000.0
@@ -72,17 +72,19 @@ class World:
         self.sim = SimRobot(
             self.scene.folder, self.scene.robot, seed=seed, start=start, hardware=hardware
         )
-        self._robot = RobotSide(self.sim, self.bus.port(Party.ROBOT))
+        self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT))
         stand_in = StandIn(self.scene.site.map_id, seed=seed)
-        self._localization = LocalizationSide(stand_in, self.bus.port(Party.LOCALIZATION))
-        self.bridge = BridgeSide(self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s)
+        self._localization = LocalizationProcess(stand_in, self.bus.port(Party.LOCALIZATION))
+        self.bridge = BridgeProcess(
+            self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s
+        )
         self.notebook = Notebook()
         self._brain: Brain = brain or OfflineBrain()
-        self._planner: PlannerSide | None = None
+        self._planner: PlannerProcess | None = None
         self._planners = 0
         self._frozen = False
         self._localizing = True
-        self.eyes: EyesSide | None = None
+        self.eyes: PerceptionProcess | None = None
         self._hooked = 0
         self._hooks: list[tuple[int, int, Callable[[Any], None]]] = []
         self.start_planner()
@@ -91,7 +93,7 @@ class World:
         """Start a planner with a new id on the journal of those before."""
         self._planners += 1
         self._frozen = False
-        self._planner = PlannerSide(
+        self._planner = PlannerProcess(
             self.scene,
             self.bus.port(Party.PLANNER),
             self._brain,
@@ -104,7 +106,7 @@ class World:
             self._planner.see_with(self.eyes)
 
     @property
-    def planner(self) -> PlannerSide:
+    def planner(self) -> PlannerProcess:
         """Return the planner that lives now.
 
         Raises:
@@ -145,7 +147,7 @@ class World:
             self._planner.turn(now_s)
             self._look(self._planner, now_s)
 
-    def _look(self, planner: PlannerSide, now_s: float) -> None:
+    def _look(self, planner: PlannerProcess, now_s: float) -> None:
         """Let the eyes take their turn, where there are some."""
         sight = self.eyes.turn(self.sim, self.bus.tick, now_s) if self.eyes is not None else None
         if sight is not None:

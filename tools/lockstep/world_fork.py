@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 W = TypeVar("W", bound="World")
 
 
-def forked(world: W) -> W:
+def fork_world(world: W) -> W:
     """Return a world that goes on from here by itself.
 
     Both share the brain; ``think_with`` gives a copy its own.

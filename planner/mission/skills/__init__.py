@@ -1,7 +1,7 @@
 """Do each kind of step: one pure function a kind, in a file with its law and its budget.
 
-``act_of(scene)`` returns what is to be done next for a step. What the robot lacks the means for is
-refused before anything moves.
+``act_of(scene)`` returns what is to be done next for a step. A plan was accepted whole before
+(``planner.mission.plan_check``); here a step ends whose camera or detector is gone since then.
 """
 
 from collections.abc import Callable
@@ -9,15 +9,15 @@ from types import MappingProxyType
 
 from planner.language.catalogue import message
 from planner.mission.skills.actions import (
-    Act,
-    Cannot,
-    Done,
+    AskImage,
     Drive,
-    Gaze,
-    Inquire,
-    Later,
+    Fail,
+    Finish,
+    Observe,
     Question,
+    Retry,
     Scene,
+    SkillAction,
     Skip,
     Speak,
     Stand,
@@ -44,7 +44,7 @@ from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
 from planner.plan import Code, same
 
-SKILLS: MappingProxyType[str, Callable[[Scene], Act]] = MappingProxyType(
+SKILLS: MappingProxyType[str, Callable[[Scene], SkillAction]] = MappingProxyType(
     {
         "go_to": go_to,
         "come_back": come_back,
@@ -66,32 +66,32 @@ SKILLS: MappingProxyType[str, Callable[[Scene], Act]] = MappingProxyType(
 )
 
 
-def act_of(scene: Scene) -> Act:
-    """Return what a step asks for now; one that the robot lacks the means for can't be done."""
+def act_of(scene: Scene) -> SkillAction:
+    """Return what a step asks for now; it fails where its camera or detector is gone by now."""
     code = scene.eyes.means(scene.sight.blind).lacks(scene.step.kind)
     skill = SKILLS.get(scene.step.kind)
     if skill is not None and code is None:
         return skill(scene)
     code = code or Code.NO_CAPABILITY
-    return Cannot(code, code.value, message(code, part=same(scene.step.kind)))
+    return Fail(code, code.value, message(code, part=same(scene.step.kind)))
 
 
 __all__ = [
     "NOTHING",
     "NO_EYES",
     "SKILLS",
-    "Act",
     "Answer",
-    "Cannot",
-    "Done",
+    "AskImage",
     "Drive",
     "Eyesight",
-    "Gaze",
-    "Inquire",
-    "Later",
+    "Fail",
+    "Finish",
     "Notes",
+    "Observe",
     "Question",
+    "Retry",
     "Scene",
+    "SkillAction",
     "Skip",
     "Speak",
     "Stand",

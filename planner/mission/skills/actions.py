@@ -18,7 +18,7 @@ from planner.perception.snapshot import Sight
 from planner.plan import Language
 
 if TYPE_CHECKING:
-    from planner.mission.state import Facts
+    from planner.mission.state import SiteView
     from planner.plan import Bilingual, Code, StepRecord
     from wire import Pose2
 
@@ -45,7 +45,7 @@ class Scene:
     """Tell a skill where its step stands."""
 
     step: StepRecord
-    facts: Facts
+    facts: SiteView
     pose: Pose2 | None
     """The robot in ``map`` now, where known."""
     began: Pose2 | None
@@ -107,7 +107,7 @@ class Drive:
 
 
 @dataclass(frozen=True, slots=True)
-class Gaze:
+class Observe:
     """Stand and look, until so many new pictures were thought upon, or for so long."""
 
     looks: int
@@ -120,7 +120,7 @@ class Gaze:
 
 
 @dataclass(frozen=True, slots=True)
-class Inquire:
+class AskImage:
     """Ask about the picture, standing: a vision model in words, or what a pixel shows.
 
     With ``x`` and ``y`` (0 to 1000) the point there; else with ``point`` where these words are;
@@ -171,12 +171,12 @@ class Think:
 
 
 @dataclass(frozen=True, slots=True)
-class Later:
+class Retry:
     """Wait, standing, until the robot knows where it is."""
 
 
 @dataclass(frozen=True, slots=True)
-class Done:
+class Finish:
     """End the step well; ``figures`` go into its record."""
 
     figures: dict[str, Any] = field(default_factory=dict)
@@ -195,7 +195,7 @@ class Skip:
 
 
 @dataclass(frozen=True, slots=True)
-class Cannot:
+class Fail:
     """End the step without success: a precondition does not hold, or odometry disagrees."""
 
     code: Code
@@ -205,4 +205,6 @@ class Cannot:
     figures: dict[str, Any] = field(default_factory=dict)
 
 
-Act = Drive | Stand | Gaze | Inquire | Speak | Question | Think | Later | Done | Skip | Cannot
+SkillAction = (
+    Drive | Stand | Observe | AskImage | Speak | Question | Think | Retry | Finish | Skip | Fail
+)

@@ -13,7 +13,14 @@ from __future__ import annotations
 
 from planner.language.catalogue import message, say
 from planner.language.utterance import parse
-from planner.mission.skills.actions import Act, Cannot, Done, Question, Scene, Think
+from planner.mission.skills.actions import (
+    Fail,
+    Finish,
+    Question,
+    Scene,
+    SkillAction,
+    Think,
+)
 from planner.plan import Bilingual, Code, same
 
 THOUGHT, AGAIN = 1, 2
@@ -23,20 +30,20 @@ _NO = say("question.said_no")
 _UNCLEAR = say("question.said_neither")
 
 
-def ask(scene: Scene) -> Act:
+def ask(scene: Scene) -> SkillAction:
     """Return the question, until it is answered; then whether that lets the goal go on."""
     answer, notes = scene.step.answer, scene.notes
     if answer is None:
         again = notes.stage == AGAIN
         return Question(_shall_i(scene), notes) if again else Question(same(scene.step.text or ""))
     if scene.upon is None:
-        return Done()
+        return Finish()
     yes = parse(answer).consent
     if yes is True:
-        return Done({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
+        return Finish({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
     if yes is False or notes.stage == AGAIN:
         said = declined(scene.upon, plainly=yes is False)
-        return Cannot(Code.DECLINED, Code.DECLINED.value, said)
+        return Fail(Code.DECLINED, Code.DECLINED.value, said)
     if scene.thinks or notes.stage == THOUGHT:
         return Think(notes.but(stage=THOUGHT))
     return ask_again(scene)

@@ -6,14 +6,14 @@ robot stands. Budget: one leg; metres and seconds are the bridge's grant.
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Cannot, Done, Drive, Scene
+from planner.mission.skills.actions import Drive, Fail, Finish, Scene, SkillAction
 from planner.plan import Code
 
 
-def come_back(scene: Scene) -> Act:
+def come_back(scene: Scene) -> SkillAction:
     """Return the leg back, or that it was reached."""
     if scene.part > 0:
-        return Done()
+        return Finish()
     if scene.accepted is None:
-        return Cannot(Code.NO_ROUTE, "no_route")
+        return Fail(Code.NO_ROUTE, "no_route")
     return Drive(scene.accepted, heading=True)

@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import say
-from planner.mission.skills.actions import Act, Done, Later, Scene
+from planner.mission.skills.actions import Finish, Retry, Scene, SkillAction
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import look_round
 from planner.mission.skills.object_matching import apart, confirmed, fits, sure, wanted_of
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
     from wire import Pose2
 
 
-def count(scene: Scene) -> Act:
+def count(scene: Scene) -> SkillAction:
     """Return what to do next to see everything, or the number."""
     wanted = wanted_of(scene)
     if wanted is None:
         return unknown(scene)
     pose = scene.pose
     if pose is None:
-        return Later()
+        return Retry()
     scene = begin(scene, pose, wanted)
     inside = _narrowed(scene, pose, wanted)
     next_ = look_round(scene, pose, spots(inside, pose), None)
@@ -73,7 +73,7 @@ def _neighbours(scene: Scene, wanted: Wanted) -> list[Thing]:
     return [t for t in scene.sight.things if sure(t) and fits(t, wanted.by)]
 
 
-def _told(scene: Scene, wanted: Wanted) -> Done:
+def _told(scene: Scene, wanted: Wanted) -> Finish:
     """Tell the number; where there is no such neighbour, that there is none."""
     notes, inside = scene.notes, within(scene)
     seen = confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
@@ -89,7 +89,7 @@ def _told(scene: Scene, wanted: Wanted) -> Done:
         if place
         else say("object_step.saw", what=what, looked=where)
     )
-    return Done({"count": number, "rooms": notes.rooms}, Code.COUNTED, said)
+    return Finish({"count": number, "rooms": notes.rooms}, Code.COUNTED, said)
 
 
 def _apart(what: Bilingual) -> Bilingual:

@@ -6,9 +6,9 @@ are refused, so that no goal thinks for ever. Budget: as many thoughts a goal as
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Scene, Think
+from planner.mission.skills.actions import Scene, SkillAction, Think
 
 
-def decide(_: Scene) -> Act:
+def decide(_: Scene) -> SkillAction:
     """Return the wish to think."""
     return Think()

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from planner.language.catalogue import message
 from planner.language.object_names import named
-from planner.mission.skills.actions import Act, Cannot, Done, Later, Scene
+from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.object_matching import found, wanted_of
 from planner.mission.skills.perception import Wanted
 from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
@@ -19,37 +19,37 @@ from planner.perception.snapshot import Thing
 from planner.plan import Code
 
 
-def find(scene: Scene) -> Act:
+def find(scene: Scene) -> SkillAction:
     """Return what to do next in the search, or what came of it."""
     wanted = wanted_of(scene)
     if wanted is None:
         return unknown(scene)
     if scene.pose is None:
-        return Later()
+        return Retry()
     next_ = search(scene, scene.pose, wanted)
     if isinstance(next_, Thing):
         return _found(scene, next_, wanted)
     return not_found(scene.but(next_), wanted) if isinstance(next_, Notes) else next_
 
 
-def _found(scene: Scene, thing: Thing, wanted: Wanted) -> Done:
+def _found(scene: Scene, thing: Thing, wanted: Wanted) -> Finish:
     record = found(thing, scene.pose, scene.now_s)
     said = found_at(scene.facts, thing.label, thing.color, thing.room, record.distance_m, wanted)
     figures = {"found": record, "rooms": scene.notes.rooms}
-    return Done(figures, Code.FOUND, said)
+    return Finish(figures, Code.FOUND, said)
 
 
-def not_found(scene: Scene, wanted: Wanted) -> Cannot:
+def not_found(scene: Scene, wanted: Wanted) -> Fail:
     """Say that it was not seen, and where was looked."""
     notes = scene.notes
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
     looked = looked_in(scene.facts, notes.rooms, shut, spent(scene), alike(scene, wanted))
     name = by_neighbour(named(wanted.label, wanted.color), wanted)
     said = message(Code.NOT_FOUND, thing=name, looked=looked)
-    return Cannot(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})
+    return Fail(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})
 
 
-def unknown(scene: Scene) -> Cannot:
+def unknown(scene: Scene) -> Fail:
     """Say that these eyes don't know the thing, and what they know."""
     said = unknown_words(scene.step.object or "", scene.eyes.classes, scene.step.kind)
-    return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", said)
+    return Fail(Code.OBJECT_UNKNOWN, "object_unknown", said)

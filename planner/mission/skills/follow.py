@@ -16,7 +16,15 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
-from planner.mission.skills.actions import Act, Cannot, Done, Drive, Gaze, Later, Scene
+from planner.mission.skills.actions import (
+    Drive,
+    Fail,
+    Finish,
+    Observe,
+    Retry,
+    Scene,
+    SkillAction,
+)
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import leg_to, look_round, spin
 from planner.mission.skills.object_matching import away_m, bearing, lasting, one_of, turn_to
@@ -51,17 +59,17 @@ MOVED_M = 0.5
 """Beyond, the robot stands elsewhere, and ways are counted anew."""
 
 
-def follow(scene: Scene) -> Act:
+def follow(scene: Scene) -> SkillAction:
     """Return the next leg after the person, or a gaze, or how it ended."""
     wanted = one_of(scene)
     if wanted is None:
         return unknown(scene)
     if scene.pose is None:
-        return Later()
+        return Retry()
     if scene.spent_s > FOLLOW_S:
         return _over(scene)
     if scene.sight.blind is not None:  # where the person is now nobody knows: nothing moves
-        return Gaze(1, notes=scene.notes, then=scene.notes, watch=True)
+        return Observe(1, notes=scene.notes, then=scene.notes, watch=True)
     person = _in_sight(scene, wanted)
     if person is None:
         return _lost(scene, scene.pose, wanted)
@@ -103,23 +111,23 @@ def _apart(thing: Thing, at: tuple[float, float, float]) -> float:
     return hypot(thing.x_m - at[0], thing.y_m - at[1])
 
 
-def _keep_up(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Gaze | Cannot:
+def _keep_up(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Observe | Fail:
     """Go after who is in sight, face them, or stand and watch."""
     if away_m(pose, at[:2]) > KEEP_M + SLACK_M:
         return _go_after(pose, at, notes)
     notes = notes.but(stage=0, here=None, stand=0)
     if abs(turn_to(pose, at[:2])) > FACE_RAD:
         return _watched(spin(pose, bearing(pose, at[:2]), notes), notes)
-    return Gaze(GAZE_LOOKS, GAZE_S, notes=notes, then=notes, watch=True)
+    return Observe(GAZE_LOOKS, GAZE_S, notes=notes, then=notes, watch=True)
 
 
-def _go_after(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Gaze | Cannot:
+def _go_after(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Observe | Fail:
     """Go to a point short of them; where the way was shut watch a while first, not for ever."""
     if notes.stand >= MOST_SHUT:
         said = message(Code.NO_ROUTE, place=called(notes.label or "person", None))
-        return Cannot(Code.NO_ROUTE, "no_route", said)
+        return Fail(Code.NO_ROUTE, "no_route", said)
     if notes.stage == SHUT:
-        return Gaze(SHUT_LOOKS, GAZE_S, notes=notes, then=notes.but(stage=0), watch=True)
+        return Observe(SHUT_LOOKS, GAZE_S, notes=notes, then=notes.but(stage=0), watch=True)
     goal, heading = short_of(pose, at[:2], KEEP_M)
     shut = notes.but(stage=SHUT, here=(pose.x_m, pose.y_m), stand=notes.stand + 1)
     return _watched(leg_to(pose, goal, heading, notes, shut), notes)
@@ -130,7 +138,7 @@ def _watched(leg: Drive, notes: Notes) -> Drive:
     return replace(leg, notes=notes, watch=True, limit_s=None, limit_m=None)
 
 
-def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> Act:
+def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> SkillAction:
     """Go to as far short of where the person was seen last, look round there, then give up.
 
     Who may just have come into sight is watched until that is sure, or over.
@@ -140,9 +148,9 @@ def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> Act:
     if gone_s > LOST_S:
         return _give_up(gone_s)
     if at is None and _shown(scene, wanted):
-        return Gaze(FIRST_LOOKS, notes=scene.notes, then=scene.notes, watch=True)
+        return Observe(FIRST_LOOKS, notes=scene.notes, then=scene.notes, watch=True)
     if at is None and notes.stage < ROUND:  # nobody yet: they may well stand ahead
-        return Gaze(FIRST_LOOKS, notes=notes, then=notes.but(stage=ROUND), watch=True)
+        return Observe(FIRST_LOOKS, notes=notes, then=notes.but(stage=ROUND), watch=True)
     if at is not None and notes.stage < ROUND:
         then = notes.but(stage=ROUND)
         if away_m(pose, at[:2]) <= KEEP_M + SLACK_M:  # they may stand there yet, unseen
@@ -152,7 +160,7 @@ def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> Act:
     return _look_about(scene, pose, gone_s)
 
 
-def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> Act:
+def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> SkillAction:
     at = (pose.x_m, pose.y_m)
     act = look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
     if isinstance(act, Notes):
@@ -160,11 +168,11 @@ def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> Act:
     return replace(act, notes=scene.notes, watch=True)
 
 
-def _give_up(gone_s: float) -> Cannot:
+def _give_up(gone_s: float) -> Fail:
     said = message(Code.LOST_PERSON, seconds=f"{gone_s:.0f}")
-    return Cannot(Code.LOST_PERSON, "lost_person", said)
+    return Fail(Code.LOST_PERSON, "lost_person", said)
 
 
-def _over(scene: Scene) -> Done:
+def _over(scene: Scene) -> Finish:
     said = message(Code.FOLLOWED, seconds=f"{scene.spent_s:.0f}", metres=f"{scene.spent_m:.1f}")
-    return Done({}, Code.FOLLOWED, said)
+    return Finish({}, Code.FOLLOWED, said)

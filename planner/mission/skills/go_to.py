@@ -6,10 +6,10 @@ room its pose lies inside the outline. Budget: one leg; metres and seconds are t
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Done, Scene
+from planner.mission.skills.actions import Finish, Scene, SkillAction
 from planner.mission.skills.drive_to_place import drive_to
 
 
-def go_to(scene: Scene) -> Act:
+def go_to(scene: Scene) -> SkillAction:
     """Return the leg to the place, or that it was reached."""
-    return Done() if scene.part > 0 else drive_to(scene, scene.step.place or "")
+    return Finish() if scene.part > 0 else drive_to(scene, scene.step.place or "")

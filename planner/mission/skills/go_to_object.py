@@ -19,7 +19,14 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import message, say
 from planner.language.object_classes import kind_of
 from planner.language.object_names import named
-from planner.mission.skills.actions import Act, Cannot, Done, Gaze, Later, Scene
+from planner.mission.skills.actions import (
+    Fail,
+    Finish,
+    Observe,
+    Retry,
+    Scene,
+    SkillAction,
+)
 from planner.mission.skills.find import not_found, unknown
 from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, spin
 from planner.mission.skills.model_pointing import agreed
@@ -59,14 +66,14 @@ FRESH_S = 20.0
 DRIVE, FACE, CHECK, JUDGE = 10, 11, 12, 13
 
 
-def go_to_object(scene: Scene) -> Act:
+def go_to_object(scene: Scene) -> SkillAction:
     """Return the next act on the way to the thing, or that it was reached."""
     wanted = one_of(scene)
     pointed = scene.notes.pointed is not None
     if wanted is None and not (pointed or scene.eyes.model):
         return unknown(scene)
     if scene.pose is None:
-        return Later()
+        return Retry()
     if scene.notes.at is not None:
         return approach(scene, scene.pose, wanted)
     if wanted is None or pointed:
@@ -76,7 +83,7 @@ def go_to_object(scene: Scene) -> Act:
     if isinstance(thing, Thing):
         if not lasting(thing) and thing.id not in scene.notes.tried:
             tried = scene.notes.but(tried=(*scene.notes.tried, thing.id))
-            return Gaze(LOOKS, notes=scene.notes, then=tried)
+            return Observe(LOOKS, notes=scene.notes, then=tried)
         notes = scene.notes.but(label=thing.label, color=thing.color, aim=None)
         return set_off(scene, scene.pose, notes, spot_of(thing), wanted)
     return _gone(scene.but(thing), wanted) if isinstance(thing, Notes) else thing
@@ -88,18 +95,18 @@ def set_off(
     notes: Notes,
     at: tuple[float, float, float],
     wanted: Wanted | None = None,
-) -> Act:
+) -> SkillAction:
     """Return the first leg to what is known to be at a point."""
     near = away_m(pose, at[:2]) <= _short_m(notes) + NEAR_ENOUGH_M
     notes = notes.but(at=at, stage=FACE if near else DRIVE, stand=0)
     return approach(scene.but(notes), pose, wanted)
 
 
-def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
+def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> SkillAction:
     """Return the next act once it is known where the thing is."""
     notes, at = scene.notes, scene.notes.at
     if at is None:
-        return Later()
+        return Retry()
     if notes.stage == DRIVE:
         return _drive(pose, notes, at)
     if notes.stage == FACE and abs(turn_to(pose, at[:2])) > FACING_RAD:
@@ -108,7 +115,7 @@ def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
         near = _near(scene, at, wanted, scene.sight.things)
         if wanted is not None and scene.eyes.should_see(pose, at):
             before = near.confidence if near is not None else None
-            return Gaze(LOOKS + 2, then=notes.but(stage=JUDGE, sure=before))
+            return Observe(LOOKS + 2, then=notes.but(stage=JUDGE, sure=before))
         gone = wanted is not None and (near is None or not near.confidence >= WORTH)
         return _look_anew(scene, wanted) if gone else _there(scene, pose, wanted)
     return _judge(scene, pose, wanted)
@@ -128,16 +135,16 @@ def _short_m(notes: Notes) -> float:
     return SHORT_M + ROBOT_M + behind_m
 
 
-def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> Act:
+def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> SkillAction:
     if notes.stand >= len(SIDES_RAD):
         name = called(notes.label, notes.color) if notes.label is not None else same("?")
-        return Cannot(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
+        return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
     spot, heading = short_of(pose, at[:2], _short_m(notes), SIDES_RAD[notes.stand])
     there, otherwise = notes.but(stage=FACE), notes.but(stand=notes.stand + 1)
     return leg_to(pose, spot, heading, there, otherwise)
 
 
-def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Act:
+def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> SkillAction:
     """Say that the thing is there, go after it once where it has moved, or look for it once."""
     at = scene.notes.at
     if at is not None and _near(scene, at, wanted, seen_now(scene, wanted)) is not None:
@@ -158,7 +165,10 @@ def _hidden(scene: Scene, near: Thing) -> bool:
 
 
 def _near(
-    scene: Scene, at: tuple[float, float, float], wanted: Wanted | None, things: Iterable[Thing]
+    scene: Scene,
+    at: tuple[float, float, float],
+    wanted: Wanted | None,
+    things: Iterable[Thing],
 ) -> Thing | None:
     """Return which of these, seen twice at least, is what was driven up to at a point."""
     label = scene.notes.label
@@ -171,7 +181,7 @@ def _apart_m(thing: Thing, at: tuple[float, float, float]) -> float:
     return hypot(thing.x_m - at[0], thing.y_m - at[1])
 
 
-def _look_anew(scene: Scene, wanted: Wanted | None) -> Act:
+def _look_anew(scene: Scene, wanted: Wanted | None) -> SkillAction:
     """Look for what is gone once more."""
     notes = scene.notes
     if wanted is None or notes.again > 0:
@@ -180,14 +190,14 @@ def _look_anew(scene: Scene, wanted: Wanted | None) -> Act:
     return go_to_object(scene.but(again))
 
 
-def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Done:
+def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Finish:
     notes, at = scene.notes, scene.notes.at or (pose.x_m, pose.y_m, 0.0)
     near = _near(scene, at, wanted, scene.sight.things) if notes.label is not None else None
     away = away_m(pose, at[:2] if near is None else (near.x_m, near.y_m))
     figures: dict[str, object] = {"rooms": notes.rooms}
     if notes.label is None:
         said = say("object_step.at_point", away=away)
-        return Done(figures, Code.ARRIVED, said)
+        return Finish(figures, Code.ARRIVED, said)
     if near is not None:
         figures["found"] = found(near, pose, scene.now_s)
     else:
@@ -195,16 +205,16 @@ def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Done:
                                  y_m=round(at[1], 3), distance_m=round(away, 2))  # fmt: skip
     name = called(notes.label, notes.color)
     said = say("object_step.at_object", away=away, name=name)
-    return Done(figures, Code.ARRIVED, said)
+    return Finish(figures, Code.ARRIVED, said)
 
 
-def _gone(scene: Scene, wanted: Wanted) -> Cannot:
+def _gone(scene: Scene, wanted: Wanted) -> Fail:
     return _moved(scene) if scene.notes.again > 0 else not_found(scene, wanted)
 
 
-def _moved(scene: Scene) -> Cannot:
+def _moved(scene: Scene) -> Fail:
     """Say that the thing is no more where it was seen."""
     looked = say("object_step.moved")
     bare = named(scene.notes.label or "thing", scene.notes.color)
     said = message(Code.NOT_FOUND, thing=bare, looked=looked)
-    return Cannot(Code.NOT_FOUND, "moved", said, {"rooms": scene.notes.rooms})
+    return Fail(Code.NOT_FOUND, "moved", said, {"rooms": scene.notes.rooms})

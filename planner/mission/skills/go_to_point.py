@@ -9,7 +9,7 @@ leg. Budget: one leg.
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Done, Inquire, Later, Scene
+from planner.mission.skills.actions import AskImage, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.go_to_object import approach, set_off
 from planner.mission.skills.image_errors import point_refused
 from planner.mission.skills.look_around import leg_to
@@ -20,19 +20,19 @@ FLOOR_M = 0.12
 ASK, THERE = 0, 1
 
 
-def go_to_point(scene: Scene) -> Act:
+def go_to_point(scene: Scene) -> SkillAction:
     """Return the leg to the point, or that it was reached."""
     pose, notes = scene.pose, scene.notes
     if pose is None:
-        return Later()
+        return Retry()
     if notes.stage == THERE:
-        return Done()
+        return Finish()
     if notes.stand > 0:
         return point_refused("point_no_route")
     if notes.at is not None:
         return approach(scene, pose, None)
     if scene.answer is None:
-        return Inquire(x=scene.step.x or 0, y=scene.step.y or 0, then=notes)
+        return AskImage(x=scene.step.x or 0, y=scene.step.y or 0, then=notes)
     at = scene.answer.at
     if at is None:
         return point_refused(scene.answer.failure or "point_no_depth")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain.model_error_codes import REASONS
 from planner.language.catalogue import message, say
-from planner.mission.skills.actions import Cannot
+from planner.mission.skills.actions import Fail
 from planner.plan import Bilingual, Code, same
 
 if TYPE_CHECKING:
@@ -31,17 +31,17 @@ def why_silent(answer: Answer | None) -> Bilingual | None:
     return REASONS.get("timeout" if failure == "timed_out" else failure or "")
 
 
-def point_refused(code: str) -> Cannot:
+def point_refused(code: str) -> Fail:
     """Say why a point of the picture is not driven to."""
     why = say(f"point.{code.removeprefix('point_')}") if code in POINTS else same(code)
     said = message(Code.POINT_REFUSED, why=why)
-    return Cannot(Code.POINT_REFUSED, code, said)
+    return Fail(Code.POINT_REFUSED, code, said)
 
 
-def not_pointed(words: str, answer: Answer) -> Cannot:
+def not_pointed(words: str, answer: Answer) -> Fail:
     """Say why a model's point leads nowhere: it saw nothing, was not asked, or pointed amiss."""
     if answer.failure in POINTS:
         return point_refused(answer.failure)
     why = why_silent(answer) or _UNSEEN
     said = message(Code.NOT_FOUND, thing=same(words), looked=why)
-    return Cannot(Code.NOT_FOUND, answer.failure or "not_found", said)
+    return Fail(Code.NOT_FOUND, answer.failure or "not_found", said)

@@ -14,7 +14,7 @@ from planner.language.object_names import resolve
 from planner.mission.skills.spatial_relations import Relation
 
 if TYPE_CHECKING:
-    from planner.mission.state import Facts
+    from planner.mission.state import SiteView
 
 _THE = r"(?:(?:the|this|that|my|our|your) )?"
 _EN = re.compile(
@@ -51,7 +51,7 @@ class Where(NamedTuple):
     """All of it, as said."""
 
 
-def where_of(words: str, facts: Facts, place: str | None) -> Where | None:
+def where_of(words: str, facts: SiteView, place: str | None) -> Where | None:
     """Return which neighbour words name; None where there is none, but a place to look in.
 
     Args:
@@ -74,7 +74,7 @@ def _looked_at(relation: Relation | None, by: str) -> bool:
     return relation is Relation.NEAR or (relation is None and resolve(by) is None)
 
 
-def _without_place(words: str, facts: Facts) -> str:
+def _without_place(words: str, facts: SiteView) -> str:
     """Return the words without the room or place that they lie in, where more than that is said."""
     names = "|".join(map(re.escape, sorted(_rooms(facts), key=len, reverse=True)))
     if names:
@@ -83,7 +83,7 @@ def _without_place(words: str, facts: Facts) -> str:
     return _IN_HERE.sub("", words)
 
 
-def _rooms(facts: Facts) -> dict[str, bool]:
+def _rooms(facts: SiteView) -> dict[str, bool]:
     """Return what rooms and places are called, and whether that is a room."""
     return {
         fold_words(name): t.room

@@ -17,7 +17,15 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, message, say
 from planner.language.folding import fold
-from planner.mission.skills.actions import Act, Cannot, Done, Gaze, Inquire, Later, Scene
+from planner.mission.skills.actions import (
+    AskImage,
+    Fail,
+    Finish,
+    Observe,
+    Retry,
+    Scene,
+    SkillAction,
+)
 from planner.mission.skills.directions import direction, goes_round, listed
 from planner.mission.skills.image_answers import reading
 from planner.mission.skills.image_errors import why_silent
@@ -50,14 +58,14 @@ def looks_round(question: str) -> bool:
     return _ROUND.search(fold(question)) is not None
 
 
-def look(scene: Scene) -> Act:
+def look(scene: Scene) -> SkillAction:
     """Return the next look, or the answer."""
     pose, question = scene.pose, scene.step.text or ""
     unknown = _unknown(scene, question) if scene.notes.here is None else None
     if unknown is not None:
         return unknown
     if pose is None:
-        return Later()
+        return Retry()
     scene = begin(scene, pose, None)
     notes = scene.notes
     if notes.stage < GAZED and not _model_alone(scene):
@@ -70,11 +78,11 @@ def look(scene: Scene) -> Act:
     if scene.eyes.model and notes.stage < ASKED:
         views = tuple(map(direction, notes.faced))
         now = _facing(notes, pose)
-        return Inquire(question, views=views, now=now, then=notes.but(stage=ASKED))
+        return AskImage(question, views=views, now=now, then=notes.but(stage=ASKED))
     return _answered(scene.but(notes), pose, question)
 
 
-def _answered(scene: Scene, pose: Pose2, question: str) -> Done:
+def _answered(scene: Scene, pose: Pose2, question: str) -> Finish:
     """Tell what was seen, and what a model read or why it did not."""
     notes, views = scene.notes, scene.eyes.views
     told = Told(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
@@ -88,7 +96,7 @@ def _answered(scene: Scene, pose: Pose2, question: str) -> Done:
     read = None
     if scene.answer is not None:
         read = reading(scene.answer, told.yes, notes.faced, views, _facing(notes, pose))
-    return Done({"rooms": notes.rooms}, Code.SEEN, whole, read)
+    return Finish({"rooms": notes.rooms}, Code.SEEN, whole, read)
 
 
 def _facing(notes: Notes, pose: Pose2) -> Bilingual:
@@ -96,14 +104,14 @@ def _facing(notes: Notes, pose: Pose2) -> Bilingual:
     return direction(wrap(pose.yaw_rad - notes.ahead) if notes.ahead is not None else 0.0)
 
 
-def _never_there(scene: Scene) -> Cannot:
+def _never_there(scene: Scene) -> Fail:
     """Say that nothing was looked at: what was not seen there is no no."""
     target = scene.facts.targets.get(scene.step.place or "")
     name = target.name if target is not None else same("?")
-    return Cannot(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
+    return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
 
 
-def _unknown(scene: Scene, question: str) -> Cannot | None:
+def _unknown(scene: Scene, question: str) -> Fail | None:
     """Refuse, where no vision model is set, a question about a kind that these eyes don't know."""
     eyes = scene.eyes
     if eyes.model:
@@ -111,7 +119,7 @@ def _unknown(scene: Scene, question: str) -> Cannot | None:
     name = unknown_kind(question, scene.facts, scene.language, eyes.classes)
     if name is None:
         return None
-    return Cannot(Code.OBJECT_UNKNOWN, "object_unknown", unknown_name(name, eyes.classes))
+    return Fail(Code.OBJECT_UNKNOWN, "object_unknown", unknown_name(name, eyes.classes))
 
 
 def _model_alone(scene: Scene) -> bool:
@@ -120,7 +128,7 @@ def _model_alone(scene: Scene) -> bool:
     return alone and scene.step.place is None
 
 
-def _next(scene: Scene, pose: Pose2, question: str) -> Act | Notes:
+def _next(scene: Scene, pose: Pose2, question: str) -> SkillAction | Notes:
     """Return the next leg or gaze, or the notes when enough was looked at.
 
     Each gaze notes its direction as the robot stands then, wherever it was to turn.
@@ -128,17 +136,17 @@ def _next(scene: Scene, pose: Pose2, question: str) -> Act | Notes:
     if not scene.notes.faced and scene.notes.turned is None:
         scene = scene.but(scene.notes.but(ahead=pose.yaw_rad))
     next_ = _looked(scene, pose, question)
-    if not isinstance(next_, Gaze) or next_.then is None:
+    if not isinstance(next_, Observe) or next_.then is None:
         return next_
     ahead = next_.then.ahead if next_.then.ahead is not None else pose.yaw_rad
     faced = (*next_.then.faced, round(wrap(pose.yaw_rad - ahead), 3))
     return replace(next_, then=next_.then.but(faced=faced))
 
 
-def _looked(scene: Scene, pose: Pose2, question: str) -> Act | Notes:
+def _looked(scene: Scene, pose: Pose2, question: str) -> SkillAction | Notes:
     if scene.step.place is not None:
         return look_round(scene, pose, spots(scene, pose)[:1], None)
     if not looks_round(question):
-        return Gaze(LOOKS + 1, then=scene.notes.but(stage=GAZED))
+        return Observe(LOOKS + 1, then=scene.notes.but(stage=GAZED))
     at = scene.notes.here or (pose.x_m, pose.y_m)
     return look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.actions import Drive, Gaze, Scene, Way
+from planner.mission.skills.actions import Drive, Observe, Scene, Way
 from planner.mission.skills.object_matching import away_m
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import HERE, Spot, room_at
@@ -29,7 +29,7 @@ MORE_M, SLOWEST_MPS, LEG_S = 10.0, 0.1, 60.0
 
 def look_round(
     scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
-) -> Drive | Gaze | Notes:
+) -> Drive | Observe | Notes:
     """Return the next leg or gaze; the notes alone once every spot was looked round from."""
     notes = _without_way(scene, pose, spots)
     scene = scene.but(notes)
@@ -44,7 +44,7 @@ def look_round(
     if notes.turned != view and abs(wrap(heading - pose.yaw_rad)) > FACING_RAD:
         return spin(pose, heading, notes.but(turned=view))
     then = notes.but(views=(*notes.views, view), turned=None)
-    return Gaze(LOOKS, then=then, wanted=wanted)
+    return Observe(LOOKS, then=then, wanted=wanted)
 
 
 def over(notes: Notes, spot: Spot) -> Notes:
@@ -87,7 +87,7 @@ def leg_to(
 
 def _go(
     scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
-) -> Drive | Gaze | Notes:
+) -> Drive | Observe | Notes:
     """Return the way to the next spot, or the first gaze where the robot is there already."""
     notes = scene.notes
     spot = next((s for s in spots if s.key not in notes.spots), None)

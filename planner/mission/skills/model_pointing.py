@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, say
 from planner.language.utterance import parse
-from planner.mission.skills.actions import Act, Cannot, Gaze, Inquire, Question, Scene
+from planner.mission.skills.actions import (
+    AskImage,
+    Fail,
+    Observe,
+    Question,
+    Scene,
+    SkillAction,
+)
 from planner.mission.skills.image_errors import not_pointed
 from planner.mission.skills.look_around import LOOKS
 from planner.mission.skills.object_matching import away_m, turn_to
@@ -38,24 +45,24 @@ _BEHIND = "behind"
 _DECLINED = say("look.declined")
 
 
-def agreed(scene: Scene, pose: Pose2) -> Act | At:
+def agreed(scene: Scene, pose: Pose2) -> SkillAction | At:
     """Return the point once a person has said yes to it; until then, what is to be done for it."""
     notes, words, answer = scene.notes, scene.step.object or "", scene.answer
     if notes.pointed is not None:
         return _answered(scene, pose, notes.pointed)
     if notes.stage == 0:
-        return Gaze(LOOKS, then=notes.but(stage=POINT))
+        return Observe(LOOKS, then=notes.but(stage=POINT))
     if notes.stage == POINT:
-        return Inquire(words, point=True, then=notes.but(stage=ANSWER))
+        return AskImage(words, point=True, then=notes.but(stage=ANSWER))
     if answer is None:  # interrupted before the answer was used
-        return Inquire(words, point=True, then=notes)
+        return AskImage(words, point=True, then=notes)
     if answer.at is None:
         return not_pointed(words, answer)
     proposed = notes.but(pointed=answer.at, stage=PROPOSED)
     return Question(_proposal(scene, pose, answer.at), proposed)
 
 
-def _answered(scene: Scene, pose: Pose2, at: At) -> Act | At:
+def _answered(scene: Scene, pose: Pose2, at: At) -> SkillAction | At:
     """Return the point where a person agreed to it; else ask, or end the step."""
     notes, answer = scene.notes, scene.step.answer
     if answer is None:  # interrupted before anybody answered
@@ -66,7 +73,7 @@ def _answered(scene: Scene, pose: Pose2, at: At) -> Act | At:
         return at
     if yes is None and notes.stage == PROPOSED:
         return Question(_proposal(scene, pose, at, again=True), notes.but(stage=AGAIN))
-    return Cannot(Code.POINT_REFUSED, "point_declined", _DECLINED)
+    return Fail(Code.POINT_REFUSED, "point_declined", _DECLINED)
 
 
 def _proposal(scene: Scene, pose: Pose2, at: At, *, again: bool = False) -> Bilingual:

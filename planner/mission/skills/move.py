@@ -13,7 +13,15 @@ from math import cos, hypot, sin
 
 from planner.language.catalogue import message
 from planner.language.formatting import metres
-from planner.mission.skills.actions import Act, Cannot, Done, Drive, Later, Scene, Way
+from planner.mission.skills.actions import (
+    Drive,
+    Fail,
+    Finish,
+    Retry,
+    Scene,
+    SkillAction,
+    Way,
+)
 from planner.plan import Bilingual, Code
 from wire import Pose2
 
@@ -25,12 +33,12 @@ LIMIT_S, SLOWEST_MPS = 20.0, 0.05
 MORE_M = 0.5
 
 
-def move(scene: Scene) -> Act:
+def move(scene: Scene) -> SkillAction:
     """Return the straight leg, or how far odometry says that it came."""
     asked = scene.step.distance_m or 0.0
     pose, began = scene.pose, scene.began
     if pose is None or began is None:
-        return Later()
+        return Retry()
     if scene.part > 0:
         return _verdict(asked, scene.done)
     left_m = asked - along(pose, began)
@@ -51,12 +59,12 @@ def along(pose: Pose2, began: Pose2) -> float:
     return dx * cos(began.yaw_rad) + dy * sin(began.yaw_rad)
 
 
-def no_room(goal: Pose2, pose: Pose2, short_m: float) -> Cannot:
+def no_room(goal: Pose2, pose: Pose2, short_m: float) -> Fail:
     """Say how much room there is for what is left of a way, of which ``short_m`` are not free."""
     left_m = hypot(goal.x_m - pose.x_m, goal.y_m - pose.y_m)
     room_m = max(0.0, left_m - short_m)
     said = message(Code.NO_ROOM, room=f"{room_m:.1f}", asked=f"{left_m:.1f}")
-    return Cannot(Code.NO_ROOM, "no_room", said)
+    return Fail(Code.NO_ROOM, "no_room", said)
 
 
 def _said(asked: float, done: float) -> tuple[Bilingual, dict[str, float]]:
@@ -64,9 +72,9 @@ def _said(asked: float, done: float) -> tuple[Bilingual, dict[str, float]]:
     return message(Code.NOT_REACHED, asked=metres(asked), reached=metres(done)), figures
 
 
-def _verdict(asked: float, done: float) -> Done | Cannot:
+def _verdict(asked: float, done: float) -> Finish | Fail:
     said, figures = _said(asked, done)
     if abs(asked - done) <= min(OFF_M + OFF_SHARE * abs(asked), abs(asked) / 2.0):
-        return Done(dict(figures))
+        return Finish(dict(figures))
     reason = "too_short" if abs(asked) <= SHORTEST_M else "odometry_disagrees"
-    return Cannot(Code.NOT_REACHED, reason, said, figures)
+    return Fail(Code.NOT_REACHED, reason, said, figures)

@@ -18,7 +18,7 @@ from planner.mission.skills.perception import Wanted
 from planner.mission.skills.spatial_relations import Relation, parted
 
 if TYPE_CHECKING:
-    from planner.mission.state import Facts
+    from planner.mission.state import SiteView
 
 _OPEN_EN = re.compile(
     r"(?:[a-z, ]{0,30}\b)?(?:what|who)(?: else)?(?: (?:is|are|do|can|you|see|there|things?|lying"
@@ -59,7 +59,9 @@ class Sought:
     """Where it is to be, in words that no eye here can judge."""
 
 
-def sought_in(question: str, facts: Facts, place: str | None, classes: tuple[str, ...]) -> Sought:
+def sought_in(
+    question: str, facts: SiteView, place: str | None, classes: tuple[str, ...]
+) -> Sought:
     """Return what a question asks for of eyes with these classes.
 
     Args:
@@ -77,7 +79,7 @@ def sought_in(question: str, facts: Facts, place: str | None, classes: tuple[str
     return _sought(asked.what, where_of(asked.where, facts, place), classes)
 
 
-def _open(question: str, facts: Facts, place: str | None, classes: tuple[str, ...]) -> Sought:
+def _open(question: str, facts: SiteView, place: str | None, classes: tuple[str, ...]) -> Sought:
     """Read "what is on the table?"; and of what is not understood, where it names a neighbour."""
     text = plain(question)
     found = (_OPEN_ZH if in_chinese(text) else _OPEN_EN).fullmatch(text)

@@ -21,7 +21,7 @@ from planner.plan import Language
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.state import Facts
+    from planner.mission.state import SiteView
 
 _WHERE_EN = (
     r"(?: (?:here|there|anywhere|somewhere|nearby|left|too|(?:right )?now|at all|in sight|ahead))*"
@@ -109,7 +109,7 @@ class Asked(NamedTuple):
 
 
 def unknown_kind(
-    question: str, facts: Facts, language: Language, classes: tuple[str, ...]
+    question: str, facts: SiteView, language: Language, classes: tuple[str, ...]
 ) -> str | None:
     """Return the one kind that a question asks for and eyes with these classes don't know.
 
@@ -124,7 +124,7 @@ def unknown_kind(
     return None
 
 
-def asked_for(question: str, facts: Facts) -> Asked | None:
+def asked_for(question: str, facts: SiteView) -> Asked | None:
     """Return what a question asks for, yes or no, apart from where; None where that is open.
 
     "Is there a cup next to the sofa?" asks for no sofa.
@@ -143,12 +143,12 @@ def in_chinese(text: str) -> bool:
     return has_chinese(text)
 
 
-def _asked(question: str, facts: Facts) -> Iterable[Asked]:
+def _asked(question: str, facts: SiteView) -> Iterable[Asked]:
     text = plain(question)
     return (_in_chinese if in_chinese(text) else _in_english)(text, facts)
 
 
-def _in_english(text: str, facts: Facts) -> Iterable[Asked]:
+def _in_english(text: str, facts: SiteView) -> Iterable[Asked]:
     found, places = _EN.fullmatch(text), _names(facts)
     if found is not None:
         named = not found["a"] and (found["sees"] or found["may"])  # Mary may be seen, no cat
@@ -161,7 +161,7 @@ def _in_english(text: str, facts: Facts) -> Iterable[Asked]:
         yield Asked(found["what"], where=found["where"] or "")
 
 
-def _in_chinese(text: str, facts: Facts) -> Iterable[Asked]:
+def _in_chinese(text: str, facts: SiteView) -> Iterable[Asked]:
     closed = text.replace(" ", "")
     found = _SEES_ZH.fullmatch(closed)
     if found is not None and (found["q"] or found["end"]):
@@ -186,7 +186,7 @@ def _noun(what: str, unit: str | None) -> bool:
     return unit is not None or _VERB_ZH.match(what) is None
 
 
-def _names(facts: Facts) -> frozenset[str]:
+def _names(facts: SiteView) -> frozenset[str]:
     """Return what the rooms are called: a room is asked for by its state, not by sight."""
     return frozenset(
         fold_words(name)

@@ -7,13 +7,13 @@ and seconds are the bridge's grant.
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Done, Scene
+from planner.mission.skills.actions import Finish, Scene, SkillAction
 from planner.mission.skills.drive_to_place import drive_to
 
 
-def patrol(scene: Scene) -> Act:
+def patrol(scene: Scene) -> SkillAction:
     """Return the leg to the next place, or that all were visited."""
     places = scene.step.places
     if scene.part >= len(places):
-        return Done({"visited": scene.part})
+        return Finish({"visited": scene.part})
     return drive_to(scene, places[scene.part])

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from planner.mission.skills.perception import Wanted
-    from planner.mission.state import Facts
+    from planner.mission.state import SiteView
     from planner.perception.snapshot import Thing
 
 _MANY = {"person": "people", "sheep": "sheep", "knife": "knives", "mouse": "mice"}
@@ -67,7 +67,7 @@ def unknown_words(words: str, classes: tuple[str, ...], kind: str = "") -> Bilin
     return say("result.which_thing", words=words)
 
 
-def room_name(facts: Facts, room: str | None) -> Bilingual | None:
+def room_name(facts: SiteView, room: str | None) -> Bilingual | None:
     """Return a room's name, where it is one."""
     target = facts.targets.get(room or "")
     return target.name if target is not None else None
@@ -80,7 +80,7 @@ def by_neighbour(what: Bilingual, wanted: Wanted | None) -> Bilingual:
     return told(what, wanted.relation, named(wanted.by.label, wanted.by.color))
 
 
-def found_at(facts: Facts, label: str, color: str | None, room: str | None, away: float | None,
+def found_at(facts: SiteView, label: str, color: str | None, room: str | None, away: float | None,
              wanted: Wanted | None = None) -> Bilingual:  # fmt: skip
     """Say where a thing is: its room and how far it is from the robot."""
     what, where = by_neighbour(called(label, color), wanted), room_name(facts, room)
@@ -90,7 +90,7 @@ def found_at(facts: Facts, label: str, color: str | None, room: str | None, away
     return say("result.found_in_away" if where else "result.found_away", **figures)
 
 
-def looked_in(facts: Facts, rooms: Iterable[str], shut: Iterable[str], spent: str | None,
+def looked_in(facts: SiteView, rooms: Iterable[str], shut: Iterable[str], spent: str | None,
               alike: Sequence[Thing] = ()) -> Bilingual:  # fmt: skip
     """Say which rooms were looked through, which could not be reached, and what ran out.
 

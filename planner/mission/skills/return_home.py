@@ -6,10 +6,10 @@ seconds are the bridge's grant.
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Done, Scene
+from planner.mission.skills.actions import Finish, Scene, SkillAction
 from planner.mission.skills.drive_to_place import drive_to
 
 
-def return_home(scene: Scene) -> Act:
+def return_home(scene: Scene) -> SkillAction:
     """Return the leg home, or that it was reached."""
-    return Done() if scene.part > 0 else drive_to(scene, scene.facts.home)
+    return Finish() if scene.part > 0 else drive_to(scene, scene.facts.home)

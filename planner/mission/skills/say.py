@@ -6,11 +6,11 @@ left out. Budget: 500 characters by the plan's own bounds; no motion.
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Scene, Skip, Speak
+from planner.mission.skills.actions import Scene, SkillAction, Skip, Speak
 from planner.plan import StepState
 
 
-def say(scene: Scene) -> Act:
+def say(scene: Scene) -> SkillAction:
     """Return the words, or leave them out where they were perhaps said."""
     if scene.step.state is StepState.RUNNING:
         return Skip("perhaps_said")

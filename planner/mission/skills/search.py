@@ -11,7 +11,7 @@ from math import cos, sin
 from typing import TYPE_CHECKING
 
 from planner.language.color_names import may_be
-from planner.mission.skills.actions import Drive, Gaze, Scene
+from planner.mission.skills.actions import Drive, Observe, Scene
 from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, look_round, spin
 from planner.mission.skills.object_matching import (
     WORTH,
@@ -56,18 +56,18 @@ AWAY = 2.5
 """A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
 
 
-def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | Notes:
+def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Observe | Thing | Notes:
     """Return what to do next, or the thing that was found, or the notes when it was not."""
     scene = begin(scene, pose, wanted, first=True)
     next_ = _next(scene, pose, wanted)
     if not affords(scene, pose, next_):
         return scene.notes.but(broke=True)
-    if isinstance(next_, (Drive, Gaze)):  # the order holds from its first act on
+    if isinstance(next_, (Drive, Observe)):  # the order holds from its first act on
         return replace(next_, notes=scene.notes)
     return next_
 
 
-def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Gaze | Thing | Notes:
+def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Observe | Thing | Notes:
     inside = within(scene)
     seen = [t for t in _confirmed(scene, wanted) if inside(t)]
     if seen:
@@ -199,7 +199,7 @@ def _remembered(scene: Scene, wanted: Wanted) -> list[Thing]:
     ]
 
 
-def _look_again(scene: Scene, pose: Pose2, thing: Thing, wanted: Wanted) -> Drive | Gaze:
+def _look_again(scene: Scene, pose: Pose2, thing: Thing, wanted: Wanted) -> Drive | Observe:
     """Go to where a thing can be seen, face it, gaze; then it is confirmed, or was tried."""
     notes, at = scene.notes, spot_of(thing)
     stage = notes.stage if notes.aim == thing.id else 0
@@ -210,7 +210,7 @@ def _look_again(scene: Scene, pose: Pose2, thing: Thing, wanted: Wanted) -> Driv
         return leg_to(pose, stand, heading, there, tried)
     if stage <= 1 and abs(turn_to(pose, at[:2])) > 2.0 * FACING_RAD:
         return spin(pose, bearing(pose, at[:2]), notes.but(aim=thing.id, stage=2))
-    return Gaze(LOOKS + 2, then=tried, wanted=wanted)
+    return Observe(LOOKS + 2, then=tried, wanted=wanted)
 
 
 def _in_sight(scene: Scene, pose: Pose2, thing: Thing) -> bool:

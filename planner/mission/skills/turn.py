@@ -13,7 +13,15 @@ from math import ceil, pi
 
 from planner.language.catalogue import message
 from planner.language.formatting import angle
-from planner.mission.skills.actions import Act, Cannot, Done, Drive, Later, Scene, Way
+from planner.mission.skills.actions import (
+    Drive,
+    Fail,
+    Finish,
+    Retry,
+    Scene,
+    SkillAction,
+    Way,
+)
 from planner.plan import Code
 from wire import Pose2, wrap
 
@@ -27,11 +35,11 @@ MORE_PARTS = 2
 LIMIT_M = 0.5
 
 
-def turn(scene: Scene) -> Act:
+def turn(scene: Scene) -> SkillAction:
     """Return the next part of the turn, or how far odometry says that it came."""
     asked = scene.step.angle_rad or 0.0
     if scene.pose is None or scene.began is None:
-        return Later()
+        return Retry()
     left = asked - turned_rad(scene.pose, scene.began, scene.done)
     going = scene.part < ceil(abs(asked) / PART_RAD) + MORE_PARTS
     if going and (abs(left) > THERE_RAD or (scene.part == 0 and left != 0.0)):
@@ -48,10 +56,10 @@ def turned_rad(pose: Pose2, began: Pose2, done_rad: float) -> float:
     return done_rad + wrap(pose.yaw_rad - began.yaw_rad - done_rad)
 
 
-def _verdict(asked: float, done: float) -> Done | Cannot:
+def _verdict(asked: float, done: float) -> Finish | Fail:
     figures = {"turned_rad": round(done, 4), "residual_rad": round(asked - done, 4)}
     if abs(asked - done) <= min(OFF_RAD + OFF_SHARE * abs(asked), abs(asked) / 2.0):
-        return Done(figures)
+        return Finish(figures)
     said = message(Code.NOT_REACHED, asked=angle(asked), reached=angle(done))
     reason = "too_short" if abs(asked) <= THERE_RAD else "odometry_disagrees"
-    return Cannot(Code.NOT_REACHED, reason, said, figures)
+    return Fail(Code.NOT_REACHED, reason, said, figures)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from planner.mission.skills.perception import Wanted
-    from planner.mission.state import Facts, Target
+    from planner.mission.state import SiteView, Target
     from planner.perception.snapshot import Thing
     from wire import Pose2
 
@@ -52,7 +52,7 @@ class Spot:
     at: Point
 
 
-def room_at(facts: Facts, at: Point) -> str | None:
+def room_at(facts: SiteView, at: Point) -> str | None:
     """Return the room around a point; the smallest where outlines overlap."""
     rooms = [
         (area_m2(t.polygon), t.id)
@@ -62,7 +62,7 @@ def room_at(facts: Facts, at: Point) -> str | None:
     return min(rooms)[1] if rooms else None
 
 
-def room_of(facts: Facts, place: str | None) -> str | None:
+def room_of(facts: SiteView, place: str | None) -> str | None:
     """Return the room that a place is, or stands in."""
     target = facts.targets.get(place or "")
     if target is None or target.room:
@@ -71,7 +71,7 @@ def room_of(facts: Facts, place: str | None) -> str | None:
 
 
 def in_order(
-    facts: Facts, pose: Pose2, known: tuple[Thing, ...], wanted: Wanted | None = None
+    facts: SiteView, pose: Pose2, known: tuple[Thing, ...], wanted: Wanted | None = None
 ) -> tuple[str, ...]:
     """Return all rooms in the order in which to look through them.
 

@@ -6,9 +6,9 @@ nobody. Budget: the seconds asked for, 600 at most by the plan's own bounds.
 
 from __future__ import annotations
 
-from planner.mission.skills.actions import Act, Scene, Stand
+from planner.mission.skills.actions import Scene, SkillAction, Stand
 
 
-def wait(scene: Scene) -> Act:
+def wait(scene: Scene) -> SkillAction:
     """Return the time to stand."""
     return Stand(scene.step.seconds or 0.0)

@@ -13,7 +13,7 @@ from typing import Any
 from planner.brain import Brain, OfflineBrain
 from planner.budget import Amounts, Most, Usage
 from planner.language.stop import is_stop
-from planner.mission import Leg, Memory
+from planner.mission import KnownPlaces, Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
@@ -239,5 +239,5 @@ class FakeServices:
         self.eyes = FakeEyes()
         self.brain: Brain = OfflineBrain()
         self.site = two_room()
-        self.memory = Memory(self.site)
+        self.memory = KnownPlaces(self.site)
         self.fences = FenceProposals(Path("/nowhere"))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import ceil, hypot
 from typing import Any
 
-from planner.mission.state import Facts, Target
+from planner.mission.state import SiteView, Target
 from planner.navigation import RoutePoint
 from planner.plan import Bilingual
 from wire import (
@@ -83,7 +83,7 @@ def room(place: str, x_m: float, y_m: float = 0.0) -> Target:
     return Target(place, True, Bilingual(en=place, zh=place), Pose2(x_m, y_m, 0.0), box)
 
 
-FACTS = Facts(
+FACTS = SiteView(
     {
         "hall": room("hall", 0.0),
         "kitchen": room("kitchen", 4.0),

@@ -19,7 +19,7 @@ from planner.mission import (
     Missions,
     loop,
 )
-from planner.mission.known_places import Memory
+from planner.mission.known_places import KnownPlaces
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, GoalState, GoTo, StepPlan
@@ -79,7 +79,7 @@ class Together:
 @asynccontextmanager
 async def planner(
     home: Path,
-    site: Site | Memory,
+    site: Site | KnownPlaces,
     *replies: Reply,
     bridge: LiveBridge | None = None,
     hangs: bool = False,

@@ -19,7 +19,7 @@ from planner.mission.effects import (
 )
 from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Planned, Restarted, Submitted
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission, MissionState
 from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
 from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
 from wire import Pose2
@@ -61,10 +61,10 @@ class Together:
     ids: int = 0
 
     def __post_init__(self) -> None:
-        self.engine = Engine(Book(FACTS), Identity(self.planner_id, HASH, HASH, HASH))
+        self.engine = Engine(MissionState(FACTS), Identity(self.planner_id, HASH, HASH, HASH))
 
     @property
-    def book(self) -> Book:
+    def book(self) -> MissionState:
         return self.engine.book
 
     def goal(self, goal_id: str) -> Mission:

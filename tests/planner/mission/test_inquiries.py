@@ -9,16 +9,18 @@ from typing import cast
 
 import pytest
 
+from planner.mission.activity import Activity, AskingImage, Driving, Observing
 from planner.mission.effects import AskEyes
 from planner.mission.events import Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
 from planner.mission.skills.perception import Answer
-from planner.mission.state import Book, Walk
-from planner.mission.tasks import Answers, Helpers, Router, Think
+from planner.mission.state import MissionState
+from planner.mission.tasks import Answers, MissionTasks, Router, Think
 from planner.plan import Language, same
 from tests.planner.mission.fakes import FACTS
 from tests.planner.perception.watching import World
+from wire import Pose2
 
 Door = Callable[[AskEyes], Awaitable[Told]]
 
@@ -39,7 +41,7 @@ class Asking:
         )
         eyes = EyeDoor(None)
         eyes.ask = door  # type: ignore[method-assign,assignment]  # another way to see
-        self.helpers = Helpers(*nobody, answers, eyes)
+        self.helpers = MissionTasks(*nobody, answers, eyes)
 
     async def ask(self, ticket: int) -> None:
         """Ask, and let it begin."""
@@ -104,16 +106,18 @@ def test_an_answer_is_told_and_a_fault_of_the_eyes_is_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("walk", "ticket"),
+    ("activity", "ticket"),
     [
         (None, None),
-        (Walk("inquire", 1, ticket=7), 7),
-        (Walk("drive", 1, ticket=7), None),
-        (Walk("gaze", 1), None),
+        (AskingImage(record=1, since_s=0.0, ticket=7, until_s=9.0), 7),
+        (Driving(record=1, goal=Pose2(1.0, 0.0, 0.0), since_s=0.0, asked_s=0.0, ticket=7), None),
+        (Observing(record=1, since_s=0.0, asked_s=0.0, until_s=9.0, looks=3), None),
     ],
 )
-def test_who_waits_is_told_by_the_walk(walk: Walk | None, ticket: int | None) -> None:
-    assert asked_about_picture(Book(FACTS, walk=walk)) == ticket
+def test_the_activity_tells_which_question_waits(
+    activity: Activity | None, ticket: int | None
+) -> None:
+    assert asked_about_picture(MissionState(FACTS, activity=activity)) == ticket
 
 
 def test_a_pixel_counts_in_the_picture_that_was_wanted_for_it() -> None:

@@ -11,7 +11,7 @@ import pytest
 from planner.brain.scripted import Reply
 from planner.language.utterance import parse
 from planner.mission import BadState, JournalDown
-from planner.mission.known_places import Lesson, Memory
+from planner.mission.known_places import KnownPlaces, Lesson
 from planner.mission.loop import Loop
 from planner.plan import (
     ENDED,
@@ -49,7 +49,7 @@ class MappedBridge(LiveBridge):
 
 @asynccontextmanager
 async def planner(home: Path, *replies: Reply, hangs: bool = False) -> AsyncIterator[Together]:
-    memory = Memory(SITE, TaughtPlaces.in_home(home))
+    memory = KnownPlaces(SITE, TaughtPlaces.in_home(home))
     bridge = MappedBridge(pose=Pose2(1.0, 4.2, 0.0))
     async with live.planner(home, memory, *replies, bridge=bridge, hangs=hangs) as together:
         yield together

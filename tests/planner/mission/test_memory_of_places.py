@@ -14,7 +14,7 @@ import pytest
 from planner.brain.interface import ThinkRequest
 from planner.brain.prompt import Prompt
 from planner.bridge_client import Aged
-from planner.mission.known_places import Lesson, Memory
+from planner.mission.known_places import KnownPlaces, Lesson
 from planner.site import (
     MAX_HERE,
     PlaceRefused,
@@ -55,17 +55,17 @@ def memory(
     *,
     site: Site = SITE,
     router: StraightRouter | None = None,
-) -> Memory:
-    made = Memory(site, TaughtPlaces.in_home(home), clock=lambda: DAY)
+) -> KnownPlaces:
+    made = KnownPlaces(site, TaughtPlaces.in_home(home), clock=lambda: DAY)
     made.use(bridge or Bridge(), router or StraightRouter())
     return made
 
 
-def teach(kept: Memory, *args: Any, **named: Any) -> TaughtPlace:
+def teach(kept: KnownPlaces, *args: Any, **named: Any) -> TaughtPlace:
     return asyncio.run(kept.teach(Lesson(*args, **named)))[0]
 
 
-def refused(kept: Memory, *args: Any, **named: Any) -> str:
+def refused(kept: KnownPlaces, *args: Any, **named: Any) -> str:
     before = kept.places
     with pytest.raises(PlaceRefused) as why:
         teach(kept, *args, **named)

@@ -18,8 +18,8 @@ from planner.mission.api_view import goal_of
 from planner.mission.effects import Journal
 from planner.mission.events import Planned, Reply, Restarted, Resume
 from planner.mission.goal_lifecycle import MAP_CHANGED
-from planner.mission.journal_thread import JournalWriter, Wanted
-from planner.mission.state import Book, Mission
+from planner.mission.journal_thread import JournalWriter, PendingEntry
+from planner.mission.state import Mission, MissionState
 from planner.plan import (
     Bilingual,
     Clarify,
@@ -40,7 +40,7 @@ MAP_A, MAP_B = replace(FACTS, map_id="a"), replace(FACTS, map_id="b")
 
 
 def on_map(world: Together, facts: Any) -> Together:
-    world.engine = Engine(Book(facts), Identity(world.planner_id, HASH, HASH, HASH))
+    world.engine = Engine(MissionState(facts), Identity(world.planner_id, HASH, HASH, HASH))
     return world
 
 
@@ -178,7 +178,7 @@ def test_a_full_disk_calls_nothing_safe_and_loses_nothing_once_there_is_room(
                     state=GoalState.QUEUED, created_unix_s=1.0, updated_unix_s=1.0)
             for i in range(40)
         )  # fmt: skip
-        writer.write(Wanted(Journal(1, missions, ("g0",))))
+        writer.write(PendingEntry(Journal(1, missions, ("g0",))))
         assert full.wait(5.0)
         assert "full" in why[0]
         assert not done.is_set()

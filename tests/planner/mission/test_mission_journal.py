@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import resource
 import signal
@@ -29,10 +30,33 @@ from planner.mission.journal import (
     _keys,
     _upsert_of,
 )
-from planner.mission.journal_thread import JournalWriter, Wanted
+from planner.mission.journal_thread import JournalWriter, PendingEntry
 from planner.mission.state import MAX_ENDED, Mission
-from planner.plan import Code, GoalState, Language, Outcome
+from planner.plan import Code, GoalState, Language, Outcome, StepState
 from wire import Misconfigured, Unwritable
+
+FORMER_ROW = r"""
+{"id": "g1", "order": 1, "text": "text g1", "language": "en", "state": "paused",
+"reason": "operator", "replies": [], "questions": [], "source": "api", "plan": {"kind": "plan",
+"steps": [{"kind": "go_to", "place": "kitchen", "places": [], "object": null, "text": null,
+"seconds": null, "angle_rad": null, "distance_m": null, "state": "running", "reached": null,
+"residual_m": null, "residual_rad": null, "moved_m": null, "turned_rad": null, "visited": null,
+"x": null, "y": null, "found": null, "count": null, "rooms": [], "code": null, "said": null,
+"read": null, "answer": null, "left_m": null, "left_rad": null, "left_s": null,
+"reason": null}], "code": null, "text": null, "options": []}, "outcome": null, "brain": null,
+"confirm": false, "replace": false, "first": false, "doubtful_stop": false,
+"given_under_hold": null, "held": false, "kept": false, "map_id": "", "step": 0, "part": 0,
+"began_at": null, "done": 1.5, "notes": {"stage": 0, "spot": null, "views": [], "turned": null,
+"spots": [], "rooms": [], "missed": null, "shut": [], "broke": false, "here": null,
+"ahead": null, "faced": [], "order": [], "aim": null, "tried": [], "at": null, "pointed": null,
+"sure": null, "label": null, "color": null, "stand": 0, "again": 0, "heard": null,
+"seen_s": 0.0}, "step_s": 3.0, "step_m": 1.5, "replans": 0, "decides": 0,
+"tried": ["[{\"kind\": \"go_to\", \"place\": \"kitchen\"}]"],
+"failure": null, "leg": 1, "accepted_at": [0.0, 0.0, 0.0], "speed_share": 1.0, "metres": 1.5,
+"limited": {"max_speed": 60}, "created_unix_s": 100.25,
+"updated_unix_s": 103.25}
+"""
+"""A goal paused on its way, as programs wrote it that kept one record for every activity."""
 
 
 def mission(
@@ -217,6 +241,23 @@ def test_a_record_that_is_not_ours_is_named(tmp_path: Path) -> None:
     journal.close()
 
 
+def test_a_row_of_a_former_program_still_loads_whole(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    journal.write((Journal(1, (mission("g1", 1),), ()),))
+    engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
+    with engine.begin() as connection:
+        connection.execute(sa.text("update missions set record = :row"), {"row": FORMER_ROW})
+    engine.dispose()
+    [kept] = journal.load().missions
+    journal.close()
+    former = json.loads(FORMER_ROW)
+    now = json.loads(kept.model_dump_json())
+    assert {name: now[name] for name in former} == former
+    assert (kept.state, kept.leg, kept.done) == (GoalState.PAUSED, 1, 1.5)
+    assert kept.now is not None
+    assert (kept.now.kind, kept.now.state) == ("go_to", StepState.RUNNING)
+
+
 def test_the_writer_reports_safe_only_what_is_written(tmp_path: Path) -> None:
     journal = MissionJournal.in_home(tmp_path)
     safe: list[int] = []
@@ -229,7 +270,7 @@ def test_the_writer_reports_safe_only_what_is_written(tmp_path: Path) -> None:
 
     writer = JournalWriter(journal, done, lambda why: None)
     for number in range(1, 6):
-        writer.write(Wanted(Journal(number, (mission("a", 1, step=number),), ())))
+        writer.write(PendingEntry(Journal(number, (mission("a", 1, step=number),), ())))
     assert written.wait(10.0)
     writer.close()
     assert safe == sorted(safe)
@@ -251,7 +292,7 @@ def test_a_disk_that_refuses_is_tried_again_and_nothing_is_called_safe(tmp_path:
         done.set()
 
     writer = JournalWriter(journal, on_done, lambda why: failed.set())
-    writer.write(Wanted(Journal(1, (mission("a", 1),), ())))
+    writer.write(PendingEntry(Journal(1, (mission("a", 1),), ())))
     assert failed.wait(10.0)
     assert safe == []
     lock.execute(sa.text("create table facts (name varchar(32) primary key, value text not null)"))

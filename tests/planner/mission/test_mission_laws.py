@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.language.catalogue import message
+from planner.mission.activity import Driving
 from planner.mission.allowed_commands import refusal
 from planner.mission.effects import STAND, AskRoute, Journal, SayAloud
 from planner.mission.events import (
@@ -31,9 +32,9 @@ from planner.mission.events import (
     Tick,
     Told,
 )
-from planner.mission.reducer import advance, wish
+from planner.mission.reducer import advance, motion_request
 from planner.mission.skills import Answer, Eyesight
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Look as LookSeen
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import (
@@ -169,7 +170,7 @@ class World:
     """Feed a history to the reducer and keep what a judge needs."""
 
     def __init__(self) -> None:
-        self.book, self.now_s, self.seq = Book(FACTS, eyes=EYES), 100.0, 0
+        self.book, self.now_s, self.seq = MissionState(FACTS, eyes=EYES), 100.0, 0
         self.disk: dict[str, Mission] = {}
         self.disk_queue: tuple[str, ...] = ()
         self.entries: list[Journal] = []
@@ -201,11 +202,11 @@ class World:
                 self.written.setdefault((mission.id, mission.step), entry.entry)
 
     def judge(self) -> None:
-        book, wanted = self.book, wish(self.book)
+        book, wanted = self.book, motion_request(self.book)
         running = [m for m in book.missions.values() if m.state is GoalState.RUNNING]
         assert len(running) <= 1
         assert [m.id for m in running] == ([book.running] if book.running else [])
-        assert (book.walk is not None) == bool(running)
+        assert (book.activity is not None) == bool(running)
         queued = {m.id for m in book.missions.values() if m.state is GoalState.QUEUED}
         assert set(book.queue) == queued
         assert len(book.queue) == len(queued)
@@ -213,8 +214,8 @@ class World:
         if wanted.leg is not None:
             mission = book.missions[wanted.mission or ""]
             assert mission.state is GoalState.RUNNING
-            assert book.walk is not None
-            assert book.safe >= book.walk.record, "no motion before its beginning is on disk"
+            assert book.activity is not None
+            assert book.safe >= book.activity.record, "no motion before its beginning is on disk"
             held = book.status.held if book.status is not None else None
             assert held is None or held.id == book.pardoned, "no motion under a standing hold"
             assert self.acted, "no motion after a restart or stop without a person's act"
@@ -261,7 +262,7 @@ class World:
             case ("stop",):
                 self.acted = False
                 self.event(Stopped("x"))
-                assert wish(self.book) == STAND
+                assert motion_request(self.book) == STAND
                 assert self.book.running is None
             case ("crash",):
                 self.crash()
@@ -287,13 +288,13 @@ class World:
 
     def arrive(self) -> None:
         """Let the bridge say that the leg in hand is reached."""
-        wanted = wish(self.book)
-        walk = self.book.walk
-        if wanted.mission is None or wanted.leg is None or walk is None or walk.goal is None:
+        wanted = motion_request(self.book)
+        driven = self.book.activity
+        if wanted.mission is None or wanted.leg is None or not isinstance(driven, Driving):
             return
         leg = LegReport(mission=wanted.mission, leg=wanted.leg, following=False, reached=True,
                         residual_m=0.0, residual_rad=0.0, refusal=None)  # fmt: skip
-        self.play(("status", {"leg": leg, "base_in_map": walk.goal}, False))
+        self.play(("status", {"leg": leg, "base_in_map": driven.goal}, False))
         self.play(("safe", 0))
         self.play(("routed", 0, None))
 
@@ -314,10 +315,10 @@ class World:
                 self.disk.update({m.id: m for m in entry.missions})
                 self.disk_queue = entry.queue
         self.entries, self.written = [], {}
-        self.book = Book(FACTS, eyes=EYES)
+        self.book = MissionState(FACTS, eyes=EYES)
         self.acted = False
         self.event(Restarted(tuple(self.disk.values()), self.disk_queue, 0.0))
-        assert wish(self.book) == STAND
+        assert motion_request(self.book) == STAND
 
 
 @at_least(150)
@@ -333,14 +334,12 @@ def test_histories_hold_legs_after_somebody_who_walks() -> None:
     """Without this the laws above would hold of legs that are never laid."""
     world = World()
     world.play(("follow", "g1", 4.0))
-    walk = world.book.walk
-    assert walk is not None
-    assert (walk.kind, walk.watch, walk.leg) == ("drive", True, 2)
-    assert walk.goal is not None
-    assert abs(walk.goal.x_m - 3.8) < 0.01, "it was laid anew"
-    assert wish(world.book).leg == 2
+    assert isinstance(leg := world.book.activity, Driving)
+    assert (leg.watch, leg.leg) == (True, 2)
+    assert abs(leg.goal.x_m - 3.8) < 0.01, "it was laid anew"
+    assert motion_request(world.book).leg == 2
     for order in (("command", Pause, "g1"), ("command", Resume, "g1"), ("stop",)):
         world.play(order)
         world.play(("sight", (), None))
     world.play(("status", {}, False))
-    assert wish(world.book) == STAND
+    assert motion_request(world.book) == STAND

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from planner.mission.activity import Retrying
 from planner.mission.events import (
     Pause,
     Resume,
 )
-from planner.plan import (
-    Code,
-    StepState,
-)
+from planner.mission.legs import RETRY_S
+from planner.plan import Code, Move, StepPlan, StepState
 from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import row
 from tests.planner.mission.lockstep import Together, go
@@ -106,6 +105,23 @@ def test_a_pose_jump_routes_anew_standing(world: Together) -> None:
     world.bridge.rows = ()
     world.run_until(goal, SUCCEEDED)
     assert len(world.routes) == 2
+
+
+def test_a_step_that_waits_to_try_again_waits_while_the_pose_jumps_and_then_tries(
+    world: Together,
+) -> None:
+    world.bridge.localized = False
+    world.run(0.2)
+    goal = world.give(StepPlan(steps=(Move(distance_m=1.0),)))
+    world.run(0.2)
+    assert isinstance(world.book.activity, Retrying), "a move needs to know where it begins"
+    world.bridge.localized, world.bridge.rows = True, (row("POSE_JUMP"),)
+    world.run(3 * RETRY_S)
+    assert isinstance(world.book.activity, Retrying)
+    assert not world.routes
+    world.bridge.rows = ()
+    world.run_until(goal, SUCCEEDED)
+    assert len(world.routes) == 1
 
 
 def test_without_a_pose_nothing_is_streamed(world: Together) -> None:

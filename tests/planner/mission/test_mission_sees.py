@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from planner.mission.activity import Driving, Observing
 from planner.plan import (
     Code,
     Count,
@@ -39,7 +40,7 @@ def find(what: str) -> StepPlan:
 
 def test_a_room_whose_way_is_shut_is_passed_over_and_told(seeing: Seeing) -> None:
     goal = seeing.give(find("cup"))
-    while (walk := seeing.book.walk) is None or walk.goal is None or walk.goal.x_m < 3.0:
+    while not isinstance(leg := seeing.book.activity, Driving) or leg.goal.x_m < 3.0:
         seeing.see(0.2)
     assert seeing.goal(goal).state is RUNNING
     seeing.bridge.blocked = True
@@ -113,7 +114,7 @@ def test_a_follower_that_sees_nothing_stands_and_comes_no_nearer(
     seeing.things, seeing.blind = (), "camera_silent"
     seeing.see_until(goal, FAILED, limit_s=15.0)
     assert seeing.bridge.pose.x_m - here < 0.15
-    assert (seeing.goal(goal).reason, seeing.book.walk) == ("camera_silent", None)
+    assert (seeing.goal(goal).reason, seeing.book.activity) == ("camera_silent", None)
 
 
 def test_where_a_person_was_seen_last_is_not_driven_onto(seeing: Seeing) -> None:
@@ -130,8 +131,7 @@ def stands_while_blind(seeing: Seeing, goal: str) -> None:
     """See a drive stand while its eyes see nothing, go on with them, and end without them."""
     here, seeing.blind = seeing.bridge.pose.x_m, "camera_silent"
     seeing.see(1.0)
-    assert seeing.book.walk is not None
-    assert seeing.book.walk.kind == "gaze"
+    assert isinstance(seeing.book.activity, Observing)
     seeing.blind = None
     seeing.see(1.0)
     assert seeing.bridge.pose.x_m > here, "eyes that come back go on"
@@ -156,8 +156,8 @@ def test_what_is_known_is_not_driven_up_to_by_eyes_that_fail(seeing: Seeing) -> 
     goal = seeing.give(StepPlan(steps=(GoToObject(object="red cup"),)))
     while seeing.bridge.pose.x_m < 0.6:
         seeing.see(0.2)
-    assert seeing.book.walk is not None
-    assert (seeing.book.walk.wanted, seeing.book.walk.watch) == (None, False)
+    assert isinstance(leg := seeing.book.activity, Driving)
+    assert (leg.wanted, leg.watch) == (None, False)
     stands_while_blind(seeing, goal)
 
 
@@ -196,15 +196,14 @@ def test_a_leg_that_is_laid_anew_is_bounded_as_its_skill_says(seeing: Seeing) ->
     seeing.give(FOLLOWING)
     seeing.see(1.0)
     seeing.things, seeing.way = (), lambda _: None
-    while (walk := seeing.book.walk) is None or walk.goal is None:
+    while not isinstance(leg := seeing.book.activity, Driving):
         seeing.see(0.2)
-    assert walk.limit_m is not None
-    assert walk.limit_s is not None
+    assert leg.limit_m is not None
+    assert leg.limit_s is not None
     seeing.things = (replace(ANNA, x_m=4.5),)
     seeing.see(0.8)
-    walk = seeing.book.walk
-    assert walk is not None
-    assert (walk.kind, walk.limit_m, walk.limit_s) == ("drive", None, None)
+    assert isinstance(leg := seeing.book.activity, Driving)
+    assert (leg.limit_m, leg.limit_s) == (None, None)
 
 
 @pytest.mark.parametrize(

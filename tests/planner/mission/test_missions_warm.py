@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from planner.language import object_names
-from planner.mission.known_places import Memory
+from planner.mission.known_places import KnownPlaces
 from planner.mission.skills import viewpoints
 from planner.mission.warmup import warm_up
 from planner.site import Site
@@ -40,7 +40,7 @@ def test_the_spots_of_all_rooms_are_worked_out_beside_the_loop_before_any_goal(
     async def story() -> None:
         async with planner(tmp_path, site):
             began = len(threads)
-            for target in Memory(site).facts.targets.values():
+            for target in KnownPlaces(site).facts.targets.values():
                 if target.room:
                     assert viewpoints.spots_in(target)
                     viewpoints.near_spot(target)
@@ -51,7 +51,7 @@ def test_the_spots_of_all_rooms_are_worked_out_beside_the_loop_before_any_goal(
 
 
 def test_a_search_that_begins_anywhere_lays_no_points_anew(site: Site) -> None:
-    facts = Memory(site).facts
+    facts = KnownPlaces(site).facts
     forget_rooms()
     warm_up(facts)
     laid = viewpoints._grid.cache_info().misses

@@ -13,11 +13,12 @@ from planner.language.identification import language_of
 from planner.language.utterance import parse
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
-from planner.mission.events import Confirm, Planned, Submitted
-from planner.mission.reception import is_active, receive
+from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
+from planner.mission.reception import AnswerReception, is_active, receive, receive_answer
 from planner.mission.reducer import advance
-from planner.mission.state import MAX_OPEN, Book
-from planner.plan import Code, GoalState, Outcome, Vocabulary
+from planner.mission.state import MAX_OPEN, Mission, MissionState
+from planner.plan import Code, GoalState, Language, Outcome, Vocabulary
+from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason
 
@@ -59,7 +60,9 @@ def given(text: str, goal_id: str = "g") -> Submitted:
     return Submitted(goal_id, text, language_of(text))
 
 
-def hear(book: Book, text: str, goal_id: str, now_s: float) -> tuple[Book, list[object]]:
+def hear(
+    book: MissionState, text: str, goal_id: str, now_s: float
+) -> tuple[MissionState, list[object]]:
     """Take one sentence as the planner's door does, and think about it with the offline brain."""
     heard = receive(book, parse(text), given(text, goal_id), now_s)
     book, first = advance(book, heard.given, now_s)
@@ -211,3 +214,41 @@ def test_nothing_claims_to_stand_while_the_robot_drives(held: bool) -> None:
     assert ("keep driving" in outcome.message.en) is not held
     assert ("仍在行驶" in outcome.message.zh) is not held
     assert "stay where I am" not in outcome.message.en
+
+
+def _book_of(state: GoalState) -> MissionState:
+    mission = Mission(id="g1", order=1, text="go to the kitchen", language=Language.EN, state=state,
+                      created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
+    return MissionState(FACTS, missions={"g1": mission})
+
+
+@pytest.mark.parametrize(
+    ("text", "state", "expected"),
+    [
+        ("yes", GoalState.AWAITING_CONFIRMATION, AnswerReception(command=Reply("g1", "yes"))),
+        ("the red one", GoalState.NEEDS_CLARIFICATION,
+         AnswerReception(command=Reply("g1", "the red one"))),
+        ("stop", GoalState.AWAITING_CONFIRMATION, AnswerReception(stops=True)),
+        ("stop", GoalState.SUCCEEDED, AnswerReception(stops=True)),
+        ("where are you", GoalState.AWAITING_CONFIRMATION,
+         AnswerReception(sentence="where are you")),
+        ("go on", GoalState.AWAITING_CONFIRMATION, AnswerReception(command=Reply("g1", "go on"))),
+        ("go on", GoalState.NEEDS_CLARIFICATION, AnswerReception(sentence="go on")),
+        ("forget it", GoalState.AWAITING_CONFIRMATION, AnswerReception(command=Cancel("g1"))),
+        ("forget that, go to the bedroom", GoalState.AWAITING_CONFIRMATION,
+         AnswerReception(command=Cancel("g1"), sentence="go to the bedroom", answers=False)),
+        ("forget that, stop", GoalState.AWAITING_CONFIRMATION,
+         AnswerReception(stops=True, command=Cancel("g1"))),
+    ],
+)  # fmt: skip
+def test_what_words_do_that_come_as_an_answer(
+    text: str, state: GoalState, expected: AnswerReception
+) -> None:
+    assert receive_answer(_book_of(state), parse(text), "g1", 1.0) == expected
+
+
+def test_a_goal_that_asks_nothing_takes_no_answer() -> None:
+    heard = receive_answer(_book_of(GoalState.SUCCEEDED), parse("yes"), "g1", 1.0)
+    assert heard.refused is not None
+    assert heard.refused.code == "bad_state"
+    assert heard.command is None

@@ -14,7 +14,7 @@ from planner.brain.streamed_draft import Draft
 from planner.mission.draft_events import TELL_S, Hearing
 from planner.mission.event_hub import Subscription
 from planner.mission.route_prefetch import KEPT_S, RouteAhead
-from planner.mission.state import Book
+from planner.mission.state import MissionState
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
 from planner.plan import GoalState, GoTo, ReturnHome, Step, Wait
 from planner.site import Site
@@ -26,7 +26,7 @@ from wire import Pose2, Twist2
 HERE = Pose2(0.0, 0.0, 0.0)
 KITCHEN = FACTS.targets["kitchen"].pose
 DOCK = FACTS.targets["dock"].pose
-STANDING = Book(FACTS, status=status(), status_s=0.0)
+STANDING = MissionState(FACTS, status=status(), status_s=0.0)
 GO: tuple[Step, ...] = (GoTo(place="kitchen"),)
 
 
@@ -57,7 +57,11 @@ class Clock:
 
 
 async def asked_after(
-    search: Search, steps: tuple[Step, ...], request: RouteRequest, book: Book, late_s: float
+    search: Search,
+    steps: tuple[Step, ...],
+    request: RouteRequest,
+    book: MissionState,
+    late_s: float,
 ) -> int:
     """Expect, then ask; return how many routes were there already."""
     clock = Clock()
@@ -97,14 +101,14 @@ def test_what_was_searched_ahead_serves_the_same_way_alone(
 @pytest.mark.parametrize(
     "book",
     [
-        Book(FACTS),
+        MissionState(FACTS),
         replace(STANDING, status=status(base_in_map=None)),
         replace(STANDING, status=status(measured=Twist2(0.3, 0.0))),
         replace(STANDING, running="g0"),
         replace(STANDING, queue=("g0",)),
     ],
 )
-def test_nothing_is_searched_ahead_where_the_start_is_unknown(book: Book) -> None:
+def test_nothing_is_searched_ahead_where_the_start_is_unknown(book: MissionState) -> None:
     search = Search()
     assert asyncio.run(asked_after(search, GO, RouteRequest(HERE, KITCHEN), book, 0.0)) == 0
     assert len(search.asked) == 1

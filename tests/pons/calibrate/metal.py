@@ -12,7 +12,7 @@ from pons.calibrate.procedure import CalibrationPlan, calibrate
 from sim import Hardware
 from tests.pons.calibrate.tape import Tape
 from tools.lockstep import Together
-from tools.lockstep.world_fork import forked
+from tools.lockstep.world_fork import fork_world
 from wire import Pose2, RobotDescription
 from wire.keys import Party
 
@@ -55,7 +55,7 @@ class Bench:
     said: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.world = forked(_ready(self.robot, self.hardware, self.start))
+        self.world = fork_world(_ready(self.robot, self.hardware, self.start))
         operator = cast("Session", self.world.bus.port(Party.OPERATOR))
         judge = cast("Session", self.world.bus.port(Party.JUDGE))
         self.tape = Tape()

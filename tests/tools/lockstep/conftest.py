@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tools.lockstep import Together
-from tools.lockstep.world_fork import forked
+from tools.lockstep.world_fork import fork_world
 
 Ready = Callable[..., Together]
 
@@ -22,6 +22,6 @@ def ready() -> Ready:
         name = repr(sorted(parts.items()))
         if name not in made:
             made[name] = Together(**parts)
-        return forked(made[name])
+        return fork_world(made[name])
 
     return copy

@@ -10,7 +10,7 @@ import pytest
 
 from sim import Hardware
 from tools.lockstep import Together
-from tools.lockstep.world_fork import forked
+from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2, Velocity, keys
 from wire.keys import Party
 
@@ -96,7 +96,7 @@ def first_wall(ready: Callable[..., Together]) -> Callable[[Hardware], tuple[Tog
             world = ready(seed=1, hardware=hardware, start=FROM)
             made[hardware] = world, at_the_wall(world)
         world, left_m = made[hardware]
-        return forked(world), left_m
+        return fork_world(world), left_m
 
     return copy
 

@@ -9,8 +9,8 @@ from math import hypot
 import pytest
 
 from planner.plan import GoalState
-from tools.lockstep import TICK_S, Disturbance, Said, Together
-from tools.lockstep.world_fork import forked
+from tools.lockstep import TICK_S, Disturbance, GoalHandle, Together
+from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2
 from wire.keys import Party
 
@@ -30,7 +30,7 @@ def inside(world: Together, room_id: str) -> bool:
     return room.contains(world.truth.x_m, world.truth.y_m)
 
 
-def stands(goal: Said, state: GoalState) -> bool:
+def stands(goal: GoalHandle, state: GoalState) -> bool:
     return goal.state is state
 
 
@@ -52,7 +52,7 @@ def driving(world: Together) -> bool:
     return world.status.mode is Mode.ACTIVE and abs(world.twist.v_mps) > 0.2
 
 
-Driving = Callable[[], tuple[Together, Said]]
+Driving = Callable[[], tuple[Together, GoalHandle]]
 
 
 @pytest.fixture(scope="module")
@@ -62,8 +62,8 @@ def off(ready: Callable[..., Together]) -> Driving:
     goal_id = first.say("go to the living room").id
     first.run_until(driving, LIMIT_S)
 
-    def copy() -> tuple[Together, Said]:
-        world = forked(first)
+    def copy() -> tuple[Together, GoalHandle]:
+        world = fork_world(first)
         return world, world.goal(goal_id)
 
     return copy

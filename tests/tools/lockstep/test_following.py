@@ -10,7 +10,7 @@ import pytest
 
 from planner.brain import ScriptedBrain
 from planner.plan import Follow, GoalState, StepPlan
-from tools.lockstep import Said, Together
+from tools.lockstep import GoalHandle, Together
 from tools.lockstep.homes import stocked
 from wire import Pose2
 
@@ -87,7 +87,7 @@ def test_one_that_is_stopped_or_paused_stands_while_she_walks_on(world: Together
     assert world.contacts == 0
 
 
-def _order(world: Together, goal: Said, way: str) -> None:
+def _order(world: Together, goal: GoalHandle, way: str) -> None:
     if way == "stop":
         world.stop()
     else:

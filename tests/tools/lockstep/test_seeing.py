@@ -22,7 +22,7 @@ from planner.plan import (
     StepPlan,
     StepRecord,
 )
-from tools.lockstep import Said, Together
+from tools.lockstep import GoalHandle, Together
 from tools.lockstep.homes import stocked
 from wire import Pose2, wrap
 
@@ -61,7 +61,7 @@ def world_with(ready: Callable[..., Together], home: Path) -> World:
     return made
 
 
-def done(world: Together, goal: Said, limit_s: float = 90.0) -> StepRecord:
+def done(world: Together, goal: GoalHandle, limit_s: float = 90.0) -> StepRecord:
     world.run_until(lambda _: goal.ended, limit_s)
     plan = goal.record.plan
     assert plan is not None
@@ -70,7 +70,7 @@ def done(world: Together, goal: Said, limit_s: float = 90.0) -> StepRecord:
     return plan.steps[0]
 
 
-def told(goal: Said) -> tuple[Code, str, str]:
+def told(goal: GoalHandle) -> tuple[Code, str, str]:
     outcome = goal.record.outcome
     assert outcome is not None
     return outcome.code, outcome.message.en, outcome.message.zh

@@ -26,7 +26,7 @@ from planner.plan import (
     same,
 )
 from tools.lockstep import Together
-from tools.lockstep.eyes import EyesSide
+from tools.lockstep.eyes import PerceptionProcess
 from tools.lockstep.truth_detector import TruthFinder
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class Obeying:
         return Thought(plan=plan, brain=self.tag)
 
 
-class Reading(EyesSide):
+class Reading(PerceptionProcess):
     """See with a model that says what stands there."""
 
     read = HONEST

@@ -22,7 +22,7 @@ from planner.plan import (
     StepRecord,
     Turn,
 )
-from tools.lockstep import Said, Together
+from tools.lockstep import GoalHandle, Together
 from wire import Pose2
 
 IN_KITCHEN = Pose2(1.5, 2.0, 1.5)
@@ -46,7 +46,7 @@ def world_with(ready: Callable[..., Together]) -> World:
     return made
 
 
-def done(world: Together, goal: Said, limit_s: float = 60.0) -> tuple[StepRecord, ...]:
+def done(world: Together, goal: GoalHandle, limit_s: float = 60.0) -> tuple[StepRecord, ...]:
     world.run_until(lambda _: goal.ended, limit_s)
     plan = goal.record.plan
     assert plan is not None

@@ -11,7 +11,7 @@ from planner.brain.scripted import ScriptedBrain
 from planner.mission.skills.perception import Answer as EyeAnswer
 from planner.plan import Bilingual, Code, GoTo, Look, Say, Step, StepPlan
 from tools.lockstep import Together
-from tools.lockstep.eyes import EyesSide
+from tools.lockstep.eyes import PerceptionProcess
 from tools.lockstep.homes import stocked
 from tools.lockstep.truth_detector import TruthFinder
 from wire import Pose2
@@ -29,7 +29,7 @@ KITCHEN, BY_THE_DOOR = Pose2(1.5, 1.9, 0.0), Pose2(1.5, 4.0, -1.57)
 pytestmark = pytest.mark.timeout(120)
 
 
-class Denying(EyesSide):
+class Denying(PerceptionProcess):
     """See with a model that is shown whatever was kept and sees nobody in it."""
 
     shown: tuple[str, ...] = ()

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from tools.lockstep import Together
-from tools.lockstep.world_fork import forked
+from tools.lockstep.world_fork import fork_world
 from wire import Mode, SimFault
 
 Wheels = list[tuple[float, float] | None]
@@ -22,7 +22,7 @@ def test_a_copy_goes_on_to_the_bit_whatever_breaks_in_another() -> None:
     world = Together(seed=5)
     world.say("go to the living room")
     world.run_until(lambda w: w.status.mode is Mode.ACTIVE and w.twist.v_mps > 0.2, 20.0)
-    same, broken = forked(world), forked(world)
+    same, broken = fork_world(world), fork_world(world)
     broken.sim.break_down(SimFault.WHEEL_STUCK)
     otherwise = turned(broken, 1.5)
     expected = turned(world, 1.5)
@@ -37,4 +37,4 @@ def test_a_world_is_not_copied_while_its_planner_waits(
     world = ready(seed=5)
     world.say("go to the living room")
     with pytest.raises(ValueError, match="planner waits"):
-        forked(world)
+        fork_world(world)

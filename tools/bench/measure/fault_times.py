@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from tools.bench.report import ReportRow, row_of
 from tools.lockstep import TICK_S, Together
-from tools.lockstep.world_fork import forked
+from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2, SimFault
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def trial(
     fault: SimFault, seed: int, watch_s: float = WATCH_S, after_s: float = WATCH_S
 ) -> FaultTrial:
     """Drive, break it, watch for so long, and no longer than ``after_s`` from the first word on."""
-    world = forked(_cruising(seed))
+    world = fork_world(_cruising(seed))
     known = set(world.bridge.state.rows)
     world.sim.break_down(fault)
     first, first_ticks, stood_ticks, rows = "", None, None, dict[str, None]()

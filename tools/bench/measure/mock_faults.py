@@ -17,7 +17,7 @@ import httpx
 
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
-from planner.mission import AskBrain, Book, Planned, Submitted, advance
+from planner.mission import AskBrain, MissionState, Planned, Submitted, advance
 from planner.mission.draft_events import Hearing
 from planner.mission.plan_request import thinker
 from planner.mission.site_view import facts_of, vocabulary_of
@@ -91,7 +91,7 @@ async def try_fault(url: str, home: Path, fault: str, goals: int) -> Counter[str
     settings = ModelSettings(url=url, name=fault, timeout_s=timeout_s, parallel=PARALLEL)
     model = EndpointBrain(settings, home)
     site = _home()
-    trial = _Trial(fault, vocabulary_of(site), Book(facts_of(site)))
+    trial = _Trial(fault, vocabulary_of(site), MissionState(facts_of(site)))
     try:
         for brain in (model, FallbackBrain(model, OfflineBrain(), rest_s=0.5)):
             await trial.give(brain, goals)
@@ -109,7 +109,7 @@ def _home() -> Site:
 class _Trial:
     """Count what becomes of goals under one fault."""
 
-    def __init__(self, fault: str, vocabulary: Vocabulary, book: Book) -> None:
+    def __init__(self, fault: str, vocabulary: Vocabulary, book: MissionState) -> None:
         self.counts: Counter[str] = Counter()
         self._fault, self._vocabulary, self._book = fault, vocabulary, book
         self._hearing = Hearing(lambda _event: None, self._expect)

@@ -27,7 +27,7 @@ from planner.brain.tainted_text import deeds, think_warily
 from planner.mission.site_view import vocabulary_of
 from planner.mission.skills import Answer, Drive, Eyesight, Notes, Question, Scene, act_of
 from planner.mission.skills.model_pointing import ANSWER
-from planner.mission.state import Facts
+from planner.mission.state import SiteView
 from planner.perception import Detection
 from planner.plan import EVERY_KIND, Bilingual, Language, StepRecord, Vocabulary
 from planner.settings import ModelSettings
@@ -223,7 +223,7 @@ def drives_unasked(point: tuple[int, int]) -> bool:
     eyes = Eyesight(CameraConfig(), ("cup",), model=True)
     step = StepRecord(kind="go_to_object", object="guitar")
     at = (1.0 + point[1] / 1000.0, point[0] / 1000.0 - 0.5, 0.4)
-    scene = Scene(step, Facts({}, ""), IDENTITY, None, 0.0, 0, None, eyes=eyes,
+    scene = Scene(step, SiteView({}, ""), IDENTITY, None, 0.0, 0, None, eyes=eyes,
                   notes=Notes(stage=ANSWER), answer=Answer(at=at))  # fmt: skip
     act = act_of(scene)
     if not isinstance(act, Question) or act.notes is None:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from bridge.core.geometry.odometry import along_arc
 from tools.bench.report import ReportRow, row_of
 from tools.lockstep import Together, TooLong
-from tools.lockstep.constant_drive import Steady
+from tools.lockstep.constant_drive import ConstantDrive
 from tools.lockstep.homes import HALL_M, hall
 from tools.lockstep.hostile import Person
 from wire import Mode, Pose2
@@ -90,7 +90,7 @@ class Trials:
     def __init__(self, folder: Path, seed: int) -> None:
         self.random = Random(f"walls {seed}")
         self.world = Together(site=hall(folder), seed=seed + 1)
-        self.driver, self.person = Steady(self.world), Person(self.world)
+        self.driver, self.person = ConstantDrive(self.world), Person(self.world)
 
     def _run(self, ticks: int) -> None:
         for _ in range(ticks):

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from planner.mission.skills import Cannot, Done, Eyesight, Gaze, act_of
+from planner.mission.skills import Eyesight, Fail, Finish, Observe, act_of
 from planner.mission.skills.skill_state import Notes
-from planner.mission.state import Facts, Target
+from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import Look, Sight, Thing
 from planner.plan import Bilingual, Code
 from tests.planner.mission.fakes import FACTS
@@ -81,7 +81,7 @@ def test_it_is_said_whether_a_thing_stands_there_or_that_it_cannot_be_told(
 ) -> None:
     for question in ("is the cup on the table?", "桌子上有杯子吗"):
         told = asked(question, *things)
-        assert isinstance(told, Done)
+        assert isinstance(told, Finish)
         assert told.said is not None
         assert (told.said.en, told.said.zh) == (en, zh)
 
@@ -143,7 +143,7 @@ def test_a_place_that_is_the_neighbour_itself_is_named_once(
     question: str, en: str, zh: str
 ) -> None:
     place = Target("table", False, Bilingual(en="table", zh="桌子"), Pose2(1.6, 0.0, 0.0))
-    facts = Facts({**FACTS.targets, "table": place}, home="table")
+    facts = SiteView({**FACTS.targets, "table": place}, home="table")
     told = asked(question, TABLE, ON_IT, at("cup", 5.0, 0.8), place="table", facts=facts)
     assert told.said is not None
     assert (told.said.en, told.said.zh) == (en, zh)
@@ -162,19 +162,19 @@ def test_an_unknown_kind_is_asked_about_once_a_step(monkeypatch: pytest.MonkeyPa
     notes = Notes()
     for _ in range(60):
         act = asked("look around: is there a cup?", ON_IT, notes=notes)
-        if isinstance(act, Done):
+        if isinstance(act, Finish):
             break
-        assert not isinstance(act, Cannot)
+        assert not isinstance(act, Fail)
         notes = act.then or notes
-        assert isinstance(act, Gaze) or act.then is not None
+        assert isinstance(act, Observe) or act.then is not None
     assert len(calls) == 1
 
 
 def test_who_told_late_what_they_know_still_says_that_they_do_not_know_it() -> None:
     begun = asked("is there a piano?", ON_IT, notes=Notes())
-    assert isinstance(begun, Cannot)
+    assert isinstance(begun, Fail)
     assert begun.code is Code.OBJECT_UNKNOWN
     late = asked("is there a piano?", ON_IT)
-    assert isinstance(late, Done)
+    assert isinstance(late, Finish)
     assert late.said is not None
     assert "“piano”" in late.said.en

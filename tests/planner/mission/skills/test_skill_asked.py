@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from planner.mission.skills import Cannot, Drive, Eyesight, Gaze, act_of
+from planner.mission.skills import Drive, Eyesight, Fail, Observe, act_of
 from planner.mission.skills.object_questions import asked_for, unknown_kind
-from planner.mission.state import Facts, Target
+from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import Look, Sight
 from planner.plan import Bilingual, Code, Language
 from tests.planner.mission.fakes import FACTS, room
@@ -19,7 +19,7 @@ from wire import CameraConfig, Pose2
 CLASSES = ("person", "chair", "sofa", "table", "tv", "fridge", "plant", "box", "cup", "book")
 STUDY = replace(room("study", 8.0), name=Bilingual(en="study", zh="书房"), aliases=("den",))
 FRIDGE = Target("fridge", False, Bilingual(en="fridge", zh="冰箱"), Pose2(4.0, 0.5, 0.0))
-HOME = Facts({**FACTS.targets, "study": STUDY, "fridge": FRIDGE}, home="dock")
+HOME = SiteView({**FACTS.targets, "study": STUDY, "fridge": FRIDGE}, home="dock")
 
 
 @pytest.mark.parametrize(
@@ -121,8 +121,8 @@ def test_a_look_for_what_no_eye_here_knows_ends_with_what_they_know(
 ) -> None:
     step: dict[str, Any] = {"text": question, "place": "kitchen"}
     act = act_of(scene("look", step=step, eyes=eyes, sight=PICTURE, facts=HOME))
-    assert isinstance(act, (Drive, Gaze)) is moves
-    if isinstance(act, Cannot):
+    assert isinstance(act, (Drive, Observe)) is moves
+    if isinstance(act, Fail):
         assert act.code is Code.OBJECT_UNKNOWN
         assert act.said is not None
         assert "“piano”" in act.said.en

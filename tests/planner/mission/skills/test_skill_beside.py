@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from planner.mission.skills import Cannot, Done, Drive, Eyesight, Gaze, Wanted, act_of
+from planner.mission.skills import Drive, Eyesight, Fail, Finish, Observe, Wanted, act_of
 from planner.mission.skills.object_matching import meant, picks_out
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.spatial_relations import Relation, parted, stands
@@ -36,7 +36,10 @@ TABLE = at("table", 1.6, 0.4)
     ("words", "wanted"),
     [
         ("the bottle on the table", Wanted("bottle", None, ON, Wanted("table"))),
-        ("red cup next to a blue chair", Wanted("cup", "red", NEAR, Wanted("chair", "blue"))),
+        (
+            "red cup next to a blue chair",
+            Wanted("cup", "red", NEAR, Wanted("chair", "blue")),
+        ),
         ("box under the desk", Wanted("box", None, UNDER, Wanted("table"))),
         ("桌子上的瓶子", Wanted("bottle", None, ON, Wanted("table"))),
         ("椅子旁边的红色的杯子", Wanted("cup", "red", NEAR, Wanted("chair"))),
@@ -93,7 +96,7 @@ GAZED: dict[str, Any] = {"gazed_s": NOW_S - 1.0, "spent_s": 5.0}
 
 def test_nobody_is_followed_by_a_neighbour_and_what_is_said_of_it_does_not_offer_one() -> None:
     act = looking("follow", "person near the chair")
-    assert isinstance(act, Cannot)
+    assert isinstance(act, Fail)
     assert act.said is not None
     assert "nearest one in sight" in act.said.en
     assert "最近的一个" in act.said.zh
@@ -103,42 +106,42 @@ def test_nobody_is_followed_by_a_neighbour_and_what_is_said_of_it_does_not_offer
 def test_only_what_stands_there_is_found_and_gone_to(words: str) -> None:
     assert parted("red cup") is None
     found = looking("find", words, OTHER, THERE, TABLE, **GAZED)
-    assert isinstance(found, Done)
+    assert isinstance(found, Finish)
     assert found.figures["found"].x_m == 1.7
     assert found.said is not None
     assert "a bottle on the table" in found.said.en
     assert "桌子上的瓶子" in found.said.zh
     goes = looking("go_to_object", words, OTHER, THERE, TABLE, **GAZED)
-    assert isinstance(goes, (Drive, Gaze))
+    assert isinstance(goes, (Drive, Observe))
     assert goes.then is not None
     assert goes.then.at is not None
     assert goes.then.at[0] == 1.7
     unsure = at("table", 1.6, 0.4, confidence=0.4)
     for seen in ((OTHER, TABLE), (THERE,), (THERE, unsure)):
-        assert isinstance(looking("find", words, *seen, **GAZED), (Drive, Gaze)), "it looks on"
+        assert isinstance(looking("find", words, *seen, **GAZED), (Drive, Observe)), "it looks on"
 
 
 def test_what_does_not_stand_there_is_not_told_of_nor_counted() -> None:
     words, spent = "bottle on the table", {"spent_m": 56.0}
     ended = looking("find", words, OTHER, TABLE, **GAZED, **spent)
-    assert isinstance(ended, Cannot)
+    assert isinstance(ended, Fail)
     assert ended.said is not None
     assert ended.said.en.startswith("I saw no bottle on the table.")
     number = looking("count", words, OTHER, THERE, TABLE, notes=Notes(), **GAZED, **spent)
-    assert isinstance(number, Done)
+    assert isinstance(number, Finish)
     assert (number.code, number.figures["count"]) == (Code.COUNTED, 1)
     assert number.said is not None
     assert "1 bottle on the table" in number.said.en
 
 
-def counted(words: str, *things: Thing, shut: bool = False) -> Done:
+def counted(words: str, *things: Thing, shut: bool = False) -> Finish:
     """Count to the end, in a hall and a kitchen, with these things in sight."""
     notes, pose = Notes(), Pose2(0.0, 0.0, 0.0)
     for _ in range(60):
         act = looking("count", words, *things, notes=notes, pose=pose, spent_s=5.0)
-        if isinstance(act, Done):
+        if isinstance(act, Finish):
             return act
-        assert isinstance(act, (Drive, Gaze))
+        assert isinstance(act, (Drive, Observe))
         notes = act.then or notes
         if isinstance(act, Drive) and shut and act.goal.x_m > 2.0:
             notes = act.otherwise or notes

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from planner.mission.skills import Cannot, Done, Drive, Way
+from planner.mission.skills import Drive, Fail, Finish, Way
 from planner.mission.skills.skill_state import Notes
 from tests.planner.mission.skills.looking import looking, thing
 
 
 def test_a_search_ends_with_its_budget() -> None:
     for act in (looking("find", spent_m=56.0), looking("find", spent_s=541.0)):
-        assert isinstance(act, Cannot)
+        assert isinstance(act, Fail)
         assert act.reason == "not_found"
         assert act.said is not None
         assert "used up" in act.said.en
@@ -19,7 +19,7 @@ def test_no_way_is_begun_that_the_rest_of_the_budget_does_not_last_for() -> None
     far = thing(x_m=8.0, room="kitchen")
     assert isinstance(looking("find", far, spent_m=40.0), Drive)
     lost = looking("find", far, spent_m=54.0)
-    assert isinstance(lost, Cannot)
+    assert isinstance(lost, Fail)
     assert lost.reason == "not_found"
     assert lost.said is not None
     assert "used up" in lost.said.en
@@ -32,6 +32,6 @@ def test_who_counts_begins_no_such_way_either_and_says_so() -> None:
         notes = act.then or notes
         act = looking("count", notes=notes)
     told = looking("count", notes=notes, spent_m=54.9)
-    assert isinstance(told, Done)
+    assert isinstance(told, Finish)
     assert told.said is not None
     assert "used up" in told.said.en

@@ -7,11 +7,11 @@ from dataclasses import replace
 import pytest
 
 from planner.language.object_classes import KINDS
-from planner.mission.skills import Drive, Eyesight, Gaze, Wanted, act_of
+from planner.mission.skills import Drive, Eyesight, Observe, Wanted, act_of
 from planner.mission.skills.room_priors import SORTS, likely_rooms
 from planner.mission.skills.spatial_relations import Relation
 from planner.mission.skills.viewpoints import in_order
-from planner.mission.state import Facts, Target
+from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual
 from tests.planner.mission.skills.scenes import scene
@@ -26,7 +26,7 @@ def room(id_: str, x_m: float = 0.0, en: str = "x", zh: str = "某处", *aliases
 
 BED, CORRIDOR, STUDY = room("bedroom", 0.0), room("corridor", 3.0), room("r3", 6.0, zh="书房")
 LIVING, KITCHEN = room("r4", 9.0, en="Living Room"), room("r5", 12.0, "x", "某处", "伙房")
-HOME = Facts({t.id: t for t in (BED, CORRIDOR, STUDY, LIVING, KITCHEN)}, home="bedroom")
+HOME = SiteView({t.id: t for t in (BED, CORRIDOR, STUDY, LIVING, KITCHEN)}, home="bedroom")
 BY_DISTANCE = ("bedroom", "corridor", "r3", "r4", "r5")
 
 
@@ -97,7 +97,7 @@ def test_the_order_is_made_once_and_only_by_who_ends_with_the_first_that_is_foun
 ) -> None:
     eyes = Eyesight(CameraConfig(), ("cup",))
     act = act_of(scene(kind, step={"object": "cup"}, facts=HOME, eyes=eyes, pose=BED.pose))
-    assert isinstance(act, (Drive, Gaze))
+    assert isinstance(act, (Drive, Observe))
     assert act.then is not None
     assert act.then.order == (
         BY_DISTANCE if kind == "count" else ("bedroom", "r5", "r4", "r3", "corridor")
@@ -107,6 +107,6 @@ def test_the_order_is_made_once_and_only_by_who_ends_with_the_first_that_is_foun
         scene(kind, step={"object": "cup"}, facts=HOME, eyes=eyes, pose=elsewhere, notes=act.notes,
               sight=Sight(None, (Thing("cup_1", "cup", None, 6.0, 0, 0, 0.1, 0.2, 0, 0, 1, "r3"),)))
     )  # fmt: skip
-    assert isinstance(later, (Drive, Gaze))
+    assert isinstance(later, (Drive, Observe))
     assert later.then is not None
     assert later.then.order == act.then.order

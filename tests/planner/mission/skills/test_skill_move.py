@@ -6,7 +6,7 @@ from math import pi
 
 import pytest
 
-from planner.mission.skills import Cannot, Done, Drive, Later, Way, act_of, no_room
+from planner.mission.skills import Drive, Fail, Finish, Retry, Way, act_of, no_room
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2
 
@@ -35,7 +35,7 @@ def test_it_aims_along_the_heading_at_which_it_began(distance_m: float) -> None:
 )  # fmt: skip
 def test_the_verdict_is_odometrys(asked: float, done: float, reason: str | None) -> None:
     act = move(asked, done=done, part=1)
-    assert isinstance(act, Done | Cannot)
+    assert isinstance(act, Finish | Fail)
     assert act.figures["moved_m"] == done
     assert act.figures["residual_m"] == pytest.approx(abs(asked - done))
     assert getattr(act, "reason", None) == reason
@@ -46,4 +46,4 @@ def test_room_is_told_in_metres_and_a_pose_is_waited_for() -> None:
     assert said is not None
     assert "1.5 m" in said.en
     assert "1.5 米" in said.zh
-    assert isinstance(move(1.0, pose=None), Later)
+    assert isinstance(move(1.0, pose=None), Retry)

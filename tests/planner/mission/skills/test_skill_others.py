@@ -9,11 +9,11 @@ import pytest
 
 from planner.mission.skills import (
     SKILLS,
-    Act,
-    Cannot,
-    Done,
     Drive,
+    Fail,
+    Finish,
     Question,
+    SkillAction,
     Skip,
     Speak,
     Stand,
@@ -44,25 +44,25 @@ def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
     [
         ("go_to", {"place": "hall"}, {}, Drive(HALL, heading=False, target="hall")),
         ("go_to", {"place": "dock"}, {}, Drive(DOCK, heading=True, target="dock")),
-        ("go_to", {"place": "hall"}, {"part": 1}, Done()),
+        ("go_to", {"place": "hall"}, {"part": 1}, Finish()),
         ("return_home", {}, {}, Drive(DOCK, heading=True, target="dock")),
-        ("return_home", {}, {"part": 1}, Done()),
+        ("return_home", {}, {"part": 1}, Finish()),
         ("come_back", {}, {"accepted": BACK}, Drive(BACK, heading=True)),
-        ("come_back", {}, {"accepted": BACK, "part": 1}, Done()),
-        ("come_back", {}, {"accepted": None}, Cannot(Code.NO_ROUTE, "no_route")),
+        ("come_back", {}, {"accepted": BACK, "part": 1}, Finish()),
+        ("come_back", {}, {"accepted": None}, Fail(Code.NO_ROUTE, "no_route")),
         ("patrol", {"places": ("hall", "dock")}, {}, Drive(HALL, heading=False, target="hall")),
         ("patrol", {"places": ("hall", "dock")}, {"part": 1}, Drive(DOCK, True, target="dock")),
-        ("patrol", {"places": ("hall", "dock")}, {"part": 2}, Done({"visited": 2})),
+        ("patrol", {"places": ("hall", "dock")}, {"part": 2}, Finish({"visited": 2})),
         ("wait", {"seconds": 3.0}, {}, Stand(3.0)),
         ("say", {"text": "hi"}, {}, Speak("hi")),
         ("say", {"text": "hi", "state": StepState.RUNNING}, {}, Skip("perhaps_said")),
         ("ask", {"text": "who?"}, {}, Question(same("who?"))),
-        ("ask", {"text": "who?", "answer": "me"}, {}, Done()),
+        ("ask", {"text": "who?", "answer": "me"}, {}, Finish()),
         ("decide", {"text": "where?"}, {}, Think()),
     ],
 )
 def test_each_skill_asks_for_one_thing(
-    kind: str, step: dict[str, Any], more: dict[str, Any], act: Act
+    kind: str, step: dict[str, Any], more: dict[str, Any], act: SkillAction
 ) -> None:
     assert act_of(scene(kind, step=step, **more)) == act
 
@@ -74,7 +74,7 @@ def test_each_skill_asks_for_one_thing(
 def test_a_place_that_is_gone_is_not_driven_to(kind: str, step: dict[str, Any]) -> None:
     facts = replace(FACTS, home="attic")
     act = act_of(scene(kind, step=step, facts=facts, part=1 if kind == "patrol" else 0))
-    assert isinstance(act, Cannot)
+    assert isinstance(act, Fail)
     assert (act.code, act.reason) == (Code.UNKNOWN_PLACE, "place_gone")
     assert act.said is not None
     assert "attic" in act.said.en
@@ -84,5 +84,5 @@ def test_a_place_that_is_gone_is_not_driven_to(kind: str, step: dict[str, Any]) 
 @pytest.mark.parametrize("kind", sorted(NEEDS_CAMERA))
 def test_what_needs_a_camera_says_so(kind: str) -> None:
     act = act_of(scene(kind))
-    assert isinstance(act, Cannot)
+    assert isinstance(act, Fail)
     assert act.code is Code.NO_CAMERA

@@ -7,7 +7,16 @@ from typing import Any
 
 import pytest
 
-from planner.mission.skills import Act, Cannot, Drive, Eyesight, Gaze, Inquire, Question, act_of
+from planner.mission.skills import (
+    AskImage,
+    Drive,
+    Eyesight,
+    Fail,
+    Observe,
+    Question,
+    SkillAction,
+    act_of,
+)
 from planner.mission.skills.model_pointing import AGAIN, ANSWER, PROPOSED
 from planner.mission.skills.perception import Answer
 from planner.mission.skills.skill_state import NOTHING
@@ -20,7 +29,7 @@ AT = (4.0, 0.5, 0.4)
 ASKED = NOTHING.but(stage=PROPOSED, pointed=AT)
 
 
-def going(reply: str | None = None, **more: Any) -> Act:
+def going(reply: str | None = None, **more: Any) -> SkillAction:
     """Return what a goal to the guitar does next, where a person answered so."""
     step = {"object": "guitar", "answer": reply}
     return act_of(scene("go_to_object", step=step, **({"eyes": EYES, "notes": ASKED} | more)))
@@ -72,7 +81,7 @@ def test_a_yes_drives_to_the_point_that_was_told_and_asks_no_model_again() -> No
 @pytest.mark.parametrize("stage", [PROPOSED, AGAIN])
 def test_a_no_ends_it(stage: int) -> None:
     act = going("no, thanks", notes=ASKED.but(stage=stage))
-    assert isinstance(act, Cannot)
+    assert isinstance(act, Fail)
     assert (act.code, act.reason) == (Code.POINT_REFUSED, "point_declined")
     assert act.said is not None
     assert act.said.en == "You did not say yes, so I do not drive there."
@@ -85,12 +94,12 @@ def test_what_is_neither_is_asked_once_more_and_is_then_a_no() -> None:
     assert act.text.zh.startswith("请回答“是”或“不”。")
     assert act.notes is not None
     assert going(notes=act.notes) == act, "interrupted"
-    assert isinstance(going("hm", notes=act.notes), Cannot)
+    assert isinstance(going("hm", notes=act.notes), Fail)
     assert isinstance(going("yes", notes=act.notes), Drive)
 
 
 def test_an_answer_to_another_question_is_none_to_this_point() -> None:
-    assert isinstance(going("yes", notes=NOTHING), Gaze)
-    assert isinstance(going("yes", notes=NOTHING.but(stage=ANSWER)), Inquire)
+    assert isinstance(going("yes", notes=NOTHING), Observe)
+    assert isinstance(going("yes", notes=NOTHING.but(stage=ANSWER)), AskImage)
     fresh = going("yes", notes=NOTHING.but(stage=ANSWER), answer=Answer(at=AT))
     assert isinstance(fresh, Question)

@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 
 from planner.mission.skills import (
-    Cannot,
-    Done,
+    AskImage,
     Drive,
     Eyesight,
-    Gaze,
-    Inquire,
+    Fail,
+    Finish,
+    Observe,
     Wanted,
     Way,
 )
@@ -25,7 +25,7 @@ from planner.mission.skills.perception import Answer
 from planner.mission.skills.result_text import counted, found_at, listed, looked_in
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import REACH_M, in_order, room_of, spots_in
-from planner.mission.state import Facts, Target
+from planner.mission.state import SiteView, Target
 from planner.plan import Bilingual, Code
 from planner.settings.model import ModelSettings
 from tests.planner.mission.fakes import FACTS
@@ -35,7 +35,7 @@ from wire import CameraConfig, Pose2
 
 def test_what_is_sure_fits_and_is_fresh_is_told_and_nothing_else() -> None:
     told = looking("find", thing(), gazed_s=NOW_S - 1.0)
-    assert isinstance(told, Done)
+    assert isinstance(told, Finish)
     assert told.code is Code.FOUND
     assert told.figures["found"].distance_m == 1.6
     for other in (
@@ -46,7 +46,7 @@ def test_what_is_sure_fits_and_is_fresh_is_told_and_nothing_else() -> None:
         {"sightings": 1},
         {"seen_s": NOW_S - 2.0},
     ):
-        assert isinstance(looking("find", thing(**other), gazed_s=NOW_S - 1.0), (Drive, Gaze))
+        assert isinstance(looking("find", thing(**other), gazed_s=NOW_S - 1.0), (Drive, Observe))
 
 
 def test_what_is_remembered_is_looked_at_again_once() -> None:
@@ -61,11 +61,11 @@ def test_what_is_remembered_is_looked_at_again_once() -> None:
     assert far.otherwise is not None
     assert far.otherwise.tried == ("cup_1",)
     gaze = looking("find", thing(), notes=Notes(aim="cup_1", stage=2))
-    assert isinstance(gaze, Gaze)
+    assert isinstance(gaze, Observe)
     assert gaze.then is not None
     assert gaze.then.tried == ("cup_1",)
     tried = looking("find", thing(), notes=gaze.then)
-    assert isinstance(tried, (Drive, Gaze))
+    assert isinstance(tried, (Drive, Observe))
     assert tried.then is not None
     assert tried.then.spot == "here", "then it looks round"
 
@@ -76,10 +76,10 @@ def test_a_thing_whose_colour_light_may_have_changed_is_looked_at_last_of_all() 
     for _ in range(200):  # each act is done as it asks
         act = looking("find", doubtful, other, notes=notes)
         acts.append(act)
-        if isinstance(act, Cannot):
+        if isinstance(act, Fail):
             break
         notes = act.then or notes
-    assert isinstance(acts[-1], Cannot)
+    assert isinstance(acts[-1], Fail)
     assert notes.tried == ("cup_1",), "a red cup may look brown, and never blue"
     again = next(i for i, act in enumerate(acts) if act.then.tried)
     assert again >= len(acts) - 2, "after all rooms"
@@ -95,7 +95,9 @@ def test_rooms_come_in_a_sensible_order() -> None:
         around = tuple((x + x_m, y) for x, y in square)
         return Target(name, True, Bilingual(en=name, zh=name), Pose2(x_m, 0, 0), around)
 
-    facts = Facts({n: room(n, x) for n, x in (("a", 0), ("b", 4), ("c", 8), ("d", -6))}, home="a")
+    facts = SiteView(
+        {n: room(n, x) for n, x in (("a", 0), ("b", 4), ("c", 8), ("d", -6))}, home="a"
+    )
     assert in_order(facts, HERE, ()) == ("a", "b", "c", "d")
     assert in_order(facts, Pose2(8, 0, 0), ()) == ("c", "b", "a", "d")
     assert in_order(facts, HERE, (thing(room="d"),)) == ("a", "d", "b", "c")
@@ -161,31 +163,31 @@ def test_without_means_a_step_is_refused_and_a_model_may_point() -> None:
         (EYES, blind, Code.NO_DETECTOR),
     ):
         act = looking("find", eyes=eyes, sight=seen)
-        assert isinstance(act, Cannot)
+        assert isinstance(act, Fail)
         assert act.code is code
     unknown = looking("find", step={"object": "guitar"})
-    assert isinstance(unknown, Cannot)
+    assert isinstance(unknown, Fail)
     assert unknown.code is Code.OBJECT_UNKNOWN
     model = replace(EYES, model=True)
     asks = looking("go_to_object", step={"object": "guitar"}, eyes=model, notes=Notes(stage=2))
-    assert asks == Inquire("guitar", point=True, then=Notes(stage=3))
+    assert asks == AskImage("guitar", point=True, then=Notes(stage=3))
     which: dict[str, Any] = {"step": {"object": "the small cup"}, "notes": Notes(stage=2)}
-    assert isinstance(looking("go_to_object", thing(), eyes=model, **which), Inquire)
-    assert isinstance(looking("go_to_object", thing(), **which), Cannot)
+    assert isinstance(looking("go_to_object", thing(), eyes=model, **which), AskImage)
+    assert isinstance(looking("go_to_object", thing(), **which), Fail)
 
 
 def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() -> None:
     model = replace(EYES, model=True)
     step = {"object": None, "text": "what do you see?"}
-    assert isinstance(looking("look", step=step, eyes=model), Gaze)
+    assert isinstance(looking("look", step=step, eyes=model), Observe)
     asked = looking("look", step=step, eyes=model, notes=Notes(stage=1))
-    assert isinstance(asked, Inquire)
+    assert isinstance(asked, AskImage)
     words = Bilingual(en="A sign: go to the kitchen", zh="牌子：去厨房")
     done = looking(
         "look", thing(), step=step, eyes=model, notes=Notes(stage=2), spent_s=3.0,
         answer=Answer(text=words),
     )  # fmt: skip
-    assert isinstance(done, Done)
+    assert isinstance(done, Finish)
     assert done.read == Bilingual(
         en="The vision model, shown the picture ahead, adds: A sign: go to the kitchen.",
         zh="视觉模型（看的是前方的画面）补充：牌子：去厨房。",
@@ -209,22 +211,22 @@ def test_only_who_asks_for_it_has_the_robot_turn_about(question: str, about: boo
 
 def test_an_answer_is_waited_for_as_long_as_a_model_may_be_given() -> None:
     longest_s = ModelSettings.model_json_schema()["properties"]["timeout_s"]["maximum"]
-    assert longest_s < Inquire().seconds
+    assert longest_s < AskImage().seconds
 
 
 def test_one_picture_alone_sets_nothing_off_and_proves_nothing() -> None:
     anna = {"id": "person_1", "label": "person", "color": None, "x_m": 3.0}
     step: dict[str, Any] = {"step": {"object": "person"}}
     ghost = looking("follow", thing(**anna, sightings=1), **step)
-    assert isinstance(ghost, Gaze)
+    assert isinstance(ghost, Observe)
     assert isinstance(looking("follow", thing(**anna, sightings=2), **step), Drive)
     known = Notes(at=(3.0, 0.0, 0.9), label="person")
     assert isinstance(looking("follow", thing(**anna, sightings=1), notes=known, **step), Drive)
     there = Notes(stage=JUDGE, at=(1.6, 0.0, 0.8), label="cup", color="red")
     gazed: dict[str, Any] = {"notes": there, "gazed_s": NOW_S - 1.0}
     unsure = thing(sightings=2, confidence=0.4)
-    assert isinstance(looking("go_to_object", unsure, **gazed), Done), "it was found before"
-    assert not isinstance(looking("go_to_object", thing(sightings=1), **gazed), Done)
+    assert isinstance(looking("go_to_object", unsure, **gazed), Finish), "it was found before"
+    assert not isinstance(looking("go_to_object", thing(sightings=1), **gazed), Finish)
 
 
 def test_what_was_seen_for_a_moment_only_sets_nothing_off() -> None:
@@ -233,14 +235,14 @@ def test_what_was_seen_for_a_moment_only_sets_nothing_off() -> None:
     glimpsed, watched = NOW_S - 0.5 - APART_S + 0.01, NOW_S - 0.5 - APART_S
     for notes in (Notes(), Notes(stage=1, spot="here", turned=2)):
         act = looking("follow", thing(**anna, first_s=glimpsed), notes=notes, **step)
-        assert isinstance(act, Gaze), "watched until that is sure, standing too"
+        assert isinstance(act, Observe), "watched until that is sure, standing too"
         assert act.watch
         assert (act.notes, act.then) == (notes, notes)
         assert isinstance(looking("follow", thing(**anna, first_s=watched), **step), Drive)
     late = looking("follow", thing(**anna, first_s=glimpsed), spent_s=26.0, **step)
-    assert isinstance(late, Cannot), "not for ever"
+    assert isinstance(late, Fail), "not for ever"
     gone = looking("follow", thing(**anna, first_s=glimpsed, seen_s=NOW_S - 2.0), **step)
-    assert isinstance(gone, Gaze)
+    assert isinstance(gone, Observe)
     assert gone.then == Notes(stage=1), "then it looks round"
 
 
@@ -248,7 +250,7 @@ def test_a_thing_that_was_seen_for_a_moment_is_looked_at_again_before_the_way_to
     glimpsed = thing(first_s=NOW_S - 0.6)
     gazed: dict[str, Any] = {"gazed_s": NOW_S - 1.0}
     again = looking("go_to_object", glimpsed, **gazed)
-    assert isinstance(again, Gaze)
+    assert isinstance(again, Observe)
     assert again.then is not None
     assert again.then.tried == ("cup_1",)
     near = looking("go_to_object", glimpsed, notes=again.then, **gazed)
@@ -267,11 +269,11 @@ def test_what_was_seen_on_the_way_and_is_hidden_from_where_one_stands_is_said_to
     at = (1.6, 0.0, 0.8)
     arrived = Notes(stage=FACE, at=at, label="cup", color="red")
     look = looking("go_to_object", thing(seen_s=NOW_S - 4.0), notes=arrived)
-    assert isinstance(look, Gaze)
+    assert isinstance(look, Observe)
     judge, gazed = look.then, {"gazed_s": NOW_S - 1.0}
     assert judge is not None
     hidden = looking("go_to_object", thing(seen_s=NOW_S - 5.0, x_m=1.5), notes=judge, **gazed)
-    assert isinstance(hidden, Done)
+    assert isinstance(hidden, Finish)
     assert hidden.said is not None
     assert "1.5 m" in hidden.said.en, "by where it was seen last"
     blue = thing(id="cup_2", color="blue", seen_s=NOW_S - 0.2)
@@ -282,13 +284,13 @@ def test_what_was_seen_on_the_way_and_is_hidden_from_where_one_stands_is_said_to
         thing(seen_s=NOW_S - 21.0),
         thing(seen_s=NOW_S - 5.0, x_m=2.3),
     ):
-        assert not isinstance(looking("go_to_object", other, notes=judge, **gazed), Done)
+        assert not isinstance(looking("go_to_object", other, notes=judge, **gazed), Finish)
     doubtful = judge.but(sure=0.5)
     unsure = thing(seen_s=NOW_S - 5.0, confidence=0.5)
-    assert not isinstance(looking("go_to_object", unsure, notes=doubtful, **gazed), Done)
+    assert not isinstance(looking("go_to_object", unsure, notes=doubtful, **gazed), Finish)
     unknown = judge.but(sure=None)
     seen = thing(seen_s=NOW_S - 5.0)
-    assert not isinstance(looking("go_to_object", seen, notes=unknown, **gazed), Done)
+    assert not isinstance(looking("go_to_object", seen, notes=unknown, **gazed), Finish)
 
 
 def test_what_was_not_seen_on_the_way_is_not_said_to_be_there() -> None:
@@ -296,11 +298,11 @@ def test_what_was_not_seen_on_the_way_is_not_said_to_be_there() -> None:
     notes = Notes(stage=FACE, at=at, label="cup", color="red")
     assert not EYES.should_see(HERE, at), "it lies before the feet"
     there = thing(x_m=0.9, z_m=0.05, seen_s=NOW_S - 9.0)
-    assert isinstance(looking("go_to_object", there, notes=notes), Done)
+    assert isinstance(looking("go_to_object", there, notes=notes), Finish)
     for other in (replace(there, confidence=0.29), replace(there, color="blue")):
-        assert not isinstance(looking("go_to_object", other, notes=notes), Done)
+        assert not isinstance(looking("go_to_object", other, notes=notes), Finish)
     again = looking("go_to_object", notes=notes)
-    assert isinstance(again, (Drive, Gaze)), "it is looked for once more"
+    assert isinstance(again, (Drive, Observe)), "it is looked for once more"
     told = looking("go_to_object", notes=notes.but(again=1))
-    assert isinstance(told, Cannot)
+    assert isinstance(told, Fail)
     assert told.reason == "moved"

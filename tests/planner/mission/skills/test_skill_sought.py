@@ -9,7 +9,7 @@ import pytest
 from planner.mission.skills import Wanted
 from planner.mission.skills.object_query import FLOOR, Sought, sought_in
 from planner.mission.skills.spatial_relations import Relation
-from planner.mission.state import Facts, Target
+from planner.mission.state import SiteView, Target
 from planner.plan import Bilingual
 from tests.planner.mission.fakes import room
 from wire import Pose2
@@ -19,7 +19,7 @@ ON, UNDER, NEAR = Relation
 KITCHEN = replace(room("kitchen", 8.0), name=Bilingual(en="kitchen", zh="厨房"))
 SOFA = Target("sofa", False, Bilingual(en="sofa", zh="沙发"), Pose2(4.0, 0.5, 0.0))
 FRIDGE = Target("fridge", False, Bilingual(en="fridge", zh="冰箱"), Pose2(4.0, 0.5, 0.0))
-HOME = Facts({t.id: t for t in (KITCHEN, SOFA, FRIDGE)}, home="sofa")
+HOME = SiteView({t.id: t for t in (KITCHEN, SOFA, FRIDGE)}, home="sofa")
 CUP, TABLE, CHAIR = Wanted("cup"), Wanted("table"), Wanted("chair")
 
 
@@ -27,8 +27,14 @@ CUP, TABLE, CHAIR = Wanted("cup"), Wanted("table"), Wanted("chair")
     ("question", "sought"),
     [
         ("is the cup on the table?", Sought(CUP, ON, TABLE)),
-        ("Is there a red cup on top of the table now?", Sought(Wanted("cup", "red"), ON, TABLE)),
-        ("do you see a cup beneath the blue chair", Sought(CUP, UNDER, Wanted("chair", "blue"))),
+        (
+            "Is there a red cup on top of the table now?",
+            Sought(Wanted("cup", "red"), ON, TABLE),
+        ),
+        (
+            "do you see a cup beneath the blue chair",
+            Sought(CUP, UNDER, Wanted("chair", "blue")),
+        ),
         ("check if the cup is next to the table", Sought(CUP, NEAR, TABLE)),
         ("is anybody sitting on the chair", Sought(Wanted("person"), ON, CHAIR)),
         ("what is on the table?", Sought(None, ON, TABLE)),

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.mission.skills import Cannot, Done, Drive, Later, Way, act_of
+from planner.mission.skills import Drive, Fail, Finish, Retry, Way, act_of
 from planner.mission.skills.turn import PART_RAD
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2, wrap
@@ -30,7 +30,7 @@ def test_the_parts_add_up_whatever_each_leaves(angle: float, yaw: float, off: fl
         pose, part = Pose2(1.0, 2.0, wrap(act.goal.yaw_rad + off)), part + 1
         assert part <= 10
     assert abs(done - angle) <= 0.1 + 1e-6
-    assert isinstance(act, Done) == (abs(done - angle) <= abs(angle) / 2)
+    assert isinstance(act, Finish) == (abs(done - angle) <= abs(angle) / 2)
 
 
 @pytest.mark.parametrize(
@@ -52,11 +52,11 @@ def test_after_a_pause_only_what_is_left_is_turned(
 )
 def test_the_verdict_is_odometrys(asked: float, done: float, reason: str | None) -> None:
     act = turn(asked, pose=Pose2(0, 0, wrap(asked)), done=done, part=1)
-    assert isinstance(act, Done | Cannot)
+    assert isinstance(act, Finish | Fail)
     assert act.figures == {"turned_rad": round(done, 4), "residual_rad": round(asked - done, 4)}
     assert getattr(act, "reason", None) == reason
 
 
 def test_a_pose_that_never_settles_ends_and_none_is_waited_for() -> None:
-    assert isinstance(turn(1.0, pose=Pose2(0, 0, 0.5), done=0.5, part=3), Cannot)
-    assert isinstance(turn(1.0, pose=None, began=None), Later)
+    assert isinstance(turn(1.0, pose=Pose2(0, 0, 0.5), done=0.5, part=3), Fail)
+    assert isinstance(turn(1.0, pose=None, began=None), Retry)

@@ -8,7 +8,7 @@ import pytest
 
 from planner.brain.model_error_codes import reason
 from planner.mission.skills import Scene
-from planner.mission.skills.actions import UNSEEN, Cannot, Done, Inquire
+from planner.mission.skills.actions import UNSEEN, AskImage, Fail, Finish
 from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.look import ASKED, NO_DETECTOR, look
 from planner.mission.skills.model_pointing import ANSWER
@@ -39,7 +39,7 @@ def after(kind: str, stage: int, answer: Answer, sight: Sight = UNSEEN, **step: 
 )
 def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
     act = look(after("look", ASKED, Answer(failure=failure), text="what is there?"))
-    assert isinstance(act, Done)
+    assert isinstance(act, Finish)
     assert act.said is not None
     assert act.said.en.startswith(SEEN)
     assert act.said.en.endswith(reason(code).en)
@@ -50,7 +50,7 @@ def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
 @pytest.mark.parametrize("answer", [Answer(text=same("a sofa")), Answer(failure="camera_silent")])
 def test_nothing_is_excused_where_nothing_went_wrong(answer: Answer) -> None:
     act = look(after("look", ASKED, answer, text="what is there?"))
-    assert isinstance(act, Done)
+    assert isinstance(act, Finish)
     assert act.said is not None
     assert act.said.en.startswith(SEEN)
     assert len(act.said.en) < len(SEEN) + 20
@@ -65,20 +65,20 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     """No gaze would ever end there; a place that is named still has to be looked round in."""
     ahead = scene("look", step={"text": "what is there?"}, eyes=EYES, sight=Sight(blind=NONE))
     act = look(ahead)
-    assert isinstance(act, Inquire)
+    assert isinstance(act, AskImage)
     assert (act.words, act.point) == ("what is there?", False)
     told = look(after("look", ASKED, Answer(text=same("a man"), seen=True), text="有人吗？",
                       sight=Sight(blind=NONE)))  # fmt: skip
-    assert isinstance(told, Done)
+    assert isinstance(told, Finish)
     assert told.said == NO_DETECTOR, "without a detector nobody has seen that nobody is there"
     assert told.read is not None
     assert told.read.en == "The vision model, shown the picture ahead, says yes: a man."
     for other in (Sight(blind="camera_silent"), Sight()):
-        assert not isinstance(look(replace(ahead, sight=other)), Inquire)
+        assert not isinstance(look(replace(ahead, sight=other)), AskImage)
     there = scene(
         "look", step={"text": "?", "place": "kitchen"}, eyes=EYES, sight=Sight(blind=NONE)
     )
-    assert not isinstance(look(there), Inquire)
+    assert not isinstance(look(there), AskImage)
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
 )
 def test_a_model_s_point_that_leads_nowhere_says_why(failure: str, code: Code, told: str) -> None:
     act = go_to_object(after("go_to_object", ANSWER, Answer(failure=failure), object="dragon"))
-    assert isinstance(act, Cannot)
+    assert isinstance(act, Fail)
     assert (act.code, act.reason) == (code, failure)
     assert act.said is not None
     assert told in act.said.en

@@ -7,7 +7,7 @@ from typing import Any
 from planner.mission.allowed_commands import ALLOWED, refusal
 from planner.mission.events import Cancel, ChangeSpeed, Move, Reply
 from planner.mission.reducer import advance
-from planner.mission.state import Book, Mission
+from planner.mission.state import Mission, MissionState
 from planner.plan import GoalState, Language
 from tests.planner.mission.fakes import FACTS
 
@@ -18,7 +18,7 @@ def test_every_command_in_every_state_is_allowed_or_refused_with_what_exists() -
         for state in GoalState:
             mission = Mission(id="g1", order=1, text="x", language=Language.EN, state=state,
                               created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
-            book = Book(FACTS, missions={"g1": mission})
+            book = MissionState(FACTS, missions={"g1": mission})
             given: dict[type, dict[str, Any]] = {
                 Reply: {"text": "x"},
                 ChangeSpeed: {"slower": True},
@@ -36,7 +36,7 @@ def test_every_command_in_every_state_is_allowed_or_refused_with_what_exists() -
 def test_unknown_goals_are_named_with_what_exists() -> None:
     mission = Mission(id="g1", order=1, text="x", language=Language.EN, state=GoalState.QUEUED,
                       created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
-    book = Book(FACTS, missions={"g1": mission}, queue=("g1",))
+    book = MissionState(FACTS, missions={"g1": mission}, queue=("g1",))
     for command in (Cancel("nope"), Move("g1", "nope")):
         error = refusal(book, command)
         assert error is not None

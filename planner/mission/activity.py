@@ -1,0 +1,161 @@
+"""Define what the running step is doing now, between two statuses: one record for each activity.
+
+An activity dies with the process; the journal keeps what is needed to begin it again. Data only:
+``*_s`` are on the caller's monotonic clock.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from planner.mission.skills.actions import Way
+from planner.mission.skills.perception import Wanted
+from planner.mission.skills.skill_state import Notes
+from planner.plan import Bilingual
+from wire import Pose2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _StepActivity:
+    record: int
+    """The journal entry that says this step started; nothing moves or speaks before it is safe."""
+    metres: float = 0.0
+    """What odometry says was driven, by whomever."""
+    amount: float = 0.0
+    """What odometry says was done in this leg, as in ``Mission.done``."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Driving(_StepActivity):
+    """Drive one leg to a goal: its route is searched, streamed, lost and searched again."""
+
+    goal: Pose2
+    heading: bool = False
+    """The goal's yaw matters too."""
+    way: Way = Way.ROUTE
+    target: str | None = None
+    """The place that is driven to."""
+    limit_s: float | None = None
+    limit_m: float | None = None
+    """The skill's budget for this leg."""
+    since_s: float
+    """When this leg began: the step's time is counted from here."""
+    asked_s: float
+    """When the skill was asked last."""
+    notes: Notes | None = None
+    """What the skill remembers while this leg lasts."""
+    then: Notes | None = None
+    """And once it is reached."""
+    otherwise: Notes | None = None
+    """And where its way is shut; None: then the step fails."""
+    wanted: Wanted | None = None
+    """As soon as this is seen for sure the skill is asked again."""
+    watch: bool = False
+    """The skill is asked again as the sight changes."""
+    moving_s: float = 0.0
+    """Time for which the leg was followed and nothing held it."""
+    left_m: float | None = None
+    """Along the path, as of the newest status."""
+    limited: dict[str, int] = field(default_factory=dict)
+    """Statuses during which the bridge's limit of that name was the nearest one."""
+    ticket: int | None = None
+    """The route that is being searched."""
+    ticket_detour: bool = False
+    """It is to lead round what the lidar sees."""
+    leg: int | None = None
+    """The leg that is streamed; None: stand."""
+    route_when_standing: bool = False
+    routes: int = 0
+    """Routes asked for in this step because one was lost or refused, not because of obstacles."""
+    detours_failed: int = 0
+    detours: int = 0
+    retry_s: float | None = None
+    """When the next try is due after a failed route."""
+    row_since_s: float | None = None
+    """Since when a row of the bridge, or what stands in the way, holds the robot."""
+    blocked_since_s: float | None = None
+    refused_since_s: float | None = None
+    idle_since_s: float | None = None
+    jumped: bool = False
+    """The pose jumped, and no new leg has begun since."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Retrying(_StepActivity):
+    """Stand, and ask the skill again soon: it had nothing to do yet, or its way was shut."""
+
+    retry_s: float
+    """When it is asked."""
+    since_s: float | None = None
+    """From when the step's time is counted; None: not at all."""
+    row_since_s: float | None = None
+    """Since when a row of the bridge holds the robot."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Observing(_StepActivity):
+    """Stand and take pictures in."""
+
+    since_s: float
+    asked_s: float
+    """When the skill was asked last."""
+    until_s: float
+    """When this ends anyhow."""
+    looks: int
+    """New pictures that are waited for."""
+    notes: Notes | None = None
+    then: Notes | None = None
+    wanted: Wanted | None = None
+    """This ends as soon as that is seen for sure."""
+    watch: bool = False
+    """The skill is asked again as the sight changes."""
+    look_seq: int = -1
+    """The newest picture that was counted."""
+    looked: int = 0
+    """Pictures that were counted."""
+    standing_s: float | None = None
+    """Since when the robot stands and pictures count."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AskingImage(_StepActivity):
+    """Stand until a question about the picture is answered."""
+
+    since_s: float
+    ticket: int
+    """The question whose answer is waited for."""
+    until_s: float
+    """When the wait ends without one."""
+    notes: Notes | None = None
+    then: Notes | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Waiting(_StepActivity):
+    """Stand until a time."""
+
+    until_s: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Speaking(_StepActivity):
+    """Say the step's words as soon as its beginning is on disk."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Asking(_StepActivity):
+    """Ask a person as soon as the step's beginning is on disk."""
+
+    question: Bilingual
+    aloud: bool = True
+    """The question is spoken; False where it was perhaps spoken before."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Thinking(_StepActivity):
+    """Stand while the brain thinks again."""
+
+
+Activity = Driving | Retrying | Observing | AskingImage | Waiting | Speaking | Asking | Thinking
+TIMED = (Driving, Retrying, Observing, AskingImage)
+"""Activities whose time and way are counted against the step's budget."""
