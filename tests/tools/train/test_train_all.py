@@ -19,10 +19,10 @@ def test_steps_come_in_order_and_where_they_belong(tmp_path: Path) -> None:
         tmp_path, learn, tmp_path / "m.onnx", frames=400, epochs=2, cores=1
     )
     steps = plan.steps()
-    names = ["frames"] * 3 + ["fit", "export", "settle", "judge", "card"]
-    assert [command[2] for command in steps] == [f"train.{name}" for name in names]
+    names = ["frames"] * 3 + ["training", "export", "score_calibration", "evaluation", "card"]
+    assert [command[2] for command in steps] == [f"tools.train.{name}" for name in names]
     own = [name for name, command in zip(names, steps, strict=True) if command[0] == str(learn)]
-    assert own == ["fit", "export", "settle"]
+    assert own == ["training", "export", "score_calibration"]
     assert all(command[0] in (str(learn), sys.executable) for command in steps)
 
 
