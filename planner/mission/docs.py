@@ -7,17 +7,17 @@ if that part differs, with ``--print`` it prints it.
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.mission.allowed_commands import ALLOWED, api_name
 from planner.mission.transitions import FIRST, TRANSITIONS
 from planner.plan import ENDED, GoalState
+from pons_assets import ROOT, checkout
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-PATH = Path(__file__).parents[2] / "docs" / "missions.md"
+PATH = ROOT / "docs" / "missions.md"
 BEGIN = (
     "<!-- printed by `python -m planner.mission.docs`: edit planner/mission/transitions.py -->\n"
 )
@@ -75,6 +75,7 @@ def main(arguments: list[str]) -> int:
     if arguments == ["--print"]:
         print(tables_md(), end="")
         return 0
+    checkout("writing docs/missions.md")
     page = PATH.read_text("utf-8")
     fresh = with_tables(page)
     if arguments == ["--check"]:

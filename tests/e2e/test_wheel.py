@@ -133,7 +133,12 @@ def test_what_looks_at_machine_plans_and_pictures_works_without_a_checkout(
 
 
 def test_what_needs_a_checkout_says_so(installed: InstalledSystem) -> None:
-    for module in ("wire.docs", "planner.openapi", "bridge.core.faults.docs"):
+    for module in (
+        "wire.docs",
+        "planner.openapi",
+        "bridge.core.safety_page",
+        "planner.mission.docs",
+    ):
         asked = installed.run("-m", module, "--check")
         assert asked.returncode == 1
         assert asked.stderr.startswith("needs_checkout: "), asked.stderr
