@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 
 from planner.brain.errors import OutOfBudget
 from planner.brain.usage_meter import THINKING_ABOUT
-from planner.budget.messages import IDLE, UNWRITABLE, refusal
 from planner.budget.report import Amounts, Most, Refused, Usage
 from planner.budget.totals import Overrun, Spent, cost, overrun
 from planner.budget.utc_day import Clocks, Days
+from planner.language.catalogue import say
+from planner.plan import same
 
 if TYPE_CHECKING:
     from planner.budget.ledger import Ledger
@@ -26,6 +27,8 @@ log = logging.getLogger(__name__)
 
 MAX_TOKENS = 10_000_000
 """Of one call; a server that claims more is not believed."""
+UNWRITABLE = say("budget.unwritable")
+IDLE = say("budget.idle")
 
 
 class Purse:
@@ -188,3 +191,19 @@ class OpenCall:
 def _amounts(spent: Spent) -> Amounts:
     rounded = asdict(spent) | {"seconds": round(spent.seconds, 3), "money": round(spent.money, 6)}
     return Amounts(**rounded)
+
+
+def refusal(over: Overrun, resets_in_s: float, currency: str | None) -> OutOfBudget:
+    """Return the error of a limit that the next call would pass."""
+    unit = same(currency or "") if over.kind == "money" else say(f"budget.{over.kind}")
+    spent, limit = _number(over.spent), _number(over.limit)
+    minutes = int(resets_in_s // 60) + 1
+    later = say("budget.at_midnight", hours=minutes // 60, minutes=minutes % 60)
+    when = say("budget.never") if over.per == "goal" else later
+    per = say(f"budget.per_{over.per}")
+    said = say("budget.refusal", per=per, spent=spent, limit=limit, unit=unit, when=when)
+    return OutOfBudget(f"{over.kind} per {over.per}: {spent} of {limit}", said)
+
+
+def _number(value: float) -> str:
+    return f"{value:.0f}" if value == int(value) else f"{value:.4g}"
