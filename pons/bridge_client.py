@@ -8,9 +8,7 @@ name the right one.
 from __future__ import annotations
 
 import secrets
-import socket
 import time
-from contextlib import closing
 from typing import TYPE_CHECKING
 
 from bridge.operator_key import load_operator_key
@@ -29,7 +27,7 @@ from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, FENCE, OPS, STATUS, STOP, Party
 from wire.operator_hmac import NEEDS_PROOF
 from wire.session import Publisher, Session, Subscriber, open_session
-from wire.sockets import Endpoints, misplaced_listener, unreachable
+from wire.sockets import Endpoints, connect_refusal, misplaced_listener, unreachable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -67,15 +65,10 @@ def out_of_reach(settings: Settings) -> str | None:
     nobody listens at any more is of a bridge that has died, and can't have confirmed anything.
     """
     path = Endpoints(settings.home).socket(BRIDGE_DOOR)
-    try:
-        with closing(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)) as probe:
-            probe.setblocking(False)
-            probe.connect(str(path))
-    except (BlockingIOError, ConnectionRefusedError):
+    error = connect_refusal(path)
+    if error is None or isinstance(error, ConnectionRefusedError):
         return None
-    except OSError as error:
-        return f"{path}: {error.strerror or error}"
-    return None
+    return f"{path}: {error.strerror or error}"
 
 
 def ask_direct(settings: Settings, kind: OpKind) -> Answer:

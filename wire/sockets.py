@@ -167,15 +167,20 @@ def is_listening(path: Path) -> bool:
 
     Nothing is waited for: a full queue of others who connect is a listener too, hung or not.
     """
+    return connect_refusal(path) is None
+
+
+def connect_refusal(path: Path) -> OSError | None:
+    """Return at once why the kernel lets this user not connect to a socket; None where it does."""
     with closing(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)) as probe:
         probe.setblocking(False)
         try:
             probe.connect(str(path))
         except BlockingIOError:
-            return True  # so many wait that it takes no more
-        except OSError:
-            return False
-    return True
+            return None  # so many wait that it takes no more
+        except OSError as error:
+            return error
+    return None
 
 
 def _listening_uid(path: Path) -> int:
