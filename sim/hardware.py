@@ -48,6 +48,8 @@ class Hardware:
     lidar_noise_m: Annotated[float, Field(ge=0.0, le=0.2)] = 0.01
     lidar_dropout: Annotated[float, Field(ge=0.0, le=0.9)] = 0.002
     """Share of beams that do not come back though something is there."""
+    lidar_sweep_s: Annotated[float, Field(ge=0.0, le=0.2)] = 0.0
+    """From a scan's first beam to its last; a real one turns for a whole period. 0: all at once."""
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(
         extra="forbid", allow_inf_nan=False, strict=True
     )

@@ -73,6 +73,9 @@ class Scan(Record):
     range_min_m: Range
     range_max_m: Range
     ranges_m: Annotated[tuple[Range | None, ...], Field(max_length=MAX_BEAMS)]
+    time_increment_s: Annotated[float, Field(ge=0.0, le=0.01)] = 0.0
+    """Between two beams, as in sensor_msgs/LaserScan; ``stamp_s`` is the first beam's. 0: all beams
+    were taken at one instant."""
 
 
 class Imu(Record):

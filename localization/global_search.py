@@ -1,0 +1,147 @@
+"""Find a robot on a whole map from one scan, and tell whether the answer may be believed.
+
+A coarse lattice (0.2 m, 3 degrees) rates every free position; the best of them, well apart, are
+aligned by Gauss-Newton and scored (localization.quality). The answer is sure where the best place
+leads every other by 0.30 of the score: two equal rooms are never sure, and ask for a person.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from localization.correlative_search import LatticeSearch, WindowSearch
+from localization.quality import ENOUGH_SCORE, scores
+from localization.scan_matching import align, thin
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from localization.distance_field import DistanceField
+
+    Floats = NDArray[np.float64]
+
+STEP_M, STEP_RAD = 0.2, radians(3.0)
+SIGMA_M = 0.15
+BEAMS = 90
+ALIGNED_BEAMS = 120
+RATED, ALIGNED, KEPT = 1000, 120, 5
+"""Lattice poses looked at, aligned, and given in the answer."""
+APART_M, APART_RAD = 0.5, radians(15.0)
+"""Poses closer than both are one place."""
+SEPARATE_M, SEPARATE_RAD = 0.35, radians(10.0)
+"""Starts closer than both would end in one place."""
+SURE_GAP = 0.30
+"""Between the best place and the next: 0 wrong and sure in all homes tried, at 0.10 some."""
+CLEAN_SCORE, CLEAN_GAP = 0.9, 0.12
+"""Where next to nothing is unexplained, a smaller lead is enough: what could make the true place
+look worse than a wrong one, things that the map does not know, would be seen here too."""
+CLEAR_M = 0.15
+"""A robot's centre is never nearer to an obstacle of the map."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """Hold one place where the robot may be."""
+
+    pose: tuple[float, float, float]
+    """x [m], y [m], yaw [rad] of ``base`` in ``map``."""
+    score: float
+
+
+def is_sure(candidates: tuple[Candidate, ...]) -> bool:
+    """Return whether the first candidate is good and leads the second far enough."""
+    if not candidates or not candidates[0].score >= ENOUGH_SCORE:
+        return False
+    gap = candidates[0].score - (candidates[1].score if len(candidates) > 1 else 0.0)
+    return gap >= SURE_GAP or (candidates[0].score >= CLEAN_SCORE and gap >= CLEAN_GAP)
+
+
+class GlobalSearch:
+    """Search one map."""
+
+    def __init__(self, field: DistanceField) -> None:
+        self.field = field
+        self._lattice = LatticeSearch(field, step_m=STEP_M, sigma_m=SIGMA_M)
+        self._window = WindowSearch.over(field)
+        row, column = self._lattice.positions()
+        standable = field.free[row, column] & (field.distance_m[row, column] >= CLEAR_M)
+        self._standable = np.flatnonzero(standable)
+        x_m, y_m = field.cell_centre(row.ravel(), column.ravel())
+        self._xy_m = np.column_stack((x_m, y_m))[self._standable]
+
+    def everywhere(self, points_m: Floats, lidar_m: tuple[float, float]) -> tuple[Candidate, ...]:
+        """Return the places that fit a scan best, best first, at most five.
+
+        Args:
+            points_m: returns in ``base``, shape (n, 2).
+            lidar_m: where the lidar is in ``base``.
+        """
+        if not len(points_m) or not len(self._standable):
+            return ()
+        return self._judge(points_m, lidar_m, self._rated_starts(thin(points_m, BEAMS)))
+
+    def around(
+        self, points_m: Floats, lidar_m: tuple[float, float], pose: Floats, radius_m: float
+    ) -> tuple[Candidate, ...]:
+        """Return the best place within a radius of a pose that a person named, or none."""
+        if not len(points_m):
+            return ()
+        start = self._window.best(points_m, pose, radius_m, radians(30.0))
+        found = self._judge(points_m, lidar_m, np.stack((start, pose)))
+        near = (
+            one
+            for one in found
+            if np.hypot(one.pose[0] - pose[0], one.pose[1] - pose[1]) <= radius_m
+        )
+        return tuple(near)[:1]
+
+    def _rated_starts(self, beams: Floats) -> Floats:
+        """Return the lattice's best poses, none close to another that is better."""
+        yaws = np.arange(0.0, 2 * np.pi, STEP_RAD)
+        ratings = np.stack(
+            [self._lattice.rate(beams, yaw).ravel()[self._standable] for yaw in yaws]
+        )
+        flat = ratings.ravel()
+        count = min(RATED, flat.size)
+        top = np.argpartition(flat, -count)[-count:]
+        top = top[np.argsort(flat[top], kind="stable")[::-1]]
+        turn, place = np.divmod(top, ratings.shape[1])
+        poses = np.column_stack((self._xy_m[place], yaws[turn]))
+        return apart(poses, SEPARATE_M, SEPARATE_RAD, ALIGNED)
+
+    def _judge(
+        self, points_m: Floats, lidar_m: tuple[float, float], starts: Floats
+    ) -> tuple[Candidate, ...]:
+        beams = thin(points_m, ALIGNED_BEAMS)
+        wide = align(self.field, beams, starts, loss_m=0.3, iterations=5).poses
+        poses = align(self.field, beams, wide, iterations=10).poses
+        rated = scores(self.field, beams, lidar_m, poses)
+        order = np.argsort(rated, kind="stable")[::-1]
+        best = apart(poses[order], APART_M, APART_RAD, KEPT)
+        best = apart(align(self.field, points_m, best).poses, APART_M, APART_RAD, KEPT)
+        rated = scores(self.field, points_m, lidar_m, best)
+        order = np.argsort(rated, kind="stable")[::-1]
+        return tuple(
+            Candidate((float(x_m), float(y_m), float(yaw)), float(score))
+            for (x_m, y_m, yaw), score in zip(best[order], rated[order], strict=True)
+        )
+
+
+def apart(poses: Floats, apart_m: float, apart_rad: float, most: int) -> Floats:
+    """Return poses, best first, without those close to an earlier one in place and in yaw."""
+    kept: list[int] = []
+    left = np.ones(len(poses), bool)
+    for index in range(len(poses)):
+        if not left[index]:
+            continue
+        kept.append(index)
+        if len(kept) == most:
+            break
+        offset = poses[:, :2] - poses[index, :2]
+        turn = np.abs((poses[:, 2] - poses[index, 2] + np.pi) % (2 * np.pi) - np.pi)
+        left &= (np.hypot(offset[:, 0], offset[:, 1]) > apart_m) | (turn > apart_rad)
+    return poses[kept]

@@ -1,0 +1,379 @@
+"""Track the robot on a map: messages and time in, ``odom`` in ``map`` with its quality out.
+
+Each scan is deskewed, aligned with the map from where odometry carried the last pose, and scored.
+Three scans in a row that do not fit make the robot lost; a search of the whole map, in another
+process, places it anew. Pure: told messages, search answers and the time; the node carries them.
+
+Laws, which the bridge's rows rely on:
+
+- A message is stamped with the newest odometry to which the pose was carried; its quality says
+  whether the map agrees, and falls with time and metres since the last scan that did.
+- No good message displaces the robot without a poor one before it (localization.jump_law).
+- A search's or a person's word counts only once a scan after it fits too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import radians
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from localization.correlative_search import WindowSearch
+from localization.deskew import PointCloud, deskew, sweep_s
+from localization.global_search import Candidate, is_sure
+from localization.jump_law import JumpLaw
+from localization.odometry_integration import OdometryTrail
+from localization.quality import ENOUGH_SCORE, quality_of, scores
+from localization.scan_matching import align
+from wire import Localization, Pose2, between, compose, inverse
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from localization.distance_field import DistanceField
+    from wire import Odometry, Scan
+    from wire.robot import LidarConfig
+
+    Floats = NDArray[np.float64]
+
+FEW_RETURNS = 30
+"""A scan with fewer says nothing: a cover, fog, an empty hall."""
+DOUBTED_SCORE = 0.8
+"""Below it the window around the pose is searched too; homes as mapped give 0.84 and more."""
+DOUBT_PAUSE_S = 0.5
+"""Between two such searches while the score is enough: among people it stays below for long."""
+TURNED_RAD = radians(6.0)
+"""Since the last scan: beyond it Gauss-Newton alone may settle beside the truth."""
+BETTER = 0.05
+"""The window's pose counts where its score leads by so much."""
+BAD_SCANS = 3
+OLDEST_S = 0.25
+"""Odometry older than this carries no pose; the bridge calls 0.3 s POSE_LOST."""
+UNSEEN_M = 1.0
+"""Of wheels without an accepted scan: farther, the pose is not looked for around itself."""
+SLIP_M_PER_RAD = 1.0
+"""Turns on which wheels and gyro disagree make the carried pose as doubtful as metres do."""
+SEARCH_PAUSE_S = 0.5
+ANSWER_S = 10.0
+"""A search that has not answered by then never will: its process ended."""
+OLD_SCAN_S = 0.5
+STANDING_MPS, STANDING_RADPS = 0.02, 0.05
+
+
+class LocalizerState(StrEnum):
+    """Name what the localizer does."""
+
+    SEARCHING = "searching"  # no pose since start
+    TRACKING = "tracking"
+    COASTING = "coasting"  # the newest scans did not fit, or say nothing
+    LOST = "lost"
+
+
+@dataclass(frozen=True, slots=True)
+class SearchRequest:
+    """Ask the search process where a scan was taken."""
+
+    number: int
+    points_m: Floats
+    around: Pose2 | None = None
+    """A pose that a person named; None searches the whole map."""
+    radius_m: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class HintAnswer:
+    """Say what became of a person's "I am here"."""
+
+    id: str
+    code: str
+    """``accepted``, ``moving``, ``no_scan``, ``does_not_fit``, ``busy`` or ``no_answer``."""
+    score: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Hint:
+    id: str
+    pose: Pose2
+    radius_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class _PlacedBase:
+    """Hold where ``base`` was in ``map``, and in the trail's frame at the same instant."""
+
+    in_map: Pose2
+    carried: Pose2
+
+    def at(self, carried: Pose2) -> Pose2:
+        """Return where ``base`` is in ``map`` when odometry has carried it on."""
+        return compose(self.in_map, between(self.carried, carried))
+
+
+@dataclass(frozen=True, slots=True)
+class _OpenSearch:
+    request: SearchRequest
+    carried: Pose2
+    asked_s: float
+    hint: _Hint | None
+
+
+class Localizer:
+    """Hold one robot's pose in one map."""
+
+    def __init__(self, field: DistanceField, lidar: LidarConfig, map_id: str) -> None:
+        self._field, self._lidar, self._map_id = field, lidar, map_id
+        self._lidar_m = (lidar.x_m, lidar.y_m)
+        self._window = WindowSearch.over(field)
+        self._window_s = -DOUBT_PAUSE_S
+        self._trail = OdometryTrail()
+        self._odometry: Odometry | None = None
+        self._scan: Scan | None = None
+        self._taken: Scan | None = None
+        """The newest scan that was used; its like is not used again."""
+        self.state = LocalizerState.SEARCHING
+        self.score = 0.0
+        """Of the newest scan at the tracked pose."""
+        self.candidates: tuple[Candidate, ...] = ()
+        """What the newest search found, best first."""
+        self._placed: _PlacedBase | None = None
+        self._trial: tuple[_PlacedBase, _Hint | None] | None = None
+        self._accepted_score = 0.0
+        self._accepted_at = (0.0, 0.0, 0.0)
+        """Stamp [s], metres of wheels and slip [rad] at the last accepted scan."""
+        self._blind_axis_m = 0.0
+        self._bad = 0
+        self._open: _OpenSearch | None = None
+        self._searched_s = -SEARCH_PAUSE_S
+        self._request: SearchRequest | None = None
+        self._requests = 0
+        self._hint: _Hint | None = None
+        self.hint_answer: HintAnswer | None = None
+        """To the newest hint, once there is one."""
+        self._jump_law = JumpLaw()
+        self._said_s: float | None = None
+        self._seq = 0
+
+    # Messages -------------------------------------------------------------------------------
+
+    def hear_odometry(self, odometry: Odometry) -> None:
+        """Take the bridge's odometry; another odom_id is another frame and starts anew."""
+        if self._odometry is not None and odometry.odom_id != self._odometry.odom_id:
+            self._change_odometry()
+        self._odometry = odometry
+        self._trail.add(odometry)
+
+    def hear_scan(self, scan: Scan) -> None:
+        """Keep a scan until odometry covers it; a newer one takes its place."""
+        self._scan = scan
+
+    def hear_hint(self, hint_id: str, pose: Pose2, radius_m: float) -> None:
+        """Take a person's word that the robot is at a pose, give or take a radius [m]."""
+        twist = None if self._odometry is None else self._odometry.twist
+        if self._hint is not None and self._hint.id == hint_id:
+            return
+        if self._hint is not None:
+            self.hint_answer = HintAnswer(hint_id, "busy")
+        elif twist is None or self._taken is None:
+            self.hint_answer = HintAnswer(hint_id, "no_scan")
+        elif not (abs(twist.v_mps) < STANDING_MPS and abs(twist.w_radps) < STANDING_RADPS):
+            self.hint_answer = HintAnswer(hint_id, "moving")
+        else:
+            self._hint, self._open = _Hint(hint_id, pose, radius_m), None
+
+    def hear_candidates(self, number: int, candidates: tuple[Candidate, ...]) -> None:
+        """Take a search's answer; an answer to a question that is not open is ignored."""
+        search = self._open
+        if search is None or search.request.number != number:
+            return
+        self._open = None
+        self.candidates = candidates
+        if search.hint is not None:
+            fits = bool(candidates) and candidates[0].score >= ENOUGH_SCORE
+            if not fits:
+                self._answer_hint("does_not_fit", candidates[0].score if candidates else 0.0)
+        else:
+            fits = is_sure(candidates)
+        if fits:
+            placed = _PlacedBase(Pose2(*candidates[0].pose), search.carried)
+            self._trial = (placed, search.hint)
+
+    def search_request(self) -> SearchRequest | None:
+        """Return the question for the search process, once; None while there is none."""
+        request, self._request = self._request, None
+        return request
+
+    # Scans ----------------------------------------------------------------------------------
+
+    def work(self, now_s: float) -> None:
+        """Use the newest scan, as soon as odometry covers it."""
+        self._drop_dead_search(now_s)
+        scan, newest = self._scan, self._trail.newest
+        if scan is None or newest is None:
+            return
+        end_s = scan.stamp_s + sweep_s(scan)
+        if newest.stamp_s < end_s <= newest.stamp_s + OLD_SCAN_S:
+            return  # its odometry is on the way
+        self._scan = None
+        taken, self._taken = self._taken, scan
+        fresh = newest.stamp_s - scan.stamp_s <= OLD_SCAN_S
+        if not fresh or not self._trail.covers(scan.stamp_s, end_s):
+            return
+        if taken is not None and taken.ranges_m == scan.ranges_m:
+            return  # a lidar that is stuck repeats itself to the millimetre; noise never does
+        cloud = deskew(scan, self._lidar, self._trail)
+        if len(cloud.points_m) >= FEW_RETURNS:
+            self._use(cloud, now_s)
+
+    def _use(self, cloud: PointCloud, now_s: float) -> None:
+        carried = self._trail.at(cloud.stamp_s)
+        if self._trial is not None and self._try_answer(cloud, carried):
+            return
+        if self._hint is not None and self._open is None:
+            hint = self._hint
+            self._ask(cloud, carried, now_s, hint)
+        if self._placed is None or self.state is LocalizerState.LOST:
+            self._search(cloud, carried, now_s)
+            return
+        predicted = self._placed.at(carried)
+        pose, score, free_axis = self._fit(cloud, predicted, carried)
+        self.score = score
+        if score >= ENOUGH_SCORE:
+            self._accept(cloud, _PlacedBase(pose, carried), score, free_axis)
+            return
+        self._bad += 1
+        self.state = LocalizerState.COASTING
+        if self._bad >= BAD_SCANS or self._unseen_m() > UNSEEN_M:
+            self.state = LocalizerState.LOST
+            self._search(cloud, carried, now_s)
+
+    def _fit(
+        self, cloud: PointCloud, predicted: Pose2, carried: Pose2
+    ) -> tuple[Pose2, float, Floats]:
+        """Return the pose that fits a scan best near a prediction, its score and free axis."""
+        start = _array(predicted)
+        pose, score, axis = self._aligned(cloud, start)
+        turned = self._placed is not None and (
+            abs(between(self._placed.carried, carried).yaw_rad) > TURNED_RAD
+        )
+        doubted = score < DOUBTED_SCORE and cloud.stamp_s - self._window_s >= DOUBT_PAUSE_S
+        if turned or doubted or score < ENOUGH_SCORE:
+            self._window_s = cloud.stamp_s
+            start = self._window.best(cloud.points_m, start)
+            other, rated, other_axis = self._aligned(cloud, start)
+            if rated > score + BETTER:
+                return other, rated, other_axis
+        return pose, score, axis
+
+    def _aligned(self, cloud: PointCloud, start: Floats) -> tuple[Pose2, float, Floats]:
+        result = align(self._field, cloud.points_m, start[None])
+        score = float(scores(self._field, cloud.points_m, self._lidar_m, result.poses)[0])
+        x_m, y_m, yaw = result.poses[0].tolist()
+        return Pose2(x_m, y_m, yaw), score, result.free_axis[0]
+
+    def _accept(
+        self, cloud: PointCloud, placed: _PlacedBase, score: float, free_axis: Floats
+    ) -> None:
+        last, self._placed = self._placed, placed
+        held = not free_axis.any()
+        if held or last is None or self.state is not LocalizerState.TRACKING:
+            self._blind_axis_m = 0.0
+        else:
+            x_m, y_m = placed.in_map.x_m - last.in_map.x_m, placed.in_map.y_m - last.in_map.y_m
+            self._blind_axis_m += abs(float(free_axis @ (x_m, y_m)))
+        self.state, self.score, self._accepted_score = LocalizerState.TRACKING, score, score
+        self._accepted_at = (cloud.stamp_s, *self._trail.counters_at(cloud.stamp_s))
+        self._bad = 0
+
+    # Searches -------------------------------------------------------------------------------
+
+    def _search(self, cloud: PointCloud, carried: Pose2, now_s: float) -> None:
+        if self._open is None and now_s - self._searched_s >= SEARCH_PAUSE_S:
+            self._ask(cloud, carried, now_s, None)
+
+    def _ask(
+        self, cloud: PointCloud, carried: Pose2, now_s: float, hint: _Hint | None
+    ) -> None:
+        self._requests += 1
+        self._searched_s = now_s
+        around, radius_m = (None, 0.0) if hint is None else (hint.pose, hint.radius_m)
+        self._request = SearchRequest(self._requests, cloud.points_m, around, radius_m)
+        self._open = _OpenSearch(self._request, carried, now_s, hint)
+
+    def _try_answer(self, cloud: PointCloud, carried: Pose2) -> bool:
+        """Judge a search's pose by a scan that the search did not have."""
+        if self._trial is None:
+            return False
+        (placed, hint), self._trial = self._trial, None
+        pose, score, axis = self._aligned(cloud, _array(placed.at(carried)))
+        fits = score >= ENOUGH_SCORE
+        if fits:
+            self._blind_axis_m = 0.0
+            self._accept(cloud, _PlacedBase(pose, carried), score, axis)
+        if hint is not None:
+            self._answer_hint("accepted" if fits else "does_not_fit", score)
+        return fits
+
+    def _answer_hint(self, code: str, score: float | None = None) -> None:
+        if self._hint is not None:
+            self.hint_answer, self._hint = HintAnswer(self._hint.id, code, score), None
+
+    def _drop_dead_search(self, now_s: float) -> None:
+        if self._open is not None and now_s - self._open.asked_s > ANSWER_S:
+            self._open = None
+            self._answer_hint("no_answer")
+
+    def _change_odometry(self) -> None:
+        """Begin another frame where the last one ended: nobody says that the robot was moved."""
+        newest = self._trail.newest
+        if self._placed is not None and newest is not None:
+            in_map = self._placed.at(newest.carried)
+            self._placed = _PlacedBase(in_map, Pose2(0.0, 0.0, 0.0))
+        self._trail.clear()
+        self._accepted_at = (self._accepted_at[0], 0.0, 0.0)
+        self._open = self._trial = None
+        self._answer_hint("no_answer")
+        self._jump_law.clear()
+
+    # What is said ---------------------------------------------------------------------------
+
+    def _unseen_m(self) -> float:
+        newest = self._trail.newest
+        if newest is None:
+            return 0.0
+        _, metres, slip_rad = self._accepted_at
+        slipped = max(0.0, newest.slip_rad - slip_rad)
+        return max(0.0, newest.travelled_m - metres) + SLIP_M_PER_RAD * slipped
+
+    def answer(self, now_s: float) -> Localization | None:
+        """Return ``odom`` in ``map`` for the newest odometry; None without a pose or news."""
+        newest, odometry = self._trail.newest, self._odometry
+        if newest is None or odometry is None or self._placed is None:
+            return None
+        if not now_s - newest.stamp_s <= OLDEST_S or newest.stamp_s == self._said_s:
+            return None
+        quality = 0.0
+        if self.state in {LocalizerState.TRACKING, LocalizerState.COASTING}:
+            unseen_s = newest.stamp_s - self._accepted_at[0]
+            quality = quality_of(
+                self._accepted_score, unseen_s, self._unseen_m(), self._blind_axis_m
+            )
+        base_in_map = self._placed.at(newest.carried)
+        odom_in_map = compose(base_in_map, inverse(newest.base_in_odom))
+        odom_in_map, quality = self._jump_law.apply(odom_in_map, newest.base_in_odom, quality)
+        self._said_s = newest.stamp_s
+        self._seq += 1
+        return Localization(
+            odom_id=odometry.odom_id,
+            seq=self._seq,
+            stamp_s=newest.stamp_s,
+            odom_in_map=odom_in_map,
+            quality=quality,
+            map_id=self._map_id,
+        )
+
+
+def _array(pose: Pose2) -> Floats:
+    return np.array((pose.x_m, pose.y_m, pose.yaw_rad))
