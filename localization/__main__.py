@@ -15,12 +15,12 @@ import threading
 from pathlib import Path
 
 from localization.node import LocalizationNode
-from localization.site_map import read_map_id
 from localization.standin import StandIn
 from processes.priority import set_fifo
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
+from wire.site_map import read_map_id
 
 log = logging.getLogger("localization")
 

@@ -18,7 +18,6 @@ from planner.api import Access
 from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
 from planner.app import Planner, Where, application
-from planner.site import SiteError
 from processes.priority import add_nice
 from wire import Misconfigured
 
@@ -42,9 +41,9 @@ def main(arguments: list[str] | None = None) -> int:
         authority = tls.authority(given.tls_ca)
         access = _access(given.host, speaks_tls=secure is not None)
         planner = Planner(Where(given.home, given.robot, given.site))
-    except (Misconfigured, SiteError) as wrong:
+    except Misconfigured as wrong:  # a SiteError is one
         print(f"planner: {wrong}", file=sys.stderr)
-        return wrong.exit_status if isinstance(wrong, Misconfigured) else REFUSED
+        return wrong.exit_status
     server = uvicorn.Server(
         uvicorn.Config(
             application(planner, access, authority),

@@ -10,7 +10,11 @@ FINGERPRINT_LENGTH = 16
 
 def fingerprint(*parts: bytes) -> str:
     """Return the first 16 hex digits of SHA-256 over the parts, joined by a zero byte."""
-    return hashlib.sha256(b"\0".join(parts)).hexdigest()[:FINGERPRINT_LENGTH]
+    digest = hashlib.sha256(parts[0] if parts else b"")
+    for part in parts[1:]:  # not joined: a map's image has up to 80 MB
+        digest.update(b"\0")
+        digest.update(part)
+    return digest.hexdigest()[:FINGERPRINT_LENGTH]
 
 
 def map_id(yaml_bytes: bytes, image_bytes: bytes) -> str:

@@ -20,6 +20,12 @@ MOST_IMAGE_BYTES = 80_000_000
 _IMAGE = re.compile(rb"^image:[ \t]*['\"]?([^'\"#\r\n]+?)['\"]?[ \t]*(?:#.*)?\r?$", re.MULTILINE)
 
 
+def image_name(text: bytes) -> str | None:
+    """Return what the text of a map.yaml names as its image; None where it names nothing."""
+    named = _IMAGE.search(text)
+    return None if named is None else named[1].decode("utf-8", "replace")
+
+
 def image_in(site_dir: Path, name: str) -> Path:
     """Return the path of a map's image, which lies in the folder of its site.
 
@@ -44,10 +50,9 @@ def read_map_id(site_dir: Path) -> str:
         text = read_plain_file(path, MOST_MAP_BYTES)
     except OSError as error:
         raise Misconfigured("map_missing", f"{path}: {error.strerror}") from None
-    named = _IMAGE.search(text)
-    if named is None:
+    name = image_name(text)
+    if name is None:
         raise Misconfigured("map_image_missing", f"{path}: no line 'image: FILE'")
-    name = named[1].decode("utf-8", "replace")
     try:
         image = image_in(site_dir, name)
     except ValueError as error:

@@ -15,6 +15,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from maps.cell_array import cell_array
 from planner.navigation.raster import distance_m, draw_points, fence_mask
 from planner.site import FREE, GridMap, Site
 
@@ -130,7 +131,6 @@ class Costmap:
 def static_costmap(site: Site, radius_m: float) -> Costmap:
     """Make the costmap of a site as mapped, for a robot that is a disc."""
     grid = site.grid
-    cells = np.frombuffer(grid.cells, np.uint8).reshape(grid.height, grid.width)
-    occupied = cells != FREE
+    occupied = cell_array(grid) != FREE
     gap_m = distance_m(fence_mask(site.fence, grid), grid.resolution_m)
     return Costmap(grid, radius_m, occupied, distance_m(~occupied, grid.resolution_m), gap_m)

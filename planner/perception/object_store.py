@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
+from maps.yaml_records import Record, parse_json, read_bytes
 from planner.perception.object_tracker import MOST_THINGS
 from planner.perception.snapshot import Thing
 from planner.site import SiteError
-from planner.site.yaml_records import Record, parse_json, read_bytes
 from wire.bounded_types import Count, Fingerprint, Ratio
 from wire.geometry import Metres
 

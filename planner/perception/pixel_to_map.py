@@ -9,10 +9,10 @@ from __future__ import annotations
 from math import atan2, hypot
 from typing import TYPE_CHECKING
 
+from maps.grid import FREE, OCCUPIED
 from planner.perception.interfaces import PointRefused, Spot
 from planner.perception.projection import FARTHEST_M, FLOOR_FARTHEST_M, View, spot_at
 from planner.perception.raycast import first_wall_m
-from planner.site.grid import FREE, OCCUPIED
 
 if TYPE_CHECKING:
     from planner.site.site import Site

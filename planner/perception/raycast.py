@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import cos, sin
 from typing import TYPE_CHECKING
 
-from planner.site.grid import OCCUPIED
+from maps.grid import OCCUPIED
 
 if TYPE_CHECKING:
-    from planner.site.grid import GridMap
+    from maps.grid import GridMap
 
 MOST_STEPS = 1_000
 

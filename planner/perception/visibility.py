@@ -17,8 +17,8 @@ from planner.perception.raycast import first_wall_m
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from maps.grid import GridMap
     from planner.perception.snapshot import Detection, Thing
-    from planner.site.grid import GridMap
 
 FARTHEST_M = 4.0
 NEAREST_M = 0.4

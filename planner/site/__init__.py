@@ -1,12 +1,10 @@
 """Know a site: its map, its rooms and places, its fence. The one door of this package."""
 
-from planner.site.errors import SiteError
+from maps import FREE, OCCUPIED, UNKNOWN, GridMap, LoadedMap, SiteError, load_map
 from planner.site.fence import Fence, SpeedZone
 from planner.site.fence_check import FenceRefused, check_fence
 from planner.site.fence_diff import FenceDiff, fence_diff
 from planner.site.fence_store import FenceProposal, FenceProposals
-from planner.site.grid import FREE, OCCUPIED, UNKNOWN, GridMap
-from planner.site.map_file import LoadedMap, load_map
 from planner.site.places import Place, normalised
 from planner.site.site import Site
 from planner.site.taught_place_check import check_spot, plain_name

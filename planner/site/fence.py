@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 
-from planner.site.errors import SiteError
+from maps.errors import SiteError
+from maps.yaml_records import parse_json, read_bytes
 from planner.site.polygon import Polygon, border_distance_m, contains
-from planner.site.yaml_records import parse_json, read_bytes
 from wire.fence import FenceFile, Outline, SpeedZone, flaw
 from wire.fingerprint import fingerprint
 
@@ -54,7 +54,7 @@ def load_fence(path: Path) -> Fence:
 
     Raises:
         SiteError: ``polygon_degenerate``, ``polygon_crosses_itself`` and the codes of
-            :mod:`planner.site.yaml_records`.
+            :mod:`maps.yaml_records`.
     """
     data = read_bytes(path)
     record = parse_json(data, FenceFile, path)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.site.yaml_records import Record
+from maps.yaml_records import Record
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

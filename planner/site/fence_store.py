@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import ValidationError
 
+from maps.yaml_records import Record
 from planner.site.fence_check import FenceRefused
-from planner.site.yaml_records import Record
 from wire.bounded_types import Code, Fingerprint, Name
 from wire.fence import fence_text
 from wire.fingerprint import fingerprint

@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from maps.errors import SiteError
+from maps.yaml_records import Record, parse_yaml, read_bytes
 from planner.language.folding import fold_words
-from planner.site.errors import SiteError
 from planner.site.fence import Outline
 from planner.site.polygon import area_m2, contains
-from planner.site.yaml_records import Record, parse_yaml, read_bytes
 from wire.geometry import Pose2
 
 Name = Annotated[str, Field(min_length=1, max_length=80)]
@@ -85,7 +85,7 @@ def load_places(path: Path) -> PlacesRecord:
 
     Raises:
         SiteError: ``place_duplicate_id``, ``place_alias_clash``, ``home_unknown`` and the codes of
-            :mod:`planner.site.yaml_records`.
+            :mod:`maps.yaml_records`.
     """
     record = parse_yaml(read_bytes(path), PlacesRecord, path)
     _check_names(record, path)

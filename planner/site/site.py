@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from planner.site.errors import SiteError
+from maps.errors import SiteError
+from maps.grid import FREE, GridMap
+from maps.map_file import load_map
 from planner.site.fence import Fence, load_fence
-from planner.site.grid import FREE, GridMap
-from planner.site.map_file import load_map
 from planner.site.places import Place, load_places, normalised
 from planner.site.polygon import area_m2
 

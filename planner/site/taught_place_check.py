@@ -6,8 +6,8 @@ import unicodedata
 from collections.abc import Iterator
 from math import ceil, hypot
 
+from maps.grid import FREE
 from planner.language.folding import fold_width
-from planner.site.grid import FREE
 from planner.site.site import Site
 from planner.site.taught_place_errors import PlaceRefused
 from wire.geometry import Pose2

@@ -15,10 +15,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from planner.site.errors import SiteError
+from maps.errors import SiteError
+from maps.yaml_records import Record, parse_json, read_bytes
 from planner.site.places import Names, Place, PlaceId
 from planner.site.taught_place_errors import PlaceRefused
-from planner.site.yaml_records import Record, parse_json, read_bytes
 from wire.bounded_types import Fingerprint, Name
 from wire.geometry import Pose2
 

@@ -12,7 +12,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Self
 
-from localization.site_map import read_map_id
 from pons.conformance.adapter import CannotTest
 from pons.conformance.bounds import MotionBounds
 from pons.conformance.raw_publisher import Mouth
@@ -24,6 +23,7 @@ from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot
 from wire.doors import BRIDGE_DOOR
 from wire.keys import Party
 from wire.session import open_session
+from wire.site_map import read_map_id
 from wire.sockets import Endpoints
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from maps.errors import SiteError
 from planner.brain import Brain, OfflineBrain, OutOfBudget
-from planner.site.errors import SiteError
 from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
 from pons.evals.report import as_json, content, has_passed, table

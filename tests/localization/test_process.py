@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from localization import read_map_id
 from localization.__main__ import PRIORITY
 from wire import IDENTITY, STILL, Localization, Odometry, Pose2, SimTruth, keys
 from wire.keys import Party
 from wire.session import open_session
+from wire.site_map import read_map_id
 
 pytestmark = pytest.mark.e2e
 LIMIT_S = 20.0

@@ -100,7 +100,17 @@ FOR_OTHERS = {
 """What no file of ours imports, and the package that does."""
 COME_ALONG = {"starlette", "pydantic-core", "pons", "pons-robot"}
 """What fastapi and pydantic are faces of, and ourselves."""
-PARTS = ("processes", "pons_assets", "wire", "planner", "localization", "bridge", "sim", "pons")
+PARTS = (
+    "processes",
+    "pons_assets",
+    "wire",
+    "maps",
+    "planner",
+    "localization",
+    "bridge",
+    "sim",
+    "pons",
+)
 
 
 def test_each_package_that_running_needs_is_imported_or_named_with_its_user(

@@ -9,7 +9,17 @@ from typing import Any
 import pytest
 from setuptools import find_packages
 
-PRODUCT = {"processes", "pons_assets", "wire", "planner", "localization", "bridge", "sim", "pons"}
+PRODUCT = {
+    "processes",
+    "pons_assets",
+    "wire",
+    "maps",
+    "planner",
+    "localization",
+    "bridge",
+    "sim",
+    "pons",
+}
 LEFT_OUT = {"tools", "tests", "scripts", "examples", "train", "bench", "attack", "lockstep"}
 
 

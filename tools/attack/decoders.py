@@ -150,8 +150,8 @@ def _model(_folder: Path) -> Reader:
 def _image(folder: Path) -> Reader:
     import cv2  # beforehand, so that it does not count as memory that an input took
 
+    from maps.image import read_image
     from planner.site import SiteError
-    from planner.site.image import read_image
 
     cv2.setNumThreads(1)
     path = folder / "input"
@@ -207,10 +207,10 @@ def _toml(folder: Path) -> Reader:
 
 def _yaml(folder: Path) -> Reader:
     """Read bytes as places.yaml and as map.yaml."""
+    from maps.map_file import MapRecord
+    from maps.yaml_records import parse_yaml
     from planner.site import SiteError
-    from planner.site.map_file import MapRecord
     from planner.site.places import load_places
-    from planner.site.yaml_records import parse_yaml
 
     path = folder / "input"
 

@@ -72,8 +72,8 @@ def _map() -> Loaded:
     import cv2
     import numpy  # noqa: F401, ICN001  # loaded beforehand, so that no file pays for it
 
+    from maps.map_file import load_map
     from planner.site import SiteError
-    from planner.site.map_file import load_map
     from wire import Misconfigured
     from wire.site_map import read_map_id
 

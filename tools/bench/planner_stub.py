@@ -15,12 +15,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from localization.site_map import read_map_id
 from planner.bridge_client import STANDING, Course, Identity, OwnerState, WireBus, on_status
 from planner.navigation import LegPath, RoutePoint, cut
 from wire import fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
+from wire.site_map import read_map_id
 
 if TYPE_CHECKING:
     from wire import RobotDescription, Status

@@ -19,6 +19,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from maps.cell_array import cell_array
 from planner.navigation import RouteLimits, RouteRequest
 from planner.navigation.costmap import Costmap, static_costmap
 from planner.navigation.raster import distance_m
@@ -89,7 +90,7 @@ def costmaps() -> Iterator[tuple[str, Costmap]]:
             print(f"{name}: not beside this checkout, left out")
             continue
         grid = load_map(FOREIGN / name).grid
-        cells = np.frombuffer(grid.cells, np.uint8).reshape(grid.height, grid.width)
+        cells = cell_array(grid)
         room = distance_m(cells == FREE, grid.resolution_m)
         # No fence bounds these; a robot of 0.22 m, for which their doors were made.
         yield name, Costmap(grid, 0.22, cells != FREE, room, np.full_like(room, 9.0))

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 from planner.brain.endpoint import Address
 from planner.site import Site
-from planner.site.errors import SiteError
 from pons.evals.journal.recorded import NoJournal, RecordedDecisions, read
 from pons.evals.journal.show import content, table
 from pons.evals.journal.think import SecondThought, most_calls, think_again
@@ -73,9 +72,8 @@ def run(
             think_again(recorded.decisions, site, settings, model, where.home)
         )
         found = _drive_first(found, where, options.drives)
-    except (NoJournal, LockstepMissing, Misconfigured, SiteError) as wrong:
-        code = f"{wrong.code}: " if isinstance(wrong, Misconfigured) else ""
-        print(f"{called}: {code}{wrong}", file=sys.stderr)
+    except (NoJournal, LockstepMissing, Misconfigured) as wrong:
+        print(f"{called}: {wrong}", file=sys.stderr)
         return EXIT_BAD
     show = content if options.as_json else table
     print(show(recorded, found, cost, model.name))

@@ -15,6 +15,7 @@ from typing import Any, cast
 
 import pytest
 
+from maps.grid import FREE
 from planner.brain.endpoint import EndpointBrain
 from planner.mission.effects import AskEyes
 from planner.mission.perception_requests import EyeDoor
@@ -27,7 +28,6 @@ from planner.perception.projection import FARTHEST_M, View
 from planner.plan import Language
 from planner.settings import ModelSettings
 from planner.site import Site
-from planner.site.grid import FREE
 from tests.conftest import ROOT
 from tests.planner.brain.pictures import jpeg
 from tests.pons.mock_llm.mocks import RunningMock, running_mock

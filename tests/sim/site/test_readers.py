@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from bridge.fence_file import load_fence
-from localization import read_map_id
 from planner.site import FREE, Site
 from sim.site import load_home
 from sim.site.check import spots
+from wire.site_map import read_map_id
 
 
 @pytest.fixture(params=["home", "two_room"])

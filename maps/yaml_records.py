@@ -1,4 +1,4 @@
-"""Read YAML and JSON text into checked records. YAML is read here and nowhere else in the planner.
+"""Read YAML and JSON text into checked records. Sites' YAML is read here alone.
 
 Unknown keys, duplicate keys and numbers that are not finite are refused, never ignored: a key
 that is silently dropped is a limit that somebody believes in.
@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from planner.site.errors import SiteError
+from maps.errors import SiteError
 from wire.plain_file import read_plain_file
 
 MAX_TEXT_BYTES = 4_000_000
@@ -35,14 +35,14 @@ class Record(BaseModel):
 R = TypeVar("R", bound=BaseModel)
 
 
-def read_bytes(path: Path) -> bytes:
+def read_bytes(path: Path, most_bytes: int = MAX_TEXT_BYTES) -> bytes:
     """Return a site file's bytes.
 
     Raises:
         SiteError: ``site_file_missing`` or ``value_malformed`` when it is too long.
     """
     try:
-        return read_plain_file(path, MAX_TEXT_BYTES)
+        return read_plain_file(path, most_bytes)
     except OSError as error:
         if error.errno == errno.EFBIG:
             raise SiteError("value_malformed", f"{path}: {error.strerror}") from error

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
+from wire.errors import Misconfigured
+
 REASONS = MappingProxyType(
     {
         "site_file_missing": "缺少站点文件",
@@ -15,8 +17,7 @@ REASONS = MappingProxyType(
         "map_image_outside": "地图图像不在站点文件夹内",
         "map_image_malformed": "地图图像无法读取",
         "map_image_too_large": "地图图像过大",
-        "map_rotated": "不支持旋转的地图原点",
-        "map_mode_unsupported": "不支持的地图模式",
+        "map_image_ambiguous": "地图图像的文件名写法有歧义",
         "map_thresholds_crossed": "地图阈值顺序错误",
         "fence_map_mismatch": "围栏属于另一张地图",
         "polygon_degenerate": "多边形面积为零",
@@ -32,11 +33,10 @@ REASONS = MappingProxyType(
 """Every code, with its sentence in Chinese; the English sentence carries the particulars."""
 
 
-class SiteError(Exception):
+class SiteError(Misconfigured):
     """Report a site that must not be used. Ours or the owner's to mend: refuse to start."""
 
     def __init__(self, code: str, message: str) -> None:
         """Keep the code and the sentence: what came, what was expected, what exists."""
-        super().__init__(f"{code}: {message}")
-        self.code = code
+        super().__init__(code, message)
         self.message = {"en": message, "zh": f"{REASONS[code]}：{message}"}

@@ -1,0 +1,163 @@
+"""Decode the picture of a map into grey bytes. Knows PGM itself and leaves PNG to OpenCV.
+
+OpenCV is imported only when a PNG is read: it brings numpy and some 40 MB into the process, and
+our own sites are PGM. Sixteen bits become eight, colours their mean, as Nav2's map server does.
+"""
+
+from __future__ import annotations
+
+import errno
+import re
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+from maps.errors import SiteError
+from wire.plain_file import read_plain_file
+from wire.png import SIGNATURE, chunks_fit
+from wire.site_map import MOST_IMAGE_BYTES
+
+MAX_PIXELS = 64_000_000
+"""8000 x 8000: a map of 400 m x 400 m at 0.05 m."""
+MAX_UNPACKED_BYTES = 4 * MAX_PIXELS
+"""Of a PNG, whose pixels may have four channels of two bytes each."""
+
+_PGM_HEAD = re.compile(
+    rb"(P[25])(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})\s"
+)
+_PNG_CHANNELS = {0: 1, 2: 3, 3: 4, 4: 2, 6: 4}
+"""By colour type; OpenCV unpacks a palette to colours. Source: PNG specification, "IHDR"."""
+
+
+@dataclass(frozen=True, slots=True)
+class GreyImage:
+    """Keep grey pixels, 0 black to 255 white, first row at the top."""
+
+    width: int
+    height: int
+    pixels: bytes
+    opaque: bytes | None = None
+    """A byte a pixel, 0 where it is not wholly opaque; None where the picture has no alpha."""
+
+
+def read_image(path: Path) -> tuple[bytes, GreyImage]:
+    """Return a map image's bytes, which name the map, and its pixels.
+
+    Raises:
+        SiteError: ``map_image_missing``, ``map_image_malformed`` or ``map_image_too_large``.
+    """
+    try:
+        data = read_plain_file(path, MOST_IMAGE_BYTES)
+    except OSError as error:
+        if error.errno == errno.EFBIG:
+            raise SiteError("map_image_too_large", f"{path}: {error.strerror}") from error
+        others = ", ".join(sorted(p.name for p in path.parent.glob("*.p[gn][mg]"))) or "none"
+        text = f"the map's image {path} cannot be read ({error.strerror}); images there: {others}"
+        raise SiteError("map_image_missing", text) from error
+    return data, decode(data, path)
+
+
+def decode(data: bytes, where: Path) -> GreyImage:
+    """Decode PGM (P2, P5, at most 16 bits) or PNG.
+
+    Raises:
+        SiteError: ``map_image_malformed`` or ``map_image_too_large``.
+    """
+    if data.startswith(SIGNATURE):
+        return _decode_png(data, where)
+    head = _PGM_HEAD.match(data)
+    if head is None:
+        raise SiteError("map_image_malformed", f"{where}: neither PGM (P2, P5) nor PNG")
+    return _decode_pgm(head, data, where)
+
+
+def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
+    width, height, white = (int(text) for text in head.groups()[1:])
+    _check_size(width, height, where)
+    if not 1 <= white <= 65535:
+        raise SiteError("map_image_malformed", f"{where}: white is {white}; expected 1 to 65535")
+    wanted = width * height
+    deep = white > 255
+    if head[1] == b"P2":
+        greys = _plain_values(data[head.end() :], wanted, white, where)
+    else:
+        raw = bytes(memoryview(data)[head.end() : head.end() + wanted * (2 if deep else 1)])
+        greys = _deep_values(raw, white) if deep else _scaled(raw, white)
+    if greys is None or len(greys) < wanted:
+        came = f"{len(data) - head.end()} bytes came"
+        text = f"{where}: {width} x {height} pixels up to {white} announced, {came}"
+        raise SiteError("map_image_malformed", text)
+    return GreyImage(width, height, greys)
+
+
+def _scaled(raw: bytes, white: int) -> bytes | None:
+    """Return 8-bit values with white at 255; None where one is whiter than white."""
+    if white == 255:
+        return raw
+    if raw.translate(None, bytes(range(white + 1))):
+        return None
+    return raw.translate(bytes(min(255, round(value * 255 / white)) for value in range(256)))
+
+
+def _deep_values(raw: bytes, white: int) -> bytes | None:
+    """Return 8-bit values of 16-bit ones, most significant byte first."""
+    import numpy as np
+
+    values = np.frombuffer(raw[: len(raw) // 2 * 2], ">u2")
+    if values.size and int(values.max()) > white:
+        return None
+    return np.round(values.astype(np.float32) * (255 / white)).astype(np.uint8).tobytes()
+
+
+def _plain_values(body: bytes, wanted: int, white: int, where: Path) -> bytes | None:
+    found = bytearray()
+    try:  # one at a time: a list of them all takes forty times the file
+        for text in islice(re.finditer(rb"\S+", body), wanted):
+            value = int(text[0])
+            if not 0 <= value <= white:
+                return None
+            found.append(round(value * 255 / white))
+    except ValueError as error:
+        raise SiteError("map_image_malformed", f"{where}: {error}") from error
+    return bytes(found)
+
+
+def _decode_png(data: bytes, where: Path) -> GreyImage:
+    # The header says the size before anything is unpacked: a small file may hold a huge picture.
+    width, height = int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
+    _check_size(width, height, where)
+    if not chunks_fit(data):
+        text = f"{where}: {len(data)} bytes came, and its chunks speak of more"
+        raise SiteError("map_image_malformed", text)
+    depth, color = data[24], data[25]
+    unpacked = width * height * _PNG_CHANNELS.get(color, 4) * (2 if depth == 16 else 1)
+    if not unpacked <= MAX_UNPACKED_BYTES:
+        text = f"{where}: {width} x {height} pixels of colour type {color} and {depth} bits"
+        raise SiteError("map_image_too_large", f"{text}; at most {MAX_UNPACKED_BYTES} bytes")
+    import cv2
+    import numpy as np
+
+    try:  # the bytes that name the map, not the file again: it may be another by now
+        pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        pixels = None
+    if pixels is None or pixels.shape[:2] != (height, width):
+        raise SiteError("map_image_malformed", f"{where}: the PNG cannot be decoded")
+    white = 65535 if pixels.dtype == np.uint16 else 255
+    opaque = None
+    if pixels.ndim == 3:
+        if pixels.shape[2] in (2, 4):
+            opaque = (pixels[:, :, -1] == white).astype(np.uint8).tobytes()
+        colors = pixels[:, :, : 3 if pixels.shape[2] >= 3 else 1]
+        pixels = colors.mean(axis=2, dtype=np.float32)
+    if white != 255:
+        pixels = pixels.astype(np.float32) * np.float32(255 / white)
+    if pixels.dtype != np.uint8:
+        pixels = np.round(pixels).astype(np.uint8)
+    return GreyImage(width, height, pixels.tobytes(), opaque)
+
+
+def _check_size(width: int, height: int, where: Path) -> None:
+    if not 0 < width * height <= MAX_PIXELS:
+        text = f"{where}: {width} x {height} pixels; expected 1 to {MAX_PIXELS} in all"
+        raise SiteError("map_image_too_large", text)

@@ -1,0 +1,140 @@
+"""Load a map in Nav2's format: map.yaml and its image, in every mode. Knows no places or fences.
+
+Source of the format: Nav2 map server (map_io.cpp). A pixel's occupancy is 1 - shade, or its shade
+when negated; above ``occupied_thresh`` it is occupied, below ``free_thresh`` free, else unknown.
+Mode ``raw`` takes the grey value itself as percent, and what is over 100 as unknown.
+
+One thing is read otherwise: grey 205 is what every map saver writes for unknown, and the same
+savers write ``free_thresh: 0.25``, which makes it free. Here it is unknown under any threshold.
+What is not opaque is unknown in every mode; in mode ``trinary`` Nav2 takes it for lighter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, StrictBool
+
+from maps.errors import SiteError
+from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
+from maps.image import read_image
+from maps.yaml_records import Record, parse_yaml, read_bytes
+from wire.fingerprint import map_id
+from wire.site_map import MOST_MAP_BYTES, image_in, image_name
+
+Share = Annotated[float, Field(ge=0.0, le=1.0)]
+Ordinate = Annotated[float, Field(ge=-10_000.0, le=10_000.0)]
+
+SAVED_UNKNOWN = 205
+"""The grey that map savers of ROS 1 and Nav2 write for unknown: occupancy 50/255, 0.196."""
+
+
+class MapRecord(Record):
+    """Mirror the keys of a Nav2 map.yaml."""
+
+    image: Annotated[str, Field(min_length=1)]
+    resolution: Annotated[float, Field(ge=0.005, le=1.0)]  # [m] per pixel
+    origin: tuple[Ordinate, Ordinate, Ordinate]  # x [m], y [m], yaw [rad] of the lower left corner
+    negate: Literal[0, 1] | StrictBool = 0
+    occupied_thresh: Share
+    free_thresh: Share
+    mode: Literal["trinary", "scale", "raw"] = "trinary"
+    map_type: str = "occupancy"  # written by some map savers; means nothing to the map server
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedMap:
+    """Keep a map with the name by which all processes know it."""
+
+    grid: GridMap
+    map_id: str
+    record: MapRecord
+    kept_unknown: int
+    """Pixels of grey 205 that the file's ``free_thresh`` would have made free."""
+
+
+def load_map(path: Path) -> LoadedMap:
+    """Load map.yaml at ``path`` and the image it points to.
+
+    A yaw in the origin is carried out: the grid's rows always lie along x of ``map``.
+
+    Raises:
+        SiteError: ``map_image_outside``, ``map_image_ambiguous``, ``map_thresholds_crossed`` and
+            the codes of :mod:`maps.yaml_records`, :mod:`maps.image` and :mod:`maps.rotation`.
+    """
+    text = read_bytes(path, MOST_MAP_BYTES)
+    record = parse_yaml(text, MapRecord, path)
+    data, image = read_image(_image_path(path, text, record))
+    name = map_id(text, data)
+    del data
+    if not record.free_thresh < record.occupied_thresh:
+        detail = f"{path}: free_thresh {record.free_thresh} is not below {record.occupied_thresh}"
+        raise SiteError("map_thresholds_crossed", detail)
+    kept = image.pixels.count(_saved_unknown(record)) if _frees_the_unknown(record) else 0
+    kinds = bytes(_kind(grey, record) for grey in range(256))
+    cells = _from_below(image.pixels.translate(kinds), image.width, image.height)
+    if image.opaque is not None:
+        cells = _without_transparent(cells, _from_below(image.opaque, image.width, image.height))
+    x_m, y_m, yaw_rad = record.origin
+    grid = GridMap(image.width, image.height, record.resolution, x_m, y_m, cells)
+    if yaw_rad != 0.0:
+        from maps.rotation import straightened  # numpy is not for those who need no turn
+
+        grid = straightened(grid, yaw_rad, path)
+    return LoadedMap(grid, name, record, kept)
+
+
+def _from_below(values: bytes, width: int, height: int) -> bytes:
+    """Turn the rows over: a picture's first row is the map's top, a grid's is its lowest y."""
+    rows = memoryview(values)
+    return b"".join(rows[row * width : (row + 1) * width] for row in reversed(range(height)))
+
+
+def _image_path(path: Path, text: bytes, record: MapRecord) -> Path:
+    # The bridge reads this one key without YAML; a map that has two names must not be driven on.
+    seen = image_name(text)
+    if seen != record.image:
+        detail = f"{path}: image is {record.image!r} to YAML and {seen!r} read plainly; write it so"
+        raise SiteError("map_image_ambiguous", f"{detail}: 'image: map.pgm'")
+    try:
+        return image_in(path.parent, record.image)
+    except ValueError as error:
+        detail = f"{path}: image {record.image!r}: {error}"
+        raise SiteError("map_image_outside", detail) from error
+
+
+def _occupancy(grey: int, record: MapRecord) -> float:
+    return (grey if record.negate else 255 - grey) / 255
+
+
+def _saved_unknown(record: MapRecord) -> int:
+    return 255 - SAVED_UNKNOWN if record.negate else SAVED_UNKNOWN
+
+
+def _frees_the_unknown(record: MapRecord) -> bool:
+    return record.mode != "raw" and _occupancy(_saved_unknown(record), record) < record.free_thresh
+
+
+def _kind(grey: int, record: MapRecord) -> int:
+    """Return what a grey means: a share between the thresholds is not known to be free."""
+    if record.mode == "raw":
+        occupancy = grey / 100
+        if grey > 100:
+            return UNKNOWN
+    else:
+        occupancy = _occupancy(grey, record)
+        if grey == _saved_unknown(record):
+            return UNKNOWN
+    if occupancy > record.occupied_thresh:
+        return OCCUPIED
+    return FREE if occupancy < record.free_thresh else UNKNOWN
+
+
+def _without_transparent(cells: bytes, opaque: bytes) -> bytes:
+    """Return the cells with UNKNOWN where the picture is not opaque."""
+    import numpy as np  # there already: no picture but a PNG has an alpha
+
+    kinds = np.frombuffer(cells, np.uint8)
+    return np.where(np.frombuffer(opaque, np.uint8) != 0, kinds, np.uint8(UNKNOWN)).tobytes()
