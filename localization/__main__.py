@@ -1,6 +1,8 @@
-"""Start the localization STAND-IN: ``python -m localization --site sites/home [--home DIR]``.
+"""Start localization: ``python -m localization --site sites/home [--home DIR]``.
 
-It passes the simulator's truth on with noise and localizes nothing; see localization.standin.
+``[localization] kind`` of robot.toml says which: ``scans`` matches the lidar's scans with the
+site's map (localization.localizer); ``stand_in`` passes the simulator's truth on with noise and
+localizes nothing (localization.standin).
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ import sys
 import threading
 from pathlib import Path
 
-from localization.node import LocalizationNode
+from localization.node import LocalizationNode, LocalizerNode, run_periodically
 from localization.standin import StandIn
 from processes.priority import set_fifo
 from wire import Misconfigured, RobotDescription, load_robot
@@ -25,9 +27,10 @@ from wire.site_map import read_map_id
 log = logging.getLogger("localization")
 
 PRIORITY = 30
-"""Of SCHED_FIFO, as it stands for what a machine has room for and has next to nothing to do; below
-the simulator, whose word it passes on, and below all of the bridge. As any other process it was
-silent for as long as others kept it waiting: POSE_LOST after 0.3 s (docs/adr/0026)."""
+"""Of SCHED_FIFO; below the simulator, whose word it takes, and below all of the bridge. It asks for
+little at a time: the stand-in next to nothing, the localizer a few milliseconds a scan. As any
+other process it was silent for as long as others kept it waiting: POSE_LOST after 0.3 s
+(docs/adr/0026)."""
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
@@ -44,16 +47,48 @@ def _serve(options: argparse.Namespace) -> None:
     stopped = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stopped.set())
-    robot_id = (load_robot(options.robot) if options.robot else RobotDescription()).id
-    stand_in = StandIn(read_map_id(options.site), seed=options.seed)
+    robot = load_robot(options.robot) if options.robot else RobotDescription()
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+    if robot.localization.kind == "scans":
+        _serve_scans(options.site, robot, home, stopped)
+    else:
+        _serve_stand_in(options, robot.id, home, stopped)
+
+
+def _serve_stand_in(
+    options: argparse.Namespace, robot_id: str, home: Path, stopped: threading.Event
+) -> None:
+    stand_in = StandIn(read_map_id(options.site), seed=options.seed)
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.LOCALIZATION, robot_id, home) as session:
-        shell = LocalizationNode(stand_in, session)
+        node = LocalizationNode(stand_in, session)
         gc.collect()
         gc.freeze()
         log.warning("STAND-IN: simulator truth plus noise, no localization; seed %d", options.seed)
-        shell.run(stopped.is_set)
+        run_periodically(node.turn, stopped.is_set)
+
+
+def _serve_scans(site: Path, robot: RobotDescription, home: Path, stopped: threading.Event) -> None:
+    # Here, so that the stand-in's process is spared OpenCV's 40 MB and its threads.
+    from localization.distance_field import DistanceField
+    from localization.localizer import Localizer
+    from localization.search_client import SearchClient
+    from maps import load_map
+
+    loaded = load_map(site / "map.yaml")
+    localizer = Localizer(DistanceField.of_map(loaded.grid), robot.lidar, loaded.map_id)
+    search = SearchClient(site, robot.lidar)
+    search.start()  # before the rank, which the search must not inherit
+    try:
+        set_fifo(PRIORITY)
+        with open_session(Party.LOCALIZATION, robot.id, home) as session:
+            node = LocalizerNode(localizer, search, session)
+            gc.collect()
+            gc.freeze()
+            log.info("scans against map %s, %s", loaded.map_id, site)
+            run_periodically(node.turn, stopped.is_set)
+    finally:
+        search.close()
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -126,9 +126,7 @@ class LatticeSearch:
         rating = np.zeros((rows, columns), np.uint32)
         shifted = ends + self._reach
         block, phase = np.divmod(shifted, stride)
-        for (across, down), (phase_x, phase_y) in zip(
-            block.tolist(), phase.tolist(), strict=True
-        ):
+        for (across, down), (phase_x, phase_y) in zip(block.tolist(), phase.tolist(), strict=True):
             image = self._images[phase_y][phase_x]
             rating += image[down : down + rows, across : across + columns]
         return rating
@@ -143,7 +141,8 @@ class LatticeSearch:
         rows, columns = self.shape
         row = np.minimum(np.arange(rows) * self.stride, self.field.rows - 1)
         column = np.minimum(np.arange(columns) * self.stride, self.field.columns - 1)
-        return tuple(np.meshgrid(row, column, indexing="ij"))  # type: ignore[return-value]  # a pair
+        down, across = np.meshgrid(row, column, indexing="ij")
+        return down, across
 
     def _prepare(self, reach: int) -> None:
         """Pad the image by the farthest beam, so that no addition needs a bounds check."""

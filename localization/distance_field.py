@@ -12,8 +12,13 @@ from typing import TYPE_CHECKING
 import cv2
 import numpy as np
 
+from maps import FREE, OCCUPIED
+from maps.cell_array import cell_array
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from maps import GridMap
 
     Floats = NDArray[np.float64]
 
@@ -57,6 +62,13 @@ class DistanceField:
         self._flat = np.ascontiguousarray(self.distance_m, np.float64).ravel()
         self._occupied_flat = self.occupied.ravel()
 
+    @classmethod
+    def of_map(cls, grid: GridMap) -> DistanceField:
+        """Return the field of a map; what is unknown is neither obstacle nor floor."""
+        cells = cell_array(grid)
+        origin_m = (grid.origin_x_m, grid.origin_y_m)
+        return cls(cells == OCCUPIED, cells == FREE, grid.resolution_m, origin_m)
+
     def distance(self, x_m: Floats, y_m: Floats) -> Floats:
         """Return the distance at points, interpolated between cell centres [m]."""
         return self._interpolate(x_m, y_m)[0]
@@ -81,7 +93,7 @@ class DistanceField:
         """Return the centres of cells in ``map`` [m]."""
         x_m = self.origin_m[0] + (column + 0.5) * self.resolution_m
         y_m = self.origin_m[1] + (row + 0.5) * self.resolution_m
-        return x_m, y_m
+        return np.asarray(x_m, np.float64), np.asarray(y_m, np.float64)
 
     def _interpolate(self, x_m: Floats, y_m: Floats) -> tuple[Floats, Floats, Floats]:
         scale = 1.0 / self.resolution_m
@@ -112,4 +124,5 @@ def _distance_to(surface: NDArray[np.bool_], resolution_m: float) -> NDArray[np.
     if not surface.any():
         return np.full(surface.shape, MAX_DISTANCE_M, np.float32)
     cells = cv2.distanceTransform((~surface).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    return np.minimum(np.asarray(cells, np.float32) * resolution_m, MAX_DISTANCE_M)
+    metres = np.minimum(np.asarray(cells) * resolution_m, MAX_DISTANCE_M)
+    return np.asarray(metres, np.float32)

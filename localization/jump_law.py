@@ -33,9 +33,7 @@ class JumpLaw:
         """Begin anew: what is said next is of another ``odom`` and compares with nothing."""
         self._good, self._poor = None, 0
 
-    def apply(
-        self, odom_in_map: Pose2, base_in_odom: Pose2, quality: float
-    ) -> tuple[Pose2, float]:
+    def apply(self, odom_in_map: Pose2, base_in_odom: Pose2, quality: float) -> tuple[Pose2, float]:
         """Return the transform and quality that may be said now."""
         if not quality >= POOR_QUALITY:
             self._poor += 1

@@ -293,9 +293,7 @@ class Localizer:
         if self._open is None and now_s - self._searched_s >= SEARCH_PAUSE_S:
             self._ask(cloud, carried, now_s, None)
 
-    def _ask(
-        self, cloud: PointCloud, carried: Pose2, now_s: float, hint: _Hint | None
-    ) -> None:
+    def _ask(self, cloud: PointCloud, carried: Pose2, now_s: float, hint: _Hint | None) -> None:
         self._requests += 1
         self._searched_s = now_s
         around, radius_m = (None, 0.0) if hint is None else (hint.pose, hint.radius_m)

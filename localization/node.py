@@ -1,6 +1,7 @@
-"""Run the localization stand-in as a process: read truth and odometry, publish at a steady rate.
+"""Run localization as a process: hear the wire, let the core think, publish at a steady rate.
 
-Knows the session and the clock. What it says, and when it keeps silent, is standin.py's business.
+Two nodes of one shape: the localizer's hears scans and odometry, the stand-in's the simulator's
+truth in place of scans. What is said, and when there is silence, is the core's business.
 """
 
 from __future__ import annotations
@@ -13,10 +14,50 @@ from wire import Odometry, SimTruth, keys
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from localization.localizer import Localizer
+    from localization.search_client import SearchClient
     from localization.standin import StandIn
     from wire.session import Session
 
 PERIOD_S = 0.05
+
+
+def run_periodically(turn: Callable[[float], None], stopped: Callable[[], bool]) -> None:
+    """Call ``turn`` with the time at each deadline until told to stop; missed ones are skipped."""
+    next_s = time.monotonic() + PERIOD_S
+    while not stopped():
+        time.sleep(max(0.0, next_s - time.monotonic()))
+        now_s = time.monotonic()
+        next_s = max(next_s + PERIOD_S, now_s)
+        turn(now_s)
+
+
+class LocalizerNode:
+    """Connect a localizer and its search process to the wire."""
+
+    def __init__(self, localizer: Localizer, search: SearchClient, session: Session) -> None:
+        self._localizer, self._search = localizer, search
+        self._scan = session.subscriber(keys.SCAN)
+        self._odom = session.subscriber(keys.ODOM)
+        self._out = session.publisher(keys.LOCALIZATION)
+
+    def turn(self, now_s: float) -> None:
+        """Take what came, use a scan, say where ``odom`` is."""
+        for odometry in self._odom.drain().items:
+            if isinstance(odometry, Odometry):
+                self._localizer.hear_odometry(odometry)
+        scan = self._scan.newest()
+        if scan is not None:
+            self._localizer.hear_scan(scan)
+        for number, candidates in self._search.answers():
+            self._localizer.hear_candidates(number, candidates)
+        self._localizer.work(now_s)
+        request = self._localizer.search_request()
+        if request is not None:
+            self._search.ask(request)
+        answer = self._localizer.answer(now_s)
+        if answer is not None:
+            self._out.put(answer)
 
 
 class LocalizationNode:
@@ -28,16 +69,8 @@ class LocalizationNode:
         self._odom = session.subscriber(keys.ODOM)
         self._out = session.publisher(keys.LOCALIZATION)
 
-    def run(self, stopped: Callable[[], bool]) -> None:
-        """Answer at each deadline until told to stop; missed deadlines are skipped."""
-        next_s = time.monotonic() + PERIOD_S
-        while not stopped():
-            time.sleep(max(0.0, next_s - time.monotonic()))
-            now_s = time.monotonic()
-            next_s = max(next_s + PERIOD_S, now_s)
-            self._turn(now_s)
-
-    def _turn(self, now_s: float) -> None:
+    def turn(self, now_s: float) -> None:
+        """Hear both sources and say where ``odom`` is."""
         for truth in self._truth.drain().items:
             if isinstance(truth, SimTruth):
                 self._stand_in.hear_truth(truth)

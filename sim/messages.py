@@ -87,12 +87,13 @@ class Speaker:
             accel_y_mps2=sample.accel_y_mps2,
         )
 
-    def scan(self, now_s: float, lidar: LidarModel, ranges_m: Ranges) -> Scan:
-        """Return the lidar's scan."""
+    def scan(self, now_s: float, lidar: LidarModel, ranges_m: Ranges, swept_s: float) -> Scan:
+        """Return the lidar's scan, whose first beam was taken ``swept_s`` ago."""
         return Scan(
             boot_id=self._boot_id,
             seq=self._next("scan"),
-            stamp_s=now_s,
+            stamp_s=now_s - swept_s,
+            time_increment_s=swept_s / max(1, len(ranges_m) - 1),
             angle_min_rad=lidar.angle_min_rad,
             angle_increment_rad=lidar.angle_increment_rad,
             range_min_m=lidar.config.range_min_m,

@@ -80,6 +80,7 @@ class SimRobot:
         self._imu = ImuModel(self._hardware, PERIODS.tick_s, streams[0])
         self._lidar = LidarModel(self.robot.lidar, self._hardware, streams[1])
         self._scan_ticks = max(1, round(self.robot.lidar.scan_s / PERIODS.tick_s))
+        self._true_m = np.full(self._hardware.lidar_beams, -1.0)
         garbage = Garbage(streams[2])
         self._drive_out = Channel["DriveState"](garbage.WHEELS, garbage.wheels)
         self._imu_out = Channel["Imu"](garbage.TURN, garbage.turn)
@@ -232,22 +233,30 @@ class SimRobot:
         return self._imu_out.through(message, self.faults.of_sensor("gyro"))
 
     def _scan_due(self, now_s: float) -> Scan | None:
-        due = self._ticks % self._scan_ticks == 0
-        message = self._scan(now_s) if due else None
+        ticks_left = -self._ticks % self._scan_ticks
+        if ticks_left < self._lidar.sweep_ticks(PERIODS.tick_s):
+            self._sweep(ticks_left)
+        message = self._scan(now_s) if ticks_left == 0 else None
         return self._scan_out.through(message, self.faults.of_sensor("lidar"))
 
-    def _scan(self, now_s: float) -> Scan:
-        config = self.robot.lidar
+    def _sweep(self, ticks_left: int) -> None:
+        """Measure the beams of this tick from where the lidar is now."""
+        config, beams = self.robot.lidar, self._lidar.swept(ticks_left, PERIODS.tick_s)
         lidar_in_map = compose(self._world.pose(), Pose2(config.x_m, config.y_m, config.yaw_rad))
-        true_m = self._world.rays(
+        self._true_m[beams] = self._world.rays(
             (lidar_in_map.x_m, lidar_in_map.y_m),
-            self._lidar.directions(lidar_in_map),
+            self._lidar.directions(lidar_in_map)[beams],
             config.range_max_m + _BEYOND_RANGE_M,
         )
-        ranges_m = self._lidar.measure(true_m)
+
+    def _scan(self, now_s: float) -> Scan:
+        ranges_m = self._lidar.measure(self._true_m)
         if SimFault.LIDAR_BLIND in self.faults:
             ranges_m = (None,) * len(ranges_m)
-        return self._speaker.scan(now_s, self._lidar, ranges_m)
+        ticks = self._lidar.sweep_ticks(PERIODS.tick_s)
+        # Beams are cast at the end of their tick; on average half a tick after they were due.
+        swept_s = (ticks - 0.5) * PERIODS.tick_s if ticks > 1 else 0.0
+        return self._speaker.scan(now_s, self._lidar, ranges_m, swept_s)
 
     def _truth_due(self, now_s: float, real_time_factor: float) -> SimTruth | None:
         if self._ticks % PERIODS.truth_ticks != 0:

@@ -81,8 +81,9 @@ class ImuModel:
 class LidarModel:
     """Aim the lidar's beams and add noise and dropout to true distances.
 
-    A scan is taken in one instant and level, though a real one sweeps for 0.1 s and tilts with the
-    robot: at 0.5 m/s that is up to 0.05 m, which the bridge's margins must hold anyway.
+    A scan is level, though a real one tilts with the robot. It is taken in one instant unless the
+    hardware says that it sweeps, as a real one does for 0.1 s: at 0.5 m/s that is up to 0.05 m,
+    which the bridge's margins must hold anyway.
     """
 
     def __init__(self, config: LidarConfig, hardware: Hardware, random: Generator) -> None:
@@ -99,6 +100,16 @@ class LidarModel:
         """Return each beam's unit vector in ``map``, shape (beams, 3)."""
         angles = self._angles + lidar_in_map.yaw_rad
         return np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
+
+    def swept(self, ticks_left: int, tick_s: float) -> slice:
+        """Return the beams that are taken in a tick, so many ticks before a scan is due."""
+        beams, ticks = self._hardware.lidar_beams, self.sweep_ticks(tick_s)
+        done = ticks - 1 - ticks_left
+        return slice(max(0, beams * done // ticks), max(0, beams * (done + 1) // ticks))
+
+    def sweep_ticks(self, tick_s: float) -> int:
+        """Return in how many ticks a scan is taken; 1: in one instant."""
+        return max(1, round(min(self._hardware.lidar_sweep_s, self.config.scan_s) / tick_s))
 
     def measure(self, true_m: NDArray[np.float64]) -> Ranges:
         """Turn true distances (-1: nothing there) into ranges; millimetres, None for no return."""

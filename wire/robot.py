@@ -190,6 +190,14 @@ class Inputs(Record):
     """False: nothing shows wheels that slip, and row YAW_DISAGREE stays up (at most 0.3 m/s)."""
 
 
+class LocalizationConfig(Record):
+    """Choose what says where the robot is in ``map``."""
+
+    kind: Literal["stand_in", "scans"] = "stand_in"
+    """``stand_in``: the simulator's truth plus noise; ``scans``: the lidar's scans against the
+    site's map, which needs no simulator."""
+
+
 class RobotDescription(Record):
     """Hold all that is particular to one robot."""
 
@@ -202,6 +210,7 @@ class RobotDescription(Record):
     realtime: RealTime = RealTime()
     inputs: Inputs = Inputs()
     recording: Recording = Recording()
+    localization: LocalizationConfig = LocalizationConfig()
 
     @model_validator(mode="after")
     def _wheels_reach_the_speed(self) -> RobotDescription:

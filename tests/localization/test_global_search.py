@@ -1,0 +1,69 @@
+"""The whole map is searched; what is ambiguous is found and never sure."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import numpy as np
+import pytest
+
+from localization.global_search import Candidate, GlobalSearch, apart, is_sure
+from tests.localization.rooms import ROOM, TWINS, cast, field_of, points_of
+from wire import Pose2, wrap
+
+LIDAR = (0.0, 0.0)
+SEARCH = GlobalSearch(field_of(ROOM, 6.0, 4.0))
+
+
+@pytest.mark.parametrize(
+    "true", [Pose2(2.6, 1.7, 0.4), Pose2(5.0, 3.1, -2.0), Pose2(0.7, 0.6, 3.0)]
+)
+def test_it_finds_the_robot_anywhere_and_is_sure(true: Pose2) -> None:
+    found = SEARCH.everywhere(points_of(cast(ROOM, true)), LIDAR)
+    x_m, y_m, yaw = found[0].pose
+    assert hypot(x_m - true.x_m, y_m - true.y_m) < 0.06
+    assert abs(wrap(yaw - true.yaw_rad)) < 0.03
+    assert is_sure(found)
+
+
+def test_of_two_equal_rooms_both_are_found_and_neither_is_sure() -> None:
+    search = GlobalSearch(field_of(TWINS, 8.0, 3.0))
+    found = search.everywhere(points_of(cast(TWINS, Pose2(1.8, 1.6, 0.3))), LIDAR)
+    assert {round(one.pose[0]) for one in found[:2]} == {2, 6}
+    assert not is_sure(found)
+
+
+def test_a_persons_word_settles_it_and_a_wrong_word_does_not() -> None:
+    search = GlobalSearch(field_of(TWINS, 8.0, 3.0))
+    points = points_of(cast(TWINS, Pose2(1.8, 1.6, 0.3)))
+    (near,) = search.around(points, LIDAR, np.array((2.1, 1.4, 0.5)), 1.0)
+    assert near.pose[:2] == pytest.approx((1.8, 1.6), abs=0.06)
+    assert near.score > 0.95
+    wrong = search.around(points, LIDAR, np.array((3.2, 2.3, -1.6)), 0.3)
+    assert not wrong or wrong[0].score < 0.6
+    assert search.around(np.empty((0, 2)), LIDAR, np.zeros(3), 1.0) == ()
+
+
+def test_without_returns_or_floor_there_is_no_place() -> None:
+    assert SEARCH.everywhere(np.empty((0, 2)), LIDAR) == ()
+    walled = GlobalSearch(field_of(((0.0, 0.0, 1.0, 1.0),), 1.0, 1.0))
+    assert walled.everywhere(np.ones((40, 2)), LIDAR) == ()
+
+
+def test_sure_is_a_lead_and_a_good_score() -> None:
+    def made(*scores: float) -> tuple[Candidate, ...]:
+        return tuple(Candidate((0.0, 0.0, 0.0), score) for score in scores)
+
+    assert not is_sure(())
+    assert not is_sure(made(0.59))
+    assert is_sure(made(0.65))
+    assert is_sure(made(0.75, 0.44))
+    assert not is_sure(made(0.75, 0.5))
+    assert is_sure(made(0.95, 0.82))
+    assert not is_sure(made(0.95, 0.85))
+
+
+def test_poses_of_one_place_count_once() -> None:
+    poses = np.array([(0.0, 0.0, 3.1), (0.1, 0.0, -3.1), (0.1, 0.0, 1.0), (2.0, 0.0, 3.1)])
+    assert apart(poses, 0.5, 0.3, 9)[:, 0].tolist() == [0.0, 0.1, 2.0]
+    assert len(apart(poses, 0.5, 0.3, 2)) == 2
