@@ -40,11 +40,18 @@ def robot_view(services: Services) -> dict[str, Any]:
         "ages_s": services.robot.ages_s(),
         "site": services.site.folder.name,
         "map_id": services.site.map_id,
-        "localization": "stand-in: the simulator's truth plus noise"
-        if status and status.drive.virtual
-        else "external",
+        "localization": _localization_kind(services),
         "brain": mind_of(services.brain).model_dump(mode="json"),
     }
+
+
+def _localization_kind(services: Services) -> str:
+    status = services.robot.status
+    if services.robot.description.localization.kind == "scans":
+        return "scans: the lidar against the map"
+    if status and status.drive.virtual:
+        return "stand-in: the simulator's truth plus noise"
+    return "external"
 
 
 def about(services: Services) -> dict[str, Any]:

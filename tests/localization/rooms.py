@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,31 +42,19 @@ def field_of(boxes: Boxes, width_m: float, height_m: float) -> DistanceField:
 def cast(
     boxes: Boxes, pose: Pose2, beams: int = BEAMS, far_m: float = 8.0
 ) -> tuple[float | None, ...]:
-    """Return what a lidar at a pose measures to the edges of boxes, to the millimetre."""
-    ranges: list[float | None] = []
-    for beam in range(beams):
-        angle = pose.yaw_rad - pi + 2 * pi * beam / beams
-        met = [_entry(box, pose, cos(angle), sin(angle)) for box in boxes]
-        near = min((m for m in met if m is not None), default=None)
-        ranges.append(round(near, 3) if near is not None and near < far_m else None)
-    return tuple(ranges)
+    """Return what a lidar at a pose measures to the edges of boxes, to the millimetre.
 
-
-def _entry(
-    box: tuple[float, float, float, float], pose: Pose2, cx: float, cy: float
-) -> float | None:
-    low, high = 0.0, float("inf")
-    for at, along, edge0, edge1 in (
-        (pose.x_m, cx, box[0], box[2]),
-        (pose.y_m, cy, box[1], box[3]),
-    ):
-        if abs(along) < 1e-12:
-            if not edge0 <= at <= edge1:
-                return None
-            continue
-        first, second = sorted(((edge0 - at) / along, (edge1 - at) / along))
-        low, high = max(low, first), min(high, second)
-    return low if low < high else None
+    A ray enters a box where it has passed the nearer edge of both axes, before a farther one.
+    """
+    angle = pose.yaw_rad - pi + 2 * pi * np.arange(beams) / beams
+    corners = np.array(boxes)[:, None, :]
+    with np.errstate(divide="ignore"):
+        x_m = (corners[..., 0::2] - pose.x_m) / np.cos(angle)[None, :, None]
+        y_m = (corners[..., 1::2] - pose.y_m) / np.sin(angle)[None, :, None]
+    enters = np.maximum(x_m.min(axis=2), y_m.min(axis=2))
+    leaves = np.minimum(x_m.max(axis=2), y_m.max(axis=2))
+    met = np.where((enters < leaves) & (enters > 0.0), enters, np.inf).min(axis=0)
+    return tuple(round(m, 3) if m < far_m else None for m in met.tolist())
 
 
 def points_of(ranges: tuple[float | None, ...]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""The stand-in as a real process: truth and odometry in, localization out, a clean end."""
+"""Stand-in and localizer as real processes: sensors in, localization out, a clean end."""
 
 from __future__ import annotations
 
@@ -9,9 +9,11 @@ import sys
 import time
 from pathlib import Path
 
+import psutil
 import pytest
 
 from localization.__main__ import PRIORITY
+from sim import SimRobot
 from wire import IDENTITY, STILL, Localization, Odometry, Pose2, SimTruth, keys
 from wire.keys import Party
 from wire.session import open_session
@@ -44,6 +46,63 @@ def test_it_places_odom_in_map_and_says_that_it_is_a_stand_in(
     finally:
         process.kill()
         process.communicate(timeout=LIMIT_S)
+
+
+def test_by_scans_it_places_itself_and_leaves_no_process_behind(
+    repository: Path, tmp_path: Path
+) -> None:
+    robot = tmp_path / "robot.toml"
+    robot.write_text('[localization]\nkind = "scans"\n', "utf-8")
+    command = [sys.executable, "-m", "localization", "--site", "sites/two_room"]
+    process = subprocess.Popen(
+        [*command, "--home", str(tmp_path), "--robot", str(robot)],
+        cwd=repository, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    try:
+        answer, true = converse_by_scans(repository, tmp_path)
+        assert answer.map_id == read_map_id(repository / "sites" / "two_room")
+        assert answer.odom_in_map.x_m == pytest.approx(true.x_m, abs=0.06)
+        assert answer.odom_in_map.y_m == pytest.approx(true.y_m, abs=0.06)
+        assert answer.quality > 0.6
+        children = psutil.Process(process.pid).children(recursive=True)
+        assert children, "the search process"
+        assert all(os.sched_getscheduler(child.pid) == os.SCHED_OTHER for child in children)
+        process.send_signal(signal.SIGTERM)
+        _, said = process.communicate(timeout=LIMIT_S)
+        assert process.returncode == 0, said
+        assert not psutil.wait_procs(children, timeout=LIMIT_S)[1]
+    finally:
+        process.kill()
+        process.communicate(timeout=LIMIT_S)
+
+
+def converse_by_scans(repository: Path, home: Path) -> tuple[Localization, Pose2]:
+    """Be a standing robot and its bridge until the process has placed it."""
+    simulated = SimRobot(repository / "sites" / "two_room", seed=1)
+    with (
+        open_session(Party.ROBOT, "r1", home) as robot,
+        open_session(Party.BRIDGE, "r1", home) as bridge,
+    ):
+        scans, odoms = robot.publisher(keys.SCAN), bridge.publisher(keys.ODOM)
+        answers = bridge.subscriber(keys.LOCALIZATION)
+        end_s = time.monotonic() + 2 * LIMIT_S
+        for seq in range(10_000):
+            now_s = time.monotonic()
+            assert now_s < end_s, "no answer"
+            scan = simulated.tick(now_s).scan
+            if scan is not None:
+                scans.put(scan)
+            odoms.put(
+                Odometry(
+                    odom_id="bridge-1", seq=seq, stamp_s=now_s, base_in_odom=IDENTITY,
+                    twist=STILL, yaw_rate_radps=None,
+                )
+            )  # fmt: skip
+            answer = answers.newest()
+            if answer is not None:
+                return answer, simulated.base_in_map
+            time.sleep(0.01)
+    raise AssertionError("no answer")
 
 
 def ranks(pid: int) -> list[int]:

@@ -16,6 +16,7 @@ from sim import Hardware, SimRobot
 from tools.lockstep.bridge_process import BridgeProcess, Step
 from tools.lockstep.bus import Bus
 from tools.lockstep.latencies import TICK_S, Pace, ticks
+from tools.lockstep.localizer_process import LocalizerProcess
 from tools.lockstep.planner_process import Notebook, PlannerProcess
 from tools.lockstep.robot_process import LocalizationProcess, RobotProcess
 from tools.lockstep.scene import folder_of, scene
@@ -59,7 +60,7 @@ class World:
             site: a site's folder, or the name of one of the checkout's own.
             seed: of all noise and of what varies on the wire.
             brain: what turns sentences into plans; the offline brain if None. It answers at once.
-            robot: its description; the default robot if None.
+            robot: its description; the default robot if None. It says what localizes.
             hardware: what the simulated robot is really like.
             start: where the robot stands at first; the site's dock if None.
             pace: how long messages, routes, plans and the disk take.
@@ -73,8 +74,7 @@ class World:
             self.scene.folder, self.scene.robot, seed=seed, start=start, hardware=hardware
         )
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT))
-        stand_in = StandIn(self.scene.site.map_id, seed=seed)
-        self._localization = LocalizationProcess(stand_in, self.bus.port(Party.LOCALIZATION))
+        self._localization, self.localizer = self._localize(seed)
         self.bridge = BridgeProcess(
             self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s
         )
@@ -240,6 +240,16 @@ class World:
             f"owner {status.owner}, rows {rows}, waits for {status.waiting_for}, goals {goals}, "
             f"leg {status.leg}, reasons {self.bridge.reasons}"
         )
+
+    def _localize(
+        self, seed: int
+    ) -> tuple[LocalizerProcess | LocalizationProcess, LocalizerProcess | None]:
+        """Return what says where the robot is, and the localizer where that is one."""
+        port = self.bus.port(Party.LOCALIZATION)
+        if self.scene.robot.localization.kind == "scans":
+            localizer = LocalizerProcess(self.scene, port)
+            return localizer, localizer
+        return LocalizationProcess(StandIn(self.scene.site.map_id, seed=seed), port), None
 
     def _config(self, seed: int) -> CoreConfig:
         return CoreConfig(
