@@ -44,7 +44,7 @@ class WindowSearch:
     table: NDArray[np.uint8]
 
     @classmethod
-    def over(cls, field: DistanceField) -> WindowSearch:
+    def of_field(cls, field: DistanceField) -> WindowSearch:
         """Return a search over a map."""
         return cls(field, likelihood(field, WINDOW_SIGMA_M))
 

@@ -66,7 +66,7 @@ class GlobalSearch:
     def __init__(self, field: DistanceField) -> None:
         self.field = field
         self._lattice = LatticeSearch(field, step_m=STEP_M, sigma_m=SIGMA_M)
-        self._window = WindowSearch.over(field)
+        self._window = WindowSearch.of_field(field)
         row, column = self._lattice.positions()
         standable = field.free[row, column] & (field.distance_m[row, column] >= CLEAR_M)
         self._standable = np.flatnonzero(standable)
@@ -111,7 +111,7 @@ class GlobalSearch:
         top = top[np.argsort(flat[top], kind="stable")[::-1]]
         turn, place = np.divmod(top, ratings.shape[1])
         poses = np.column_stack((self._xy_m[place], yaws[turn]))
-        return apart(poses, SEPARATE_M, SEPARATE_RAD, ALIGNED)
+        return keep_separate(poses, SEPARATE_M, SEPARATE_RAD, ALIGNED)
 
     def _judge(
         self, points_m: Floats, lidar_m: tuple[float, float], starts: Floats
@@ -121,8 +121,8 @@ class GlobalSearch:
         poses = align(self.field, beams, wide, iterations=10).poses
         rated = scores(self.field, beams, lidar_m, poses)
         order = np.argsort(rated, kind="stable")[::-1]
-        best = apart(poses[order], APART_M, APART_RAD, KEPT)
-        best = apart(align(self.field, points_m, best).poses, APART_M, APART_RAD, KEPT)
+        best = keep_separate(poses[order], APART_M, APART_RAD, KEPT)
+        best = keep_separate(align(self.field, points_m, best).poses, APART_M, APART_RAD, KEPT)
         rated = scores(self.field, points_m, lidar_m, best)
         order = np.argsort(rated, kind="stable")[::-1]
         return tuple(
@@ -131,7 +131,7 @@ class GlobalSearch:
         )
 
 
-def apart(poses: Floats, apart_m: float, apart_rad: float, most: int) -> Floats:
+def keep_separate(poses: Floats, apart_m: float, apart_rad: float, most: int) -> Floats:
     """Return poses, best first, without those close to an earlier one in place and in yaw."""
     kept: list[int] = []
     left = np.ones(len(poses), bool)

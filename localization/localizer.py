@@ -14,7 +14,6 @@ Laws, which the bridge's rows rely on:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 from math import radians
 from typing import TYPE_CHECKING
@@ -27,6 +26,7 @@ from localization.global_search import Candidate, is_sure
 from localization.jump_law import JumpLaw
 from localization.odometry_integration import OdometryTrail
 from localization.quality import ENOUGH_SCORE, quality_of, scores
+from localization.relocation import HintAnswer, OpenSearch, PersonHint, PlacedBase, SearchRequest
 from localization.scan_matching import align
 from wire import Localization, Pose2, between, compose, inverse
 
@@ -57,8 +57,8 @@ UNSEEN_M = 1.0
 SLIP_M_PER_RAD = 1.0
 """Turns on which wheels and gyro disagree make the carried pose as doubtful as metres do."""
 SEARCH_PAUSE_S = 0.5
-ANSWER_S = 10.0
-"""A search that has not answered by then never will: its process ended."""
+ANSWER_S = 20.0
+"""A search that has not answered by then never will; its client waits for 18 s."""
 OLD_SCAN_S = 0.5
 STANDING_MPS, STANDING_RADPS = 0.02, 0.05
 
@@ -72,61 +72,13 @@ class LocalizerState(StrEnum):
     LOST = "lost"
 
 
-@dataclass(frozen=True, slots=True)
-class SearchRequest:
-    """Ask the search process where a scan was taken."""
-
-    number: int
-    points_m: Floats
-    around: Pose2 | None = None
-    """A pose that a person named; None searches the whole map."""
-    radius_m: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class HintAnswer:
-    """Say what became of a person's "I am here"."""
-
-    id: str
-    code: str
-    """``accepted``, ``moving``, ``no_scan``, ``does_not_fit``, ``busy`` or ``no_answer``."""
-    score: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class _Hint:
-    id: str
-    pose: Pose2
-    radius_m: float
-
-
-@dataclass(frozen=True, slots=True)
-class _PlacedBase:
-    """Hold where ``base`` was in ``map``, and in the trail's frame at the same instant."""
-
-    in_map: Pose2
-    carried: Pose2
-
-    def at(self, carried: Pose2) -> Pose2:
-        """Return where ``base`` is in ``map`` when odometry has carried it on."""
-        return compose(self.in_map, between(self.carried, carried))
-
-
-@dataclass(frozen=True, slots=True)
-class _OpenSearch:
-    request: SearchRequest
-    carried: Pose2
-    asked_s: float
-    hint: _Hint | None
-
-
 class Localizer:
     """Hold one robot's pose in one map."""
 
     def __init__(self, field: DistanceField, lidar: LidarConfig, map_id: str) -> None:
         self._field, self._lidar, self._map_id = field, lidar, map_id
         self._lidar_m = (lidar.x_m, lidar.y_m)
-        self._window = WindowSearch.over(field)
+        self._window = WindowSearch.of_field(field)
         self._window_s = -DOUBT_PAUSE_S
         self._trail = OdometryTrail()
         self._odometry: Odometry | None = None
@@ -138,18 +90,18 @@ class Localizer:
         """Of the newest scan at the tracked pose."""
         self.candidates: tuple[Candidate, ...] = ()
         """What the newest search found, best first."""
-        self._placed: _PlacedBase | None = None
-        self._trial: tuple[_PlacedBase, _Hint | None] | None = None
+        self._placed: PlacedBase | None = None
+        self._trial: tuple[PlacedBase, PersonHint | None] | None = None
         self._accepted_score = 0.0
         self._accepted_at = (0.0, 0.0, 0.0)
         """Stamp [s], metres of wheels and slip [rad] at the last accepted scan."""
         self._blind_axis_m = 0.0
         self._bad = 0
-        self._open: _OpenSearch | None = None
+        self._open: OpenSearch | None = None
         self._searched_s = -SEARCH_PAUSE_S
         self._request: SearchRequest | None = None
         self._requests = 0
-        self._hint: _Hint | None = None
+        self._hint: PersonHint | None = None
         self.hint_answer: HintAnswer | None = None
         """To the newest hint, once there is one."""
         self._jump_law = JumpLaw()
@@ -181,7 +133,7 @@ class Localizer:
         elif not (abs(twist.v_mps) < STANDING_MPS and abs(twist.w_radps) < STANDING_RADPS):
             self.hint_answer = HintAnswer(hint_id, "moving")
         else:
-            self._hint, self._open = _Hint(hint_id, pose, radius_m), None
+            self._hint, self._open = PersonHint(hint_id, pose, radius_m), None
 
     def hear_candidates(self, number: int, candidates: tuple[Candidate, ...]) -> None:
         """Take a search's answer; an answer to a question that is not open is ignored."""
@@ -197,7 +149,7 @@ class Localizer:
         else:
             fits = is_sure(candidates)
         if fits:
-            placed = _PlacedBase(Pose2(*candidates[0].pose), search.carried)
+            placed = PlacedBase(Pose2(*candidates[0].pose), search.carried)
             self._trial = (placed, search.hint)
 
     def search_request(self) -> SearchRequest | None:
@@ -241,7 +193,7 @@ class Localizer:
         pose, score, free_axis = self._fit(cloud, predicted, carried)
         self.score = score
         if score >= ENOUGH_SCORE:
-            self._accept(cloud, _PlacedBase(pose, carried), score, free_axis)
+            self._accept(cloud, PlacedBase(pose, carried), score, free_axis)
             return
         self._bad += 1
         self.state = LocalizerState.COASTING
@@ -254,7 +206,7 @@ class Localizer:
     ) -> tuple[Pose2, float, Floats]:
         """Return the pose that fits a scan best near a prediction, its score and free axis."""
         start = _array(predicted)
-        pose, score, axis = self._aligned(cloud, start)
+        pose, score, axis = self._align(cloud, start)
         turned = self._placed is not None and (
             abs(between(self._placed.carried, carried).yaw_rad) > TURNED_RAD
         )
@@ -262,19 +214,19 @@ class Localizer:
         if turned or doubted or score < ENOUGH_SCORE:
             self._window_s = cloud.stamp_s
             start = self._window.best(cloud.points_m, start)
-            other, rated, other_axis = self._aligned(cloud, start)
+            other, rated, other_axis = self._align(cloud, start)
             if rated > score + BETTER:
                 return other, rated, other_axis
         return pose, score, axis
 
-    def _aligned(self, cloud: PointCloud, start: Floats) -> tuple[Pose2, float, Floats]:
+    def _align(self, cloud: PointCloud, start: Floats) -> tuple[Pose2, float, Floats]:
         result = align(self._field, cloud.points_m, start[None])
         score = float(scores(self._field, cloud.points_m, self._lidar_m, result.poses)[0])
         x_m, y_m, yaw = result.poses[0].tolist()
         return Pose2(x_m, y_m, yaw), score, result.free_axis[0]
 
     def _accept(
-        self, cloud: PointCloud, placed: _PlacedBase, score: float, free_axis: Floats
+        self, cloud: PointCloud, placed: PlacedBase, score: float, free_axis: Floats
     ) -> None:
         last, self._placed = self._placed, placed
         held = not free_axis.any()
@@ -293,23 +245,25 @@ class Localizer:
         if self._open is None and now_s - self._searched_s >= SEARCH_PAUSE_S:
             self._ask(cloud, carried, now_s, None)
 
-    def _ask(self, cloud: PointCloud, carried: Pose2, now_s: float, hint: _Hint | None) -> None:
+    def _ask(
+        self, cloud: PointCloud, carried: Pose2, now_s: float, hint: PersonHint | None
+    ) -> None:
         self._requests += 1
         self._searched_s = now_s
         around, radius_m = (None, 0.0) if hint is None else (hint.pose, hint.radius_m)
         self._request = SearchRequest(self._requests, cloud.points_m, around, radius_m)
-        self._open = _OpenSearch(self._request, carried, now_s, hint)
+        self._open = OpenSearch(self._request, carried, now_s, hint)
 
     def _try_answer(self, cloud: PointCloud, carried: Pose2) -> bool:
         """Judge a search's pose by a scan that the search did not have."""
         if self._trial is None:
             return False
         (placed, hint), self._trial = self._trial, None
-        pose, score, axis = self._aligned(cloud, _array(placed.at(carried)))
+        pose, score, axis = self._align(cloud, _array(placed.at(carried)))
         fits = score >= ENOUGH_SCORE
         if fits:
             self._blind_axis_m = 0.0
-            self._accept(cloud, _PlacedBase(pose, carried), score, axis)
+            self._accept(cloud, PlacedBase(pose, carried), score, axis)
         if hint is not None:
             self._answer_hint("accepted" if fits else "does_not_fit", score)
         return fits
@@ -328,7 +282,7 @@ class Localizer:
         newest = self._trail.newest
         if self._placed is not None and newest is not None:
             in_map = self._placed.at(newest.carried)
-            self._placed = _PlacedBase(in_map, Pose2(0.0, 0.0, 0.0))
+            self._placed = PlacedBase(in_map, Pose2(0.0, 0.0, 0.0))
         self._trail.clear()
         self._accepted_at = (self._accepted_at[0], 0.0, 0.0)
         self._open = self._trial = None

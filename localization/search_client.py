@@ -20,15 +20,18 @@ if TYPE_CHECKING:
     from collections.abc import Coroutine
     from pathlib import Path
 
-    from localization.localizer import SearchRequest
+    from localization.relocation import SearchRequest
     from processes.worker_protocol import Frame
     from wire.robot import LidarConfig
 
 log = logging.getLogger(__name__)
 
-READY_S = 30.0
+READY_S = 60.0
 """To start Python, numpy and OpenCV on a busy board and load a map."""
-SEARCH_S = 8.0
+SEARCH_S = 18.0
+"""A search takes 0.1 s; the rest is for a process that is still starting, or starved of its
+processor: killed for its slowness it would never answer. What it found is carried on by odometry
+and judged by another scan, so that a late answer harms nobody."""
 LONGEST_PAUSE_S = 5.0
 
 
@@ -69,11 +72,11 @@ class SearchClient:
     def start(self) -> None:
         """Start the thread and, in it, the process."""
         self._thread.start()
-        self._soon(self._start())
+        self._schedule(self._start())
 
     def ask(self, request: SearchRequest) -> None:
         """Send a request; its answer comes by :meth:`answers`, or never."""
-        self._soon(self._ask(request))
+        self._schedule(self._ask(request))
 
     def answers(self) -> list[tuple[int, tuple[Candidate, ...]]]:
         """Return what was answered since the last call: request number and candidates."""
@@ -93,7 +96,7 @@ class SearchClient:
         asyncio.set_event_loop(self._loop)
         self._loop.run_forever()
 
-    def _soon(self, work: Coroutine[Any, Any, None]) -> None:
+    def _schedule(self, work: Coroutine[Any, Any, None]) -> None:
         self._loop.call_soon_threadsafe(self._begin, work)
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> None:

@@ -241,7 +241,7 @@ class SimRobot:
 
     def _sweep(self, ticks_left: int) -> None:
         """Measure the beams of this tick from where the lidar is now."""
-        config, beams = self.robot.lidar, self._lidar.swept(ticks_left, PERIODS.tick_s)
+        config, beams = self.robot.lidar, self._lidar.beams_due(ticks_left, PERIODS.tick_s)
         lidar_in_map = compose(self._world.pose(), Pose2(config.x_m, config.y_m, config.yaw_rad))
         self._true_m[beams] = self._world.rays(
             (lidar_in_map.x_m, lidar_in_map.y_m),

@@ -101,7 +101,7 @@ class LidarModel:
         angles = self._angles + lidar_in_map.yaw_rad
         return np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
 
-    def swept(self, ticks_left: int, tick_s: float) -> slice:
+    def beams_due(self, ticks_left: int, tick_s: float) -> slice:
         """Return the beams that are taken in a tick, so many ticks before a scan is due."""
         beams, ticks = self._hardware.lidar_beams, self.sweep_ticks(tick_s)
         done = ticks - 1 - ticks_left

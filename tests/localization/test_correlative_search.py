@@ -18,13 +18,13 @@ TRUE = Pose2(2.6, 1.7, 0.4)
 def test_the_window_reaches_what_gauss_newton_does_not() -> None:
     points = points_of(cast(ROOM, TRUE))
     around = np.array((TRUE.x_m + 0.45, TRUE.y_m - 0.4, TRUE.yaw_rad + radians(18.0)))
-    found = WindowSearch.over(FIELD).best(points, around)
+    found = WindowSearch.of_field(FIELD).best(points, around)
     assert found[:2] == pytest.approx((TRUE.x_m, TRUE.y_m), abs=0.06)
     assert found[2] == pytest.approx(TRUE.yaw_rad, abs=radians(2.1))
 
 
 def test_a_window_without_points_or_off_the_map_is_its_middle() -> None:
-    search, points = WindowSearch.over(FIELD), points_of(cast(ROOM, TRUE))
+    search, points = WindowSearch.of_field(FIELD), points_of(cast(ROOM, TRUE))
     middle = np.array((1.0, 1.0, 0.0))
     assert search.best(np.empty((0, 2)), middle).tolist() == middle.tolist()
     far = np.array((500.0, 500.0, 0.0))

@@ -7,7 +7,7 @@ from math import hypot
 import numpy as np
 import pytest
 
-from localization.global_search import Candidate, GlobalSearch, apart, is_sure
+from localization.global_search import Candidate, GlobalSearch, is_sure, keep_separate
 from tests.localization.rooms import ROOM, TWINS, cast, field_of, points_of
 from wire import Pose2, wrap
 
@@ -65,5 +65,5 @@ def test_sure_is_a_lead_and_a_good_score() -> None:
 
 def test_poses_of_one_place_count_once() -> None:
     poses = np.array([(0.0, 0.0, 3.1), (0.1, 0.0, -3.1), (0.1, 0.0, 1.0), (2.0, 0.0, 3.1)])
-    assert apart(poses, 0.5, 0.3, 9)[:, 0].tolist() == [0.0, 0.1, 2.0]
-    assert len(apart(poses, 0.5, 0.3, 2)) == 2
+    assert keep_separate(poses, 0.5, 0.3, 9)[:, 0].tolist() == [0.0, 0.1, 2.0]
+    assert len(keep_separate(poses, 0.5, 0.3, 2)) == 2

@@ -201,6 +201,25 @@ def test_the_lidar_measures_known_walls(driver: Driver) -> None:
     assert 0.0 < np.mean(np.isnan(beams)) < 0.01
 
 
+def test_a_lidar_that_sweeps_takes_each_beam_in_its_turn(repository: Path) -> None:
+    exact = Hardware(lidar_noise_m=0.0, lidar_dropout=0.0)
+    swept = Hardware(lidar_noise_m=0.0, lidar_dropout=0.0, lidar_sweep_s=0.1)
+    site = repository / "sites" / "two_room"
+    still, turning = (SimRobot(site, hardware=one, start=MIDDLE) for one in (exact, swept))
+    whole = next(one.scan for one in still.step_to(0.1) if one.scan)
+    parts = next(one.scan for one in turning.step_to(0.1) if one.scan)
+    assert whole.time_increment_s == 0.0
+    assert parts.ranges_m == pytest.approx(whole.ranges_m, abs=0.002), "a robot that stands"
+    assert parts.stamp_s == pytest.approx(0.005)
+    assert parts.stamp_s + 359 * parts.time_increment_s == pytest.approx(0.1)
+    for _ in range(5):
+        turning.tick(turning.time_s + 0.01)
+    turning.place_robot(Pose2(MIDDLE.x_m + 0.5, MIDDLE.y_m, MIDDLE.yaw_rad))
+    half = next(one.scan for one in turning.step_to(0.2) if one.scan).ranges_m
+    assert half[:180] == pytest.approx(whole.ranges_m[:180], abs=0.002), "seen before it was moved"
+    assert half[180:] != pytest.approx(whole.ranges_m[180:], abs=0.1)
+
+
 def test_beyond_its_range_nothing_comes_back_and_close_is_told_as_it_is(repository: Path) -> None:
     description = RobotDescription.model_validate(
         {"lidar": {"range_max_m": 1.5, "range_min_m": 0.35}}

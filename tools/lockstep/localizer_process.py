@@ -14,7 +14,7 @@ from wire import Localization, Odometry, keys
 
 if TYPE_CHECKING:
     from localization.global_search import Candidate
-    from localization.localizer import SearchRequest
+    from localization.relocation import SearchRequest
     from tools.lockstep.bus import Port
     from tools.lockstep.scene import Scene
 

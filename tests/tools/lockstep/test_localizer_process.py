@@ -21,12 +21,14 @@ def error_m(world: Together) -> float:
 def test_it_finds_itself_at_start_and_again_when_carried() -> None:
     robot = RobotDescription(localization=LocalizationConfig(kind="scans"))
     world = Together(site="two_room", seed=2, robot=robot)
+    assert world.localizer is not None
+    localizer = world.localizer.localizer
     assert error_m(world) < 0.05
     world.teleport(Pose2(world.truth.x_m + 0.9, world.truth.y_m, world.truth.yaw_rad + 1.0))
-    world.run_until(lambda w: w.localizer.localizer.state is LocalizerState.LOST, 0.6)
+    world.run_until(lambda _: localizer.state is LocalizerState.LOST, 0.6)
     world.run(0.1)
     assert "POSE_LOST" in [row.row for row in world.status.rows]
-    world.run_until(lambda w: w.localizer.localizer.state is LocalizerState.TRACKING, 2.0)
+    world.run_until(lambda _: localizer.state is LocalizerState.TRACKING, 2.0)
     world.run(0.2)
     assert error_m(world) < 0.05
     assert world.status.base_in_map is not None

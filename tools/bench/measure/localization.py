@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import asdict, dataclass
+from functools import partial
 from math import degrees, hypot, pi
 from random import Random
 from typing import TYPE_CHECKING
@@ -17,7 +18,7 @@ import numpy as np
 from localization.deskew import deskew
 from localization.distance_field import DistanceField
 from localization.global_search import GlobalSearch, is_sure
-from localization.localizer import LocalizerState
+from localization.localizer import Localizer, LocalizerState
 from localization.odometry_integration import OdometryTrail
 from maps import load_map
 from pons.settings import CHECKOUT
@@ -52,7 +53,7 @@ RIGHT_M, RIGHT_RAD = 0.15, 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class DriveErrors:
     """Hold what one drive came to."""
 
     errors_m: list[float]
@@ -67,8 +68,8 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive each case, carry the robot away, search from random poses."""
     rows = []
     for case in CASES:
-        taken = lab.slices(case, lab.count(1, 4), lambda seed, c=case: asdict(drive(c, seed)))
-        drives = [Drive(**one) for one in taken]
+        taken = lab.slices(case, lab.count(1, 4), partial(_drive_record, case))
+        drives = [DriveErrors(**one) for one in taken]
         errors_m = [error for one in drives for error in one.errors_m]
         errors_deg = [error for one in drives for error in one.errors_deg]
         faults = sum(one.faults for one in drives)
@@ -95,7 +96,7 @@ def scans_world(seed: int, hardware: Hardware) -> Together:
     return Together(site=SITE, seed=seed, robot=robot, hardware=hardware)
 
 
-def drive(case: str, seed: int) -> Drive:
+def drive(case: str, seed: int) -> DriveErrors:
     """Drive from room to room for ten minutes."""
     world, random = scans_world(seed + 1, CASES[case]), Random(f"{case} {seed}")
     began_s = world.now_s
@@ -114,7 +115,11 @@ def drive(case: str, seed: int) -> Drive:
     process = world.localizer
     work_s = process.work_cpu_s if process is not None else []
     share = 100 * sum(work_s) / (world.now_s - began_s)
-    return Drive(errors_m, errors_deg, [1e3 * one for one in work_s], share, faults)
+    return DriveErrors(errors_m, errors_deg, [1e3 * one for one in work_s], share, faults)
+
+
+def _drive_record(case: str, seed: int) -> dict[str, object]:
+    return asdict(drive(case, seed))
 
 
 def _disturb(case: str, world: Together, random: Random, elapsed_s: float) -> None:
@@ -123,10 +128,10 @@ def _disturb(case: str, world: Together, random: Random, elapsed_s: float) -> No
         world.sim.break_down(*([SimFault.SLIP] if slips else []))
     if case == "people" and elapsed_s % 3.0 < 0.1:
         for index in range(2):
-            world.put(f"person_{index}", _beside(world.truth, random, 1.0, 3.0))
+            world.put(f"person_{index}", _draw_beside(world.truth, random, 1.0, 3.0))
 
 
-def _beside(pose: Pose2, random: Random, near_m: float, far_m: float) -> Pose2:
+def _draw_beside(pose: Pose2, random: Random, near_m: float, far_m: float) -> Pose2:
     angle, far = random.uniform(-pi, pi), random.uniform(near_m, far_m)
     return Pose2(pose.x_m + far * float(np.cos(angle)), pose.y_m + far * float(np.sin(angle)), 0.0)
 
@@ -156,12 +161,17 @@ def kidnappings(seed: int) -> list[tuple[float, float]]:
         if localizer is None:
             return []
         core = localizer.localizer
-        lost_s = world.run_until(lambda _, c=core: c.state is LocalizerState.LOST, 20.0)
-        right_s = lost_s + world.run_until(
-            lambda w, c=core: c.state is LocalizerState.TRACKING and _errors(w)[0] < RIGHT_M, 20.0
-        )
-        found.append((lost_s, right_s))
+        lost_s = world.run_until(partial(_is_lost, core), 20.0)
+        found.append((lost_s, lost_s + world.run_until(partial(_is_right, core), 20.0)))
     return found
+
+
+def _is_lost(core: Localizer, _: Together) -> bool:
+    return core.state is LocalizerState.LOST
+
+
+def _is_right(core: Localizer, world: Together) -> bool:
+    return core.state is LocalizerState.TRACKING and _errors(world)[0] < RIGHT_M
 
 
 def _spots(random: Random, count: int) -> list[Pose2]:
@@ -182,7 +192,7 @@ def searches(count: int, things: int) -> tuple[int, int, list[float]]:
     for spot in _spots(random, count):
         robot.place_robot(spot)
         for name in names:
-            robot.place_thing(name, _beside(spot, random, 0.6, 2.5))
+            robot.place_thing(name, _draw_beside(spot, random, 0.6, 2.5))
         reports = robot.step_to(robot.time_s + robot.robot.lidar.scan_s)
         scan = next(one.scan for one in reversed(reports) if one.scan is not None)
         true = robot.base_in_map

@@ -1,0 +1,70 @@
+"""Keep what belongs to placing a robot anew: questions to the search, a person's word, a place.
+
+Data alone; the localizer decides with it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from wire import Pose2, between, compose
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class SearchRequest:
+    """Ask the search process where a scan was taken."""
+
+    number: int
+    points_m: Floats
+    around: Pose2 | None = None
+    """A pose that a person named; None searches the whole map."""
+    radius_m: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class HintAnswer:
+    """Say what became of a person's "I am here"."""
+
+    id: str
+    code: str
+    """``accepted``, ``moving``, ``no_scan``, ``does_not_fit``, ``busy`` or ``no_answer``."""
+    score: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PersonHint:
+    """Hold a person's word on where the robot is."""
+
+    id: str
+    pose: Pose2
+    radius_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedBase:
+    """Hold where ``base`` was in ``map``, and in the trail's frame at the same instant."""
+
+    in_map: Pose2
+    carried: Pose2
+
+    def at(self, carried: Pose2) -> Pose2:
+        """Return where ``base`` is in ``map`` when odometry has carried it on."""
+        return compose(self.in_map, between(self.carried, carried))
+
+
+@dataclass(frozen=True, slots=True)
+class OpenSearch:
+    """Hold a question that is not answered yet."""
+
+    request: SearchRequest
+    carried: Pose2
+    """``base`` in the trail's frame when the scan was taken."""
+    asked_s: float
+    hint: PersonHint | None
