@@ -20,7 +20,7 @@ from pydantic import Field, StrictBool
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.image import GreyImage, read_image
-from maps.yaml_records import Record, checked, parse_yaml, read_bytes
+from maps.yaml_records import Record, parse_yaml, read_bytes, validate_record
 from wire.fingerprint import map_id
 from wire.site_map import MOST_MAP_BYTES, image_in, image_name
 
@@ -98,7 +98,7 @@ def load_picture(
         "image": path.name, "resolution": resolution_m, "origin": origin,
         "occupied_thresh": 0.65, "free_thresh": 0.25,
     }  # fmt: skip
-    record = checked(given, MapRecord, path)
+    record = validate_record(given, MapRecord, path)
     _, image = read_image(path)
     return LoadedMap(*_grid(record, image, path, frees_saved_unknown), "", record)
 
@@ -145,9 +145,9 @@ def _grid(
     x_m, y_m, yaw_rad = record.origin
     grid = GridMap(image.width, image.height, record.resolution, x_m, y_m, cells)
     if yaw_rad != 0.0:
-        from maps.rotation import straightened  # numpy is not for those who need no turn
+        from maps.rotation import straighten  # numpy is not for those who need no turn
 
-        grid = straightened(grid, yaw_rad, path)
+        grid = straighten(grid, yaw_rad, path)
     return grid, kept
 
 

@@ -26,7 +26,7 @@ _OPENINGS = (0, 3, 5, 7)
 
 
 @dataclass(frozen=True, slots=True)
-class Outlines:
+class CellOutlines:
     """Hold the outer lines of marked cells, and the lines around their holes."""
 
     outer: tuple[Polygon, ...]
@@ -38,7 +38,7 @@ class Outlines:
         return sum(len(line) for line in (*self.outer, *self.holes))
 
 
-def outlines(marked: Mask, grid: GridMap, tolerance_cells: float) -> Outlines:
+def outlines(marked: Mask, grid: GridMap, tolerance_cells: float) -> CellOutlines:
     """Return simple outlines of the marked cells.
 
     Args:
@@ -61,7 +61,7 @@ def outlines(marked: Mask, grid: GridMap, tolerance_cells: float) -> Outlines:
         fine = np.pad(np.repeat(np.repeat(mask, 2, 0), 2, 1), 1)
         lines, tree = cv2.findContours(fine, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
         if not lines:
-            return Outlines((), ())
+            return CellOutlines((), ())
         outer: list[Polygon] = []
         holes: list[Polygon] = []
         for line, links in zip(lines, tree[0], strict=True):
@@ -71,7 +71,7 @@ def outlines(marked: Mask, grid: GridMap, tolerance_cells: float) -> Outlines:
             if simple:
                 (outer if links[3] < 0 else holes).append(simple)
         else:
-            return Outlines(tuple(outer), tuple(holes))
+            return CellOutlines(tuple(outer), tuple(holes))
     raise SiteError("map_too_ragged", "its borders cross themselves however they are smoothed")
 
 

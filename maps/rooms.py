@@ -54,7 +54,7 @@ def propose_rooms(grid: GridMap, floor: Cells | None = None) -> tuple[ProposedRo
     free = cell_array(grid) == FREE if floor is None else floor
     distance = cv2.distanceTransform(np.pad(free.astype(np.uint8), 1), cv2.DIST_L2, 5)[1:-1, 1:-1]
     clearance_m = np.asarray(distance, np.float64) * grid.resolution_m
-    labels = _merged(_shared_out(free, clearance_m, grid.resolution_m), grid.resolution_m)
+    labels = _merge_parts(_shared_out(free, clearance_m, grid.resolution_m), grid.resolution_m)
     rooms = [
         room
         for label in np.unique(labels[labels > 0])
@@ -79,7 +79,7 @@ def _shared_out(free: Cells, clearance_m: NDArray[np.float64], step_m: float) ->
     return labels.astype(np.int32)
 
 
-def _merged(labels: Labels, resolution_m: float) -> Labels:
+def _merge_parts(labels: Labels, resolution_m: float) -> Labels:
     """Join parts that meet along more than a door."""
     touching: dict[tuple[int, int], int] = {}
     for first, second in ((labels[:, :-1], labels[:, 1:]), (labels[:-1], labels[1:])):

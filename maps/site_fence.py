@@ -69,7 +69,7 @@ def draw_fence(
     taken = sum(map(len, keep_outs)) + sum(len(zone.polygon) for zone in zones)
     corners = taken
     for tolerance in _TOLERANCES_CELLS:
-        found = outlines(_allowed(grid, floor, radius_m, tolerance), grid, tolerance)
+        found = outlines(_mark_allowed(grid, floor, radius_m, tolerance), grid, tolerance)
         corners = taken + found.corners
         lines = len(found.holes) + len(keep_outs)
         if found.outer and corners <= MAX_CORNERS and lines <= 200 and len(zones) <= 200:
@@ -84,7 +84,7 @@ def draw_fence(
     raise SiteError("map_too_ragged", f"{text}. Clean the picture of speckles, or draw a fence")
 
 
-def _allowed(grid: GridMap, floor: Cells, radius_m: float, tolerance: float) -> Cells:
+def _mark_allowed(grid: GridMap, floor: Cells, radius_m: float, tolerance: float) -> Cells:
     cells = cell_array(grid)
     cross = np.asarray(cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3)), np.uint8)
     beside = np.asarray(cv2.dilate(floor.astype(np.uint8), cross), np.uint8).astype(bool)

@@ -26,7 +26,7 @@ MOST_ACCEL_MPS2 = 1_000.0
 the robot flings it away for an instant, and that must not end the simulator."""
 
 
-def _saturated(reading: float, most: float) -> float:
+def _saturate(reading: float, most: float) -> float:
     return max(-most, min(most, reading))
 
 
@@ -49,7 +49,7 @@ class Encoder:
         """Read the shaft; speed is the count's change over one period."""
         count = int((angle_rad - self._zero_rad) // self._step_rad)
         speed_radps = (count - self._count) * self._step_rad / self._period_s
-        self.speed_radps = _saturated(speed_radps, MOST_WHEEL_RADPS)
+        self.speed_radps = _saturate(speed_radps, MOST_WHEEL_RADPS)
         self._count = count
 
 
@@ -83,9 +83,9 @@ class ImuModel:
         forward_mps2 = (twist.v_mps - self._last_v_mps) / self._period_s
         self._last_v_mps = twist.v_mps
         return ImuSample(
-            _saturated(twist.w_radps + self._bias_radps + noise[0], MAX_TURN_RADPS),
-            _saturated(forward_mps2 + noise[1], MOST_ACCEL_MPS2),
-            _saturated(twist.v_mps * twist.w_radps + noise[2], MOST_ACCEL_MPS2),
+            _saturate(twist.w_radps + self._bias_radps + noise[0], MAX_TURN_RADPS),
+            _saturate(forward_mps2 + noise[1], MOST_ACCEL_MPS2),
+            _saturate(twist.v_mps * twist.w_radps + noise[2], MOST_ACCEL_MPS2),
         )
 
 

@@ -92,7 +92,7 @@ def _of_map(loaded: LoadedMap) -> Iterator[SiteFinding]:
 def _of_places(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:
     home = site.home.pose
     column, row = site.grid.cell_of(home.x_m, home.y_m)
-    reached = _reached(costmap, row, column)
+    reached = _mark_reached(costmap, row, column)
     if reached is None:
         room = float(costmap.clearance_m[row, column])
         yield _finding(
@@ -133,7 +133,7 @@ def _near(reached: Mask, row: int, column: int, resolution_m: float) -> bool:
     return bool(reached[low : row + reach + 1, left : column + reach + 1].any())
 
 
-def _reached(costmap: Costmap, row: int, column: int) -> Mask | None:
+def _mark_reached(costmap: Costmap, row: int, column: int) -> Mask | None:
     label = int(costmap.labels[row, column])
     return None if label == 0 else np.asarray(costmap.labels == label)
 
@@ -148,7 +148,7 @@ def _reached_without_margin(site: Site, costmap: Costmap) -> Mask | None:
     )
     home = site.home.pose
     column, row = site.grid.cell_of(home.x_m, home.y_m)
-    return _reached(loose, row, column)
+    return _mark_reached(loose, row, column)
 
 
 def _of_floor(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:

@@ -127,16 +127,12 @@ def test_a_fence_lets_nobody_over_the_edge_of_the_known(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_ragged_map_gives_a_fence_or_a_refusal(tmp_path: Path, seed: int) -> None:
+def test_a_ragged_map_gets_a_fence_without_flaw(tmp_path: Path, seed: int) -> None:
     chance = np.random.default_rng(seed)
     picture = two_rooms()
     noise = chance.random(picture.shape) < (0.002, 0.02, 0.2)[seed]
     picture[noise] = chance.choice([0, 205], int(noise.sum()))
     loaded = load_map(written(tmp_path, picture))
-    if seed == 2:  # every fifth pixel
-        with pytest.raises(SiteError, match="map_too_ragged|map_no_floor"):
-            new_site(loaded, 0.05)
-        return
     made = new_site(loaded, 0.05)
     fence = FenceFile.model_validate(json.loads(made.files["fence.json"]), strict=False)
     assert flaw(fence) is None
