@@ -28,6 +28,15 @@ REASONS = MappingProxyType(
         "place_in_obstacle": "地点在障碍物或未知区域内",
         "place_outside_fence": "地点在围栏之外",
         "home_unknown": "未知的起始地点",
+        "map_too_ragged": "地图边界过于零碎",
+        "map_no_floor": "地图上没有可站立的空地",
+        "map_unknown_word": "未知区域是否可通行需要人来说明",
+        "mask_elsewhere": "掩膜与地图不重叠",
+        "site_name_malformed": "站点名称不合要求",
+        "site_exists": "已有同名站点",
+        "site_missing": "没有这个站点",
+        "site_unwritable": "站点文件夹无法写入",
+        "room_unknown": "没有这个房间提议",
     }
 )
 """Every code, with its sentence in Chinese; the English sentence carries the particulars."""

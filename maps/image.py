@@ -82,7 +82,7 @@ def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
         greys = _plain_values(data[head.end() :], wanted, white, where)
     else:
         raw = bytes(memoryview(data)[head.end() : head.end() + wanted * (2 if deep else 1)])
-        greys = _deep_values(raw, white) if deep else _scaled(raw, white)
+        greys = _deep_values(raw, white) if deep else _scale_greys(raw, white)
     if greys is None or len(greys) < wanted:
         came = f"{len(data) - head.end()} bytes came"
         text = f"{where}: {width} x {height} pixels up to {white} announced, {came}"
@@ -90,7 +90,7 @@ def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
     return GreyImage(width, height, greys)
 
 
-def _scaled(raw: bytes, white: int) -> bytes | None:
+def _scale_greys(raw: bytes, white: int) -> bytes | None:
     """Return 8-bit values with white at 255; None where one is whiter than white."""
     if white == 255:
         return raw

@@ -19,8 +19,8 @@ from pydantic import Field, StrictBool
 
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
-from maps.image import read_image
-from maps.yaml_records import Record, parse_yaml, read_bytes
+from maps.image import GreyImage, read_image
+from maps.yaml_records import Record, parse_yaml, read_bytes, validate_record
 from wire.fingerprint import map_id
 from wire.site_map import MOST_MAP_BYTES, image_in, image_name
 
@@ -29,6 +29,10 @@ Ordinate = Annotated[float, Field(ge=-10_000.0, le=10_000.0)]
 
 SAVED_UNKNOWN = 205
 """The grey that map savers of ROS 1 and Nav2 write for unknown: occupancy 50/255, 0.196."""
+
+
+NO_OCCUPANCY = 255
+"""Unknown, beside an occupancy of 0 to 100 percent."""
 
 
 class MapRecord(Record):
@@ -49,16 +53,21 @@ class LoadedMap:
     """Keep a map with the name by which all processes know it."""
 
     grid: GridMap
+    kept_unknown: int
+    """Pixels of grey 205 that the file's ``free_thresh`` makes free, and a careful reader not."""
     map_id: str
     record: MapRecord
-    kept_unknown: int
-    """Pixels of grey 205 that the file's ``free_thresh`` would have made free."""
 
 
-def load_map(path: Path) -> LoadedMap:
+def load_map(path: Path, *, frees_saved_unknown: bool = False) -> LoadedMap:
     """Load map.yaml at ``path`` and the image it points to.
 
     A yaw in the origin is carried out: the grid's rows always lie along x of ``map``.
+
+    Args:
+        path: the map.yaml.
+        frees_saved_unknown: a person said that this map's grey 205 may be floor where the
+            thresholds make it so.
 
     Raises:
         SiteError: ``map_image_outside``, ``map_image_ambiguous``, ``map_thresholds_crossed`` and
@@ -69,21 +78,77 @@ def load_map(path: Path) -> LoadedMap:
     data, image = read_image(_image_path(path, text, record))
     name = map_id(text, data)
     del data
+    return LoadedMap(*_grid(record, image, path, frees_saved_unknown), name, record)
+
+
+def load_picture(
+    path: Path,
+    resolution_m: float,
+    origin: tuple[float, float, float],
+    *,
+    frees_saved_unknown: bool = False,
+) -> LoadedMap:
+    """Load a picture without a map.yaml, by Nav2's thresholds; its map_id is empty.
+
+    Raises:
+        SiteError: ``value_malformed`` and the codes of :mod:`maps.image` and
+            :mod:`maps.rotation`.
+    """
+    given = {
+        "image": path.name, "resolution": resolution_m, "origin": origin,
+        "occupied_thresh": 0.65, "free_thresh": 0.25,
+    }  # fmt: skip
+    record = validate_record(given, MapRecord, path)
+    _, image = read_image(path)
+    return LoadedMap(*_grid(record, image, path, frees_saved_unknown), "", record)
+
+
+def load_occupancy(path: Path) -> tuple[MapRecord, int, int, bytes]:
+    """Load a mask as Nav2's occupancy: 0 to 100 percent a cell, NO_OCCUPANCY where unknown.
+
+    Returns the yaml's record, width and height, and the cells, the lowest row first. The yaw of
+    the origin is left to who asks.
+
+    Raises:
+        SiteError: as :func:`load_map` does.
+    """
+    text = read_bytes(path, MOST_MAP_BYTES)
+    record = parse_yaml(text, MapRecord, path)
+    _, image = read_image(_image_path(path, text, record))
+    _check_thresholds(record, path)
+    percents = bytes(_percent(grey, record) for grey in range(256))
+    cells = _from_below(image.pixels.translate(percents), image.width, image.height)
+    if image.opaque is not None:
+        opaque = _from_below(image.opaque, image.width, image.height)
+        cells = _with_transparent(cells, opaque, NO_OCCUPANCY)
+    return record, image.width, image.height, cells
+
+
+def _check_thresholds(record: MapRecord, path: Path) -> None:
     if not record.free_thresh < record.occupied_thresh:
         detail = f"{path}: free_thresh {record.free_thresh} is not below {record.occupied_thresh}"
         raise SiteError("map_thresholds_crossed", detail)
+
+
+def _grid(
+    record: MapRecord, image: GreyImage, path: Path, frees_saved_unknown: bool
+) -> tuple[GridMap, int]:
+    _check_thresholds(record, path)
     kept = image.pixels.count(_saved_unknown(record)) if _frees_the_unknown(record) else 0
-    kinds = bytes(_kind(grey, record) for grey in range(256))
-    cells = _from_below(image.pixels.translate(kinds), image.width, image.height)
+    kinds = bytearray(_kind(grey, record) for grey in range(256))
+    if kept and frees_saved_unknown:
+        kinds[_saved_unknown(record)] = FREE
+    cells = _from_below(image.pixels.translate(bytes(kinds)), image.width, image.height)
     if image.opaque is not None:
-        cells = _without_transparent(cells, _from_below(image.opaque, image.width, image.height))
+        opaque = _from_below(image.opaque, image.width, image.height)
+        cells = _with_transparent(cells, opaque, UNKNOWN)
     x_m, y_m, yaw_rad = record.origin
     grid = GridMap(image.width, image.height, record.resolution, x_m, y_m, cells)
     if yaw_rad != 0.0:
-        from maps.rotation import straightened  # numpy is not for those who need no turn
+        from maps.rotation import straighten  # numpy is not for those who need no turn
 
-        grid = straightened(grid, yaw_rad, path)
-    return LoadedMap(grid, name, record, kept)
+        grid = straighten(grid, yaw_rad, path)
+    return grid, kept
 
 
 def _from_below(values: bytes, width: int, height: int) -> bytes:
@@ -132,9 +197,24 @@ def _kind(grey: int, record: MapRecord) -> int:
     return FREE if occupancy < record.free_thresh else UNKNOWN
 
 
-def _without_transparent(cells: bytes, opaque: bytes) -> bytes:
-    """Return the cells with UNKNOWN where the picture is not opaque."""
+def _percent(grey: int, record: MapRecord) -> int:
+    """Return Nav2's occupancy of a grey: what is between the thresholds is shared out in scale."""
+    if record.mode == "raw":
+        return grey if grey <= 100 else NO_OCCUPANCY
+    occupancy = _occupancy(grey, record)
+    if occupancy > record.occupied_thresh:
+        return 100
+    if occupancy < record.free_thresh:
+        return 0
+    if record.mode == "trinary":
+        return NO_OCCUPANCY
+    span = record.occupied_thresh - record.free_thresh
+    return round((occupancy - record.free_thresh) / span * 100.0)
+
+
+def _with_transparent(cells: bytes, opaque: bytes, kind: int) -> bytes:
+    """Return the cells with ``kind`` where the picture is not opaque."""
     import numpy as np  # there already: no picture but a PNG has an alpha
 
-    kinds = np.frombuffer(cells, np.uint8)
-    return np.where(np.frombuffer(opaque, np.uint8) != 0, kinds, np.uint8(UNKNOWN)).tobytes()
+    values = np.frombuffer(cells, np.uint8)
+    return np.where(np.frombuffer(opaque, np.uint8) != 0, values, np.uint8(kind)).tobytes()

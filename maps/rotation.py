@@ -27,7 +27,7 @@ _ROWS_AT_ONCE = 256
 """Bounds the memory: the coordinates of a whole map take sixteen times its cells."""
 
 
-def straightened(grid: GridMap, yaw_rad: float, where: Path) -> GridMap:
+def straighten(grid: GridMap, yaw_rad: float, where: Path) -> GridMap:
     """Return the map's cells in rows along x of ``map``, at the same resolution.
 
     Args:

@@ -59,7 +59,7 @@ def parse_yaml(data: bytes, model: type[R], where: Path) -> R:
         value = yaml.load(data, Loader=_UniqueKeys)
     except UNREADABLE as error:
         raise SiteError("yaml_malformed", f"{where}: {error}") from error
-    return _checked(value, model, where)
+    return validate_record(value, model, where)
 
 
 def parse_json(data: bytes, model: type[R], where: Path) -> R:
@@ -72,10 +72,15 @@ def parse_json(data: bytes, model: type[R], where: Path) -> R:
         value = json.loads(data, object_pairs_hook=_unique_pairs)
     except (ValueError, RecursionError) as error:
         raise SiteError("json_malformed", f"{where}: {error}") from error
-    return _checked(value, model, where)
+    return validate_record(value, model, where)
 
 
-def _checked(value: object, model: type[R], where: Path) -> R:
+def validate_record(value: object, model: type[R], where: Path) -> R:
+    """Turn plain values into a record; ``where`` names them in a refusal.
+
+    Raises:
+        SiteError: ``unknown_key`` or ``value_malformed``.
+    """
     try:
         return model.model_validate(value)
     except ValidationError as error:

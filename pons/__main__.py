@@ -9,17 +9,19 @@ from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
-from pons.settings import BadSetting, Settings, load, port_of
+from pons.settings import BadSetting, Settings, load, port_of, site_of
 from pons_assets import IS_INSTALLED, needs_checkout
 
 EXIT_USAGE = 2
 MOCK_LLM = "mock-llm"
 CONFORMANCE = "conformance"
 EVAL = "eval"
+SITE = "site"
 _APART = {
     CONFORMANCE: "play broken brains at a simulated bridge",
     EVAL: "score what a brain plans, on sentences",
     MOCK_LLM: "serve a model that is none, with faults",
+    SITE: "make a site of a map, name its rooms, check it",
 }
 """They read their own words."""
 LONGEST_FAULT_S = 3600.0
@@ -30,7 +32,7 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="pons", description="A sentence moves the robot.")
     words = top.add_subparsers(dest="word", required=True, metavar="COMMAND")
     started = words.add_parser("up", help="start simulator, localization, bridge and planner")
-    started.add_argument("--site", type=Path, help="folder of a site (PONS_SITE)")
+    started.add_argument("--site", type=Path, help="folder or name of a site (PONS_SITE)")
     started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
     started.add_argument("--tls", action="store_true", help="serve https (PONS_TLS=1); docs/tls.md")
@@ -193,6 +195,10 @@ def main(arguments: list[str] | None = None) -> int:
             from pons.evals.command import main as evaluate
 
             return evaluate(settings, words[1:])
+        if words[:1] == [SITE]:  # likewise
+            from pons import site
+
+            return site.run(settings, words[1:])
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)
@@ -209,7 +215,8 @@ def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
         from pons import up
 
         port = port_of(said.port) if said.port is not None else None
-        given = {"site": said.site, "robot": said.robot, "port": port, "metal": said.metal}
+        site = None if said.site is None else site_of(str(said.site), settings.home)
+        given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal}
         chosen = {name: value for name, value in given.items() if value is not None}
         chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
         return up.run(replace(settings, **chosen), planner=not said.no_planner)

@@ -9,7 +9,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from pons_assets import DEFAULT_SITE, ROBOT_FILE, ROOT
+from pons_assets import DEFAULT_SITE, ROBOT_FILE, ROOT, SITES
 
 CHECKOUT = ROOT
 """Where tests and tools find robot.toml and sites."""
@@ -66,13 +66,20 @@ def load(*, forgiving: bool = False) -> Settings:
     return Settings(
         home=home,
         robot=Path(given.get("PONS_ROBOT", ROBOT_FILE)).absolute(),
-        site=Path(given.get("PONS_SITE", DEFAULT_SITE)).absolute(),
+        site=site_of(given.get("PONS_SITE", str(DEFAULT_SITE)), home),
         host=given.get("PONS_HOST", DEFAULT_HOST),
         port=_port(given.get("PONS_PORT", str(DEFAULT_PORT)), forgiving=forgiving),
         metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,
         tls=_tls(given.get("PONS_TLS", ""), home, forgiving=forgiving),
         authority=Path(ca).absolute() if (ca := given.get("PONS_CA")) else None,
     )
+
+
+def site_of(given: str, home: Path) -> Path:
+    """Return a site's folder, by its path or by its name: an imported one before a shipped one."""
+    folders = (Path(given), home / "sites" / given, SITES / given)
+    there = (folder for folder in folders if os.path.isdir(folder))  # noqa: PTH112  # as above
+    return next(there, folders[0]).absolute()
 
 
 def _tls(text: str, home: Path, *, forgiving: bool) -> bool:

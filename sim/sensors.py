@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from wire.geometry import MAX_TURN_RADPS
 from wire.value import value
 
 if TYPE_CHECKING:
@@ -18,6 +19,15 @@ if TYPE_CHECKING:
     from wire.robot import LidarConfig
 
 Ranges = tuple[float | None, ...]
+
+MOST_WHEEL_RADPS = 1_000.0
+MOST_ACCEL_MPS2 = 1_000.0
+"""Sensors end somewhere; these and the gyro's 20 rad/s are the wire's bounds. What is put down onto
+the robot flings it away for an instant, and that must not end the simulator."""
+
+
+def _saturate(reading: float, most: float) -> float:
+    return max(-most, min(most, reading))
 
 
 class Encoder:
@@ -38,7 +48,8 @@ class Encoder:
     def sample(self, angle_rad: float) -> None:
         """Read the shaft; speed is the count's change over one period."""
         count = int((angle_rad - self._zero_rad) // self._step_rad)
-        self.speed_radps = (count - self._count) * self._step_rad / self._period_s
+        speed_radps = (count - self._count) * self._step_rad / self._period_s
+        self.speed_radps = _saturate(speed_radps, MOST_WHEEL_RADPS)
         self._count = count
 
 
@@ -72,9 +83,9 @@ class ImuModel:
         forward_mps2 = (twist.v_mps - self._last_v_mps) / self._period_s
         self._last_v_mps = twist.v_mps
         return ImuSample(
-            twist.w_radps + self._bias_radps + noise[0],
-            forward_mps2 + noise[1],
-            twist.v_mps * twist.w_radps + noise[2],
+            _saturate(twist.w_radps + self._bias_radps + noise[0], MAX_TURN_RADPS),
+            _saturate(forward_mps2 + noise[1], MOST_ACCEL_MPS2),
+            _saturate(twist.v_mps * twist.w_radps + noise[2], MOST_ACCEL_MPS2),
         )
 
 

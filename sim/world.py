@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from sim.mjcf import OBSTACLES, PARKED_Z_M, SETTLE_STEPS, quaternion, world_mjcf
 from wire import Misconfigured, Pose2, Twist2
+from wire.geometry import MAX_SPEED_MPS, MAX_TURN_RADPS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -92,12 +93,15 @@ class PhysicsWorld:
         return Pose2(x_m, y_m, atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
 
     def twist(self) -> Twist2:
-        """Return the robot's forward speed and rate of turn."""
+        """Return the robot's forward speed and rate of turn, within what the wire can carry."""
         w, x, y, z = self._qpos[3:7].tolist()
         vx, vy, _, _, _, turn_radps = self._qvel[:6].tolist()
         # The first two elements of the rotation's first column: cos and sin of the heading.
         forward_mps = vx * (1.0 - 2.0 * (y * y + z * z)) + vy * 2.0 * (w * z + x * y)
-        return Twist2(forward_mps, turn_radps)
+        return Twist2(
+            max(-MAX_SPEED_MPS, min(MAX_SPEED_MPS, forward_mps)),
+            max(-MAX_TURN_RADPS, min(MAX_TURN_RADPS, turn_radps)),
+        )
 
     def wheel_angles(self) -> tuple[float, float]:
         """Return how far the left and right wheel have turned [rad]."""
@@ -110,12 +114,22 @@ class PhysicsWorld:
         return sum([self._chassis in pair for pair in pairs])
 
     def place_robot(self, pose: Pose2) -> None:
-        """Put the robot down at rest. Wheels keep their angles, as when it is carried."""
+        """Put the robot down at rest. Wheels keep their angles, as when it is carried.
+
+        Inside of a solid it is pushed out while it settles, which spins its wheels; encoders must
+        not be told of half a second that passes within no time.
+        """
+        angles = self._qpos[self._angle_at]
         self._qpos[0:3] = (pose.x_m, pose.y_m, 0.0)
         self._qpos[3:7] = quaternion(pose.yaw_rad)
+        self._rest()
+        self.step(0.0, 0.0, braked=True, steps=SETTLE_STEPS)
+        self._qpos[self._angle_at] = angles
+        self._rest()
+
+    def _rest(self) -> None:
         self._qvel[:] = 0.0
         self._act[:] = 0.0
-        self.step(0.0, 0.0, braked=True, steps=SETTLE_STEPS)
 
     def block_left_wheel(self, *, blocked: bool) -> None:
         """Jam the left wheel, or let it go: friction in its bearing that no motor overcomes."""

@@ -16,6 +16,7 @@ from pydantic import BaseModel, Field, ValidationError, model_validator
 from wire.base import Record
 from wire.errors import Misconfigured
 from wire.fingerprint import fingerprint
+from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
 
 if TYPE_CHECKING:
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 16_000
 """Ours has 3 000. A parser is busy for seconds with 64 kB of one dotted key."""
-HIDDEN_BEYOND_M = 0.05
-"""What comes so near the robot's disc stops it (the bridge's margin); a test holds both equal."""
+HIDDEN_BEYOND_M = OBSTACLE_MARGIN_M
+"""What comes so near the robot's disc stops it."""
 PEAK_TIMES = 10.0
 """Motors stall at most at about ten times what they bear for ever: a peak beyond bounds nothing."""
 

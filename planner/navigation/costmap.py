@@ -18,21 +18,18 @@ from numpy.typing import NDArray
 from maps.cell_array import cell_array
 from planner.navigation.raster import distance_m, draw_points, fence_mask
 from planner.site import FREE, GridMap, Site
+from wire import margins
 
 Floats: TypeAlias = NDArray[np.float32]
 Mask: TypeAlias = NDArray[np.bool_]
 Points: TypeAlias = Sequence[tuple[float, float]]
 
-MARGIN_M = 0.02
-"""Kept between disc and obstacle at the tightest. Little, because a door of 0.90 m may lose a cell
-of 0.05 m at each jamb and must stay passable; the soft cost below keeps far better clear of walls
-wherever there is room, and the bridge watches the real ones."""
+MARGIN_M = margins.OBSTACLE_MARGIN_M
+FENCE_MARGIN_M = margins.FENCE_MARGIN_M
 SOFT_M = 0.40
 """From here on a wall no longer matters."""
 SOFT_WEIGHT = 4.0
 """A metre along a wall costs five, so the route goes through the middle of doors and corridors."""
-FENCE_MARGIN_M = 0.15
-"""The bridge's FENCE gate slows what would stop nearer than this to the fence."""
 EXPLAINED_M = 0.10
 EXPLAINED_RAD = 0.02
 """A lidar point this near to a mapped obstacle, and so much more for each metre it is away from the

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sim.site.files import site_files
-from sim.site.load import load_home
+from sim.site.load import is_declared, load_home
 from wire import Misconfigured
 
 if TYPE_CHECKING:
@@ -41,6 +41,8 @@ def check_fresh(site_dir: Path) -> None:
 
 
 def _differing(site_dir: Path) -> dict[str, bytes]:
+    if not is_declared(site_dir):  # its map is the declaration
+        return {}
     return {
         name: data
         for name, data in site_files(load_home(site_dir)).items()

@@ -6,6 +6,7 @@ and ``false`` are truth values, as in YAML 1.2: elsewhere the key ``on`` would b
 
 from __future__ import annotations
 
+import os
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ import yaml
 from pydantic import ValidationError
 
 from sim.site.check import check
+from sim.site.mapped import MAP_FILE, mapped_home
 from sim.site.spec import Home
 from wire import Misconfigured
 from wire.plain_file import read_plain_file
@@ -83,14 +85,21 @@ def parse_home(text: str, where: str) -> Home:
     return home
 
 
+def is_declared(site_dir: Path) -> bool:
+    """Return whether a site has a home.yaml, from which its other files follow."""
+    return os.path.lexists(site_dir / SPEC_FILE)
+
+
 def load_home(site_dir: Path) -> Home:
-    """Read ``<site_dir>/home.yaml`` and check it.
+    """Read ``<site_dir>/home.yaml`` and check it; without one, make the home of the site's map.
 
     Raises:
         Misconfigured: ``home_missing``, ``home_site_mismatch`` (the folder has another name than
-            the spec says) or what ``parse_home`` raises.
+            the spec says) or what ``parse_home`` and ``mapped_home`` raise.
     """
     path = site_dir / SPEC_FILE
+    if not is_declared(site_dir) and (site_dir / MAP_FILE).exists():
+        return mapped_home(site_dir)
     try:
         text = read_plain_file(path, MOST_BYTES).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:

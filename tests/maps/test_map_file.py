@@ -393,7 +393,7 @@ def test_a_missing_picture_names_what_is_there(tmp_path: Path) -> None:
     assert "map.pgm" in error.message["en"]
 
 
-SHARED = Path(__file__).resolve().parents[4] / "shared" / "data" / "maps"
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "data" / "maps"
 FOREIGN = {
     "aws_small_house/map.yaml": (500, 500),
     "nav2_depot/depot.yaml": (604, 307),

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, exp, pi, sin
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
 
-from sim import Hardware, Report, SimRobot
+from sim import OBSTACLES, Hardware, Report, SimRobot
 from wire import (
     DriveCommand,
     DriveState,
@@ -321,3 +322,30 @@ def test_a_person_may_be_asked_away_over_the_wire(driver: Driver) -> None:
     assert ahead() == pytest.approx(3.0 - 0.25 - 1.9, abs=0.05)
     driver.robot.control(SimControl(id="t2", remove_obstacle=True))
     assert ahead() == pytest.approx(free, abs=0.1)
+
+
+def test_no_pose_and_no_thing_put_onto_the_robot_ends_a_tick(repository: Path) -> None:
+    """64 of 600 random poses once did: half a second of settling in a wall, read as one period."""
+    chance = Random(3)
+    robot = SimRobot(repository / "sites" / "home", seed=1)
+    for _ in range(150):
+        x_m, y_m, yaw_rad = (chance.uniform(*span) for span in ((-1, 13), (-1, 11), (-3, 3)))
+        robot.place_robot(Pose2(x_m, y_m, yaw_rad))
+        first = robot.step_to(robot.time_s + 0.02)[-1].drive
+        assert first is not None
+        assert abs(first.left_radps) < 30.0, "it was put down at rest"
+        at, name = robot.base_in_map, chance.choice(OBSTACLES)
+        shift_m = chance.choice([0.0, chance.uniform(-0.4, 0.4)])
+        robot.place_obstacle(at.x_m + shift_m, at.y_m, 0.5, name)
+        robot.step_to(robot.time_s + 0.3)
+        robot.remove_obstacle(name)
+
+
+def test_a_robot_that_is_carried_keeps_its_wheels_angles(repository: Path) -> None:
+    robot = SimRobot(repository / "sites" / "home", seed=1)
+    before = robot.step_to(0.02)[-1].drive
+    robot.place_robot(Pose2(0.0, 3.0, 0.0))  # in a wall, from which it is pushed
+    after = robot.step_to(robot.time_s + 0.02)[-1].drive
+    assert before is not None
+    assert after is not None
+    assert abs(after.left_rad - before.left_rad) < 0.6

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING
 
 from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import STANDING_MPS, TURNING_MPS, stop_length_m
+from wire import margins
 
 if TYPE_CHECKING:
     from bridge.core.geometry.fence import FenceGrid
     from wire.geometry import Pose2, Twist2
     from wire.robot import Base, Limits
 
-FENCE_MARGIN_M = 0.15
+FENCE_MARGIN_M = margins.FENCE_MARGIN_M
 INWARD_MPS = 0.15
 _STEP_M = 0.05
 _EDGE_M = 1e-6

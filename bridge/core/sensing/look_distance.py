@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING
 
 from bridge.core.config import PERIOD_S
 from bridge.core.state_motion import AS_CONFIGURED, Braking
+from wire import margins
 
 if TYPE_CHECKING:
     from wire.robot import RobotDescription
 
 
-MARGIN_M = 0.05
-
-
+MARGIN_M = margins.OBSTACLE_MARGIN_M
 REACH_M = 2.0
 """Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
 FREE_M = 0.3

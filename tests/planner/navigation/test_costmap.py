@@ -7,7 +7,9 @@ from math import hypot
 import numpy as np
 import pytest
 
+from maps import OCCUPIED
 from planner.navigation.costmap import FENCE_MARGIN_M, MARGIN_M, static_costmap
+from planner.navigation.raster import distance_m
 from planner.site import Site
 from tests.planner.navigation.floors import CELL_M, drawn
 
@@ -115,3 +117,16 @@ def test_points_beyond_the_map_are_blocked() -> None:
     assert np.isinf(costmap.cost_at(outside)).all()
     assert (costmap.clearance_at(outside) < 0).all()
     assert (costmap.fence_gap_at(outside) < 0).all()
+
+
+@pytest.mark.parametrize("shift_m", [0.0, 0.001, 0.0125, 0.025, 0.0375, 0.049])
+def test_a_door_of_090_stays_open_wherever_its_jambs_fall_on_the_grid(shift_m: float) -> None:
+    """What wire.margins says: the gate's margin costs no door, though a jamb may cost a cell."""
+    low_m, high_m = 1.0 + shift_m, 1.9 + shift_m
+    edges_m = np.arange(60) * CELL_M
+    covered = (edges_m < low_m - 1e-9) | (edges_m + CELL_M > high_m + 1e-9)
+    cells = np.zeros((60, 20), np.uint8)
+    cells[covered, 9:12] = OCCUPIED
+    clear_m = distance_m(cells != OCCUPIED, CELL_M)
+    middle = clear_m[20:38, 10]
+    assert float(middle.max()) >= RADIUS_M + MARGIN_M

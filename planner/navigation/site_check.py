@@ -1,0 +1,165 @@
+"""Say what is wrong with a site before a robot drives there: ``pons site check``. Moves nothing.
+
+Finds what loading does not refuse: floor that nobody can reach, spots without room, maps that say
+less than they seem to. Each finding has a code that stays, and a sentence in every language.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import cv2
+import numpy as np
+
+from maps import FREE, OCCUPIED, UNKNOWN, LoadedMap, load_map
+from maps.cell_array import cell_array
+from planner.language.catalogue import say
+from planner.navigation.costmap import Costmap, Mask, static_costmap
+from planner.navigation.start_and_goal import GOAL_MOVE_M
+from planner.plan.base import Bilingual
+from planner.site import Place, Site, SiteError
+from planner.site.fence_check import PLACE_M
+from wire import margins
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+STAND_M = 0.10
+"""Beside the disc, where a robot stands: pose and cells err by about as much as the gate keeps."""
+COARSE_M = 0.10
+"""Of cells this large a door of 0.90 m may lose two, which leaves no way for a disc of 0.30 m."""
+MUCH_UNKNOWN = 0.5
+"""Of the cells within the known part's rectangle."""
+KEPT_SHARE = 0.01
+ISLAND_SHARE = 0.05
+"""Of the free floor, cut off from the robot's home."""
+
+Level = Literal["refused", "warning"]
+
+
+@dataclass(frozen=True, slots=True)
+class SiteFinding:
+    """Hold one thing that is wrong; what is refused keeps `pons up` from starting there."""
+
+    code: str
+    level: Level
+    words: Bilingual
+
+
+def check_site(folder: Path, radius_m: float) -> tuple[SiteFinding, ...]:
+    """Return all that is wrong with a site for a robot of a radius, the refusals first.
+
+    A site that can't be loaded has one finding, the reason.
+    """
+    try:
+        site = Site.load(folder)
+        loaded = load_map(folder / "map.yaml")
+    except SiteError as error:
+        words = Bilingual(en=error.message["en"], zh=error.message["zh"])
+        return (SiteFinding(error.code, "refused", words),)
+    costmap = static_costmap(site, radius_m)
+    found = [*_of_map(loaded), *_of_places(site, costmap), *_of_floor(site, costmap)]
+    return tuple(sorted(found, key=lambda finding: finding.level != "refused"))
+
+
+def _finding(code: str, level: Level = "warning", **facts: str) -> SiteFinding:
+    return SiteFinding(code, level, say(f"site_check.{code}", **facts))
+
+
+def _of_map(loaded: LoadedMap) -> Iterator[SiteFinding]:
+    grid, record = loaded.grid, loaded.record
+    cells = cell_array(grid)
+    if grid.resolution_m > COARSE_M:
+        yield _finding("resolution_coarse", cell=f"{grid.resolution_m:g}", most=f"{COARSE_M:g}")
+    kept = loaded.kept_unknown / len(grid.cells)
+    if kept >= KEPT_SHARE:
+        yield _finding(
+            "unknown_kept", share=f"{100 * kept:.0f}", threshold=f"{record.free_thresh:g}"
+        )
+    known = np.argwhere(cells != UNKNOWN)
+    if len(known):
+        (low, left), (high, right) = known.min(0), known.max(0)
+        part = cells[low : high + 1, left : right + 1]
+        unknown = float((part == UNKNOWN).mean())
+        if unknown >= MUCH_UNKNOWN:
+            yield _finding("unknown_much", share=f"{100 * unknown:.0f}")
+    if not (cells == OCCUPIED).any():
+        yield _finding("no_walls")
+
+
+def _of_places(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:
+    home = site.home.pose
+    column, row = site.grid.cell_of(home.x_m, home.y_m)
+    reached = _mark_reached(costmap, row, column)
+    if reached is None:
+        room = float(costmap.clearance_m[row, column])
+        yield _finding(
+            "home_tight", "refused", place=site.home.id, room=f"{room:.2f}",
+            wanted=f"{costmap.radius_m + margins.OBSTACLE_MARGIN_M:.2f}",
+        )  # fmt: skip
+    for place in site.places:
+        yield from _of_place(place, site, costmap, reached)
+
+
+def _of_place(
+    place: Place, site: Site, costmap: Costmap, reached: Mask | None
+) -> Iterator[SiteFinding]:
+    column, row = site.grid.cell_of(place.pose.x_m, place.pose.y_m)
+    room = float(costmap.clearance_m[row, column])
+    wanted = costmap.radius_m + STAND_M
+    if not room >= wanted:
+        yield _finding("place_tight", place=place.id, room=f"{room:.2f}", wanted=f"{wanted:.2f}")
+    to_fence = site.fence.border_distance_m(place.pose.x_m, place.pose.y_m)
+    if not to_fence >= PLACE_M:
+        yield _finding(
+            "place_near_fence", place=place.id, room=f"{to_fence:.2f}", wanted=f"{PLACE_M:g}"
+        )
+    if reached is None or _near(reached, row, column, site.grid.resolution_m):
+        return
+    loose = _reached_without_margin(site, costmap)
+    if loose is not None and _near(loose, row, column, site.grid.resolution_m):
+        margin = f"{margins.OBSTACLE_MARGIN_M:g}"
+        yield _finding("margin_closes_way", "refused", place=place.id, margin=margin)
+    else:
+        yield _finding("place_unreachable", "refused", place=place.id)
+
+
+def _near(reached: Mask, row: int, column: int, resolution_m: float) -> bool:
+    """Return whether a goal there would be taken, moved by GOAL_MOVE_M at most."""
+    reach = int(GOAL_MOVE_M / resolution_m)
+    low, left = max(0, row - reach), max(0, column - reach)
+    return bool(reached[low : row + reach + 1, left : column + reach + 1].any())
+
+
+def _mark_reached(costmap: Costmap, row: int, column: int) -> Mask | None:
+    label = int(costmap.labels[row, column])
+    return None if label == 0 else np.asarray(costmap.labels == label)
+
+
+def _reached_without_margin(site: Site, costmap: Costmap) -> Mask | None:
+    loose = Costmap(
+        costmap.grid,
+        costmap.radius_m - margins.OBSTACLE_MARGIN_M,
+        costmap.occupied,
+        costmap.clearance_m,
+        costmap.fence_gap_m + margins.FENCE_MARGIN_M,
+    )
+    home = site.home.pose
+    column, row = site.grid.cell_of(home.x_m, home.y_m)
+    return _mark_reached(loose, row, column)
+
+
+def _of_floor(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:
+    free = cell_array(site.grid) == FREE
+    _, parts = cv2.connectedComponents(free.astype(np.uint8), connectivity=4)
+    column, row = site.grid.cell_of(site.home.pose.x_m, site.home.pose.y_m)
+    apart = float((free & (parts != parts[row, column])).sum()) / max(1, int(free.sum()))
+    if apart >= ISLAND_SHARE:
+        yield _finding("floor_apart", share=f"{100 * apart:.0f}")
+    if not site.rooms:
+        yield _finding("no_rooms")
+    stands = costmap.clearance_m >= costmap.radius_m
+    if not stands.any():
+        yield _finding("no_room_to_stand", "refused", radius=f"{costmap.radius_m:g}")

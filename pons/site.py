@@ -1,0 +1,214 @@
+"""Make a site of a map: ``pons site import | list | rooms | name | check``. Needs no planner.
+
+Works on folders; a running robot takes a changed site at its next start.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from math import radians
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from maps import SiteError, load_map
+from maps.map_file import load_picture
+from maps.masks import SpeedScale, read_keep_outs, read_speed_zones
+from maps.new_site import ASK_FROM_SHARE, new_site, place_text, read_proposals
+from pons.settings import site_of
+from wire import Misconfigured, Pose2, load_robot
+
+if TYPE_CHECKING:
+    from maps.map_file import LoadedMap
+    from maps.masks import MaskAreas
+    from pons.settings import Settings
+    from wire import RobotDescription
+
+EXIT_DONE, EXIT_FOUND, EXIT_USAGE, EXIT_REFUSED = 0, 1, 2, 3
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the grammar of ``pons site``."""
+    top = argparse.ArgumentParser(prog="pons site", description=__doc__)
+    acts = top.add_subparsers(dest="act", required=True, metavar="ACT")
+    made = acts.add_parser("import", help="make a site of a Nav2 map, or of a picture")
+    made.add_argument("map", type=Path, help="map.yaml, or a PGM or PNG with --resolution")
+    made.add_argument("name", help="of the site: small letters, digits, _")
+    made.add_argument("--resolution", type=float, metavar="M", help="of a picture: metres a pixel")
+    made.add_argument(
+        "--origin", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X_M", "Y_M", "YAW_DEG"),
+        help="of a picture: its lower left corner in map",
+    )  # fmt: skip
+    made.add_argument("--start", type=float, nargs=3, metavar=("X_M", "Y_M", "YAW_DEG"))
+    made.add_argument(
+        "--unknown", choices=("unknown", "free"), help="what grey 205 is where the file frees it"
+    )
+    made.add_argument("--keepout", type=Path, metavar="YAML", help="a Nav2 keep-out mask")
+    made.add_argument("--speed", type=Path, metavar="YAML", help="a Nav2 speed mask")
+    made.add_argument("--speed-kind", choices=("percent", "mps"), default="percent")
+    made.add_argument("--speed-base", type=float, default=100.0)
+    made.add_argument("--speed-multiplier", type=float, default=-1.0)
+    acts.add_parser("list", help="list the sites")
+    for act, what in (
+        ("rooms", "show the rooms that are proposed, with and without a name"),
+        ("check", "say what is wrong with a site"),
+    ):
+        acts.add_parser(act, help=what).add_argument("name", help="a site, by name or folder")
+    named = acts.add_parser("name", help="accept a proposed room under a name")
+    named.add_argument("name", help="a site, by name or folder")
+    named.add_argument("room", help="room_1 and so on, as `pons site rooms` shows them")
+    named.add_argument("english", help="what people call it")
+    named.add_argument("--zh", metavar="NAME", help="its Chinese name")
+    return top
+
+
+def run(settings: Settings, words: list[str]) -> int:
+    """Do one act; 0 done, 1 check found something, 2 bad order, 3 refused."""
+    said = parser().parse_args(words)
+    try:
+        if said.act == "import":
+            return _import(settings, said)
+        if said.act == "list":
+            return _list(settings)
+        folder = site_of(said.name, settings.home)
+        if not (folder / "map.yaml").is_file():
+            raise SiteError("site_missing", f"{said.name!r}; `pons site list` shows what there is")
+        if said.act == "check":
+            return _check(folder, _radius_m(settings))
+        if said.act == "rooms":
+            return _rooms(folder)
+        return _name_room(folder, said.room, said.english, said.zh or said.english)
+    except Misconfigured as refused:
+        zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
+        print(f"refused: {refused}{zh}", file=sys.stderr)
+        return EXIT_REFUSED
+
+
+def _import(settings: Settings, said: argparse.Namespace) -> int:
+    if _NAME.fullmatch(said.name) is None:
+        text = f"got {said.name!r}; expected a small letter, then letters, digits or _"
+        raise SiteError("site_name_malformed", text)
+    is_yaml = said.map.suffix in (".yaml", ".yml")
+    if is_yaml == (said.resolution is not None):
+        told = "a map.yaml says its resolution" if is_yaml else "a picture needs --resolution"
+        print(f"resolution_once: {told}", file=sys.stderr)
+        return EXIT_USAGE
+    loaded = _load(said)
+    robot = load_robot(settings.robot)
+    start = None if said.start is None else _pose(said.start)
+    made = new_site(loaded, robot.base.radius_m, start, _masks(said, loaded, robot))
+    folder = settings.home / "sites" / said.name
+    made.write(folder)
+    kept = "" if not loaded.kept_unknown else f", {loaded.kept_unknown} pixels of grey 205"
+    grid = loaded.grid
+    print(f"{folder}: {grid.width} x {grid.height} cells of {grid.resolution_m:g} m{kept}")
+    print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}); {len(made.rooms)} rooms proposed")
+    _rooms(folder)
+    _check(folder, robot.base.radius_m)
+    print(f"drive there: pons up --site {said.name}")
+    return EXIT_DONE
+
+
+def _load(said: argparse.Namespace) -> LoadedMap:
+    frees = said.unknown == "free"
+    if said.resolution is None:
+        loaded = load_map(said.map, frees_saved_unknown=frees)
+    else:
+        x_m, y_m, yaw_deg = said.origin
+        at = (x_m, y_m, radians(yaw_deg))
+        loaded = load_picture(said.map, said.resolution, at, frees_saved_unknown=frees)
+    share = loaded.kept_unknown / max(1, len(loaded.grid.cells))
+    if share >= ASK_FROM_SHARE and said.unknown is None:
+        text = (
+            f"{100 * share:.0f} % of {said.map} is grey 205, which map savers write for unknown "
+            f"and free_thresh {loaded.record.free_thresh:g} makes free; say which it is: "
+            "--unknown unknown or --unknown free"
+        )
+        raise SiteError("map_unknown_word", text)
+    return loaded
+
+
+def _masks(said: argparse.Namespace, loaded: LoadedMap, robot: RobotDescription) -> list[MaskAreas]:
+    found = []
+    if said.keepout is not None:
+        found.append(read_keep_outs(said.keepout, loaded.grid))
+    if said.speed is not None:
+        scale = SpeedScale(
+            robot.limits.max_speed_mps, said.speed_kind, said.speed_base, said.speed_multiplier
+        )
+        found.append(read_speed_zones(said.speed, loaded.grid, scale))
+    return found
+
+
+def _pose(given: list[float]) -> Pose2:
+    return Pose2(given[0], given[1], radians(given[2]))
+
+
+def _radius_m(settings: Settings) -> float:
+    return load_robot(settings.robot).base.radius_m
+
+
+def _list(settings: Settings) -> int:
+    from pons_assets import SITES
+
+    for parent in (settings.home / "sites", SITES):
+        for path in sorted(parent.glob("*/map.yaml")):
+            print(f"{path.parent.name:<24} {path.parent}")
+    return EXIT_DONE
+
+
+def _rooms(folder: Path) -> int:
+    from planner.site import Site
+
+    proposals = read_proposals(folder)
+    site = Site.load(folder)
+    for room in proposals:
+        taken = site.room_at(room.pose.x_m, room.pose.y_m)
+        named = f"named {taken.name.en}" if taken else "no name yet"
+        at = f"({room.pose.x_m:.2f}, {room.pose.y_m:.2f})"
+        print(f"{room.id:<9} {room.area_m2:7.1f} m2  middle {at:<16} {named}")
+    if not proposals:
+        print("no rooms are proposed")
+    return EXIT_DONE
+
+
+def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
+    from planner.site import Site, plain_name
+    from planner.site.taught_place_errors import PlaceRefused
+
+    proposals = {room.id: room for room in read_proposals(folder)}
+    if room_id not in proposals:
+        known = ", ".join(proposals) or "none"
+        raise SiteError("room_unknown", f"{room_id!r}; proposed are: {known}")
+    room = proposals[room_id]
+    try:
+        names = (plain_name(english), plain_name(chinese))
+    except PlaceRefused as refused:
+        raise SiteError("value_malformed", str(refused)) from None
+    place_id = re.sub(r"[^a-z0-9]+", "_", names[0].lower()).strip("_")
+    if not place_id[:1].isalpha():
+        place_id = room_id
+    path = folder / "places.yaml"
+    before = path.read_bytes()
+    entry = place_text(place_id, "room", names, room.pose, room.polygon)
+    path.write_bytes(before.rstrip(b"\n") + b"\n" + entry.encode())
+    try:
+        Site.load(folder)
+    except SiteError:
+        path.write_bytes(before)
+        raise
+    print(f"{room_id} is {names[0]} ({names[1]}) from the next start on")
+    return EXIT_DONE
+
+
+def _check(folder: Path, radius_m: float) -> int:
+    from planner.navigation.site_check import check_site
+
+    found = check_site(folder, radius_m)
+    for finding in found:
+        print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
+    if not found:
+        print(f"{folder.name}: nothing is wrong")
+    return EXIT_FOUND if found else EXIT_DONE

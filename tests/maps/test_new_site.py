@@ -1,0 +1,148 @@
+"""A map of somebody else becomes a site: its floor, its fence, its rooms, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from maps import FREE, SiteError, load_map
+from maps.cell_array import cell_array
+from maps.map_file import load_picture
+from maps.new_site import new_site, read_proposals
+from maps.rooms import propose_rooms
+from maps.site_fence import draw_fence, floor_around
+from planner.site import Fence, Site
+from wire import Pose2
+from wire.fence import MAX_CORNERS, FenceFile, flaw
+from wire.site_map import read_map_id
+
+RADIUS_M, CELL_M = 0.30, 0.05
+Picture = NDArray[np.uint8]
+
+
+def two_rooms(door_m: float = 0.9) -> Picture:
+    """Draw two rooms of 4 m x 4 m and a door between them, in unknown."""
+    picture: Picture = np.full((120, 200), 205, np.uint8)
+    picture[18:102, 18:184] = 0
+    picture[20:100, 20:100] = 254
+    picture[20:100, 102:182] = 254
+    half = round(door_m / CELL_M / 2)
+    picture[60 - half : 60 + half, 100:102] = 254
+    return picture
+
+
+def written(folder: Path, picture: Picture, free_thresh: float = 0.25) -> Path:
+    cv2.imwrite(str(folder / "m.pgm"), picture)
+    path = folder / "m.yaml"
+    path.write_text(
+        f"image: m.pgm\nresolution: {CELL_M}\norigin: [-1, -1, 0]\nnegate: 0\n"
+        f"occupied_thresh: 0.65\nfree_thresh: {free_thresh}\n"
+    )
+    return path
+
+
+def test_a_map_becomes_a_site_that_loads(tmp_path: Path) -> None:
+    loaded = load_map(written(tmp_path, two_rooms()))
+    made = new_site(loaded, RADIUS_M)
+    made.write(tmp_path / "flat")
+    site = Site.load(tmp_path / "flat")
+    assert site.grid == loaded.grid
+    assert site.map_id == read_map_id(tmp_path / "flat")
+    assert [room.id for room in read_proposals(tmp_path / "flat")] == ["room_1", "room_2"]
+    with pytest.raises(SiteError, match="site_exists"):
+        made.write(tmp_path / "flat")
+
+
+def test_a_persons_word_stands_in_the_pixels(tmp_path: Path) -> None:
+    loaded = load_map(written(tmp_path, two_rooms()), frees_saved_unknown=True)
+    assert loaded.kept_unknown > 0
+    new_site(loaded, RADIUS_M).write(tmp_path / "flat")
+    again = load_map(tmp_path / "flat" / "map.yaml")
+    assert again.grid == loaded.grid
+    assert again.grid.at(-0.9, -0.9) == FREE
+
+
+def test_a_robot_that_made_the_map_begins_where_it_began(tmp_path: Path) -> None:
+    loaded = load_map(written(tmp_path, two_rooms()))
+    assert new_site(loaded, RADIUS_M, Pose2(1.0, 1.0, 0.5)).home == Pose2(1.0, 1.0, 0.5)
+    home = new_site(loaded, RADIUS_M).home  # (0, 0) is a corner here
+    assert loaded.grid.at(home.x_m, home.y_m) == FREE
+    with pytest.raises(SiteError, match="place_in_obstacle"):
+        new_site(loaded, RADIUS_M, Pose2(-0.9, -0.9, 0.0))
+
+
+@pytest.mark.parametrize("grey", [0, 205])
+def test_a_map_without_floor_is_refused(tmp_path: Path, grey: int) -> None:
+    loaded = load_map(written(tmp_path, np.full((40, 40), grey, np.uint8)))
+    with pytest.raises(SiteError, match="map_no_floor"):
+        new_site(loaded, RADIUS_M)
+
+
+def test_a_picture_alone_is_a_map_with_its_resolution(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "p.png"), two_rooms())
+    loaded = load_picture(tmp_path / "p.png", CELL_M, (-1.0, -1.0, 0.0))
+    assert loaded.grid == load_map(written(tmp_path, two_rooms())).grid
+    for wrong in (0.0, -0.05, float("nan"), 10.0):
+        with pytest.raises(SiteError, match="value_malformed"):
+            load_picture(tmp_path / "p.png", wrong, (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("door_m", [0.7, 0.9, 1.2])
+def test_rooms_are_cut_at_doors_and_hold_where_to_stand(tmp_path: Path, door_m: float) -> None:
+    rooms = propose_rooms(load_map(written(tmp_path, two_rooms(door_m))).grid)
+    assert len(rooms) == 2
+    for room in rooms:
+        assert 15.0 < room.area_m2 < 17.0
+        assert room.clearance_m > 1.9
+
+
+def test_a_wide_opening_is_no_door(tmp_path: Path) -> None:
+    assert len(propose_rooms(load_map(written(tmp_path, two_rooms(1.6))).grid)) == 1
+
+
+def test_the_rooms_of_our_own_homes_are_found_again(repository: Path) -> None:
+    for name in ("home", "two_room"):
+        site = Site.load(repository / "sites" / name)
+        proposed = [site.room_at(room.x_m, room.y_m) for room in propose_rooms(site.grid)]
+        assert sorted(room.id for room in proposed if room) == sorted(r.id for r in site.rooms)
+
+
+def test_a_fence_lets_nobody_over_the_edge_of_the_known(tmp_path: Path) -> None:
+    picture = two_rooms()
+    picture[40:80, 18:20] = 205  # no wall there: stairs, for all that the map says
+    grid = load_map(written(tmp_path, picture)).grid
+    floor = floor_around(grid, 1.0, 1.0)
+    fence = draw_fence(grid, "0" * 16, floor, RADIUS_M)
+    assert flaw(fence) is None
+    site_fence = Fence(fence, "")
+    for y_m in np.arange(1.05, 2.95, 0.05):
+        assert not site_fence.allows(0.14, float(y_m)), "0.15 m and the gate's 0.15 m: the disc"
+    assert site_fence.allows(0.05, 0.5), "along a wall it is loose"
+    assert site_fence.allows(4.05, 2.0), "the door is open"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_ragged_map_gets_a_fence_without_flaw(tmp_path: Path, seed: int) -> None:
+    chance = np.random.default_rng(seed)
+    picture = two_rooms()
+    noise = chance.random(picture.shape) < (0.002, 0.02, 0.2)[seed]
+    picture[noise] = chance.choice([0, 205], int(noise.sum()))
+    loaded = load_map(written(tmp_path, picture))
+    made = new_site(loaded, 0.05)
+    fence = FenceFile.model_validate(json.loads(made.files["fence.json"]), strict=False)
+    assert flaw(fence) is None
+    assert sum(map(len, fence.outlines)) <= MAX_CORNERS
+
+
+def test_only_the_floor_around_a_point_counts(tmp_path: Path) -> None:
+    picture = two_rooms()
+    picture[:, 100:102] = 0
+    grid = load_map(written(tmp_path, picture)).grid
+    assert floor_around(grid, 1.0, 1.0).sum() == (cell_array(grid) == FREE).sum() / 2
+    assert not floor_around(grid, -0.9, -0.9).any()
+    assert not floor_around(grid, 99.0, 0.0).any()

@@ -1,0 +1,105 @@
+"""``pons site`` makes a site, asks what only a person knows, and says what is wrong with it."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from planner.site import Site
+from pons import site
+from pons.settings import Settings, site_of
+from pons_assets import ROBOT_FILE
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    """Return a home of its own."""
+    return Settings(
+        home=tmp_path / "home", robot=ROBOT_FILE, site=tmp_path, host="127.0.0.1", port=1
+    )
+
+
+@pytest.fixture
+def plan(tmp_path: Path, repository: Path) -> Path:
+    """Return the map of two_room, as Nav2's saver would have written it."""
+    text = (repository / "sites" / "two_room" / "map.yaml").read_text()
+    shutil.copy(repository / "sites" / "two_room" / "map.pgm", tmp_path)
+    path = tmp_path / "nav.yaml"
+    path.write_text(text.replace("0.196", "0.25"))
+    return path
+
+
+def test_unknown_floor_needs_a_persons_word(
+    settings: Settings, plan: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine"]) == 3
+    said = capsys.readouterr().err
+    assert "map_unknown_word" in said
+    assert "未知" in said
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 3
+    assert "site_exists" in capsys.readouterr().err
+
+
+def test_a_proposed_room_gets_a_name_and_is_a_place(
+    settings: Settings, plan: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    before = Site.load(site_of("mine", settings.home)).map_id
+    assert site.run(settings, ["name", "mine", "room_1", "tea kitchen", "--zh", "茶水间"]) == 0
+    loaded = Site.load(site_of("mine", settings.home))
+    found = loaded.named("茶水间")
+    assert found is not None
+    assert found.id == "tea_kitchen"
+    assert loaded.map_id == before
+    assert site.run(settings, ["name", "mine", "room_2", "tea kitchen"]) == 3
+    assert "place_" in capsys.readouterr().err
+    assert len(Site.load(site_of("mine", settings.home)).rooms) == 1, "a refusal leaves nothing"
+    assert site.run(settings, ["name", "mine", "room_9", "attic"]) == 3
+    assert "room_unknown" in capsys.readouterr().err
+    assert site.run(settings, ["rooms", "mine"]) == 0
+    assert "named tea kitchen" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "code"),
+    [
+        (["import", "{plan}", "../evil"], 3, "site_name_malformed"),
+        (["import", "{plan}", "mine", "--resolution", "0.05"], 2, "resolution_once"),
+        (["import", "{image}", "mine"], 2, "resolution_once"),
+        (["import", "{image}", "mine", "--resolution", "nan"], 3, "value_malformed"),
+        (["import", "nowhere.yaml", "mine"], 3, "site_file_missing"),
+        (["check", "nowhere"], 3, "site_missing"),
+        (["rooms", "nowhere"], 3, "site_missing"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_name(
+    settings: Settings,
+    plan: Path,
+    capsys: pytest.CaptureFixture[str],
+    words: list[str],
+    status: int,
+    code: str,
+) -> None:
+    image = plan.parent / "map.pgm"
+    given = [word.format(plan=plan, image=image) for word in words]
+    assert site.run(settings, given) == status
+    assert code in capsys.readouterr().err
+
+
+def test_our_own_sites_are_well(settings: Settings) -> None:
+    assert site.run(settings, ["check", "home"]) == 0
+    assert site.run(settings, ["check", "two_room"]) == 0
+    assert site.run(settings, ["list"]) == 0
+
+
+def test_a_site_is_found_by_path_then_at_home_then_among_ours(settings: Settings) -> None:
+    own = settings.home / "sites" / "two_room"
+    assert site_of("two_room", settings.home).parent.name == "sites"
+    assert site_of("two_room", settings.home) != own
+    own.mkdir(parents=True)
+    assert site_of("two_room", settings.home) == own
+    assert site_of(str(settings.home), settings.home) == settings.home
+    assert site_of("nowhere", settings.home) == Path("nowhere").absolute()
