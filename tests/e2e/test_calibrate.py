@@ -100,7 +100,7 @@ def test_a_wrong_description_is_measured_and_mended(wrong: Robot) -> None:
     assert robot.base.wheel_separation_m == pytest.approx(0.5, rel=0.01)
     assert robot.drive.dead_zone_radps == pytest.approx(0.05, abs=0.015)
     assert 0.06 <= robot.drive.lag_s <= 0.12, "the motor's 0.06 s and the way there"
-    assert 0.04 <= robot.drive.response_s <= 0.07
+    assert 0.035 <= robot.drive.response_s <= 0.07, "0.049 s, or 0.012 s of it seen as delay"
     assert 0.85 <= robot.limits.max_decel_mps2 <= 1.0
     text = (home / "robot.toml").read_text("utf-8")
     assert "in 4 runs, against the simulator's truth" in text
