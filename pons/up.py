@@ -16,6 +16,7 @@ import socket
 import sys
 import threading
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
@@ -23,6 +24,7 @@ from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.settings import allowed_hosts
 from pons.supervisor import REFUSED_TO_START, Child
+from pons_assets import ROOT
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
@@ -135,7 +137,7 @@ class Supervisor:
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
-            say(f"try: python examples/external_brain.py --home {self._settings.home}")
+            say(f"try: {brain_example(self._settings.home)}")
 
     def _ready(self) -> bool:
         if not self._planner:
@@ -163,6 +165,14 @@ class Supervisor:
         """End the planner first, so that the bridge still brakes; the drive last."""
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
+
+
+def brain_example(home: Path, root: Path = ROOT) -> str:
+    """Return a command to try on a robot that has no planner; a wheel brings no examples."""
+    example = root / "examples" / "external_brain.py"
+    if example.is_file():
+        return f"python {example} --home {home}"
+    return "pons conformance --connect   (examples/external_brain.py of a checkout drives it)"
 
 
 def arm_direct(settings: Settings) -> bool:
