@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
+from pons.robot_processes import PATIENCE_S, address_arguments, common_arguments
 from pons.settings import allowed_hosts
 from pons.supervisor import REFUSED_TO_START, Child
 from pons_assets import ROOT
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from pons.settings import Settings
 
 POLL_S = 0.05
-PATIENCE_S = 4.0
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
 LOOK_S = 0.5
@@ -194,12 +194,11 @@ def children(
 ) -> list[Child]:
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
-    common = ["--home", str(settings.home), "--robot", str(settings.robot)]
-    common += ["--site", str(settings.site)]
+    common = common_arguments(settings)
     wanted = [("bridge", common)]
     if planner:
         secured = issued.planner_arguments() if issued else []
-        wanted.append(("planner", [*common, *_address(settings), *secured]))
+        wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
     if robot.drive.virtual:
         metal = ["--metal", str(settings.metal)] if settings.metal else []
         wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
@@ -214,10 +213,6 @@ def children(
         arguments = ["sim.camera", *common]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
-
-
-def _address(settings: Settings) -> list[str]:
-    return ["--host", settings.host, "--port", str(settings.port)]
 
 
 def describe(status: int) -> str:

@@ -26,6 +26,7 @@ from websockets.typing import Origin
 from planner.api import Access, build
 from planner.voice import MAX_BYTES
 from pons.authority import issue
+from pons.robot_processes import free_port
 from tests.e2e.polling import until
 from tests.planner.api.fakes import FakeServices
 
@@ -33,12 +34,6 @@ NAME = "robot.local"
 TOKEN = "a-token-behind-a-proxy"
 BEARER = {"Authorization": f"Bearer {TOKEN}"}
 JSON = {"Content-Type": "application/json"}
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 @contextmanager
