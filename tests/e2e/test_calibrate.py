@@ -112,9 +112,18 @@ def test_a_wrong_description_is_measured_and_mended(wrong: Robot) -> None:
     assert wrong.judge.status.mode is Mode.HOLD
 
 
-def test_ctrl_c_while_driving_leaves_it_standing_and_writes_nothing(wrong: Robot) -> None:
+def test_disarmed_or_interrupted_it_stands_and_writes_nothing(
+    wrong: Robot,
+) -> None:
     home = wrong.system.home
     before = (home / "robot.toml").read_text("utf-8")
+    wrong.system.pons("disarm")
+    wrong.judge.until_mode(Mode.DISARMED)
+    done = wrong.system.pons("calibrate")
+    assert done.returncode == 3
+    assert done.stderr.startswith("not_armed")
+    assert "使能" in done.stderr
+    wrong.arm()
     calibration = subprocess.Popen(
         [sys.executable, "-m", "pons", "calibrate", "--yes"],
         cwd=ROOT,
@@ -135,12 +144,3 @@ def test_ctrl_c_while_driving_leaves_it_standing_and_writes_nothing(wrong: Robot
     wrong.judge.assert_never_moves(0.5)
     assert (home / "robot.toml").read_text("utf-8") == before
     assert not list(home.glob("robot.toml.*"))
-
-
-def test_without_a_yes_nothing_is_driven_or_written_when_disarmed(wrong: Robot) -> None:
-    wrong.system.pons("disarm")
-    wrong.judge.until_mode(Mode.DISARMED)
-    done = wrong.system.pons("calibrate")
-    assert done.returncode == 3
-    assert done.stderr.startswith("not_armed")
-    assert "使能" in done.stderr
