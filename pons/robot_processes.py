@@ -101,7 +101,7 @@ class RobotProcesses:
             raise ProcessGone(f"{name} does not run; its log ends:\n{child.last_words()}")
         return child.process.pid
 
-    def ended(self) -> Child | None:
+    def find_ended(self) -> Child | None:
         """Return a process that was started and runs no more, if there is one."""
         for child in self.children.values():
             if child.process is not None and child.process.poll() is not None:

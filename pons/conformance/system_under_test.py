@@ -137,7 +137,7 @@ class SystemUnderTest:
         while not self._speaks():
             if time.monotonic() > end_s:
                 raise CannotTest(f"no_bridge: {self._lacks()}; not within {limit_s:.0f} s")
-            ended = self._processes and self._processes.ended()
+            ended = self._processes and self._processes.find_ended()
             if ended:
                 raise CannotTest(f"{ended.name} ended:\n{ended.last_words()}")
             time.sleep(0.05)

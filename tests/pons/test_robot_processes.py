@@ -39,7 +39,7 @@ def test_each_is_told_what_it_needs_and_ends_with_the_context(
         until(lambda: all(c.last_words() for c in children.values()), START_S, "all words")
         said = {name: child.last_words() for name, child in children.items()}
         pids = [running.pid(name) for name in children]
-        assert running.ended() is None
+        assert running.find_ended() is None
     common = f"--home {tmp_path} --robot {CHECKOUT}/robot.toml --site {CHECKOUT}/sites/two_room"
     assert said["bridge"] == said["localization"] == common
     assert said["sim"] == f"{common} --start 1"
@@ -52,7 +52,7 @@ def test_one_that_died_is_named_with_its_last_words(tmp_path: Path, free_port: i
     running = described(tmp_path, free_port)
     running.children["localization"].arguments[0] = "this"
     with running:
-        ended = until(running.ended, START_S, "a death", running.logs)
+        ended = until(running.find_ended, START_S, "a death", running.logs)
         assert ended.name == "localization"
         assert "Namespaces" in ended.last_words()
         with pytest.raises(ProcessGone, match=r"localization does not run; its log ends:\n"):
