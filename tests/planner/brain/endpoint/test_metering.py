@@ -14,7 +14,7 @@ import pytest
 
 from planner.brain import BrainDown, OutOfBudget, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.metered_transport import billed, tokens_of
+from planner.brain.endpoint.metering import billed, tokens_of
 from planner.budget import Ledger, Purse, Usage
 from planner.plan import Vocabulary
 from planner.settings import BudgetSettings, GoalLimits
