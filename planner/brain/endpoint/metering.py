@@ -95,7 +95,7 @@ class Metered(httpx.AsyncBaseTransport):
             OutOfBudget: it may not go out.
         """
         sent = tokens_of(request.content)
-        bill = self._meter.open(sent)
+        bill = await self._meter.open(sent)
         try:
             response = await self._inner.handle_async_request(request)
         except _NEVER_SENT:

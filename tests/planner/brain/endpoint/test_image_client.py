@@ -334,7 +334,7 @@ def test_a_key_that_is_echoed_is_struck_out(tmp_path: Path) -> None:
 def test_pictures_are_paid_by_the_goal_that_asked(tmp_path: Path) -> None:
     async def story(calls: int) -> tuple[int, int]:
         limits = BudgetSettings(goal=GoalLimits(calls=calls))
-        purse = Purse(limits, Ledger(tmp_path / str(calls)), most_reply=1000)
+        purse = Purse(limits, Ledger.in_home(tmp_path / str(calls)), most_reply=1000)
         server = Server(wrote("nothing"), wrote(SEES))
         transport = httpx.MockTransport(server)
         model = EndpointBrain(settings(), tmp_path, transport=transport, meter=purse)
