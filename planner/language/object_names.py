@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.language import color_names
 from planner.language.catalogue import list_names, say
-from planner.language.folding import fold, fold_words
+from planner.language.folding import CHINESE, fold, fold_words
 from planner.language.object_classes import KINDS, Kind, kind_of
 from planner.plan import Bilingual, Language
 
@@ -48,6 +48,11 @@ _WHICH_ZH = re.compile(
     r"另|其他|其它|别的|大|小|(?:上面?|里面?|旁边|边上|下面?|底下|前面|后面|中间|那边|这边)的"
 )
 _ANY_ZH = re.compile(r"家里的|附近的|最近的")
+_WORD = re.compile(r"[a-z0-9'-]+")
+_RUN_ZH = re.compile(rf"[{CHINESE}]+")
+LONGEST_EN, LONGEST_ZH = 3, 8
+MAX_READ = 120
+"""Characters of a question: each piece is looked up, on the event loop."""
 
 
 def canonical(name: str) -> str:
@@ -74,6 +79,25 @@ def resolve(
         if found is not None and (not classes or found[0] in classes):
             return found
     return None
+
+
+def first_named(text: str, classes: Collection[str]) -> tuple[str, str | None] | None:
+    """Return the class and colour that a whole sentence names, by the longest name that fits."""
+    for words in _pieces(fold(text[:MAX_READ])):
+        found = resolve(words, None, classes)
+        if found is not None:
+            return found
+    return None
+
+
+def _pieces(text: str) -> Iterable[str]:
+    """Yield the runs of words of a sentence that may be a name, the longest first."""
+    for run in _RUN_ZH.findall(text):
+        for length in range(min(LONGEST_ZH, len(run)), 0, -1):
+            yield from (run[at : at + length] for at in range(len(run) - length + 1))
+    words = _WORD.findall(text)
+    for length in range(LONGEST_EN, 0, -1):
+        yield from (" ".join(words[at : at + length]) for at in range(len(words) - length + 1))
 
 
 def prepare(classes: Collection[str]) -> None:

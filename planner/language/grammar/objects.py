@@ -55,7 +55,7 @@ _ZH = re.compile(
 
 HOW_EN = r"(?:on(?: top of)?|under(?:neath)?|beneath|below|near|next to|beside|close to|by)"
 HOW_ZH = r"(?:上面?|上边|旁边?|边上|附近|下面?|下边|底下)"
-"""How a thing may stand to its neighbour; planner.mission.skills.spatial_relations judges it."""
+"""How a thing may stand to its neighbour; `planner.language.questions` reads it in questions."""
 _BY_EN = re.compile(
     rf"(?:(?:over|up|close|next) to )?{_THE}(?P<what>[a-z][a-z' -]*?) (?P<how>{HOW_EN}) "
     rf"(?P<the>{_THE})(?P<by>{MARK})(?: (?:in|inside|of) {_THE}(?P<at>{MARK}))?"

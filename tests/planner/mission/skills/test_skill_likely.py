@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from planner.language.object_classes import KINDS
+from planner.language.questions import Relation
 from planner.mission.skills import Drive, Eyesight, Observe, Wanted, act_of
 from planner.mission.skills.room_priors import SORTS, likely_rooms
-from planner.mission.skills.spatial_relations import Relation
 from planner.mission.skills.viewpoints import in_order
 from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import Sight, Thing
