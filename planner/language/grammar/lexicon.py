@@ -151,6 +151,8 @@ class Lexicon:
         """Return a place's name, or its id in words where another place has the same name."""
         words = entry.id.replace("_", " ")
         en, zh = entry.name.en, entry.name.zh
+        if self._only(en) and self._only(zh):
+            return entry.name
         return Bilingual(en=en if self._only(en) else words, zh=zh if self._only(zh) else words)
 
     def _only(self, name: str) -> bool:

@@ -15,7 +15,7 @@ from re import Match
 
 from pydantic import ValidationError
 
-from planner.language.catalogue import CATALOGUE, say
+from planner.language.catalogue import build, noun, raw, say
 from planner.language.grammar.lexicon import MARK, NAME
 from planner.language.grammar.names import go_to
 from planner.language.grammar.numbers import angle_rad, metres, times
@@ -29,7 +29,6 @@ from planner.plan import (
     Find,
     Follow,
     GoTo,
-    Language,
     Look,
     Move,
     Patrol,
@@ -38,7 +37,7 @@ from planner.plan import (
     Turn,
 )
 
-WHERE_IS = CATALOGUE.build(lambda language: CATALOGUE.raw("grammar.where_is", language))
+WHERE_IS = build(lambda language: raw("grammar.where_is", language))
 """Its name is put in where it is known."""
 WHERE_TO = say("grammar.where_to")
 HOW_LONG = say("grammar.how_long")
@@ -153,7 +152,7 @@ def guide(words: str, start: str | None, end: str | None, reading: Reading) -> M
         return to
     if to is None:
         return missing(WHERE_TO, words, reading)
-    come = spoken("Please come with me.", "请跟我来。", reading)
+    come = told_in("spoken.come", reading)
     return Steps((*found.steps, Say(text=come), GoTo(place=to)), person=found.person)
 
 
@@ -205,7 +204,7 @@ def look(question: str, where: str | None, reading: Reading) -> Meaning:
     if isinstance(place, Problem):
         return place
     asked = reading.marked.restore(question)[:500]
-    somebody = spoken("person", "人", reading) if _WHO_IS_THERE.search(question) else None
+    somebody = noun("noun.person").of(reading.language) if _WHO_IS_THERE.search(question) else None
     steps = (*arrive(place, reading), Look(question=asked, place=place))
     return Steps(steps, person=somebody, seen=True)
 
@@ -236,13 +235,13 @@ def offer_search(words: str, part: str, reading: Reading) -> Meaning:
 
 def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:
     """Say what the sentence leaves open."""
-    filled = CATALOGUE.build(lambda language: what.of(language).format(name=name))
+    filled = build(lambda language: what.of(language).format(name=name))
     return reading.problem(Code.INCOMPLETE, part, what=filled)
 
 
-def spoken(en: str, zh: str, reading: Reading) -> str:
-    """Return words to say, in the language of the goal."""
-    return zh if reading.language is Language.ZH else en
+def told_in(code: str, reading: Reading, **facts: str) -> str:
+    """Return a message of the catalogue that is to be said, in the language of the goal."""
+    return say(code, **facts).of(reading.language)
 
 
 def saying(words: str, reading: Reading) -> Meaning:

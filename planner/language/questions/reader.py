@@ -13,8 +13,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.folding import fold, fold_words, has_chinese
-from planner.language.object_classes import kind_of
-from planner.language.object_names import MAX_READ, resolve
+from planner.language.object_names import MAX_READ, resolve, synonyms
 from planner.language.questions import chinese, english
 from planner.language.questions.question import (
     Asked,
@@ -23,6 +22,7 @@ from planner.language.questions.question import (
     Relation,
     Whereabouts,
 )
+from planner.plan import Language
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -66,9 +66,9 @@ def parted(words: str) -> tuple[str, Relation, str] | None:
 def has_several_neighbours(words: str, label: str) -> bool:
     """Return whether words mean more than one neighbour of this kind: ``cups on the tables``."""
     by = (parted(words) or ("", "", ""))[2]
-    one, many = (kind_of(label).en, *kind_of(label).also_en), by.endswith("s")
-    counted = english.SEVERAL.search(by) or chinese.SEVERAL.search(by)
-    return counted is not None or (many and not by.endswith(one))
+    if english.SEVERAL.search(by) or chinese.SEVERAL.search(by):
+        return True
+    return by.endswith("s") and not by.endswith(synonyms(label, Language.EN))
 
 
 def names_floor(words: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from re import Match
 
+from planner.language.catalogue import say
 from planner.language.grammar.grammar import QUOTE, lacks, rule, where
 from planner.language.grammar.objects import several
 from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
@@ -40,8 +41,9 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
 
 def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading)
-    said = f"{name}，你好！" if "\ue900" <= found["who"][0] <= "\ue9ff" else "你好！"
-    return meet(found["who"], where(found, "at"), reading, said)
+    is_name = "\ue900" <= found["who"][0] <= "\ue9ff"
+    said = say("spoken.hello_name", name=name) if is_name else say("spoken.hello")
+    return meet(found["who"], where(found, "at"), reading, said.zh)
 
 
 def _follow(found: Match[str], reading: Reading) -> Meaning:
