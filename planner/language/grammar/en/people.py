@@ -6,11 +6,22 @@ import re
 from re import Match
 
 from planner.language.catalogue import say
-from planner.language.grammar.en.words import DESCRIPTION, PERSON, THE, loc
-from planner.language.grammar.grammar import QUOTE, ahead, lacks, rule, where
+from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.en import DESCRIPTION, PERSON, THE, loc
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.objects import known, several
-from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
+from planner.language.grammar.noun_phrases import known, several
+from planner.language.grammar.parse_result import (
+    About,
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    ahead,
+    lacks,
+    rule,
+    where,
+)
 from planner.language.grammar.small_talk import Topic, told, topic_of
 from planner.language.grammar.step_builders import (
     follow,

@@ -5,9 +5,19 @@ from __future__ import annotations
 from re import Match
 
 from planner.language.catalogue import say
-from planner.language.grammar.grammar import QUOTE, lacks, rule, where
-from planner.language.grammar.objects import several
-from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
+from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.noun_phrases import several
+from planner.language.grammar.parse_result import (
+    About,
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    lacks,
+    rule,
+    where,
+)
 from planner.language.grammar.small_talk import Topic, told, topic_of
 from planner.language.grammar.step_builders import (
     follow,
@@ -17,7 +27,7 @@ from planner.language.grammar.step_builders import (
     one_at_a_time,
     place_of,
 )
-from planner.language.grammar.zh.words import GO, IN, PERSON, SPOT, loc
+from planner.language.grammar.zh import GO, IN, PERSON, SPOT, loc
 from planner.plan import Ask, Code
 
 _FIND = r"(?:接到?|找到|寻找|找找看?|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
