@@ -54,6 +54,6 @@ def may_be(one: str | None, other: str | None) -> bool:
     return frozenset((one, other)) in _NEAR
 
 
-def named(color: str) -> Bilingual:
+def color_name(color: str) -> Bilingual:
     """Return what to call a colour."""
     return noun(f"color.{color}") if color in COLORS else same(color)

@@ -124,16 +124,16 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
 def named(label: str, color: str | None = None) -> Bilingual:
     """Return what to call a thing."""
     name = noun(f"noun.{label}") if label in KINDS else same(_bare(label))
-    return _colored(name, color)
+    return _with_color(name, color)
 
 
 def named_several(label: str, color: str | None = None) -> Bilingual:
     """Return what to call several of a thing."""
     if label in KINDS:
-        return _colored(plural(f"noun.{label}"), color)
+        return _with_color(plural(f"noun.{label}"), color)
     words = _bare(label)
     *first, last = words.split(" ")
-    return _colored(Bilingual(en=" ".join((*first, _regular_plural(last))), zh=words), color)
+    return _with_color(Bilingual(en=" ".join((*first, _regular_plural(last))), zh=words), color)
 
 
 def synonyms(label: str, language: Language) -> tuple[str, ...]:
@@ -148,10 +148,10 @@ def _bare(label: str) -> str:
     return label.replace("_", " ")
 
 
-def _colored(name: Bilingual, color: str | None) -> Bilingual:
+def _with_color(name: Bilingual, color: str | None) -> Bilingual:
     if color is None:
         return name
-    return say("object.colored", color=color_names.named(color), kind=name)
+    return say("object.colored", color=color_names.color_name(color), kind=name)
 
 
 def listed(labels: Iterable[str], limit: int = 20) -> Bilingual:

@@ -259,12 +259,12 @@ def option(
 
 
 def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingual:
-    def named(place: str) -> Bilingual:
+    def name_of(place: str) -> Bilingual:
         return lexicon.own_name(vocabulary.by_id[place])
 
     match step:
         case GoTo():
-            name = named(step.place)
+            name = name_of(step.place)
             return say("order.go_to", name=name)
         case ComeBack():
             return say("order.come_back")
@@ -275,7 +275,7 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
         case Say():
             return say("order.say", text=step.text)
         case Find() | Count():
-            return _seen_said(step, named(step.place) if step.place else None)
+            return _seen_said(step, name_of(step.place) if step.place else None)
         case Follow():
             return say("order.follow", object=_with_article(step.object))
         case Turn():
@@ -284,7 +284,7 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
             code = "order.forward" if step.distance_m > 0 else "order.back"
             return say(code, far=f"{abs(step.distance_m):g}")
         case Patrol():
-            names = join((named(place) for place in step.places), "joint.and_the")
+            names = join((name_of(place) for place in step.places), "joint.and_the")
             return say("order.patrol", names=names)
         case _:
             return same(step.kind)

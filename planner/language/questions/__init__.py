@@ -3,7 +3,7 @@
 from planner.language.questions.question import (
     Asked,
     PlaceNames,
-    Question,
+    QuestionReading,
     Relation,
     Whereabouts,
     fold_names,
@@ -19,7 +19,7 @@ from planner.language.questions.reader import (
 __all__ = [
     "Asked",
     "PlaceNames",
-    "Question",
+    "QuestionReading",
     "Relation",
     "Whereabouts",
     "fold_names",

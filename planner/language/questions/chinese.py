@@ -94,7 +94,7 @@ ROUND = re.compile(r"环顾|环境|四处|到处|(?:^|[你您我看察在有 ，
 """To look about."""
 
 
-def closed(text: str, names: PlaceNames) -> Iterator[Asked]:
+def read_yes_no(text: str, names: PlaceNames) -> Iterator[Asked]:
     """Yield what a question may ask for, yes or no."""
     text = text.replace(" ", "")
     found = _SEES.fullmatch(text)

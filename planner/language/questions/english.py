@@ -77,7 +77,7 @@ ROUND = re.compile(
 """To look about; "a round table" and "around the table" are things to look at."""
 
 
-def closed(text: str, names: PlaceNames) -> Iterator[Asked]:
+def read_yes_no(text: str, names: PlaceNames) -> Iterator[Asked]:
     """Yield what a question may ask for, yes or no."""
     found = _THERE_IS.fullmatch(text)
     if found is not None:

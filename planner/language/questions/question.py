@@ -52,7 +52,7 @@ class Asked(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class QuestionReading:
     """Hold what a question asks for, and where."""
 
     asked: tuple[Asked, ...]

@@ -18,7 +18,7 @@ from planner.language.questions import chinese, english
 from planner.language.questions.question import (
     Asked,
     PlaceNames,
-    Question,
+    QuestionReading,
     Relation,
     Whereabouts,
 )
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _ENDS = re.compile(r"^[ .,!?。]+|[ .,!?。]+$")
 
 
-def read_question(text: str, names: PlaceNames, place: str | None = None) -> Question:
+def read_question(text: str, names: PlaceNames, place: str | None = None) -> QuestionReading:
     """Return what a question asks for.
 
     Args:
@@ -40,14 +40,14 @@ def read_question(text: str, names: PlaceNames, place: str | None = None) -> Que
     """
     plain = _plain(text)
     language = _language_of(plain)
-    asked = tuple(language.closed(plain, names))
+    asked = tuple(language.read_yes_no(plain, names))
     if asked:
-        return _closed(asked, names, place)
+        return _read_first(asked, names, place)
     words = language.open_at(plain)
     if words is not None:
-        return Question((), "", _whereabouts(words, names, place), is_sure=True)
+        return QuestionReading((), "", _whereabouts(words, names, place), is_sure=True)
     what, words = language.loosely(plain)
-    return Question((), what, _whereabouts(words, names, place), is_sure=False)
+    return QuestionReading((), what, _whereabouts(words, names, place), is_sure=False)
 
 
 def parted(words: str) -> tuple[str, Relation, str] | None:
@@ -92,7 +92,7 @@ def _language_of(plain: str) -> ModuleType:
     return chinese if has_chinese(plain) else english
 
 
-def _closed(asked: tuple[Asked, ...], names: PlaceNames, place: str | None) -> Question:
+def _read_first(asked: tuple[Asked, ...], names: PlaceNames, place: str | None) -> QuestionReading:
     """Return what a question asks for, yes or no, apart from where.
 
     "Is there a cup next to the sofa?" asks for no sofa.
@@ -101,8 +101,8 @@ def _closed(asked: tuple[Asked, ...], names: PlaceNames, place: str | None) -> Q
     inner = parted(first.what)
     if inner is not None and not first.where:  # "do you see the cup on the table"
         what, relation, by = inner
-        return Question(asked, what, Whereabouts(relation, by, first.what), is_sure=True)
-    return Question(asked, first.what, _whereabouts(first.where, names, place), is_sure=True)
+        return QuestionReading(asked, what, Whereabouts(relation, by, first.what), is_sure=True)
+    return QuestionReading(asked, first.what, _whereabouts(first.where, names, place), is_sure=True)
 
 
 def _whereabouts(words: str, names: PlaceNames, place: str | None) -> Whereabouts | None:

@@ -15,7 +15,7 @@ from planner.mission.skills.object_matching import mentioned
 from planner.mission.skills.perception import Wanted
 
 if TYPE_CHECKING:
-    from planner.language.questions import PlaceNames, Question, Whereabouts
+    from planner.language.questions import PlaceNames, QuestionReading, Whereabouts
     from planner.mission.state import SiteView
     from planner.plan import Language
 
@@ -80,7 +80,7 @@ def place_names(facts: SiteView) -> PlaceNames:
     )
 
 
-def _sought(read: Question, classes: tuple[str, ...]) -> Sought:
+def _sought(read: QuestionReading, classes: tuple[str, ...]) -> Sought:
     wanted = mentioned(read.what, classes)
     if read.where is None:
         return Sought(wanted)

@@ -99,13 +99,13 @@ def test_several_things_have_their_plural() -> None:
 
 
 def test_colours_are_told_by_their_plain_words() -> None:
-    told = "".join(color_names.named(color).zh for color in color_names.COLORS)
+    told = "".join(color_names.color_name(color).zh for color in color_names.COLORS)
     assert told == "红色橙色黄色绿色蓝色紫色粉色棕色黑色灰色白色"
 
 
 @pytest.mark.parametrize("color", color_names.COLORS)
 def test_every_colour_has_its_words(color: str) -> None:
-    name = color_names.named(color)
+    name = color_names.color_name(color)
     en, zh = name.en, name.zh
     assert color_names.color_of(en) == color_names.color_of(zh) == color
     assert resolve(f"{en} cup") == resolve(f"{zh}的杯子") == ("cup", color)

@@ -75,7 +75,7 @@ def names() -> list[Bilingual]:
     several = [named_several(label, "blue") for label in KINDS]
     places = [target.name for target in FACTS.targets.values()]
     places += [entry.name for entry in VOCABULARY.entries]
-    colors = [color_names.named(color) for color in color_names.COLORS]
+    colors = [color_names.color_name(color) for color in color_names.COLORS]
     return [*things, *several, *places, *colors, listed(KINDS), known_places(VOCABULARY, 3)]
 
 
