@@ -1,6 +1,7 @@
-"""Read the things that a sentence is about: one that eyes know, or more than one ("all the cups").
+"""Read what a phrase names: a place, whole or with what adds nothing to it, or things.
 
-The words that mean more than one thing stand here: the robot drives up to one at a time.
+A thing is one that eyes know, or more than one ("all the cups"): the robot drives up to one at a
+time.
 """
 
 from __future__ import annotations
@@ -9,8 +10,57 @@ import re
 
 from planner.language.catalogue import say
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import Reading, Steps
-from planner.plan import GoToObject
+from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
+from planner.plan import Code, GoTo, GoToObject
+
+_THE_PLACE = r"(?:(?:the|a|my|our|your|this|that) )?"
+_PLACE_EN = re.compile(
+    rf"(?:(?P<near>next to|near|by|beside|close to|up to) |at |over to )?{_THE_PLACE}(?P<a>{MARK})"
+    rf"(?: room| area)?(?: (?:in|of|inside) {_THE_PLACE}(?P<room>{MARK}))?"
+)
+_PLACE_ZH = re.compile(
+    rf"(?:这个|那个|那边的|我的|我们的)?(?:(?P<room>{MARK})(?:里面?)?的?)?(?P<a>{MARK})"
+    r"(?:(?P<near>的?(?:旁边|边上|附近|跟前|边|旁))|里面?|内|那边|那里|那儿|这边|这里|处)?"
+)
+_DETERMINER = re.compile(r"^(?:(?:the|a|an|my|our|your) )+")
+_ZH_TAIL = re.compile(r"(?:里面?|内|那边|那里|那儿|这边|这里|旁边|附近|跟前)$")
+
+
+def go_to(phrase: str, reading: Reading) -> Meaning:
+    """Return the go-to step of a place phrase, or why there is none."""
+    phrase = phrase.strip(" \"'")
+    found = _PLACE_EN.fullmatch(phrase) or _PLACE_ZH.fullmatch(phrase)
+    if found:
+        return _named(found, phrase, reading)
+    if re.search(MARK, phrase):
+        return reading.problem(Code.NOT_UNDERSTOOD, phrase)
+    return _unnamed(phrase, reading)
+
+
+def _named(found: re.Match[str], phrase: str, reading: Reading) -> Meaning:
+    mention = reading.marked.mention(found["a"])
+    room = found["room"]
+    if len(mention.ids) > 1:
+        ids = mention.ids
+        return Problem(Code.AMBIGUOUS, reading.marked.restore(phrase), places=ids)
+    entry = reading.vocabulary.by_id[mention.ids[0]]
+    about_a_room = entry.kind == "room" and found["near"] is not None
+    in_its_room = room is None or entry.room in reading.marked.mention(room).ids
+    if about_a_room or not in_its_room:  # "near the kitchen" is not in it; the sofa is elsewhere
+        return reading.problem(Code.NOT_UNDERSTOOD, phrase)
+    return Steps((GoTo(place=entry.id),))
+
+
+def _unnamed(phrase: str, reading: Reading) -> Meaning:
+    name = _ZH_TAIL.sub("", _DETERMINER.sub("", phrase)).strip()
+    if not any(char.isalnum() for char in name):
+        return reading.problem(Code.NOT_UNDERSTOOD, phrase)
+    meant = reading.lexicon.typo(name)
+    if meant is not None:
+        return Steps((GoTo(place=meant),))
+    name = reading.marked.restore(name)
+    return Problem(Code.UNKNOWN_PLACE, name, places=reading.lexicon.near(name), name=name)
+
 
 ONE_AT_A_TIME = say("grammar.one_at_a_time")
 _NUMBER = r"(?:two|three|four|five|six|seven|eight|nine|ten|\d+)"
@@ -55,7 +105,7 @@ _ZH = re.compile(
 
 HOW_EN = r"(?:on(?: top of)?|under(?:neath)?|beneath|below|near|next to|beside|close to|by)"
 HOW_ZH = r"(?:上面?|上边|旁边?|边上|附近|下面?|下边|底下)"
-"""How a thing may stand to its neighbour; planner.mission.skills.spatial_relations judges it."""
+"""How a thing may stand to its neighbour; `planner.language.questions` reads it in questions."""
 _BY_EN = re.compile(
     rf"(?:(?:over|up|close|next) to )?{_THE}(?P<what>[a-z][a-z' -]*?) (?P<how>{HOW_EN}) "
     rf"(?P<the>{_THE})(?P<by>{MARK})(?: (?:in|inside|of) {_THE}(?P<at>{MARK}))?"
