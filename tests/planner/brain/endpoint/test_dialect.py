@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -12,17 +11,13 @@ import httpx
 import pytest
 
 from planner.brain import BrainDown
-from planner.brain.endpoint.capabilities_file import FILE
-from planner.brain.endpoint.dns_pinning import Names
-from planner.brain.endpoint.server_capabilities import LADDER, Dialect, body_of
-from planner.brain.endpoint.url_policy import Address
+from planner.brain.endpoint.dialect import FILE, LADDER, Dialect, body_of
 from planner.brain.schema import schema_of
 from planner.plan import Vocabulary
 from planner.settings import PRESETS, Mode, PresetName
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import (
     GO,
-    KEY,
     Server,
     answer,
     brain,
@@ -139,82 +134,6 @@ def test_a_filter_that_refuses_the_order_is_a_refusal(home: Vocabulary, tmp_path
         server = Server(answer({"error": {"code": code, "message": "filtered"}}, 400))
         assert think(brain(server, tmp_path), home).plan.kind == "refuse"
         assert len(server.requests) == 1
-
-
-def resolving(monkeypatch: pytest.MonkeyPatch, *answers: list[str]) -> list[str]:
-    """Let a name lead to these addresses, one list for each look; return what was looked up."""
-    asked: list[str] = []
-
-    async def look(_: object, host: str, port: int, **__: object) -> list[tuple[object, ...]]:
-        asked.append(host)
-        found = answers[min(len(asked), len(answers)) - 1]
-        return [(2, 1, 6, "", (each, port)) for each in found]
-
-    monkeypatch.setattr(asyncio.BaseEventLoop, "getaddrinfo", look)
-    return asked
-
-
-def test_a_call_goes_to_the_address_that_was_judged(
-    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A name that means another address at the connection leads nowhere else."""
-    asked = resolving(monkeypatch, ["203.0.113.7"], ["169.254.169.254"])
-    server = Server(lambda: wrote(GO))
-    made = brain(server, tmp_path, url="https://models.example/v1", allow_offhost=True)
-    think(made, home)
-    (request,) = server.requests
-    assert str(request.url) == "https://203.0.113.7/v1/chat/completions"
-    assert request.headers["host"] == "models.example"
-    assert request.extensions["sni_hostname"] == "models.example"
-    assert request.headers["authorization"] == f"Bearer {KEY}"
-    assert asked == ["models.example"]
-
-
-@pytest.mark.parametrize("found", [["10.0.0.1", "169.254.169.254"], ["fe80::1"], []])
-def test_a_name_that_leads_to_the_link_by_any_of_its_addresses_is_not_asked(
-    found: list[str], home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    resolving(monkeypatch, found)
-    server = Server(lambda: wrote(GO))
-    made = brain(server, tmp_path, url="http://models.example:8080/v1", allow_offhost=True)
-    with pytest.raises(BrainDown) as down:
-        think(made, home)
-    assert down.value.why == ("refused_address" if found else "unreachable")
-    assert server.requests == []
-
-
-def test_an_address_that_takes_no_connection_is_passed_over(
-    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    resolving(monkeypatch, ["2001:db8::1", "203.0.113.7"])
-    server = Server(httpx.ConnectError("no way"), lambda: wrote(GO))
-    made = brain(server, tmp_path, url="http://models.example:8080/v1", allow_offhost=True)
-    assert think(made, home).plan.kind == "plan"
-    hosts = [(request.url.host, request.headers["host"]) for request in server.requests]
-    assert hosts == [("2001:db8::1", "models.example:8080"), ("203.0.113.7", "models.example:8080")]
-
-
-def test_the_address_that_answered_comes_first_and_a_number_is_not_looked_up(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    seven, eight = "203.0.113.7", "203.0.113.8"
-    asked = resolving(monkeypatch, [seven, eight], [seven, eight], [eight])
-
-    async def story() -> None:
-        names = Names(Address.parse("http://models.example/v1"))
-        _, second = await names.targets()
-        names.answered(second)
-        assert (await names.targets())[0] is second
-        monkeypatch.setattr("planner.brain.endpoint.dns_pinning.RESOLVED_FOR_S", -1.0)
-        assert [each.ip for each in await names.targets()] == [eight, seven]
-        assert [each.ip for each in await names.targets()] == [eight]
-        local = Names(Address.parse("http://127.0.0.1:1/v1"))
-        assert [each.url for each in await local.targets()] == [
-            "http://127.0.0.1:1/v1/chat/completions"
-        ]
-
-    asyncio.run(story())
-    assert asked == ["models.example"] * 3
 
 
 def test_a_mode_of_the_owner_is_kept_whatever_is_remembered(

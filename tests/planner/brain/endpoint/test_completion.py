@@ -19,7 +19,7 @@ from planner.brain import (
     ThinkRequest,
     Thought,
 )
-from planner.brain.endpoint.completion_parser import read_reply
+from planner.brain.endpoint.completion import read_reply
 from planner.plan import GoTo, StepPlan, Vocabulary
 from tests.planner.brain.endpoint.servers import GO, Server, brain, raw, think, wrote
 

@@ -9,7 +9,7 @@ import time
 import psutil
 import pytest
 
-from planner.voice.forked_job import ForkedJob
+from processes.forked_job import ForkedJob
 
 
 def test_the_result_comes_back_and_nothing_else() -> None:

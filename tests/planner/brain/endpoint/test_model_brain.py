@@ -13,7 +13,7 @@ import pytest
 
 from planner.brain import BrainDown, FallbackBrain, OfflineBrain, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.capabilities_file import FILE
+from planner.brain.endpoint.dialect import FILE
 from planner.plan import Answer, Code, GoTo, Refuse, StepPlan, Vocabulary
 from tests.planner.brain.endpoint.servers import (
     GO,

@@ -14,7 +14,7 @@ import pytest
 
 from planner.brain import BrainDown, OutOfBudget, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.metered_transport import billed, tokens_of
+from planner.brain.endpoint.metering import billed, tokens_of
 from planner.budget import Ledger, Purse, Usage
 from planner.plan import Vocabulary
 from planner.settings import BudgetSettings, GoalLimits
@@ -30,7 +30,9 @@ def metered(
     """Think once, with a budget of so many calls; return the meter."""
 
     async def once() -> Usage:
-        purse = Purse(BudgetSettings(goal=GoalLimits(calls=calls)), Ledger(home), most_reply=MOST)
+        purse = Purse(
+            BudgetSettings(goal=GoalLimits(calls=calls)), Ledger.in_home(home), most_reply=MOST
+        )
         made = EndpointBrain(
             settings(**more), home, transport=httpx.MockTransport(server), meter=purse
         )
@@ -154,7 +156,7 @@ def test_a_call_that_is_cut_is_paid_in_full(tmp_path: Path, home: Vocabulary) ->
 def test_no_call_goes_out_that_no_goal_asked_for(tmp_path: Path) -> None:
     async def story() -> None:
         server = Server(said(1, 1, 2))
-        purse = Purse(BudgetSettings(), Ledger(tmp_path))
+        purse = Purse(BudgetSettings(), Ledger.in_home(tmp_path))
         made = EndpointBrain(
             settings(), tmp_path, transport=httpx.MockTransport(server), meter=purse
         )

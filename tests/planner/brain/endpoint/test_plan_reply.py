@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.brain.endpoint import Unusable, judge
-from planner.brain.endpoint.json_extraction import MAX_CHARACTERS, NoObject, one_object
+from planner.brain.endpoint.plan_reply import MAX_CHARACTERS, NoObject, one_object
 from planner.plan import (
     Answer,
     Clarify,

@@ -1,22 +1,87 @@
-"""Own what one server and model understands: the rung of the ladder and a few parameters.
+"""Own what one server and model understands: the rung of the ladder, a few parameters, pictures.
 
 The dialect is found out at the first call, by use and not by a call of its own: a server that
 answers 400 is asked again in the next simpler way. The schema's text is always in the prompt, tools
-and response_format never go together, and whatever comes back is judged here: a looser rung costs
-quality, never safety. Pure; `dialects` remembers.
+and response_format never go together, and whatever comes back is judged in `plan_reply`: a looser
+rung costs quality, never safety. `Dialects` remembers in a file of the home folder; what can't be
+read there is found out anew.
+
+Sources of the words about pictures, read in November 2026: llama.cpp answers 500 "image input is
+not supported", vLLM 500 or 400, Ollama 400 "this model does not support image input", OpenAI 400
+"image_url is only supported by certain models", DeepSeek 400 or 422 "unknown variant `image_url`,
+expected `text`", routers 404 "no endpoints found that support image input".
 """
 
 from __future__ import annotations
 
+import base64
+import hashlib
+import json
+import logging
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 
-from planner.brain.endpoint.image_content import attached
+from pydantic import TypeAdapter, ValidationError
+
 from planner.brain.response_format import PLAN_FORM, Form
 from planner.brain.schema import Message
 from planner.settings import Mode, ModelSettings, TokensField
+
+MAX_JPEG_BYTES = 500_000
+"""Twice what 1024 pixels take; to pack more would hold the event loop for over 10 ms."""
+_NOT_TAKEN = re.compile(
+    r"image[ _]?(?:input|url|content)s?\b.{0,60}(?:not supported|unsupported|only supported)"
+    r"|(?:not|n't|found that) support.{0,30}\b(?:images?|vision|multi-?modal)"
+    r"|unsupported content part|unknown variant.{0,4}image_url|not a multi-?modal model|mmproj"
+    r"|missing data required for image|at most 0 image"
+)
+_THIS_ONE = re.compile(
+    r"(?:invalid|corrupt|malformed|decode|process|load).{0,30}\bimage|base64"
+    r"|\bimage\b.{0,40}(?:invalid|corrupt|too large|too small|exceed|decoded?)"
+)
+_AT_ALL = re.compile(
+    r"\bimages?\b|image_url|vision|multi-?modal"
+    r"|content.{0,60}\b(?:string|text)\b|\b(?:string|text)\b.{0,60}content"
+)
+_THE_WAY = re.compile(
+    r"response_format|json_|tool_choice|\btools?\b|temperature|max_\w*tokens|too long|context"
+)
+
+
+def data_url(jpeg: bytes) -> str:
+    """Return a picture as a URL that holds it."""
+    return f"data:image/jpeg;base64,{base64.b64encode(jpeg).decode('ascii')}"
+
+
+def attached(messages: list[Message], url: str) -> list[dict[str, Any]]:
+    """Return the messages with the picture in the person's first one, behind its words."""
+    sent: list[dict[str, Any]] = [{str(k): v for k, v in each.items()} for each in messages]
+    first = next(message for message in sent if message["role"] == "user")
+    words = {"type": "text", "text": first["content"]}
+    first["content"] = [words, {"type": "image_url", "image_url": {"url": url}}]
+    return sent
+
+
+def not_taken(said: str) -> bool:
+    """Tell whether a server's words, in small letters, are plainly that it takes no pictures."""
+    return _NOT_TAKEN.search(said) is not None
+
+
+def why_refused(said: str) -> str | None:
+    """Return why a body with a picture was refused, or None where another way of asking may do.
+
+    Args:
+        said: the server's words, in small letters.
+    """
+    if not_taken(said):
+        return "no_pictures"
+    if _THIS_ONE.search(said):
+        return "bad_picture"
+    return "no_pictures" if _AT_ALL.search(said) and not _THE_WAY.search(said) else None
+
 
 LADDER = tuple(Mode)
 """Strictest first."""
@@ -158,3 +223,62 @@ _MODES: dict[Mode, Callable[[Body, Form], Body]] = {
     Mode.JSON_OBJECT: lambda _schema, _form: {"response_format": {"type": "json_object"}},
     Mode.PROMPT: lambda _schema, _form: {},
 }
+
+
+log = logging.getLogger(__name__)
+
+FILE = "model_dialects.json"
+MAX_BYTES = 256 * 1024
+MAX_KEPT = 50
+_SHAPE = TypeAdapter(Dialect)
+
+
+class Dialects:
+    """Hold the dialect of one URL and model."""
+
+    def __init__(self, home: Path, settings: ModelSettings, url: str) -> None:
+        self._path = home / FILE
+        self._key = hashlib.sha256(f"{url}\n{settings.name}".encode()).hexdigest()[:24]
+        first = Dialect.first(settings)
+        known = _known_dialect(self._all().get(self._key))
+        self.kept = known is not None
+        """The server is known to have taken this."""
+        self._now = first if known is None else known
+        if first.fixed:
+            self._now = replace(self._now, mode=first.mode, fixed=True)
+
+    @property
+    def now(self) -> Dialect:
+        """Return how to ask."""
+        return self._now
+
+    def keep(self, dialect: Dialect) -> None:
+        """Remember what the server took. A disk that refuses costs a call at the next start."""
+        if dialect == self._now and self.kept:
+            return
+        self._now, self.kept = dialect, True
+        kept = {k: v for k, v in self._all().items() if k != self._key}
+        kept = dict([*kept.items()][-(MAX_KEPT - 1) :])
+        kept[self._key] = asdict(replace(dialect, fixed=False))
+        fresh = self._path.with_suffix(".new")
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            fresh.write_text(json.dumps(kept, indent=1) + "\n", "utf-8")
+            fresh.replace(self._path)
+        except OSError as error:
+            log.warning("%s could not be written: %s", self._path, error.strerror)
+
+    def _all(self) -> dict[str, Any]:
+        try:
+            with self._path.open("rb") as file:
+                found = json.loads(file.read(MAX_BYTES))
+        except (OSError, ValueError, RecursionError):
+            return {}
+        return found if isinstance(found, dict) else {}
+
+
+def _known_dialect(known: object) -> Dialect | None:
+    try:
+        return replace(_SHAPE.validate_python(known), fixed=False)
+    except ValidationError:
+        return None

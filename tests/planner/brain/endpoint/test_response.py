@@ -14,11 +14,9 @@ from hypothesis import strategies as st
 
 from planner.brain import BrainDown, Draft, FallbackBrain, OfflineBrain, ThinkRequest, Thought
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.completion_parser import read_reply
-from planner.brain.endpoint.key_redaction import Secret
-from planner.brain.endpoint.partial_plan import Drafting
-from planner.brain.endpoint.sse import Events
-from planner.brain.endpoint.stream_assembler import Assembly, Broken
+from planner.brain.endpoint.completion import Assembly, Broken, read_reply
+from planner.brain.endpoint.plan_reply import Drafting
+from planner.brain.endpoint.response import Events, Secret
 from planner.plan import RUNNABLE, GoTo, StepPlan, Vocabulary, Wait
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import (
