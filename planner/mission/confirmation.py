@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from planner.language.catalogue import message, say
+from planner.language.questions import looks_round
 from planner.mission.motion_on_yes import first_deed
-from planner.mission.skills.look import looks_round
 from planner.mission.state import Mission, SiteView
 from planner.plan import Bilingual, Code, Outcome, StepRecord, same
 

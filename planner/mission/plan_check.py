@@ -10,7 +10,7 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import meant, picks_out
-from planner.mission.skills.object_questions import unknown_kind
+from planner.mission.skills.object_query import unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Mission, MissionState, SiteView
 from planner.plan import (

@@ -9,13 +9,13 @@ from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.interface import Brain, ThinkRequest
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
-from planner.language.object_classes import kind_of
+from planner.language.object_names import synonyms
 from planner.language.place_lists import rejection_outcome
 from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
-from planner.plan import BARE, Code, Means, Outcome, Rejection, Vocabulary, validate_plan
+from planner.plan import BARE, Code, Language, Means, Outcome, Rejection, Vocabulary, validate_plan
 
 log = logging.getLogger(__name__)
 
@@ -73,9 +73,8 @@ def things_of(classes: tuple[str, ...]) -> frozenset[str]:
 
     None while it has not said what it knows: an unknown place is then told as one.
     """
-    kinds = [kind_of(label) for label in classes]
     return frozenset(
-        name for kind in kinds for name in (kind.en, kind.zh, *kind.also_en, *kind.also_zh)
+        name for label in classes for language in Language for name in synonyms(label, language)
     )
 
 

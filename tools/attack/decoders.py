@@ -104,12 +104,10 @@ def _mcap(folder: Path) -> Reader:
 
 def _model(_folder: Path) -> Reader:
     """Read a body, a plan, a look and a point, or a stream, by the first byte."""
-    from planner.brain.endpoint.completion_parser import read_json, read_reply
-    from planner.brain.endpoint.image_reply import judge_look, judge_point
-    from planner.brain.endpoint.partial_plan import Drafting
-    from planner.brain.endpoint.reply_validation import judge
-    from planner.brain.endpoint.sse import Events
-    from planner.brain.endpoint.stream_assembler import Assembly, Broken
+    from planner.brain.endpoint.completion import Assembly, Broken, read_json, read_reply
+    from planner.brain.endpoint.image_client import judge_look, judge_point
+    from planner.brain.endpoint.plan_reply import Drafting, judge
+    from planner.brain.endpoint.response import Events
     from planner.brain.errors import BrainDown
     from planner.plan import RUNNABLE
 
