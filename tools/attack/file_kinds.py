@@ -136,9 +136,8 @@ def _settings() -> Loaded:
 
 def _load_kept_files() -> Loaded:
     """Read the small JSON files of a home folder: brakes, and the stores of the layout before."""
-    from planner.site.yaml_records import parse_json, read_bytes
-
     from bridge.braking_file import load_learnt
+    from maps.yaml_records import parse_json, read_bytes
     from planner.perception.object_store import StoredThings
     from planner.site import SiteError
     from planner.site.fence_store import FenceProposal
