@@ -1,14 +1,19 @@
-"""Join the event loop and the journal's thread: write without waiting, wait for what is safe."""
+"""Join the event loop and the journal's thread: write without waiting, wait for what is safe.
+
+:class:`Disk` is what the mission loop asks of a disk; :class:`JournalSync` is the real one. The
+lockstep harness has another, on its own clock.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import logging
 from collections.abc import Callable
+from typing import Protocol
 
 from planner.mission.effects import Journal
 from planner.mission.errors import JournalDown
-from planner.mission.journal import GoalKey, MissionJournal
+from planner.mission.journal import GoalKey, JournalContents, MissionJournal
 from planner.mission.journal_thread import JournalWriter, PendingEntry
 
 log = logging.getLogger(__name__)
@@ -16,20 +21,56 @@ log = logging.getLogger(__name__)
 SAFE_WITHIN_S = 3.0
 
 
-class JournalSync:
-    """Own the writer; ``on_safe`` is called in the loop with each entry that is on disk."""
+class Disk(Protocol):
+    """Keep what the missions must not forget."""
 
-    def __init__(self, journal: MissionJournal, on_safe: Callable[[int], None]) -> None:
-        self._loop = asyncio.get_running_loop()
-        self._on_safe = on_safe
+    @property
+    def trouble(self) -> str | None:
+        """Return why nothing can be written, or None."""
+
+    async def open(self, on_safe: Callable[[int], None]) -> JournalContents:
+        """Return what was kept, and call ``on_safe`` from now on with each entry that is on disk.
+
+        Raises:
+            Misconfigured: a record is not one of ours.
+        """
+
+    def write(self, entry: Journal, key: GoalKey | None = None) -> None:
+        """Have an entry written, with the key of the request that caused it; returns at once."""
+
+    async def wait(self, entry: int) -> None:
+        """Wait until an entry is on disk.
+
+        Raises:
+            JournalDown: it was not within 3 s.
+        """
+
+    async def close(self) -> None:
+        """Write what waits, and end."""
+
+
+class JournalSync:
+    """Be the disk of a real planner: a journal that one thread writes."""
+
+    def __init__(self, journal: MissionJournal) -> None:
+        self._journal = journal
         self._safe = 0
         self._waiting: list[tuple[int, asyncio.Future[None]]] = []
-        self.trouble: str | None = None
-        self._writer = JournalWriter(journal, self._from_thread, self._failed_from_thread)
+        self._writer: JournalWriter | None = None
+        self.trouble: str | None = "not started"
+
+    async def open(self, on_safe: Callable[[int], None]) -> JournalContents:
+        """Read the journal in a thread, and begin to write."""
+        kept = await asyncio.to_thread(self._journal.load)
+        self._loop, self._on_safe = asyncio.get_running_loop(), on_safe
+        self.trouble = None
+        self._writer = JournalWriter(self._journal, self._from_thread, self._failed_from_thread)
+        return kept
 
     def write(self, entry: Journal, key: GoalKey | None = None) -> None:
         """Have an entry written; returns at once."""
-        self._writer.write(PendingEntry(entry, key))
+        if self._writer is not None:
+            self._writer.write(PendingEntry(entry, key))
 
     async def wait(self, entry: int) -> None:
         """Wait until an entry is on disk.
@@ -49,7 +90,8 @@ class JournalSync:
 
     async def close(self) -> None:
         """Write what waits and end the thread, without holding the loop."""
-        await asyncio.to_thread(self._writer.close)
+        if self._writer is not None:
+            await asyncio.to_thread(self._writer.close)
 
     def _from_thread(self, entry: int) -> None:
         self._loop.call_soon_threadsafe(self._note, entry)
