@@ -15,7 +15,7 @@ from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
-from planner.plan import BARE, Code, Means, Outcome, Rejection, Vocabulary, validate_plan
+from planner.plan import BARE, Code, Means, Outcome, Vocabulary, check_plan
 
 log = logging.getLogger(__name__)
 
@@ -59,10 +59,10 @@ def thinker(
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             said = _outcome(Code.MODEL_UNAVAILABLE)
             return Planned(ask.id, None, said, error.brain or brain.tag)
-        judged = validate_plan(thought.plan, vocabulary, means.runnable, means.blind)
-        if isinstance(judged, Rejection):
-            return Planned(ask.id, None, rejection_outcome(judged, vocabulary), thought.brain)
-        return Planned(ask.id, judged, None, thought.brain)
+        rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
+        if rejection is not None:
+            return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
+        return Planned(ask.id, thought.plan, None, thought.brain)
 
     return think
 

@@ -21,10 +21,9 @@ from planner.plan import (
     Answer,
     Clarify,
     Refuse,
-    Rejection,
     StepPlan,
     Vocabulary,
-    validate_plan,
+    check_plan,
 )
 
 MAX_TEXT = 600
@@ -73,10 +72,10 @@ def judge(
         plan = PLAN.validate_python(shaped)
     except ValidationError as wrong:
         return Unusable(tuple(map(_told, wrong.errors(include_url=False)[:MAX_REASONS])))
-    judged = validate_plan(plan, vocabulary, runnable)
-    if isinstance(judged, Rejection) and judged.repairable:
+    rejection = check_plan(plan, vocabulary, runnable)
+    if rejection is not None and rejection.repairable:
         known = ", ".join(list(vocabulary.by_id)[:40]) or "none"
-        told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in judged.reasons]
+        told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in rejection.reasons]
         return Unusable((*told[:MAX_REASONS], f"known places: {known}"))
     return plan
 
