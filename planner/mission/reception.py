@@ -1,11 +1,18 @@
 """Receive a person's sentence: decide once, before any brain, what it is to the missions.
 
-Pure. The one door for text, voice, page, command line and the lockstep harness: whoever feeds the
-missions asks :func:`receive` and does what it says, a stop first of all.
+The one door for text, voice, page, command line and the lockstep harness: whoever feeds the
+missions asks :func:`receive` and does what it says, a stop first of all. Pure; only
+:class:`Repeats`, which it reads, is changed by whoever took a request in.
+
+Laws: an order to stop is never refused, is never a repetition and takes no room. The same key and
+request are the same goal, however full it has become; the same key with another request is refused.
+At most ``MAX_OPEN`` goals are open, but for what is said to the planner itself.
 """
 
 from __future__ import annotations
 
+import hashlib
+import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -16,12 +23,16 @@ from planner.mission.allowed_commands import refusal
 from planner.mission.answer_timeouts import has_room
 from planner.mission.answered_question import meant
 from planner.mission.bridge_status import at_rest
+from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
 from planner.mission.goal_reference import goal_to_end
+from planner.mission.journal import MAX_KEYS, GoalKey
 from planner.mission.open_questions import takes_yes
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from planner.language.utterance import Utterance
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
@@ -29,6 +40,31 @@ if TYPE_CHECKING:
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""
+
+
+class Repeats:
+    """Remember the newest keys of requests and the goals they made, as many as the journal does."""
+
+    def __init__(self, kept: Iterable[GoalKey] = ()) -> None:
+        """Begin with what the journal kept, oldest first."""
+        self._keys = {each.key: each for each in kept}
+
+    def find(self, key: str | None) -> GoalKey | None:
+        """Return the request that came with a key before, or None; without a key none is known."""
+        return self._keys.get(key) if key is not None else None
+
+    def remember(self, request: GoalKey | None) -> None:
+        """Remember a request that was taken in; one without a key is never known again."""
+        if request is None:
+            return
+        if len(self._keys) >= MAX_KEYS:
+            self._keys.pop(next(iter(self._keys)))
+        self._keys[request.key] = request
+
+    def forget(self, request: GoalKey | None) -> None:
+        """Let a request come anew: it was not taken."""
+        if request is not None:
+            self._keys.pop(request.key, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +76,23 @@ class Reception:
     """The bridge is told to stop before anything else."""
     takes_back: str | None = None
     """The goal that it ends."""
-    crowded: bool = False
-    """It would be a new goal, and too many are open."""
+    refused: MissionError | None = None
+    """Why it is not taken in: QueueFull or IdempotencyConflict."""
+    repeats: str | None = None
+    """The goal that this very request made before: it is shown, and nothing is done."""
+    request: GoalKey | None = None
+    """What is remembered with the goal, where the request has a key."""
 
 
 def receive(
-    book: MissionState, said: Utterance, given: Submitted, now_s: float, *, answers: bool = True
+    book: MissionState,
+    said: Utterance,
+    given: Submitted,
+    now_s: float,
+    *,
+    answers: bool = True,
+    key: str | None = None,
+    repeats: Repeats | None = None,
 ) -> Reception:
     """Return what is to be done with a sentence that came now.
 
@@ -55,6 +102,8 @@ def receive(
         given: the goal that it would be, without marks.
         now_s: on the clock of the book.
         answers: it may answer a question.
+        key: the Idempotency-Key of the request.
+        repeats: the requests that came before.
     """
     if said.orders_stop:
         return Reception(replace(given, stop=True), stops=True)
@@ -64,6 +113,12 @@ def receive(
     if said.may_mean_stop and not asking and is_active(book, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
+    body = _body_of(given)
+    before = repeats.find(key) if repeats is not None else None
+    if before is not None and before.body != body:
+        return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
+    if before is not None:
+        return Reception(given, repeats=before.goal)
     replaces = isinstance(intent, Replace)
     first = isinstance(intent, Replace) and intent.now
     local = bool(asking) or (intent is not None and not replaces)
@@ -75,8 +130,20 @@ def receive(
         asking=asking,
         local=local,
     )
+    if full and not local:
+        return Reception(
+            marked, refused=QueueFull(sum(not m.ended for m in book.missions.values()))
+        )
+    request = GoalKey(key, body, given.id) if key is not None else None
     takes_back = goal_to_end(book) if first else None
-    return Reception(marked, takes_back=takes_back, crowded=full and not local)
+    return Reception(marked, takes_back=takes_back, request=request)
+
+
+def _body_of(given: Submitted) -> str:
+    """Return the fingerprint of a request, as it came."""
+    asked = [given.text, given.language.value, given.confirm, given.replace]
+    fields = json.dumps(asked, ensure_ascii=True)
+    return hashlib.sha256(fields.encode()).hexdigest()[:32]
 
 
 @dataclass(frozen=True, slots=True)

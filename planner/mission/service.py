@@ -23,7 +23,6 @@ from planner.mission.engine import Engine
 from planner.mission.errors import (
     JournalDown,
     NothingToResume,
-    QueueFull,
     UnknownGoal,
 )
 from planner.mission.events import (
@@ -40,13 +39,18 @@ from planner.mission.events import (
     Submitted,
 )
 from planner.mission.goal_reference import goal_to_resume
-from planner.mission.idempotency import Repeats, body_of
 from planner.mission.journal_sync import Disk
 from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
 from planner.mission.plan_request import thinker
 from planner.mission.planner_commands import PlannerCommands
-from planner.mission.reception import awaits_answer, hears_stop, receive, receive_answer
+from planner.mission.reception import (
+    Repeats,
+    awaits_answer,
+    hears_stop,
+    receive,
+    receive_answer,
+)
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import Router
@@ -58,6 +62,7 @@ from wire import OpRequest, RobotDescription
 if TYPE_CHECKING:
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
+    from planner.mission.journal import GoalKey
 
 
 class Missions:
@@ -155,25 +160,27 @@ class Missions:
         said, goal_id = parse(text), self._clocks.new_id()
         spoken = language or said.language
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
-        heard = receive(self.loop.book, said, given, self._clocks.monotonic(), answers=answers)
+        heard = receive(
+            self.loop.book, said, given, self._clocks.monotonic(),
+            answers=answers, key=idempotency_key, repeats=self._repeats,
+        )  # fmt: skip
+        if heard.refused is not None:
+            raise heard.refused
         if heard.stops:
             return await self._stop_goal(heard.given, source)
-        body = body_of(text, spoken, confirm, replace)
-        if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
-            return self.goal(known)
-        if heard.crowded:
-            raise QueueFull(sum(not m.ended for m in self.loop.book.missions.values()))
-        key = self._repeats.remember(idempotency_key, body, goal_id)
+        if heard.repeats is not None:
+            return self.goal(heard.repeats)
+        self._repeats.remember(heard.request)
         if heard.given.resumes:
             self.loop.clear_hold(act)
         else:
             for behind in (goal_id, *heard.given.asking):
                 self.loop.keep_act(behind, act)
         self.loop.accepted.note(goal_id, self._clocks.monotonic())
-        self.loop.event(heard.given, key)
+        self.loop.event(heard.given, heard.request)
         if heard.takes_back is not None:
             self.loop.event(Cancel(heard.takes_back))
-        await self._written(goal_id, idempotency_key)
+        await self._written(goal_id, heard.request)
         return self.goal(goal_id)
 
     def hears_stop(self, text: str) -> bool:
@@ -184,13 +191,13 @@ class Missions:
         """Return whether a question waits for a yes or no."""
         return awaits_answer(self.loop.book)
 
-    async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
+    async def _written(self, goal_id: str, request: GoalKey | None) -> None:
         """Wait until a goal is written down; what can't be is taken back."""
         try:
             await self.loop.settled()
         except JournalDown:
             self.loop.event(Cancel(goal_id))
-            self._repeats.forget(idempotency_key)
+            self._repeats.forget(request)
             raise
 
     async def cancel(self, goal_id: str) -> Goal:
