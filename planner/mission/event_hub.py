@@ -15,7 +15,7 @@ MAX_WAITING = 256
 Message = tuple[int, dict[str, Any]]
 
 
-class Listener(Protocol):
+class HubListener(Protocol):
     """Take events one by one, at once and without waiting."""
 
     def offer(self, message: Message) -> None:
@@ -72,7 +72,7 @@ class Hub:
 
     def __init__(self) -> None:
         self.seq = 0
-        self._listeners: set[Listener] = set()
+        self._listeners: set[HubListener] = set()
 
     def subscribe(self) -> Subscription:
         """Listen from now on."""
@@ -80,11 +80,11 @@ class Hub:
         self.join(subscription)
         return subscription
 
-    def join(self, listener: Listener) -> None:
+    def join(self, listener: HubListener) -> None:
         """Tell a listener from now on, the very moment that something is published."""
         self._listeners.add(listener)
 
-    def forget(self, listener: Listener) -> None:
+    def forget(self, listener: HubListener) -> None:
         """Stop telling one listener."""
         self._listeners.discard(listener)
 

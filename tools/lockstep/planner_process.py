@@ -70,7 +70,7 @@ class NotebookDisk:
 
     def write(self, entry: Journal, key: GoalKey | None = None) -> None:
         """Have an entry written."""
-        asyncio.get_running_loop().call_later(self.delay_s, self._written, entry, key)
+        asyncio.get_running_loop().call_later(self.delay_s, self._write_down, entry, key)
 
     async def wait(self, entry: int) -> None:
         """Wait until an entry is written."""
@@ -80,7 +80,7 @@ class NotebookDisk:
     async def close(self) -> None:
         """Nothing is open."""
 
-    def _written(self, entry: Journal, key: GoalKey | None) -> None:
+    def _write_down(self, entry: Journal, key: GoalKey | None) -> None:
         self.notebook.missions.update({mission.id: mission for mission in entry.missions})
         self.notebook.queue = entry.queue
         if key is not None:
