@@ -253,12 +253,12 @@ class PlannerProcess:
         """Go on with a goal; a hold of the bridge is cleared as the API's handler does."""
         status = self.status
         held = status is not None and status.held is not None
-        act = self._signed("resume") if held else None
+        act = self._sign("resume") if held else None
         self.run(now_s, self.missions.resume(goal_id, act=act))
 
     def operate(self, kind: OpKind, now_s: float) -> Request | None:
         """Sign for a virtual drive and ask until answered; None before the first status."""
-        request = self._signed(kind)
+        request = self._sign(kind)
         return None if request is None else self.run(now_s, self._ask(kind, request))
 
     # What the hub tells -------------------------------------------------------------------------
@@ -281,9 +281,9 @@ class PlannerProcess:
 
     def _act_behind(self, text: str) -> OpRequest | None:
         """Return the resume that comes with a sentence, where it may lead to motion."""
-        return None if parse(text).stays_put else self._signed("resume")
+        return None if parse(text).stays_put else self._sign("resume")
 
-    def _signed(self, kind: OpKind) -> OpRequest | None:
+    def _sign(self, kind: OpKind) -> OpRequest | None:
         status = self.status
         if status is None:
             return None
