@@ -21,7 +21,7 @@ from planner.mission.accept import WaypointLatency
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import Progress, goal_of, progress_of
 from planner.mission.bridge_status import at_rest
-from planner.mission.detector_words import Wording
+from planner.mission.detector_words import Wording, warm_up
 from planner.mission.effects import (
     AskBrain,
     AskEyes,
@@ -46,7 +46,6 @@ from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
 from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import Answers, MissionTasks, Router, Think
-from planner.mission.warmup import warm_up
 from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints
 

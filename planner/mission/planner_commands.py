@@ -27,8 +27,8 @@ from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
-from planner.mission.goal_reference import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.known_places import Lesson
+from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, where
 from planner.plan import Answer, Bilingual, Code, Refuse
 from planner.site import PlaceRefused

@@ -2,7 +2,8 @@
 
 The one door for text, voice, page, command line and the lockstep harness: whoever feeds the
 missions asks :func:`receive` and does what it says, a stop first of all. Pure; only
-:class:`Repeats`, which it reads, is changed by whoever took a request in.
+:class:`Repeats`, which it reads, is changed by whoever took a request in. Here is also found the
+goal that a person means who names none: to answer, to end, to pause, to go on with it.
 
 Laws: an order to stop is never refused, is never a repetition and takes no room. The same key and
 request are the same goal, however full it has become; the same key with another request is refused.
@@ -19,24 +20,22 @@ from typing import TYPE_CHECKING
 from planner.language.commands import Cancel as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import Resume as GoOn
+from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
 from planner.mission.answer_timeouts import has_room
-from planner.mission.answered_question import meant
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
-from planner.mission.goal_reference import goal_to_end
 from planner.mission.journal import MAX_KEYS, GoalKey
-from planner.mission.open_questions import takes_yes
+from planner.mission.open_questions import WAITS, asks_freely, takes_yes
+from planner.mission.state import MissionState
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.language.utterance import Utterance
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
-    from planner.mission.state import MissionState
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""
@@ -109,7 +108,7 @@ def receive(
         return Reception(replace(given, stop=True), stops=True)
     intent, full = said.intent, not has_room(book)
     may_answer = answers and not (given.confirm or given.replace)
-    asking = meant(book, said) if may_answer else ()
+    asking = goals_answered_by(book, said) if may_answer else ()
     if said.may_mean_stop and not asking and is_active(book, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
@@ -205,3 +204,63 @@ def is_active(book: MissionState, now_s: float) -> bool:
     if status is None:
         return False  # no bridge was ever heard, so nothing of ours can move
     return not now_s - book.status_s <= OLD_STATUS_S or not at_rest(status)
+
+
+def goals_answered_by(book: MissionState, said: Utterance) -> tuple[str, ...]:
+    """Return the goals whose question a sentence may answer; one alone is beyond doubt.
+
+    None unless it is a plain yes or no and one of them takes it. A question that takes neither (a
+    brain's about the order, which offers no or several orders) counts where it is no older than the
+    newest of these: it may be meant, too.
+    """
+    if said.consent is None:
+        return ()
+    intent = said.intent
+    if not (intent is None or (isinstance(intent, GoOn) and goal_to_resume(book) is None)):
+        return ()  # "go on" is a yes where there is nothing else to go on with
+    waiting = [m for m in book.missions.values() if m.state in WAITS]
+    taking = {m.id: m.updated_unix_s for m in waiting if takes_yes(m)}
+    if not taking:  # "Do you mean the kitchen?" of a model: it reads the word itself
+        alone = len(waiting) == 1 and intent is None
+        return tuple(m.id for m in waiting if alone and asks_freely(m))
+    newest_unix_s = max(taking.values())
+    return tuple(m.id for m in waiting if m.id in taking or m.updated_unix_s >= newest_unix_s)
+
+
+_OPEN = (
+    GoalState.PLANNING,
+    GoalState.NEEDS_CLARIFICATION,
+    GoalState.AWAITING_CONFIRMATION,
+    GoalState.PAUSED,
+    GoalState.QUEUED,
+)
+
+
+def goal_to_end(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that a person means by "that": the running one, else the newest open one."""
+    if book.running is not None:
+        return book.running
+    others = [m for m in book.missions.values() if not m.ended and m.id != asking]
+    for state in _OPEN:
+        found = [m for m in others if m.state is state]
+        if found:
+            return max(found, key=lambda m: m.order).id
+    return None
+
+
+def goal_to_pause(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that a person wants paused."""
+    if book.running is not None:
+        return book.running
+    thinking = [
+        m for m in book.missions.values() if m.state is GoalState.PLANNING and m.id != asking
+    ]
+    return max(thinking, key=lambda m: m.order).id if thinking else None
+
+
+def goal_to_resume(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that was paused last, else the first that is kept waiting."""
+    paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
+    if paused:
+        return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
+    return next((i for i in book.queue if book.missions[i].held), None)

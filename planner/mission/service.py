@@ -17,7 +17,6 @@ from planner.bridge_client import Identity, Link, StopResult
 from planner.language.utterance import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import goal_of
-from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import (
@@ -38,15 +37,15 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
-from planner.mission.goal_reference import goal_to_resume
 from planner.mission.journal_sync import Disk
 from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
-from planner.mission.plan_request import thinker
+from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
     Repeats,
     awaits_answer,
+    goal_to_resume,
     hears_stop,
     receive,
     receive_answer,

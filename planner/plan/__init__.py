@@ -1,8 +1,7 @@
 """Say what may be planned: the closed vocabulary of plans, steps, outcomes, places and goals."""
 
 from planner.plan.base import Bilingual, Frozen, Language, same
-from planner.plan.capabilities import BARE, NEEDS_DETECTOR, Means
-from planner.plan.check import Reason, Rejection, check_plan, lacking
+from planner.plan.check import BARE, NEEDS_DETECTOR, Means, Reason, Rejection, check_plan, lacking
 from planner.plan.goal import (
     ENDED,
     BrainTag,

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from planner.brain.streamed_draft import Draft
-from planner.mission.draft_events import TELL_S, Hearing
 from planner.mission.event_hub import Subscription
+from planner.mission.plan_request import TELL_S, Hearing
 from planner.mission.route_prefetch import KEPT_S, RouteAhead
 from planner.mission.state import MissionState
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult

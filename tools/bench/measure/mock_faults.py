@@ -18,8 +18,7 @@ import httpx
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
 from planner.mission import AskBrain, MissionState, Planned, Submitted, advance
-from planner.mission.draft_events import Hearing
-from planner.mission.plan_request import thinker
+from planner.mission.plan_request import Hearing, thinker
 from planner.mission.site_view import facts_of, vocabulary_of
 from planner.plan import DRIVES, Language, StepPlan, Vocabulary, check_plan
 from planner.settings import ModelSettings
