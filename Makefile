@@ -59,8 +59,8 @@ e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and fro
 # that the others don't.
 BRANCHES := --cov=bridge.core --cov=wire --cov-branch --cov-report=term-missing:skip-covered \
   --cov-fail-under=100 --hypothesis-profile=coverage -m "not slow and not e2e" -n logical \
-  --ignore=tests/bridge/core/test_enumerated.py --ignore=tests/bridge/core/test_troubles_together.py \
-  --ignore=tests/bridge/core/test_hostile_machine.py
+  --ignore=tests/bridge/core/laws/test_enumerated.py --ignore=tests/bridge/core/laws/test_troubles_together.py \
+  --ignore=tests/bridge/core/laws/test_hostile_machine.py
 coverage: $(DEV) ## branch coverage of wire and bridge/core; fails under 100 % and names what is missing
 	@$(BIN)/python -m pytest -q tests/bridge/core tests/wire tests/bridge/test_link.py \
 	  tests/bridge/test_message_orders.py $(BRANCHES) $(ARGS)
@@ -73,10 +73,10 @@ laws: $(DEV) ## every law with 2 000 fresh examples, where `make test` tries 50;
 
 seeds: $(DEV) ## the laws of the step under 200 000 hostile scripts of 60 ticks; an hour on 2 idle cores
 	@SEEDS=$${SEEDS:-200000} nice -n 10 $(BIN)/python -m pytest -v -n logical --timeout 600 \
-	  tests/bridge/core/test_step_laws.py -k so_many $(ARGS)
+	  tests/bridge/core/laws/test_step_laws.py -k so_many $(ARGS)
 
 enumerate: $(DEV) ## every mode by all sets of up to three rows: 136 000 steps, minutes
-	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/test_enumerated.py $(ARGS)
+	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/laws/test_enumerated.py $(ARGS)
 
 check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py

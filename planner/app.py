@@ -14,12 +14,14 @@ from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
-from planner.mission import KnownPlaces, MissionJournal, Missions, Rules
+from planner.mission import JournalSync, KnownPlaces, MissionJournal, Missions, Rules
 from planner.navigation import RouteLimits, RouteWorker
+from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
 from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
 from planner.site import FenceProposals, Site, TaughtPlaces
+from planner.state_database import StateDatabase
 from planner.voice import VoiceWorker
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
@@ -60,18 +62,22 @@ class Planner:
                 runs here.
         """
         self.settings = load_settings(where.home, os.environ)
-        self.budget = purse_of(self.settings, where.home)
+        self._state = StateDatabase(where.home)
+        self._state.put_aside_if_spoilt()
+        self.budget = purse_of(self.settings, where.home, self._state)
         self._model = _model(self.settings, where.home, self.budget)
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
         self.brain = _brain(self._model, self.settings)
-        self.fences = FenceProposals(where.home / "fence" / "proposals")
+        self.fences = FenceProposals.in_home(where.home, self._state)
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
+        self.budget.prepare()
         self._journal = MissionJournal.in_home(where.home)
         limits = RouteLimits.of(self.description)
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
         radius_m = self.description.base.radius_m
-        self.memory = KnownPlaces(self.site, TaughtPlaces.in_home(where.home), radius_m=radius_m)
+        taught = TaughtPlaces.in_home(where.home, self._state)
+        self.memory = KnownPlaces(self.site, taught, radius_m=radius_m)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
         self.ears = VoiceWorker(self._spoken())
@@ -83,7 +89,8 @@ class Planner:
         worker = self.detector.worker
         self.eyes = eyes_of(
             worker, self.settings.vision, link, self._session,
-            self.description, self.site, where.home,
+            self.description, self.site,
+            ThingStore.in_home(where.home, self.site.map_id, self._state),
         )  # fmt: skip
         self.goals = Missions(
             site=self.memory,
@@ -91,7 +98,7 @@ class Planner:
             link=link,
             router=self._router,
             brain=self.brain,
-            journal=self._journal,
+            disk=JournalSync(self._journal),
         )
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
@@ -131,6 +138,7 @@ class Planner:
         if self._model is not None:
             await self._model.close()
         self.budget.close()
+        self._state.close()
         self._journal.close()
         self._session.close()
 

@@ -16,18 +16,17 @@ from planner.perception.dependencies import Means
 from planner.perception.failure import REFUSALS
 from planner.perception.frame_source import WireCamera
 from planner.perception.frame_update import Scenery
-from planner.perception.object_store import ThingStore
 from planner.perception.perception_loop import Sightseer
 from planner.perception.pose_buffer import Poses
 from planner.plan import Bilingual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from pathlib import Path
 
     from planner.brain import Brain
     from planner.brain.endpoint import EndpointBrain
     from planner.bridge_client import Link
+    from planner.perception.object_store import ThingStore
     from planner.settings import VisionSettings
     from planner.site import Site
     from wire import RobotDescription
@@ -77,7 +76,7 @@ def eyes_of(
     session: Session,
     robot: RobotDescription,
     site: Site,
-    home: Path,
+    store: ThingStore,
 ) -> Sightseer:
     """Return the eyes, which the link tells from now on how the robot moves."""
     poses = Poses(site.map_id)
@@ -89,7 +88,7 @@ def eyes_of(
             detector=worker,
             has_model=worker.has_model,
             poses=poses,
-            store=ThingStore.in_home(home, site.map_id),
+            store=store,
             rate_hz=settings.rate_hz,
         )
     )

@@ -129,7 +129,9 @@ def _detect(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _places(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     word = words.add_parser("places", help="list the places, remember one here, forget one")
-    word.add_argument("act", nargs="?", choices=("list", "remember", "forget"), default="list")
+    word.add_argument(
+        "act", nargs="?", choices=("list", "export", "remember", "forget"), default="list"
+    )
     word.add_argument("name", nargs="?", help="its name")
     word.add_argument("--zh", metavar="NAME", help="its Chinese name, beside or alone")
 

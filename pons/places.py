@@ -1,10 +1,11 @@
-"""Teach the robot places and forget them: ``pons places [list] | remember NAME | forget NAME``.
+"""Teach the robot places and forget them: ``pons places [list|export] | remember|forget NAME``.
 
 Talks to the planner alone: it knows where the robot stands, and what may be a name.
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -16,11 +17,13 @@ if TYPE_CHECKING:
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PATH = "/v1/places"
+_KEPT = ("id", "name", "pose", "map_id", "by", "taught")
+"""What places.json holds of each."""
 
 
 def run(settings: Settings, act: str, name: str | None, *, chinese: str | None = None) -> int:
-    """Do one of list, remember, forget; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
-    if act != "list" and name is None and (chinese is None or act == "forget"):
+    """Do one of the acts; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
+    if act in ("remember", "forget") and name is None and (chinese is None or act == "forget"):
         print(f"no_name: say which place to {act}", file=sys.stderr)
         return EXIT_USAGE
     try:
@@ -28,6 +31,8 @@ def run(settings: Settings, act: str, name: str | None, *, chinese: str | None =
             _remember(settings, name, chinese)
         elif act == "forget":
             _forget(settings, name or "")
+        elif act == "export":
+            _export(settings)
         else:
             _list(settings)
     except PlannerProblem as refused:
@@ -50,6 +55,13 @@ def _list(settings: Settings) -> None:
         print(f"{place['id']:<24} {_names(place)}  {_origin(place)}{why}")
     here = sum(place["why_not"] != "other_map" for place in known["taught"])
     print(f"{here} of {known['most']} taught on this map")
+
+
+def _export(settings: Settings) -> None:
+    """Print what was taught as places.json, which a planner takes in at its start."""
+    taught = call(settings, "GET", PATH)["taught"]
+    places = [{name: place[name] for name in _KEPT} for place in taught]
+    print(json.dumps({"version": 1, "places": places}, ensure_ascii=False, indent=1))
 
 
 def _remember(settings: Settings, name: str | None, chinese: str | None) -> None:

@@ -16,13 +16,16 @@ import socket
 import sys
 import threading
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
+from pons.robot_processes import PATIENCE_S, address_arguments, common_arguments
 from pons.settings import allowed_hosts
 from pons.supervisor import REFUSED_TO_START, Child
+from pons_assets import ROOT
 from wire import Misconfigured, RobotDescription, load_robot
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
@@ -34,7 +37,6 @@ if TYPE_CHECKING:
     from pons.settings import Settings
 
 POLL_S = 0.05
-PATIENCE_S = 4.0
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
 LOOK_S = 0.5
@@ -135,7 +137,7 @@ class Supervisor:
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
-            say(f"try: python examples/external_brain.py --home {self._settings.home}")
+            say(f"try: {brain_example(self._settings.home)}")
 
     def _ready(self) -> bool:
         if not self._planner:
@@ -165,6 +167,14 @@ class Supervisor:
             child.stop(PATIENCE_S)
 
 
+def brain_example(home: Path, root: Path = ROOT) -> str:
+    """Return a command to try on a robot that has no planner; a wheel brings no examples."""
+    example = root / "examples" / "external_brain.py"
+    if example.is_file():
+        return f"python {example} --home {home}"
+    return "pons conformance --connect   (examples/external_brain.py of a checkout drives it)"
+
+
 def arm_direct(settings: Settings) -> bool:
     """Arm at the bridge itself; tell whether it is armed."""
     from pons.bridge_client import NoBridge, ask_direct
@@ -184,12 +194,11 @@ def children(
 ) -> list[Child]:
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
-    common = ["--home", str(settings.home), "--robot", str(settings.robot)]
-    common += ["--site", str(settings.site)]
+    common = common_arguments(settings)
     wanted = [("bridge", common)]
     if planner:
         secured = issued.planner_arguments() if issued else []
-        wanted.append(("planner", [*common, *_address(settings), *secured]))
+        wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
     if robot.drive.virtual:
         metal = ["--metal", str(settings.metal)] if settings.metal else []
         wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
@@ -204,10 +213,6 @@ def children(
         arguments = ["sim.camera", *common]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
-
-
-def _address(settings: Settings) -> list[str]:
-    return ["--host", settings.host, "--port", str(settings.port)]
 
 
 def describe(status: int) -> str:

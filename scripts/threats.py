@@ -66,7 +66,7 @@ ASKERS = (
 
 _CONNECTIONS = "planner/api/test_connections.py"
 _STOP = "pons/test_stop.py"
-_FALSE = "bridge/core/test_false_senses.py"
+_FALSE = "bridge/core/sensing/test_sensor_update_lies.py"
 _KEY = "bridge/test_operator_key.py"
 
 THREATS = (
@@ -150,8 +150,8 @@ THREATS = (
     Threat("A person's proof is collected for later",
            "Nonces hold 64 bits of chance drawn for the tick, and none outlives a stop, a protective stop "
            "or a disarm; a proof binds kind, robot, run, request and nonce, a fence's also its text",
-           ("bridge/core/test_operator_laws.py::test_a_proof_under_a_nonce_that_was_not_shown_yet_never_counts",
-            "bridge/core/test_operator_laws.py::test_after_a_stop_no_proof_from_before_it_counts")),
+           ("bridge/core/laws/test_nonces.py::test_a_proof_under_a_nonce_that_was_not_shown_yet_never_counts",
+            "bridge/core/laws/test_nonces.py::test_after_a_stop_no_proof_from_before_it_counts")),
     Threat("The operator's key is guessed, read, exchanged or put there by another",
            "`pons key new` draws 32 random bytes; a link, a pipe, another owner or other readers are refused; "
            "the page takes the key on secure pages alone",

@@ -6,10 +6,11 @@ is JSON without NaN or infinity: what is unknown is None.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from bridge.core.geometry.odometry import OdometryState
-from bridge.core.record_copy import copier
 from bridge.core.state_motion import (
     UNLEARNT,
     Gate,
@@ -38,6 +39,11 @@ from bridge.core.state_senses import (
 )
 from wire import Held, Mode, Pose2
 from wire.value import value
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+R = TypeVar("R")
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +137,22 @@ class BridgeState:
         if self.grants.mission is None or owner is None:
             return self.source
         return self.source + ("W" if owner.kind == "planner" else "X")
+
+
+def copier(cls: type[R]) -> Callable[[R], R]:
+    """Return a function that makes a shallow copy of a dataclass of at least two fields.
+
+    Most of the state is frozen and replaced when something arrives, which is rare. The records that
+    change every tick are plain slotted dataclasses, copied once per tick: copying costs 1 us, a
+    ``dataclasses.replace`` of the same size 4 us. A test holds the promise that the state given to
+    ``step`` is unchanged afterwards.
+    """
+    take = attrgetter(*(one.name for one in fields(cls)))  # type: ignore[arg-type]  # R is a dataclass
+
+    def copy(record: Any) -> R:
+        return cls(*take(record))
+
+    return copy
 
 
 _copy_state = copier(BridgeState)

@@ -1,7 +1,7 @@
 """Carry one tick through the core: what is fixed, what is written, what arrived, what is said.
 
 Lives for one ``step`` and is then dropped. Every part of the core takes it; each field of ``s`` is
-assigned to in one module alone, which tests/bridge/core/test_wings.py lists and holds.
+assigned to in one module alone, which tests/bridge/core/laws/test_wings.py lists and holds.
 """
 
 from __future__ import annotations

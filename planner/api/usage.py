@@ -19,6 +19,7 @@ def routes(services: Services) -> APIRouter:
     @router.get("/usage", operation_id="get_usage")
     async def usage(goal: OneGoal = None) -> Usage:
         """Show calls, tokens, seconds and money spent today, and by one goal where it is named."""
+        await services.budget.look(goal)
         return services.budget.usage(goal)
 
     return router

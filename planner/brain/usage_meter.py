@@ -31,7 +31,7 @@ class Bill(Protocol):
 class Meter(Protocol):
     """Count what is spent, and refuse what may not be."""
 
-    def open(self, prompt_tokens: int) -> Bill:
+    async def open(self, prompt_tokens: int) -> Bill:
         """Count a call that is about to go out.
 
         Args:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.budget.budget import Purse
-from planner.budget.ledger import Ledger
+from planner.budget.ledger import FOLDER, Ledger
 from planner.budget.report import Amounts, Most, Refused, Usage
 from planner.budget.utc_day import Clocks
 
@@ -13,12 +13,13 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from planner.settings import Settings
+    from planner.state_database import StateDatabase
 
 __all__ = ["Amounts", "Clocks", "Ledger", "Most", "Purse", "Refused", "Usage", "purse_of"]
 
 
-def purse_of(settings: Settings, home: Path) -> Purse:
-    """Return the purse of a home as the owner has set it.
+def purse_of(settings: Settings, home: Path, database: StateDatabase | None = None) -> Purse:
+    """Return the purse of a home as the owner has set it; without a database, with one of its own.
 
     Raises:
         Misconfigured: ``budget_unreadable``.
@@ -26,7 +27,7 @@ def purse_of(settings: Settings, home: Path) -> Purse:
     model = settings.model
     return Purse(
         settings.budget,
-        Ledger(home),
+        Ledger.in_home(home) if database is None else Ledger(database, home / FOLDER),
         model=model.name if model is not None else None,
         most_reply=model.max_tokens if model is not None else 0,
     )

@@ -6,6 +6,7 @@ length) and corrected when it ends, so that one which dies with the process stay
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from dataclasses import asdict
 from datetime import date
@@ -20,11 +21,12 @@ from planner.language.catalogue import say
 from planner.plan import same
 
 if TYPE_CHECKING:
-    from planner.budget.ledger import Ledger
+    from planner.budget.ledger import Judge, Ledger
     from planner.settings import BudgetSettings
 
 log = logging.getLogger(__name__)
 
+LOOK_S = 0.5
 MAX_TOKENS = 10_000_000
 """Of one call; a server that claims more is not believed."""
 UNWRITABLE = say("budget.unwritable")
@@ -66,7 +68,12 @@ class Purse:
         self.changes = 0
         """Rises with every change of the meter, so that who shows it knows when to look."""
 
-    def open(self, prompt_tokens: int) -> OpenCall:
+    def prepare(self) -> None:
+        """Make the ledger's database, so that no call waits for that. Blocks on the disk."""
+        if self._model is not None:
+            self._ledger.prepare()
+
+    async def open(self, prompt_tokens: int) -> OpenCall:
         """Count a call that is about to go out.
 
         Raises:
@@ -80,13 +87,12 @@ class Purse:
         worst = self._priced(1, prompt_tokens, self._most_reply)
         day = self._today()
         try:
-            over = self._over(day, goal, worst)
-            if over is not None:
-                raise self._refuse(refusal(over, self._days.resets_in_s(), self._currency))
-            self._ledger.append(day, goal, worst, sync=True)
+            over = await self._ledger.spend(day, goal, worst, self._judge(worst))
         except OSError as error:
             log.warning("what the model costs can't be written: %s", error.strerror)
             raise self._refuse(OutOfBudget("it can't be written down", UNWRITABLE)) from None
+        if over is not None:
+            raise self._refuse(refusal(over, self._days.resets_in_s(), self._currency))
         self._under_way += 1
         self._calls += 1
         self._refused = None
@@ -100,20 +106,18 @@ class Purse:
         came_to = self._priced(1, prompt, reply) + Spent(seconds=seconds)
         self._under_way -= 1
         self.changes += 1
-        try:
-            self._ledger.append(call.day, call.goal, came_to - call.counted, sync=False)
-        except OSError as error:  # it stays counted at its worst
-            log.warning("what a call came to can't be written: %s", error.strerror)
+        self._ledger.settle(call.day, call.goal, came_to - call.counted)
 
     def usage(self, goal: str | None = None) -> Usage:
-        """Return the meter as of now."""
+        """Return the meter as of now; what another program spends is seen at the next look."""
         day = self._today()
+        self._ledger.look(day)
         return Usage(
             model=self._model,
             day=day,
             resets_in_s=round(self._days.resets_in_s()),
             currency=self._currency,
-            today=_amounts(self._spent_on(day)),
+            today=_amounts(self._ledger.of_day(day)),
             day_limits=Most(**self._budget.day.model_dump()),
             goal=None if goal is None else _amounts(self._ledger.of_goal(goal)),
             goal_limits=Most(**self._budget.goal.model_dump()),
@@ -122,6 +126,12 @@ class Purse:
             idle_calls=self._idle,
             refused=self._refused,
         )
+
+    async def look(self, goal: str | None = None) -> None:
+        """Read what every program of this home has spent; a disk that hangs is not waited for."""
+        looking = self._ledger.look(self._today(), goal or "")
+        if looking is not None:
+            await asyncio.wait({asyncio.wrap_future(looking)}, timeout=LOOK_S)
 
     def close(self) -> None:
         """Give the ledger back."""
@@ -135,32 +145,25 @@ class Purse:
         money = cost(self._budget.price, prompt, reply)
         return Spent(calls=calls, prompt_tokens=prompt, reply_tokens=reply, money=money)
 
-    def _over(self, day: date, goal: str, worst: Spent) -> Overrun | None:
-        today = self._ledger.of_day(day)  # first: it also reads what others spent on this goal
-        mine = self._ledger.of_goal(goal)
-        return overrun("goal", mine, worst, self._budget.goal) or overrun(
-            "day", today, worst, self._budget.day
-        )
+    def _judge(self, worst: Spent) -> Judge:
+        """Return how the sums of a day and a goal are held against the limits; see ``Ledger``."""
+
+        def judge(today: Spent, mine: Spent) -> Overrun | None:
+            return overrun("goal", mine, worst, self._budget.goal) or overrun(
+                "day", today, worst, self._budget.day
+            )
+
+        return judge
 
     def _today(self) -> date:
         day = self._days.today()
         if day < self._day:  # a clock that had leapt ahead was found out
             log.warning("the day is %s again; what was spent on later days is set aside", day)
-            try:
-                self._ledger.set_aside(day)
-            except OSError as error:
-                log.warning("later days could not be set aside: %s", error.strerror)
+            self._ledger.set_aside(day)
         if day != self._day:
             self._day = day
             self.changes += 1
         return day
-
-    def _spent_on(self, day: date) -> Spent:
-        try:
-            return self._ledger.of_day(day)
-        except OSError as error:
-            log.warning("what was spent can't be read: %s", error.strerror)
-            return Spent()
 
     def _refuse(self, error: OutOfBudget) -> OutOfBudget:
         self._refused = Refused(code=error.code, message=error.said)

@@ -1,30 +1,27 @@
-"""Own the words of colours in both languages, and which colours light may turn into each other."""
+"""Read the words of colours, and know which colours light may turn into each other."""
 
 from __future__ import annotations
 
-WORDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "red": (("red", "scarlet", "crimson"), ("大红", "鲜红", "红")),
-    "orange": (("orange",), ("橘黄", "橘红", "橘", "橙")),
-    "yellow": (("yellow", "golden"), ("金黄", "金", "黄")),
-    "green": (("green",), ("翠绿", "墨绿", "绿")),
-    "blue": (("blue", "navy", "azure"), ("天蓝", "蔚蓝", "蓝")),
-    "purple": (("purple", "violet"), ("紫",)),
-    "pink": (("pink",), ("粉红", "粉")),
-    "brown": (("brown",), ("咖啡", "褐", "棕")),
-    "black": (("black",), ("黑",)),
-    "gray": (("gray", "grey", "silver"), ("银灰", "银", "灰")),
-    "white": (("white",), ("乳白", "雪白", "白")),
+from planner.language.catalogue import CATALOGUE, noun
+from planner.plan import Bilingual, same
+
+COLORS = CATALOGUE.keys("color")
+_WORDS_EN = {color: CATALOGUE.synonyms(f"color.{color}", "en") for color in COLORS}
+_WORDS_ZH = {
+    color: tuple(word.removesuffix("色") for word in CATALOGUE.synonyms(f"color.{color}", "zh"))
+    for color in COLORS
 }
-"""English words, and Chinese ones without 色; the first and the last are what is told."""
-COLORS: tuple[str, ...] = tuple(WORDS)
 
 _SHADES_EN = ("light", "dark", "bright", "deep", "pale")
 _SHADES_ZH = "深浅暗亮淡"
 
-_BY_WORD = {word: color for color, (en, zh) in WORDS.items() for word in (*en, *zh)}
-
-_any_en = "|".join(word for en, _ in WORDS.values() for word in en)
-_any_zh = "|".join(sorted((word for _, zh in WORDS.values() for word in zh), key=len, reverse=True))
+_BY_WORD = {
+    word: color for own in (_WORDS_EN, _WORDS_ZH) for color, words in own.items() for word in words
+}
+_any_en = "|".join(word for words in _WORDS_EN.values() for word in words)
+_any_zh = "|".join(
+    sorted((word for words in _WORDS_ZH.values() for word in words), key=len, reverse=True)
+)
 ENGLISH = rf"(?:(?:{'|'.join(_SHADES_EN)})[ -])?(?:{_any_en})(?:[ -]colou?red)?"
 """A pattern of one colour as English says it."""
 CHINESE = rf"[{_SHADES_ZH}]?(?:{_any_zh})色?"
@@ -57,7 +54,6 @@ def may_be(one: str | None, other: str | None) -> bool:
     return frozenset((one, other)) in _NEAR
 
 
-def names_of(color: str) -> tuple[str, str]:
-    """Return a colour's name in English and Chinese."""
-    _, zh = WORDS.get(color, ((color,), (color,)))
-    return color, f"{zh[-1]}色" if color in WORDS else color
+def color_name(color: str) -> Bilingual:
+    """Return what to call a colour."""
+    return noun(f"color.{color}") if color in COLORS else same(color)

@@ -10,15 +10,11 @@ from planner.plan import Bilingual
 
 def angle(radians: float) -> Bilingual:
     """Say an angle and its side."""
-    amount = f"{abs(degrees(radians)):.0f}°"
-    if radians < 0.0:
-        return say("amount.turn_right", amount=amount)
-    return say("amount.turn_left", amount=amount)
+    code = "amount.turn_right" if radians < 0.0 else "amount.turn_left"
+    return say(code, angle_deg=abs(degrees(radians)))
 
 
 def metres(distance_m: float) -> Bilingual:
     """Say a distance and its direction."""
-    amount = f"{abs(distance_m):.2f}"
-    if distance_m < 0.0:
-        return say("amount.backwards", amount=amount)
-    return say("amount.forward", amount=amount)
+    code = "amount.backwards" if distance_m < 0.0 else "amount.forward"
+    return say(code, distance_m=abs(distance_m))

@@ -11,10 +11,10 @@ from functools import cache, lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language import color_names
-from planner.language.catalogue import list_names, say
-from planner.language.folding import fold, fold_words
-from planner.language.object_classes import KINDS, Kind, kind_of
-from planner.plan import Bilingual, Language
+from planner.language.catalogue import CATALOGUE, list_names, noun, plural, say
+from planner.language.folding import CHINESE, fold, fold_words
+from planner.language.object_classes import KINDS
+from planner.plan import Bilingual, Language, same
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -48,6 +48,11 @@ _WHICH_ZH = re.compile(
     r"另|其他|其它|别的|大|小|(?:上面?|里面?|旁边|边上|下面?|底下|前面|后面|中间|那边|这边)的"
 )
 _ANY_ZH = re.compile(r"家里的|附近的|最近的")
+_WORD = re.compile(r"[a-z0-9'-]+")
+_RUN_ZH = re.compile(rf"[{CHINESE}]+")
+LONGEST_EN, LONGEST_ZH = 3, 8
+MAX_READ = 120
+"""Characters of a question: each piece is looked up, on the event loop."""
 
 
 def canonical(name: str) -> str:
@@ -76,6 +81,25 @@ def resolve(
     return None
 
 
+def first_named(text: str, classes: Collection[str]) -> tuple[str, str | None] | None:
+    """Return the class and colour that a whole sentence names, by the longest name that fits."""
+    for words in _pieces(fold(text[:MAX_READ])):
+        found = resolve(words, None, classes)
+        if found is not None:
+            return found
+    return None
+
+
+def _pieces(text: str) -> Iterable[str]:
+    """Yield the runs of words of a sentence that may be a name, the longest first."""
+    for run in _RUN_ZH.findall(text):
+        for length in range(min(LONGEST_ZH, len(run)), 0, -1):
+            yield from (run[at : at + length] for at in range(len(run) - length + 1))
+    words = _WORD.findall(text)
+    for length in range(LONGEST_EN, 0, -1):
+        yield from (" ".join(words[at : at + length]) for at in range(len(words) - length + 1))
+
+
 def prepare(classes: Collection[str]) -> None:
     """Make what reads words in these classes. Takes long once: call it off the event loop."""
     own = _own_names(classes)
@@ -99,19 +123,42 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
 
 def named(label: str, color: str | None = None) -> Bilingual:
     """Return what to call a thing."""
-    kind = kind_of(label)
-    name = Bilingual(en=kind.en, zh=kind.zh)
+    name = noun(f"noun.{label}") if label in KINDS else same(_bare(label))
+    return _with_color(name, color)
+
+
+def named_several(label: str, color: str | None = None) -> Bilingual:
+    """Return what to call several of a thing."""
+    if label in KINDS:
+        return _with_color(plural(f"noun.{label}"), color)
+    words = _bare(label)
+    *first, last = words.split(" ")
+    return _with_color(Bilingual(en=" ".join((*first, _regular_plural(last))), zh=words), color)
+
+
+def synonyms(label: str, language: Language) -> tuple[str, ...]:
+    """Return the words that mean a class: the one that is said, then the others."""
+    if label not in KINDS:
+        return (_bare(label),)
+    return CATALOGUE.synonyms(f"noun.{label}", language)
+
+
+def _bare(label: str) -> str:
+    """Return the name of a class that is in no table: the detector's own."""
+    return label.replace("_", " ")
+
+
+def _with_color(name: Bilingual, color: str | None) -> Bilingual:
     if color is None:
         return name
-    en, zh = color_names.names_of(color)
-    return say("object.colored", color=Bilingual(en=en, zh=zh), kind=name)
+    return say("object.colored", color=color_names.color_name(color), kind=name)
 
 
 def listed(labels: Iterable[str], limit: int = 20) -> Bilingual:
     """Return class names for a sentence: "person, chair and sofa"."""
-    kinds = [kind_of(label) for label in labels]
-    more = len(kinds) - limit
-    names = list_names(Bilingual(en=kind.en, zh=kind.zh) for kind in kinds[:limit])
+    known = list(labels)
+    more = len(known) - limit
+    names = list_names(map(named, known[:limit]))
     names = names if names.en else say("object.none")
     return say("object.and_more", names=names, more=more) if more > 0 else names
 
@@ -190,16 +237,16 @@ def _by_length(names: Iterable[str]) -> list[str]:
 @cache
 def _english_names() -> dict[str, str]:
     """Return every English word of every class, plurals too."""
-    return {word: kind.id for kind in KINDS.values() for word in _forms(kind)}
+    return {word: label for label in KINDS for word in _forms(label)}
 
 
 @cache
 def _chinese_names() -> dict[str, str]:
-    return {word: kind.id for kind in KINDS.values() for word in (kind.zh, *kind.also_zh)}
+    return {word: label for label in KINDS for word in synonyms(label, Language.ZH)}
 
 
-def _forms(kind: Kind) -> Iterable[str]:
-    for word in (kind.id.replace("_", " "), kind.en, *kind.also_en):
+def _forms(label: str) -> Iterable[str]:
+    for word in (_bare(label), *synonyms(label, Language.EN)):
         yield word
         *first, last = word.split(" ")
         for many in _plurals(last):
@@ -209,4 +256,8 @@ def _forms(kind: Kind) -> Iterable[str]:
 def _plurals(word: str) -> tuple[str, ...]:
     if word in _IRREGULAR:
         return _IRREGULAR[word]
-    return (f"{word}es",) if word.endswith(("s", "x", "ch", "sh")) else (f"{word}s",)
+    return (_regular_plural(word),)
+
+
+def _regular_plural(word: str) -> str:
+    return f"{word}es" if word.endswith(("s", "x", "ch", "sh")) else f"{word}s"

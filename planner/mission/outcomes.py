@@ -6,8 +6,8 @@
 from __future__ import annotations
 
 from planner.language.catalogue import message, say
+from planner.language.questions import looks_round
 from planner.mission.account import MOTION, account, place_name
-from planner.mission.skills.look import looks_round
 from planner.mission.state import Mission, SiteView
 from planner.plan import (
     Bilingual,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from planner.language.catalogue import place_name
 from planner.mission.state import SiteView, Target
-from planner.plan import Bilingual, Entry, Vocabulary
+from planner.plan import Entry, Vocabulary
 from planner.site import Place, Site
 
 
@@ -17,7 +18,7 @@ def _target(place: Place) -> Target:
     return Target(
         id=place.id,
         room=place.kind == "room",
-        name=Bilingual(en=place.name.en, zh=place.name.zh),
+        name=place_name(place.name.en, place.name.zh),
         pose=place.pose,
         polygon=place.polygon,
         aliases=(*place.aliases.en, *place.aliases.zh),
@@ -34,7 +35,7 @@ def _entry(site: Site, place: Place) -> Entry:
     return Entry(
         id=place.id,
         kind=place.kind,
-        name=Bilingual(en=place.name.en, zh=place.name.zh),
+        name=place_name(place.name.en, place.name.zh),
         aliases=(*place.aliases.en, *place.aliases.zh),
         room=room.id if room is not None else None,
     )

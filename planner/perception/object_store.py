@@ -1,6 +1,6 @@
-"""Keep the things remembered over a restart, in one file of ``$PONS_HOME``. Owns the file alone.
+"""Keep the things remembered over a restart, as a table of ``$PONS_HOME``.
 
-What is seen can be seen again: a file that is damaged or of another map is said and left behind,
+What is seen can be seen again: a row that is damaged or of another map is said and left behind,
 never a reason not to start. Ages are kept by the wall clock, since a monotonic one ends with its
 host; a wall clock that was set back makes nothing younger than now.
 """
@@ -8,7 +8,6 @@ host; a wall clock that was set back makes nothing younger than now.
 from __future__ import annotations
 
 import logging
-import os
 import time
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,18 +17,19 @@ from maps.yaml_records import Record, parse_json, read_bytes
 from planner.perception.object_tracker import MOST_THINGS
 from planner.perception.snapshot import Thing
 from planner.site import SiteError
+from planner.state_database import StateDatabase, StateUnavailable
 from wire.bounded_types import Count, Fingerprint, Ratio
 from wire.geometry import Metres
 
 if TYPE_CHECKING:
+    import sqlite3
     from collections.abc import Callable
     from pathlib import Path
 
 log = logging.getLogger(__name__)
 
 FILE = "objects.json"
-PRIVATE = 0o600
-"""Where people were seen in a home is its owner's business, whatever the umask is."""
+"""Of the layout before: taken in, where it lies in the home folder."""
 OLDEST_S = 365.0 * 86_400.0
 
 Word = Annotated[str, Field(min_length=1, max_length=120)]
@@ -54,7 +54,7 @@ class StoredThing(Record):
 
 
 class StoredThings(Record):
-    """Mirror objects.json."""
+    """Hold all that is kept, which is of one map; mirror objects.json of the layout before."""
 
     version: Annotated[int, Field(ge=1, le=1)] = 1
     map_id: Fingerprint
@@ -62,31 +62,40 @@ class StoredThings(Record):
 
 
 class ThingStore:
-    """Be the file. Reads and writes the disk: call it off the event loop."""
+    """Be the table. Reads and writes the disk: call it off the event loop."""
 
-    def __init__(self, path: Path, map_id: str, *, wall: Callable[[], float] = time.time) -> None:
-        self._path, self._map_id, self._wall = path, map_id, wall
+    def __init__(
+        self,
+        database: StateDatabase,
+        old_file: Path,
+        map_id: str,
+        *,
+        wall: Callable[[], float] = time.time,
+    ) -> None:
+        self._database, self._old_file = database, old_file
+        self._map_id, self._wall = map_id, wall
 
     @classmethod
-    def in_home(cls, home: Path, map_id: str) -> ThingStore:
-        """Return the file of a home folder."""
-        return cls(home / FILE, map_id)
+    def in_home(cls, home: Path, map_id: str, database: StateDatabase | None = None) -> ThingStore:
+        """Return what a home folder keeps."""
+        return cls(database or StateDatabase(home), home / FILE, map_id)
 
     def load(self, now_s: float) -> tuple[Thing, ...]:
-        """Return what was remembered on this map; nothing where the file is not to be trusted."""
-        if not self._path.exists():
-            return ()
+        """Return what was remembered on this map; nothing where it is not to be trusted."""
         try:
-            kept = parse_json(read_bytes(self._path), StoredThings, self._path)
+            kept = self._read_kept()
         except SiteError as error:
             log.warning("objects_unreadable: %s; what was seen before is forgotten", error)
             return ()
+        except StateUnavailable as error:
+            told = "objects_unreadable: %s: %s; what was seen before is forgotten"
+            log.warning(told, self._database.path, error.strerror)
+            return ()
+        if kept is None:
+            return ()
         if kept.map_id != self._map_id:
             log.warning("objects_of_another_map: %s of %s, here is %s; forgotten",
-                        self._path, kept.map_id, self._map_id)  # fmt: skip
-            return ()
-        if len({thing.id for thing in kept.things}) != len(kept.things):
-            log.warning("objects_unreadable: %s gives an id twice; forgotten", self._path)
+                        self._database.path, kept.map_id, self._map_id)  # fmt: skip
             return ()
         offset_s = now_s - self._wall()
         return tuple(_recalled(thing, now_s, offset_s) for thing in kept.things)
@@ -94,32 +103,49 @@ class ThingStore:
     def save(self, things: tuple[Thing, ...], now_s: float) -> bool:
         """Put these in place of what was kept; say whether they are on the disk."""
         offset_s = self._wall() - now_s
-        record = StoredThings(
+        kept = StoredThings(
             map_id=self._map_id, things=tuple(_stored(thing, offset_s) for thing in things)
         )
-        beside = self._path.with_suffix(".new")
         try:
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            with open(beside, "wb", opener=_private) as file:
-                file.write(record.model_dump_json().encode() + b"\n")
-                file.flush()
-                os.fsync(file.fileno())
-            beside.replace(self._path)
+            self._database.take_over(self._old_file, self._import)  # where the start could not
+            with self._database.change() as connection:
+                _replace(connection, kept)
         except OSError as error:
-            log.warning("objects_unwritable: %s: %s", self._path, error.strerror)
+            log.warning("objects_unwritable: %s: %s", self._database.path, error.strerror)
             return False
         return True
 
+    def _read_kept(self) -> StoredThings | None:
+        """Return what is kept, of whichever map; None where nothing is."""
+        try:
+            self._database.take_over(self._old_file, self._import)
+        except StateUnavailable:  # a disk that can't be written at present can be read all the same
+            return self._old_things()
+        path = self._database.path
+        rows = self._database.read("SELECT map_id, record FROM objects ORDER BY position")
+        if not rows:
+            return None
+        things = tuple(parse_json(record.encode(), StoredThing, path) for _, record in rows)
+        return StoredThings(map_id=rows[0][0], things=things[:MOST_THINGS])
 
-def _private(path: str, flags: int) -> int:
-    """Open a file that nobody else may read, one that was left there too."""
-    descriptor = os.open(path, flags, PRIVATE)
-    try:
-        os.fchmod(descriptor, PRIVATE)
-    except OSError:  # another user's
-        os.close(descriptor)
-        raise
-    return descriptor
+    def _import(self, connection: sqlite3.Connection) -> None:
+        """Take objects.json in; one that can't be read is said, and put beside all the same."""
+        try:
+            _replace(connection, self._old_things())
+        except SiteError as error:
+            log.warning("objects_unreadable: %s; what was seen before is forgotten", error)
+
+    def _old_things(self) -> StoredThings:
+        kept = parse_json(read_bytes(self._old_file), StoredThings, self._old_file)
+        if len({thing.id for thing in kept.things}) != len(kept.things):
+            raise SiteError("value_malformed", f"{self._old_file} gives an id twice")
+        return kept
+
+
+def _replace(connection: sqlite3.Connection, kept: StoredThings) -> None:
+    rows = [(kept.map_id, thing.id, thing.model_dump_json()) for thing in kept.things]
+    connection.execute("DELETE FROM objects")
+    connection.executemany("INSERT INTO objects (map_id, id, record) VALUES (?, ?, ?)", rows)
 
 
 def _stored(thing: Thing, offset_s: float) -> StoredThing:

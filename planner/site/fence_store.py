@@ -1,4 +1,4 @@
-"""Keep proposed fences in ``$PONS_HOME/fence/proposals`` until an operator decides. Owns the files.
+"""Keep proposed fences, as a table of ``$PONS_HOME``, until an operator decides.
 
 A proposal is named by the hash of its text, the same that status will show once it is in force, so
 its name can't stay when its text changes. Proposing puts nothing in force.
@@ -6,7 +6,6 @@ its name can't stay when its text changes. Proposing puts nothing in force.
 
 from __future__ import annotations
 
-import os
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Literal
 
@@ -14,11 +13,13 @@ from pydantic import ValidationError
 
 from maps.yaml_records import Record
 from planner.site.fence_check import FenceRefused
+from planner.state_database import StateDatabase
 from wire.bounded_types import Code, Fingerprint, Name
 from wire.fence import fence_text
 from wire.fingerprint import fingerprint
 
 if TYPE_CHECKING:
+    import sqlite3
     from collections.abc import Callable
     from pathlib import Path
 
@@ -51,11 +52,21 @@ def _now() -> datetime:
 
 
 class FenceProposals:
-    """Be the folder of proposals. Reads and writes files: call it off the event loop."""
+    """Be the table of proposals. Reads and writes the disk: call it off the event loop."""
 
-    def __init__(self, folder: Path, clock: Callable[[], datetime] = _now) -> None:
-        self._folder = folder
+    def __init__(
+        self, database: StateDatabase, old_folder: Path, clock: Callable[[], datetime] = _now
+    ) -> None:
+        """Say where they are kept, and where files of the layout before may lie."""
+        self._database, self._old_folder = database, old_folder
         self._clock = clock
+
+    @classmethod
+    def in_home(
+        cls, home: Path, database: StateDatabase | None = None, clock: Callable[[], datetime] = _now
+    ) -> FenceProposals:
+        """Return the proposals of a home folder."""
+        return cls(database or StateDatabase(home), home / "fence" / "proposals", clock)
 
     def propose(self, fence: FenceFile, by: str) -> FenceProposal:
         """Keep a proposal; the same text again is the same proposal, open anew.
@@ -72,8 +83,13 @@ class FenceProposals:
         return self._write(FenceProposal(id=name, text=text, by=by, created=self._clock()))
 
     def all(self) -> list[FenceProposal]:
-        """Return the proposals, newest first; a file that is none of ours is left alone."""
-        found = [self._read(path) for path in self._folder.glob("*.json")]
+        """Return the proposals, newest first; a row that is none of ours is left alone."""
+        try:
+            self._database.take_over(self._old_folder, self._import)
+            rows = self._database.read("SELECT id, record FROM fence_proposals")
+            found = [_read(name, record) for name, record in rows]
+        except OSError:  # a disk that can't be written at present can be read all the same
+            found = self._old_proposals()
         return sorted(
             (item for item in found if item is not None),
             key=lambda item: (item.created, item.id),
@@ -100,29 +116,45 @@ class FenceProposals:
         """
         change = {"state": state, "decided_by": by, "decided": self._clock(), "reason": reason}
         item = self._write(self.get(name).model_copy(update=change))
-        for old in [item for item in self.all() if item.state != "proposed"][MAX_KEPT:]:
-            self._path(old.id).unlink(missing_ok=True)
+        gone = [item for item in self.all() if item.state != "proposed"][MAX_KEPT:]
+        if gone:
+            with self._database.change() as connection:
+                statement = "DELETE FROM fence_proposals WHERE id = ?"
+                connection.executemany(statement, [(old.id,) for old in gone])
         return item
-
-    def _path(self, name: str) -> Path:
-        return self._folder / f"{name}.json"
-
-    def _read(self, path: Path) -> FenceProposal | None:
-        """Return a proposal whose name is still that of its text."""
-        try:
-            item = FenceProposal.model_validate_json(path.read_bytes())
-        except (OSError, ValidationError):
-            return None
-        fits = item.id == path.stem and fingerprint(item.text.encode()) == item.id
-        return item if fits else None
 
     def _write(self, item: FenceProposal) -> FenceProposal:
-        self._folder.mkdir(parents=True, exist_ok=True)
-        path = self._path(item.id)
-        beside = path.with_suffix(".new")
-        with beside.open("wb") as file:
-            file.write(item.model_dump_json(indent=1).encode())
-            file.flush()
-            os.fsync(file.fileno())
-        beside.replace(path)
+        self._database.take_over(self._old_folder, self._import)
+        with self._database.change() as connection:
+            _put(connection, item)
         return item
+
+    def _import(self, connection: sqlite3.Connection) -> None:
+        for item in self._old_proposals():
+            if item is not None:
+                _put(connection, item)
+
+    def _old_proposals(self) -> list[FenceProposal | None]:
+        """Return those of the layout before, a file each; one that is none of ours is left."""
+        return [_read_file(path) for path in self._old_folder.glob("*.json")]
+
+
+def _put(connection: sqlite3.Connection, item: FenceProposal) -> None:
+    row = (item.id, item.model_dump_json())
+    connection.execute("REPLACE INTO fence_proposals VALUES (?, ?)", row)
+
+
+def _read_file(path: Path) -> FenceProposal | None:
+    try:
+        return _read(path.stem, path.read_bytes())
+    except OSError:
+        return None
+
+
+def _read(name: str, record: str | bytes) -> FenceProposal | None:
+    """Return a proposal whose name is still that of its text."""
+    try:
+        item = FenceProposal.model_validate_json(record)
+    except ValidationError:
+        return None
+    return item if item.id == name and fingerprint(item.text.encode()) == item.id else None

@@ -1,17 +1,16 @@
-"""Keep the places that people taught, in one file of ``$PONS_HOME``. Owns the file, judges nothing.
+"""Keep the places that people taught, as a table of ``$PONS_HOME``. Judges nothing.
 
-The file is whole at every instant: a new text is written beside it, brought to the disk and put in
-its place by one rename. Each place keeps the fingerprint of the map it was taught on.
+All of a change is on disk or nothing changed. Each place keeps the fingerprint of the map it was
+taught on. ``places.json``, as it was before and as people may write it, is taken in where it lies
+in the home folder at a start.
 """
 
 from __future__ import annotations
 
 import errno
-import logging
-import os
 from datetime import datetime
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
@@ -19,10 +18,12 @@ from maps.errors import SiteError
 from maps.yaml_records import Record, parse_json, read_bytes
 from planner.site.places import Names, Place, PlaceId
 from planner.site.taught_place_errors import PlaceRefused
+from planner.state_database import StateDatabase, StateUnavailable
 from wire.bounded_types import Fingerprint, Name
 from wire.geometry import Pose2
 
-log = logging.getLogger(__name__)
+if TYPE_CHECKING:
+    import sqlite3
 
 FILE = "places.json"
 MAX_HERE = 32
@@ -54,30 +55,34 @@ class TaughtFile(Record):
 
 
 class TaughtPlaces:
-    """Be the file. Reads and writes the disk: call it off the event loop."""
+    """Be the table. Reads and writes the disk: call it off the event loop."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, database: StateDatabase, old_file: Path) -> None:
+        """Say where they are kept, and where ``places.json`` may lie."""
+        self._database, self._old_file = database, old_file
 
     @classmethod
-    def in_home(cls, home: Path) -> TaughtPlaces:
-        """Return the file of a home folder."""
-        return cls(home / FILE)
+    def in_home(cls, home: Path, database: StateDatabase | None = None) -> TaughtPlaces:
+        """Return the places of a home folder."""
+        return cls(database or StateDatabase(home), home / FILE)
 
     def load(self) -> tuple[TaughtPlace, ...]:
         """Return what was taught; nothing where nothing ever was.
 
         Raises:
-            SiteError: the file can't be read or is not ours. It is never passed over: what a person
-                taught must not be lost by the next write.
+            SiteError: a file or a row can't be read or is not ours. It is never passed over: what a
+                person taught must not be lost by the next write.
         """
-        if not self._path.exists():
-            return ()
-        record = parse_json(read_bytes(self._path), TaughtFile, self._path)
-        ids = [(place.map_id, place.id) for place in record.places]
-        if len(set(ids)) != len(ids):
-            raise SiteError("place_duplicate_id", f"{self._path}: an id is given twice")
-        return record.places
+        try:
+            self._database.take_over(self._old_file, self._import)
+        except StateUnavailable:  # a disk that can't be written at present can be read all the same
+            return self._old_places()
+        path = self._database.path
+        try:
+            rows = self._database.read("SELECT record FROM places ORDER BY position")
+        except StateUnavailable as error:
+            raise SiteError("site_file_missing", f"cannot read {path}: {error.strerror}") from error
+        return tuple(parse_json(record.encode(), TaughtPlace, path) for (record,) in rows)
 
     def save(self, places: tuple[TaughtPlace, ...]) -> None:
         """Put these in place of what was taught; either all of it is on disk, or nothing changed.
@@ -85,41 +90,27 @@ class TaughtPlaces:
         Raises:
             PlaceRefused: ``disk_full`` or ``places_unwritable``.
         """
-        text = TaughtFile(places=places).model_dump_json(indent=1) + "\n"
-        beside = self._path.with_suffix(".new")
         try:
-            _write(beside, text.encode())
-            beside.replace(self._path)
+            self._database.take_over(self._old_file, self._import)  # where the start could not
+            with self._database.change() as connection:
+                _replace(connection, places)
         except OSError as error:
-            _drop(beside)
             full = error.errno in (errno.ENOSPC, errno.EDQUOT)
             code = "disk_full" if full else "places_unwritable"
-            raise PlaceRefused(code, f"{self._path}: {error.strerror}") from None
-        _settle(self._path.parent)
+            raise PlaceRefused(code, f"{self._database.path}: {error.strerror}") from None
+
+    def _import(self, connection: sqlite3.Connection) -> None:
+        _replace(connection, self._old_places())
+
+    def _old_places(self) -> tuple[TaughtPlace, ...]:
+        record = parse_json(read_bytes(self._old_file), TaughtFile, self._old_file)
+        ids = [(place.map_id, place.id) for place in record.places]
+        if len(set(ids)) != len(ids):
+            raise SiteError("place_duplicate_id", f"{self._old_file}: an id is given twice")
+        return record.places
 
 
-def _write(path: Path, data: bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-
-
-def _drop(path: Path) -> None:
-    try:
-        path.unlink(missing_ok=True)
-    except OSError as error:
-        log.warning("%s is left over: %s", path, error.strerror)
-
-
-def _settle(folder: Path) -> None:
-    """Bring the rename itself to the disk; it is done for every reader already."""
-    try:
-        descriptor = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
-    except OSError as error:
-        log.warning("the rename in %s may not outlive a power cut: %s", folder, error.strerror)
+def _replace(connection: sqlite3.Connection, places: tuple[TaughtPlace, ...]) -> None:
+    rows = [(place.map_id, place.id, place.model_dump_json()) for place in places]
+    connection.execute("DELETE FROM places")
+    connection.executemany("INSERT INTO places (map_id, id, record) VALUES (?, ?, ?)", rows)

@@ -21,7 +21,6 @@ from planner.voice.audio_preprocess import FRAME, prepare, quiet
 from planner.voice.common_words import COMMON
 from planner.voice.confidence import Decoded, confidence, long_pauses, stop_confidence
 from planner.voice.dictionary import Dictionary
-from planner.voice.forked_job import ForkedJob
 from planner.voice.grammar import (
     ANSWERS,
     OTHER_STOPS,
@@ -32,6 +31,7 @@ from planner.voice.grammar import (
     language_of,
 )
 from planner.voice.recogniser import Heard
+from processes.forked_job import ForkedJob
 
 _DICTIONARY = "en-us/cmudict-en-us.dict"
 _WORD = re.compile(r"[a-z']+")

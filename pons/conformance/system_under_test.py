@@ -8,6 +8,7 @@ from __future__ import annotations
 import secrets
 import time
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Self
@@ -17,7 +18,7 @@ from pons.conformance.bounds import MotionBounds
 from pons.conformance.raw_publisher import Mouth
 from pons.conformance.record import DriveRecord
 from pons.conformance.watch import BridgeWatch
-from pons.supervisor import Child
+from pons.robot_processes import BODY, RobotProcesses
 from processes.parent_death import child_command
 from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, signed_request
 from wire.doors import BRIDGE_DOOR
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 START_S = 40.0
 HEARD_S = 3.0
-PATIENCE_S = 4.0
 PUT_S = 1.0
 OURS = "bridge"
 
@@ -61,7 +61,7 @@ class SystemUnderTest:
         self.record = DriveRecord()
         self._home = settings.home
         self._stack = ExitStack()
-        self._children: list[Child] = []
+        self._processes: RobotProcesses | None = None
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
@@ -121,21 +121,15 @@ class SystemUnderTest:
     def _start(self, stack: ExitStack) -> None:
         folder = TemporaryDirectory(prefix="pc-", ignore_cleanup_errors=True)
         self._home = Path(stack.enter_context(folder))
-        logs = self._home / "logs"
-        logs.mkdir()
-        common = ["--home", str(self._home), "--robot", str(self._settings.robot)]
-        common += ["--site", str(self._settings.site)]
         pose = self._track.middle
-        start = ["--start", f"{pose.x_m:.3f}", f"{pose.y_m:.3f}", f"{pose.yaw_rad:.4f}"]
-        for name, words in (
-            ("sim", ["sim", *common, *start]),
-            ("localization", ["localization", *common]),
-            ("bridge", [self._module, *common]),
-        ):
-            child = Child(name, words, logs / f"{name}.log")
-            child.start(time.monotonic())
-            stack.callback(child.stop, PATIENCE_S)
-            self._children.append(child)
+        start = ("--start", f"{pose.x_m:.3f}", f"{pose.y_m:.3f}", f"{pose.yaw_rad:.4f}")
+        described = RobotProcesses(
+            replace(self._settings, home=self._home),
+            BODY,
+            modules={OURS: self._module},
+            arguments={"sim": start},
+        )
+        self._processes = stack.enter_context(described)
 
     def _await(self, limit_s: float) -> None:
         """Wait until bridge and robot speak and nothing is awaited any more."""
@@ -143,9 +137,9 @@ class SystemUnderTest:
         while not self._speaks():
             if time.monotonic() > end_s:
                 raise CannotTest(f"no_bridge: {self._lacks()}; not within {limit_s:.0f} s")
-            for child in self._children:
-                if child.process is not None and child.process.poll() is not None:
-                    raise CannotTest(f"{child.name} ended:\n{child.last_words()}")
+            ended = self._processes and self._processes.find_ended()
+            if ended:
+                raise CannotTest(f"{ended.name} ended:\n{ended.last_words()}")
             time.sleep(0.05)
         status = self.status()
         known = (self._robot.hash, read_map_id(self._settings.site))

@@ -121,7 +121,8 @@ async def _score_suites(
     if not address.local and not yes:
         detail = f"{count} sentences would be sent to {address.host}; if that is meant, say --yes"
         raise Misconfigured("model_offhost", detail)
-    purse = Purse(owner.budget, Ledger(settings.home), model=whom.name, most_reply=whom.max_tokens)
+    ledger = Ledger.in_home(settings.home)
+    purse = Purse(owner.budget, ledger, model=whom.name, most_reply=whom.max_tokens)
     brain = EndpointBrain(
         whom.model_copy(update={"allow_offhost": True}), settings.home, meter=purse
     )

@@ -139,7 +139,8 @@ def open_purse(
         Misconfigured: the budget can't be read.
     """
     budget = BudgetSettings(goal=limits, day=settings.budget.day, price=settings.budget.price)
-    purse = Purse(budget, Ledger(home), model=model.name, most_reply=model.max_tokens)
+    purse = Purse(budget, Ledger.in_home(home), model=model.name, most_reply=model.max_tokens)
+    purse.prepare()
     try:
         with TemporaryDirectory(prefix="pons-eval-") as folder:
             yield purse, Path(folder)

@@ -17,6 +17,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
+from pons.robot_processes import free_port
 from tests.deploy.installed import PROCESSES, ROOT, by_compose, by_units, moved
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(120)]
@@ -62,9 +63,7 @@ def test_the_robot_is_ready(commands: Callable[[], dict[str, list[str]]]) -> Non
         manager = stack.enter_context(closing(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)))
         manager.bind(str(home / "notify"))
         manager.settimeout(READY_S)
-        with closing(socket.socket()) as probe:
-            probe.bind(("127.0.0.1", 0))
-            port = int(probe.getsockname()[1])
+        port = free_port()
         started = {
             name: stack.enter_context(
                 running(moved(commands()[name], home, TWO_ROOM, port), home, str(home / "notify"))

@@ -113,6 +113,10 @@ class Robot:
         far = [place for place in self.site.places if self.away_m(place) >= FAR_M]
         return min(far, key=self.away_m)
 
+    def farthest(self) -> Place:
+        """Return the place whose drive lasts longest: a shell's order takes seconds to start."""
+        return max(self.site.places, key=self.away_m)
+
     def drive_off(self, place: Place | None = None) -> tuple[Place, Json]:
         """Give a goal and come back once the robot really drives."""
         chosen = place or self.elsewhere()

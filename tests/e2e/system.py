@@ -10,7 +10,6 @@ import http.client
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -22,6 +21,7 @@ from typing import Any
 
 import psutil
 
+from pons.robot_processes import free_port
 from processes.parent_death import child_command, module_in
 from tests.e2e.polling import until
 
@@ -34,13 +34,6 @@ GONE_LIMIT_S = 10.0
 ENDED = ("succeeded", "failed", "refused", "cancelled")
 
 Json = dict[str, Any]
-
-
-def free_port() -> int:
-    """Return a TCP port of the loopback that nothing listens on now."""
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def new_home() -> tempfile.TemporaryDirectory[str]:

@@ -100,7 +100,7 @@ def test_a_wrong_description_is_measured_and_mended(wrong: Robot) -> None:
     assert robot.base.wheel_separation_m == pytest.approx(0.5, rel=0.01)
     assert robot.drive.dead_zone_radps == pytest.approx(0.05, abs=0.015)
     assert 0.06 <= robot.drive.lag_s <= 0.12, "the motor's 0.06 s and the way there"
-    assert 0.04 <= robot.drive.response_s <= 0.07
+    assert 0.035 <= robot.drive.response_s <= 0.07, "0.049 s, or 0.012 s of it seen as delay"
     assert 0.85 <= robot.limits.max_decel_mps2 <= 1.0
     text = (home / "robot.toml").read_text("utf-8")
     assert "in 4 runs, against the simulator's truth" in text
@@ -112,9 +112,18 @@ def test_a_wrong_description_is_measured_and_mended(wrong: Robot) -> None:
     assert wrong.judge.status.mode is Mode.HOLD
 
 
-def test_ctrl_c_while_driving_leaves_it_standing_and_writes_nothing(wrong: Robot) -> None:
+def test_disarmed_or_interrupted_it_stands_and_writes_nothing(
+    wrong: Robot,
+) -> None:
     home = wrong.system.home
     before = (home / "robot.toml").read_text("utf-8")
+    wrong.system.pons("disarm")
+    wrong.judge.until_mode(Mode.DISARMED)
+    done = wrong.system.pons("calibrate")
+    assert done.returncode == 3
+    assert done.stderr.startswith("not_armed")
+    assert "使能" in done.stderr
+    wrong.arm()
     calibration = subprocess.Popen(
         [sys.executable, "-m", "pons", "calibrate", "--yes"],
         cwd=ROOT,
@@ -135,12 +144,3 @@ def test_ctrl_c_while_driving_leaves_it_standing_and_writes_nothing(wrong: Robot
     wrong.judge.assert_never_moves(0.5)
     assert (home / "robot.toml").read_text("utf-8") == before
     assert not list(home.glob("robot.toml.*"))
-
-
-def test_without_a_yes_nothing_is_driven_or_written_when_disarmed(wrong: Robot) -> None:
-    wrong.system.pons("disarm")
-    wrong.judge.until_mode(Mode.DISARMED)
-    done = wrong.system.pons("calibrate")
-    assert done.returncode == 3
-    assert done.stderr.startswith("not_armed")
-    assert "使能" in done.stderr

@@ -6,6 +6,7 @@ import time
 
 import pytest
 
+from planner.mission.status_monitor import SILENCE_S
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from wire import Image, Mode, keys
@@ -26,8 +27,12 @@ def test_a_killed_bridge_is_stopped_by_the_drives_own_time_out(robot: Robot) -> 
     stood_s = robot.assert_stops(killed_s, DEAD_MAN_PATH_M)
     until(lambda: robot.judge.status.boot != boot, 15.0, "a new bridge", robot.system.said)
     robot.judge.until_mode(Mode.DISARMED)
+    back_s = min(at_s for at_s, each in robot.judge.statuses.since(killed_s) if each.boot != boot)
     paused = robot.system.until_goal(goal["id"], "paused")
-    assert paused["reason"] == "disarmed"
+    reasons = {"disarmed"}
+    if back_s - killed_s > SILENCE_S - 1.0:  # a busy machine starts it late: silence is told then
+        reasons.add("fault(BRAIN_GONE)")
+    assert paused["reason"] in reasons, back_s - killed_s
     robot.judge.assert_never_moves(1.0)
     robot.judge.assert_stood(stood_s)
     assert robot.judge.status.mode is Mode.DISARMED

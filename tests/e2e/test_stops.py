@@ -71,14 +71,14 @@ def assert_stopped(robot: Robot, goal_id: str, confirmed_s: float, epoch: str) -
 def test_a_stop_holds_while_waypoints_keep_coming(
     robot: Robot, stop: Callable[[Robot], None]
 ) -> None:
-    _, goal = robot.drive_off()
+    _, goal = robot.drive_off(robot.farthest())
     epoch = robot.judge.status.epoch
     stop(robot)
     assert_stopped(robot, goal["id"], time.monotonic(), epoch)
 
 
 def test_a_stop_in_the_shell_needs_no_living_planner(robot: Robot) -> None:
-    _, goal = robot.drive_off()
+    _, goal = robot.drive_off(robot.farthest())
     robot.system.freeze("planner")
     done = robot.system.pons("stop")
     assert done.returncode == 0, done.stderr
@@ -116,7 +116,7 @@ def test_after_a_stop_a_new_goal_runs_at_once_and_those_before_it_wait(robot: Ro
 
 
 def test_pause_resume_and_cancel(robot: Robot) -> None:
-    _, goal = robot.drive_off()
+    _, goal = robot.drive_off(robot.farthest())
     done = robot.system.pons("pause")
     assert done.returncode == 0, done.stderr
     stood_s = robot.assert_stops(time.monotonic())
@@ -137,7 +137,7 @@ def test_pause_resume_and_cancel(robot: Robot) -> None:
 
 
 def test_disarm_takes_the_torque_and_arm_gives_it_back(robot: Robot) -> None:
-    _, goal = robot.drive_off()
+    _, goal = robot.drive_off(robot.farthest())
     done = robot.system.pons("disarm")
     assert done.returncode == 0, done.stderr
     stood_s = robot.assert_stops(time.monotonic())
@@ -158,7 +158,7 @@ def test_disarm_takes_the_torque_and_arm_gives_it_back(robot: Robot) -> None:
 
 
 def test_a_protective_stop_is_latched_until_reset(robot: Robot) -> None:
-    _, goal = robot.drive_off()
+    _, goal = robot.drive_off(robot.farthest())
     done = robot.system.pons("estop")
     assert done.returncode == 0, done.stderr
     stood_s = robot.assert_stops(time.monotonic())

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from pons.robot_processes import free_port
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
-from tests.e2e.system import ROOT, free_port
+from tests.e2e.system import ROOT
 from wire import PROTOCOL, Grant, Heartbeat, Hello, Mode, Waypoint, Waypoints
 from wire.keys import GRANT, HEARTBEAT, HELLO, WAYPOINTS, Party
 from wire.session import open_session

@@ -10,7 +10,7 @@ import pytest
 
 from pons.settings import CHECKOUT, Settings
 from pons.supervisor import REFUSED_TO_START
-from pons.up import children
+from pons.up import brain_example, children
 from wire import RobotDescription
 
 ROBOT = ["sim", "localization", "bridge", "planner"]
@@ -48,3 +48,10 @@ def test_no_child_calls_a_home_that_cannot_be_written_a_wrong_setting(
     )  # fmt: skip
     assert done.returncode not in (0, REFUSED_TO_START), done.stderr
     assert f"{name}: home_unwritable: " in done.stderr
+
+
+def test_what_may_be_tried_without_a_planner_is_there_to_be_tried(tmp_path: Path) -> None:
+    python, file, *rest = brain_example(tmp_path).split()
+    assert (python, rest) == ("python", ["--home", str(tmp_path)])
+    assert Path(file).is_file()
+    assert brain_example(tmp_path, root=tmp_path).startswith("pons conformance --connect ")

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
 
+from planner.site.taught_places import TaughtFile
 from pons import places
 from pons.http import PlannerDown, PlannerProblem
 from pons.settings import Settings, load
@@ -106,3 +108,14 @@ def test_a_name_is_needed(capsys: pytest.CaptureFixture[str]) -> None:
     assert places.run(load(), "remember", None) == places.EXIT_USAGE
     assert places.run(load(), "forget", None, chinese="x") == places.EXIT_USAGE
     assert "no_name" in capsys.readouterr().err
+
+
+def test_what_was_taught_is_exported_as_a_planner_takes_it_in(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(places, "call", Planner(KNOWN))
+    assert places.run(load(), "export", None) == places.EXIT_DONE
+    told = json.loads(capsys.readouterr().out)
+    taught = TaughtFile.model_validate(told).places
+    assert [place.id for place in taught] == ["corner", "nook"]
+    assert taught[0].pose.y_m == CORNER["pose"]["y_m"]

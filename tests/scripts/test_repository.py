@@ -88,6 +88,18 @@ def most_lines(path: str) -> int:
     return MAX_TEST_LINES if is_wide else MAX_FILE_LINES
 
 
+def test_a_test_of_the_core_stands_where_its_module_does(repository: Path) -> None:
+    """Name it test_<module>.py or test_<module>_<idea>.py; laws/ holds those of the whole step."""
+    tests = repository / "tests/bridge/core"
+    stray = []
+    for path in tests.rglob("test_*.py"):
+        wing = path.parent.relative_to(tests)
+        modules = [f"test_{one.stem}_" for one in (repository / "bridge/core" / wing).glob("*.py")]
+        if wing != Path("laws") and not f"{path.stem}_".startswith(tuple(modules)):
+            stray.append(str(path.relative_to(tests)))
+    assert not stray
+
+
 def test_functions_stay_small(shapes: dict[str, Shape]) -> None:
     long = [
         f"{path}:{where}: {lines} lines"

@@ -5,9 +5,11 @@ from __future__ import annotations
 import shutil
 
 import pytest
+from playwright.sync_api import Page
 
 from tests.e2e.robot import Robot
-from tests.web.conftest import ORDER, OpenPage, arrived, set_off
+from tests.e2e.system import Json
+from tests.web.conftest import ORDER, TRIES, OpenPage, arrived, set_off
 from tests.web.person import click_at, give
 
 pytestmark = pytest.mark.e2e
@@ -101,18 +103,35 @@ def test_a_question_is_answered_by_a_button(robot: Robot, open_page: OpenPage) -
     page.locator("#past li[data-state=cancelled]").first.wait_for()
 
 
+def spoken(robot: Robot, page: Page) -> Json:
+    """Say the order into the page, again as a person would where it was not heard as that.
+
+    A browser that waits for a processor loses sound, and what is left may be heard as a stop.
+    """
+    answers: list[str] = []
+    for _ in range(TRIES):
+        page.hover("#talk")
+        page.mouse.down()
+        page.locator("#talk.listening").wait_for()
+        page.wait_for_timeout(2500)  # the sentence takes 1.5 s
+        with page.expect_response("**/v1/voice") as answered:
+            page.mouse.up()
+        heard: Json = answered.value.json()
+        if answered.value.status == 202 and heard["transcript"] == ORDER:
+            goal: Json = heard["goal"]
+            return goal
+        answers.append(answered.value.text())
+        page.locator("#talk.idle").wait_for()
+        robot.rest()
+    raise AssertionError(f"not heard in {TRIES} times: {answers}")
+
+
 @pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="no espeak-ng to speak the order")
 def test_an_order_is_spoken_into_the_page(robot: Robot, open_page: OpenPage) -> None:
     page = open_page(permissions=["microphone"])
-    page.hover("#talk")
-    page.mouse.down()
-    page.locator("#talk.listening").wait_for()
-    page.wait_for_timeout(2500)  # the sentence takes 1.5 s
-    with page.expect_response("**/v1/voice") as answered:
-        page.mouse.up()
-    assert answered.value.status == 202, answered.value.text()
-    assert answered.value.json()["goal"]["text"] == ORDER
-    assert ORDER in arrived(robot, page, answered.value.json()["goal"]["id"])
+    goal = spoken(robot, page)
+    assert goal["text"] == ORDER
+    assert ORDER in arrived(robot, page, goal["id"])
     robot.assert_there(robot.place("kitchen"))
     assert page.locator("#talk.idle").count() == 1
 

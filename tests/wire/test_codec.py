@@ -11,7 +11,7 @@ import psutil
 import pytest
 
 from tests.wire.examples import EXAMPLES
-from wire import Image, ImageHeader, Record, Rejected, Waypoints, decode, encode
+from wire import Image, ImageHeader, Record, Rejected, Stop, Waypoints, decode, encode
 from wire.codec import image
 from wire.keys import CAMERA_COLOR, IMAGE, KEYS, LOCALIZATION, SMALL, STOP, WAYPOINTS, Key
 
@@ -141,3 +141,14 @@ def test_what_is_no_picture_is_refused_as_a_value(
     answer = image(CAMERA_COLOR, attached, payload)
     assert isinstance(answer, Rejected)
     assert answer.code == code
+
+
+def test_nesting_too_deep_for_the_parser_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Deep:
+        def validate_json(self, _payload: bytes, *, strict: bool) -> object:
+            raise RecursionError(strict)
+
+    monkeypatch.setattr(Stop, "__pydantic_validator__", Deep())
+    answer = decode(STOP, b"{}")
+    assert isinstance(answer, Rejected)
+    assert "nested" in answer.detail

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from wire import Misconfigured, RobotDescription, load_robot
+from wire.robot import DriveConfig
 
 
 def written(tmp_path: Path, text: str) -> Path:
@@ -107,3 +108,8 @@ def test_bytes_that_are_no_text_are_said(tmp_path: Path) -> None:
     with pytest.raises(Misconfigured) as refused:
         load_robot(path)
     assert refused.value.code == "robot_toml_syntax"
+
+
+def test_a_peak_current_below_the_continuous_one_is_refused() -> None:
+    with pytest.raises(ValueError, match="must be less than"):
+        DriveConfig(peak_current_a=10.0, continuous_current_a=10.0)

@@ -8,13 +8,16 @@ from collections.abc import Callable
 from contextlib import ExitStack, closing
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
+import zenoh
 
 from tests.wire.examples import EXAMPLES
 from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Status, Stop, encode
 from wire.doors import BRIDGE_DOOR
-from wire.keys import ANY_ROBOT, CAMERA_COLOR, KEYS, SCAN, STATUS, STOP, Party
+from wire.keys import ANY_ROBOT, CAMERA_COLOR, HEARTBEAT, KEYS, SCAN, STATUS, STOP, Key, Party
 from wire.session import Publisher, Subscriber, open_session
 from wire.sockets import Endpoints
 
@@ -245,3 +248,54 @@ def test_the_status_of_whichever_robot_is_there_is_heard(tmp_path: Path) -> None
             return ears.newest() == status
 
         assert until(heard)
+
+
+def test_a_closed_session_brings_nothing_and_raises_nothing(tmp_path: Path) -> None:
+    with open_session(Party.BRIDGE, "r1", tmp_path) as bridge:
+        ears = bridge.subscriber(STOP)
+    assert ears.drain_bytes() == []
+    assert ears.newest() is None
+
+
+def test_the_newest_that_is_a_message_counts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    good = EXAMPLES[Stop].model_dump_json().encode()
+    with open_session(Party.BRIDGE, "r1", tmp_path) as bridge:
+        ears = bridge.subscriber(STOP)
+        monkeypatch.setattr(ears, "drain_bytes", lambda: [good, b"no message"])
+        assert ears.newest() == EXAMPLES[Stop]
+        monkeypatch.setattr(ears, "drain_bytes", lambda: [b"no message"])
+        assert ears.newest() is None
+
+
+def test_what_zenoh_refuses_is_named_and_the_claim_let_go(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(_config: object) -> object:
+        raise zenoh.ZError("address in use")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(zenoh, "open", refuse)
+        with pytest.raises(Misconfigured) as refused:
+            open_session(Party.BRIDGE, "r1", tmp_path)
+    assert refused.value.code == "socket_in_use"
+    open_session(Party.BRIDGE, "r1", tmp_path).close()
+
+
+def test_a_path_too_long_lets_the_claim_go(tmp_path: Path) -> None:
+    far = tmp_path / ("x" * 120)
+    far.mkdir()
+    for _ in range(2):
+        with pytest.raises(Misconfigured) as refused:
+            open_session(Party.BRIDGE, "r1", far)
+        assert refused.value.code != "already_running"
+
+
+@pytest.mark.parametrize("key", [HEARTBEAT, STATUS])
+def test_an_endless_flood_is_not_drained_for_ever(key: Key[Any]) -> None:
+    sample = SimpleNamespace(payload=SimpleNamespace(to_bytes=lambda: b"{}"))
+    endless = SimpleNamespace(try_recv=lambda: sample)
+    session: Any = SimpleNamespace(declare_subscriber=lambda _expression, _ring: endless)
+    subscriber = Subscriber(session, key, "r1")
+    assert len(subscriber.drain_bytes()) == key.ring

@@ -64,3 +64,9 @@ def test_what_is_no_file_or_too_large_is_refused_at_once(tmp_path: Path) -> None
         file.truncate(2 << 30)
     with pytest.raises(Misconfigured, match=r"map_missing: .*more than 100000 bytes"):
         read_map_id(tmp_path)
+
+
+def test_a_map_is_named_by_both_its_files() -> None:
+    assert map_id(b"a", b"b") != map_id(b"a", b"c") != map_id(b"b", b"c")
+    assert map_id(b"a", b"b") != map_id(b"ab", b"")
+    assert len(map_id(b"a", b"b")) == 16

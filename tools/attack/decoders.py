@@ -104,12 +104,10 @@ def _mcap(folder: Path) -> Reader:
 
 def _model(_folder: Path) -> Reader:
     """Read a body, a plan, a look and a point, or a stream, by the first byte."""
-    from planner.brain.endpoint.completion_parser import read_json, read_reply
-    from planner.brain.endpoint.image_reply import judge_look, judge_point
-    from planner.brain.endpoint.partial_plan import Drafting
-    from planner.brain.endpoint.reply_validation import judge
-    from planner.brain.endpoint.sse import Events
-    from planner.brain.endpoint.stream_assembler import Assembly, Broken
+    from planner.brain.endpoint.completion import Assembly, Broken, read_json, read_reply
+    from planner.brain.endpoint.image_client import judge_look, judge_point
+    from planner.brain.endpoint.plan_reply import Drafting, judge
+    from planner.brain.endpoint.response import Events
     from planner.brain.errors import BrainDown
     from planner.plan import RUNNABLE
 
@@ -246,16 +244,16 @@ def _offline(_folder: Path) -> Reader:
     from datetime import UTC, datetime
 
     from planner.language.grammar import Context, plan
-    from planner.plan import PLAN, Rejection, validate_plan
+    from planner.plan import PLAN, check_plan
 
     vocabulary = _vocabulary()
     context = Context(room="kitchen", now=datetime(2026, 1, 1, 12, tzinfo=UTC))
 
     def read(data: bytes) -> object:
         made = plan(data.decode("utf-8", "replace"), vocabulary, context)
-        judged = validate_plan(PLAN.validate_python(made), vocabulary)
-        if isinstance(judged, Rejection) and judged.repairable:
-            raise Unsound(f"a plan that does not hold: {judged}")
+        rejection = check_plan(PLAN.validate_python(made), vocabulary)
+        if rejection is not None and rejection.repairable:
+            raise Unsound(f"a plan that does not hold: {rejection}")
         return made
 
     return Reader(read)

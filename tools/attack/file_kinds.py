@@ -135,21 +135,26 @@ def _settings() -> Loaded:
 
 
 def _load_kept_files() -> Loaded:
-    """Read the small JSON files of a home folder: taught places, things seen, brakes, fences."""
+    """Read the small JSON files of a home folder: brakes, and the stores of the layout before."""
     from bridge.braking_file import load_learnt
-    from planner.perception.object_store import ThingStore
+    from maps.yaml_records import parse_json, read_bytes
+    from planner.perception.object_store import StoredThings
     from planner.site import SiteError
-    from planner.site.fence_store import FenceProposals
-    from planner.site.taught_places import TaughtPlaces
+    from planner.site.fence_store import FenceProposal
+    from planner.site.taught_places import TaughtFile
     from wire import load_robot
 
     robot = load_robot(CHECKOUT / "robot.toml")
 
     def read(folder: Path) -> object:
-        path = folder / "kept.json"
-        fences = FenceProposals(folder).all()
-        things = ThingStore(path, "0" * 16).load(0.0)
-        return load_learnt(path, robot), things, fences, TaughtPlaces(path).load()
+        path, found = folder / "kept.json", list[object]()
+        found.append(load_learnt(path, robot))
+        for model in (TaughtFile, StoredThings, FenceProposal):
+            try:
+                found.append(parse_json(read_bytes(path), model, path))
+            except SiteError as refused:
+                found.append(refused.code)
+        return found
 
     return read, (SiteError,)
 

@@ -20,7 +20,7 @@ import httpx
 
 from planner.brain import FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.endpoint import EndpointBrain, warm_up
-from planner.brain.endpoint.server_capabilities import Dialect, body_of
+from planner.brain.endpoint.dialect import Dialect, body_of
 from planner.brain.prompt import Prompt, tokens
 from planner.brain.schema import schema_of
 from planner.mission import AskBrain
@@ -30,12 +30,13 @@ from planner.plan import Language
 from planner.settings import ModelSettings
 from planner.site import Site
 from pons.http import PlannerProblem, call
+from pons.robot_processes import free_port
 from pons.settings import CHECKOUT
 from pons.supervisor import Child
 from tools.bench.context import until
 from tools.bench.instant_llm_process import counts, hang, instant
 from tools.bench.report import ReportRow, row_of
-from tools.bench.robot import SLOW, BenchRobot, free_port
+from tools.bench.robot import SLOW, BenchRobot
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

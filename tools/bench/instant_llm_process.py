@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 
+from pons.robot_processes import free_port
 from pons.supervisor import Child
 from tools.bench.context import until
-from tools.bench.robot import free_port
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import re
 import secrets
-import socket
 import time
 from contextlib import ExitStack
 from pathlib import Path
@@ -17,8 +16,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from pons.http import PlannerDown, PlannerProblem, call
+from pons.robot_processes import BODY, NOTHING, PATIENCE_S, ProcessGone, RobotProcesses, free_port
 from pons.settings import CHECKOUT, Settings
-from pons.supervisor import Child
 from sim import PERIODS
 from tools.bench.context import MeasurementFailure, until
 from wire import VIRTUAL_KEY, Mode, OpKind, SimTruth, Status, load_robot, signed_request
@@ -30,10 +29,9 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-PATIENCE_S = 4.0
 TAPPED = "tools.bench.tick_probe"
 """The real bridge with a stopwatch at its edges."""
-EVERYTHING = ("sim", "localization", "bridge", "planner")
+EVERYTHING = (*BODY, "planner")
 CAMERA = "sim.camera"
 """Asked for beside everything where something is to be seen."""
 SLOW = 0.95
@@ -51,7 +49,7 @@ class BenchRobot:
         tapped: bool = False,
         only: tuple[str, ...] = EVERYTHING,
         limits: Mapping[str, float] = MappingProxyType({}),
-        before: Mapping[str, Sequence[str]] = MappingProxyType({}),
+        before: Mapping[str, Sequence[str]] = NOTHING,
     ) -> None:
         """Describe it; entering the context starts it.
 
@@ -63,7 +61,6 @@ class BenchRobot:
             limits: keys of robot.toml that are to have other values than the checkout's.
             before: of each process that is to be another user's, the words that make it so.
         """
-        self._before = before
         self.settings = Settings(
             home,
             write_description(home, limits),
@@ -71,23 +68,15 @@ class BenchRobot:
             "127.0.0.1",
             free_port(),
         )
-        common = ["--home", str(home), "--robot", str(self.settings.robot)]
-        common += ["--site", str(self.settings.site)]
-        address = ["--host", self.settings.host, "--port", str(self.settings.port)]
-        words = dict.fromkeys((*EVERYTHING, CAMERA), common) | {"planner": [*common, *address]}
-        self.children = {
-            name: self._child(TAPPED if tapped and name == "bridge" else name, words[name])
-            for name in only
-        }
+        modules = {"bridge": TAPPED} if tapped else {}
+        self._processes = RobotProcesses(self.settings, only, modules=modules, before=before)
+        self.children = self._processes.children
         self._truths_seen: list[SimTruth] = []
         self._stack = ExitStack()
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
-            (self.settings.home / "logs").mkdir(parents=True, exist_ok=True)
-            for child in self.children.values():
-                child.start(time.monotonic())
-                stack.callback(child.stop, PATIENCE_S)
+            stack.enter_context(self._processes)
             description = load_robot(self.settings.robot)
             judge = open_session(Party.JUDGE, description.id, self.settings.home)
             stack.callback(judge.close)
@@ -137,12 +126,10 @@ class BenchRobot:
         Raises:
             Missed: it does not run.
         """
-        process = self.children[name].process
-        if process is None or process.poll() is not None:
-            raise MeasurementFailure(
-                f"{name} does not run; its log ends:\n{self.children[name].last_words()}"
-            )
-        return process.pid
+        try:
+            return self._processes.pid(name)
+        except ProcessGone as gone:
+            raise MeasurementFailure(str(gone)) from None
 
     def make_ready(self, limit_s: float = 60.0) -> None:
         """Wait until planner and bridge are ready, then arm.
@@ -156,8 +143,8 @@ class BenchRobot:
             until(lambda: self._is_mode(Mode.DISARMED, Mode.HOLD), limit_s, "self test", 0.02)
             until(self._try_to_arm, limit_s, "arming", 0.2)
         except MeasurementFailure as missed:
-            logs = "\n".join(f"{c.name}: {c.last_words(3)}" for c in self.children.values())
-            raise MeasurementFailure(f"{missed}; {self.describe()}\n{logs}") from None
+            told = f"{missed}; {self.describe()}\n{self._processes.logs()}"
+            raise MeasurementFailure(told) from None
 
     def await_planner(self, limit_s: float = 60.0) -> None:
         """Wait until the planner is ready. Raises Missed."""
@@ -214,12 +201,6 @@ class BenchRobot:
         lacks = ", ".join(status.waiting_for)
         return f"{status.mode.value}, held {status.held}, rows {rows or '-'}, lacks {lacks or '-'}"
 
-    def _child(self, module: str, arguments: list[str]) -> Child:
-        name = "bridge" if module == TAPPED else module
-        log = self.settings.home / "logs" / f"{name}.log"
-        words = [*self._before.get(name, ()), module, *arguments]
-        return Child(name, words, log, knows_tokens=name == "planner")
-
     def _answers(self) -> bool:
         self.pid("planner")
         try:
@@ -250,10 +231,3 @@ def write_description(home: Path, limits: Mapping[str, float]) -> Path:
     made = home / "robot.toml"
     made.write_text(text, "utf-8")
     return made
-
-
-def free_port() -> int:
-    """Return a TCP port of the loopback that nothing listens on now."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])

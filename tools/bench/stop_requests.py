@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING
 
 from websockets.sync.client import connect
 
-from tools.bench.robot import PATIENCE_S, BenchRobot
+from pons.robot_processes import PATIENCE_S
+from tools.bench.robot import BenchRobot
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,10 +9,9 @@ import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from planner.brain.endpoint.completion_parser import Reply, Tokens
+from planner.brain.endpoint.completion import Reply, Tokens
 from planner.brain.endpoint.image_client import EndpointLooker, LayOut, Shrink
-from planner.brain.endpoint.partial_plan import Drafting
-from planner.brain.endpoint.reply_validation import Planned, Unusable, clean, judge
+from planner.brain.endpoint.plan_reply import Drafting, Planned, Unusable, clean, judge
 from planner.brain.endpoint.session import Line
 from planner.brain.errors import PlanRejected
 from planner.brain.interface import ThinkRequest, Thought

@@ -1,5 +1,8 @@
 """Part a sentence into clauses: quoted words set aside, in their order, at each of their places.
 
+A grammar is data: patterns that veto a sentence, a pattern that ends clauses ("then", 然后), words
+that may stand around an order without changing it, and rules that read a clause whole.
+
 Order: "before", "after", "first", 之前. A sentence is turned round at most once; with two such
 words it is left as it is, and then read by no rule.
 
@@ -16,13 +19,69 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from re import Pattern
 
 from planner.language.catalogue import say
-from planner.language.grammar.grammar import FIRST_QUOTE
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.names import go_to
-from planner.language.grammar.parse_result import Clause, Meaning, Problem, Reading, Steps
+from planner.language.grammar.noun_phrases import go_to
+from planner.language.grammar.parse_result import (
+    Clause,
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    read_by,
+)
 from planner.plan import MAX_STEPS, Bilingual, Code, Count, Find, GoTo, Look, Patrol, Step
+
+FIRST_QUOTE = 0xF800
+QUOTE = "[\uf800-\uf8ff]"
+
+
+@dataclass(frozen=True, slots=True)
+class Grammar:
+    """Hold one language's patterns. `opening` may only begin the first clause, `closing` the last.
+
+    The order in which clauses stand is the order in which they are done; a word that says otherwise
+    ("first" in a later clause, "before") is read by no rule.
+    """
+
+    vetoes: tuple[tuple[Code, Pattern[str]], ...]
+    asked: Pattern[str]  # an order in the form of a question; group 1 is the order
+    joint: Pattern[str]  # what ends a clause without a word; group 1 stays
+    clause_end: Pattern[str]
+    courtesy: Pattern[str]  # at the start of a clause
+    thanks: Pattern[str]  # at the end of a clause
+    opening: Pattern[str]
+    closing: Pattern[str]
+    rules: tuple[Rule, ...]
+
+    def clauses(self, text: str) -> list[Clause]:
+        """Cut a marked sentence into clauses; those of mere courtesy are dropped."""
+        order = self.joint.sub(r"\1,", self.asked.sub(r"\1", text))
+        parts = [self.plain(part) for part in self.clause_end.split(order)]
+        kept = [part for part in parts if part]
+        last = len(kept) - 1
+        return [Clause(part, at == 0, at == last) for at, part in enumerate(kept)]
+
+    def plain(self, part: str) -> str:
+        """Take the courtesies off both ends of a clause."""
+        before = None
+        while part != before:
+            before = part
+            part = self.thanks.sub("", self.courtesy.sub("", part.strip())).strip()
+        return part
+
+    def read(self, clause: Clause, reading: Reading) -> Meaning:
+        """Read one clause whole, after the words of order that its position allows."""
+        text = clause.text
+        if clause.first:
+            text = self.plain(self.opening.sub("", text))
+        if clause.last:
+            text = self.plain(self.closing.sub("", text))
+        return read_by(self.rules, text, reading)
+
 
 _WORDS = re.compile(
     r"\bbefore\b|(?<!come )(?<!go )(?<!look )(?<!run )\bafter\b(?! that| this)|\bfirst\b|之前|以前|"

@@ -1,14 +1,18 @@
-"""Own what one clause can mean: steps, a question to the robot, or a problem with its code."""
+"""Own what one clause can mean: steps, a question to the robot, or a problem with its code.
+
+And the rules that read it: a pattern, and what builds the meaning of what it found.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from re import Match, Pattern
 
 from planner.language.grammar.lexicon import MARK, Lexicon, Marked
-from planner.language.grammar.small_talk import Topic
+from planner.language.grammar.small_talk import Topic, topic_of
 from planner.plan import Bilingual, Code, Find, Language, Step, Turn, Vocabulary
 
 
@@ -140,12 +144,15 @@ class Reading:
         return Problem(code, self.marked.restore(part), sure, before, what=what)
 
 
+Build = Callable[[Match[str], Reading], Meaning | None]
+
+
 @dataclass(frozen=True, slots=True)
 class Rule:
     """Read a clause that matches the pattern whole; what the pattern leaves out is unread."""
 
     pattern: Pattern[str]
-    build: Callable[[Match[str], Reading], Meaning | None]
+    build: Build
 
 
 def read_by(rules: Sequence[Rule], clause: str, reading: Reading) -> Meaning:
@@ -158,3 +165,40 @@ def read_by(rules: Sequence[Rule], clause: str, reading: Reading) -> Meaning:
         if meaning is not None:
             return meaning
     return reading.problem(Code.NOT_UNDERSTOOD, clause)
+
+
+def rule(pattern: str, build: Build) -> Rule:
+    """Return a rule of a pattern."""
+    return Rule(re.compile(pattern), build)
+
+
+def where(found: Match[str], group: str) -> str | None:
+    """Return the place phrase of a group, or "there"."""
+    groups = found.groupdict()
+    return groups.get(group) or groups.get(f"{group}_there")
+
+
+def ahead(reading: Reading, meaning: Steps) -> Reading:
+    """Return the reading of what a clause says after its first part."""
+    return replace(reading, scene=reading.scene.after(meaning))
+
+
+def on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
+    """Read a clause that is a question the robot can answer by itself."""
+    topic = topic_of(found["topic"])
+    return None if topic in (None, Topic.SELF) else About(topic)
+
+
+def about(topic: Topic) -> Build:
+    """Return a builder for a question about the robot."""
+    return lambda _found, _reading: About(topic)
+
+
+def unread(found: Match[str], reading: Reading) -> Meaning:
+    """Understand nothing of a clause, and offer no place that it names."""
+    return replace(reading.problem(Code.NOT_UNDERSTOOD, found[0]), places=())
+
+
+def lacks(code: Code) -> Build:
+    """Return a builder for an order that is understood and can't be done."""
+    return lambda found, reading: reading.problem(code, found[0])

@@ -16,12 +16,10 @@ from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.checks import TAMPERING, broken_rule, vetoed, withholds_offers
-from planner.language.grammar.clauses import Heard, at_each, in_order, take_quotes
+from planner.language.grammar.clauses import Grammar, Heard, at_each, in_order, take_quotes
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.grammar import Grammar
-from planner.language.grammar.lexicon import MARK, Marked, lexicon_of
-from planner.language.grammar.names import mark_people
+from planner.language.grammar.lexicon import MARK, Marked, lexicon_of, mark_people
 from planner.language.grammar.parse_result import (
     About,
     Meaning,

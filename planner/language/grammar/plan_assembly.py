@@ -2,6 +2,9 @@
 
 One clause that can't be read or done holds the whole sentence back; what could be done without it
 is offered, never done unasked.
+
+What a button of a question says stands here, too: the steps as a sentence that reads back as the
+same steps.
 """
 
 from __future__ import annotations
@@ -9,13 +12,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from math import degrees
 
-from planner.language.catalogue import list_names, message, say
+from planner.language.catalogue import join, list_names, message, say
 from planner.language.grammar.checks import Veto
 from planner.language.grammar.lexicon import Lexicon, Marked
 from planner.language.grammar.parse_result import About, Meaning, Problem, Steps
 from planner.language.grammar.small_talk import Topic, told
-from planner.language.grammar.step_text import option, sentence
 from planner.language.place_lists import known_places
 from planner.plan import (
     DRIVES,
@@ -27,8 +30,10 @@ from planner.plan import (
     ComeBack,
     Count,
     Find,
+    Follow,
     GoTo,
     Language,
+    Move,
     Option,
     Patrol,
     Refuse,
@@ -36,7 +41,9 @@ from planner.plan import (
     Say,
     Step,
     StepPlan,
+    Turn,
     Vocabulary,
+    Wait,
     same,
 )
 
@@ -228,3 +235,74 @@ def _drives(steps: Sequence[Step]) -> bool:
 
 def _cut(part: str) -> Bilingual:
     return same(part if len(part) <= _SHOWN else part[: _SHOWN - 1] + "…")
+
+
+def sentence(steps: Sequence[Step], vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingual:
+    """Return the order of these steps in both languages."""
+    kept = [step for at, step in enumerate(steps) if not _goes_without_saying(steps, at)]
+    said = [_step_said(step, vocabulary, lexicon) for step in kept]
+    return join(said, "joint.then")
+
+
+def _goes_without_saying(steps: Sequence[Step], at: int) -> bool:
+    """Tell whether a drive is only the way to what is done next in the same place."""
+    step, after = steps[at], steps[at + 1] if at + 1 < len(steps) else None
+    return isinstance(step, GoTo) and isinstance(after, Find | Count) and after.place == step.place
+
+
+def option(
+    steps: Sequence[Step], vocabulary: Vocabulary, lexicon: Lexicon, language: Language
+) -> Option:
+    """Return a button that stands for these steps."""
+    label = sentence(steps, vocabulary, lexicon)
+    return Option(label=label, text=label.of(language)[:2000])
+
+
+def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingual:
+    def name_of(place: str) -> Bilingual:
+        return lexicon.own_name(vocabulary.by_id[place])
+
+    match step:
+        case GoTo():
+            name = name_of(step.place)
+            return say("order.go_to", name=name)
+        case ComeBack():
+            return say("order.come_back")
+        case ReturnHome():
+            return say("order.go_home")
+        case Wait():
+            return say("order.wait", seconds=step.seconds)
+        case Say():
+            return say("order.say", text=step.text)
+        case Find() | Count():
+            return _seen_said(step, name_of(step.place) if step.place else None)
+        case Follow():
+            return say("order.follow", object=_with_article(step.object))
+        case Turn():
+            return _turn_said(round(degrees(step.angle_rad)))
+        case Move():
+            code = "order.forward" if step.distance_m > 0 else "order.back"
+            return say(code, far=f"{abs(step.distance_m):g}")
+        case Patrol():
+            names = join((name_of(place) for place in step.places), "joint.and_the")
+            return say("order.patrol", names=names)
+        case _:
+            return same(step.kind)
+
+
+def _seen_said(step: Find | Count, place: Bilingual | None) -> Bilingual:
+    verb, what = ("count" if isinstance(step, Count) else "find"), _with_article(step.object)
+    if place is None:
+        return say(f"order.{verb}", object=what)
+    return say(f"order.{verb}_in", object=what, place=place)
+
+
+def _turn_said(angle_deg: int) -> Bilingual:
+    code = "order.left" if angle_deg > 0 else "order.right"
+    return say(code, angle_deg=abs(angle_deg))
+
+
+def _with_article(label: str) -> Bilingual:
+    """Put the article before a thing, where the language has one; a name has none."""
+    bare = label[:1].isupper() or not label.isascii()
+    return same(label) if bare else say("order.the", object=label)

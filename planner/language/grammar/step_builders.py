@@ -2,24 +2,18 @@
 
 A person known only by name has to be somewhere that the sentence names; what is missing is asked
 for, never guessed.
-
-Turns, straight moves and patrols stand at the end; counter-clockwise is positive.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
-from math import pi
-from re import Match
 
 from pydantic import ValidationError
 
-from planner.language.catalogue import CATALOGUE, say
+from planner.language.catalogue import build, noun, raw, say
 from planner.language.grammar.lexicon import MARK, NAME
-from planner.language.grammar.names import go_to
-from planner.language.grammar.numbers import angle_rad, metres, times
-from planner.language.grammar.objects import ONE_AT_A_TIME, several
+from planner.language.grammar.noun_phrases import ONE_AT_A_TIME, go_to, several
 from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
 from planner.plan import (
     MAX_STEPS,
@@ -29,16 +23,12 @@ from planner.plan import (
     Find,
     Follow,
     GoTo,
-    Language,
     Look,
-    Move,
-    Patrol,
     Say,
     Step,
-    Turn,
 )
 
-WHERE_IS = CATALOGUE.build(lambda language: CATALOGUE.raw("grammar.where_is", language))
+WHERE_IS = build(lambda language: raw("grammar.where_is", language))
 """Its name is put in where it is known."""
 WHERE_TO = say("grammar.where_to")
 HOW_LONG = say("grammar.how_long")
@@ -153,7 +143,7 @@ def guide(words: str, start: str | None, end: str | None, reading: Reading) -> M
         return to
     if to is None:
         return missing(WHERE_TO, words, reading)
-    come = spoken("Please come with me.", "请跟我来。", reading)
+    come = told_in("spoken.come", reading)
     return Steps((*found.steps, Say(text=come), GoTo(place=to)), person=found.person)
 
 
@@ -205,7 +195,7 @@ def look(question: str, where: str | None, reading: Reading) -> Meaning:
     if isinstance(place, Problem):
         return place
     asked = reading.marked.restore(question)[:500]
-    somebody = spoken("person", "人", reading) if _WHO_IS_THERE.search(question) else None
+    somebody = noun("noun.person").of(reading.language) if _WHO_IS_THERE.search(question) else None
     steps = (*arrive(place, reading), Look(question=asked, place=place))
     return Steps(steps, person=somebody, seen=True)
 
@@ -236,13 +226,13 @@ def offer_search(words: str, part: str, reading: Reading) -> Meaning:
 
 def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:
     """Say what the sentence leaves open."""
-    filled = CATALOGUE.build(lambda language: what.of(language).format(name=name))
+    filled = build(lambda language: what.of(language).format(name=name))
     return reading.problem(Code.INCOMPLETE, part, what=filled)
 
 
-def spoken(en: str, zh: str, reading: Reading) -> str:
-    """Return words to say, in the language of the goal."""
-    return zh if reading.language is Language.ZH else en
+def told_in(code: str, reading: Reading, **facts: str) -> str:
+    """Return a message of the catalogue that is to be said, in the language of the goal."""
+    return say(code, **facts).of(reading.language)
 
 
 def saying(words: str, reading: Reading) -> Meaning:
@@ -252,85 +242,3 @@ def saying(words: str, reading: Reading) -> Meaning:
         return Steps((Say(text=said),))
     except ValidationError:
         return reading.problem(Code.NOT_UNDERSTOOD, words)
-
-
-HOW_FAR = say("grammar.how_far")
-_BACKWARD = ("back", "reverse", "后", "倒", "退")
-_RIGHT = ("right", "clockwise", "右", "顺")
-_HALF_M = 0.5
-
-
-def turn(found: Match[str], reading: Reading) -> Meaning:
-    """Turn by the groups `angle` and `unit`, else a quarter to a side, else about."""
-    groups = found.groupdict()
-    side = groups.get("side") or groups.get("side2") or ""
-    if groups.get("angle"):
-        angle = angle_rad(groups["angle"], groups["arc"])
-    elif groups.get("whole"):
-        angle = 2 * pi
-    else:
-        quarter = groups.get("quarter") or side
-        angle = pi / 2 if quarter and not groups.get("about") else pi
-    if angle is None:
-        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    right = side.startswith(_RIGHT)
-    return Steps((Turn(angle_rad=-angle if right else angle),))
-
-
-def move(found: Match[str], reading: Reading) -> Meaning:
-    """Move by the groups `length` and `unit`; without a length it is asked for."""
-    groups = found.groupdict()
-    if not groups.get("length"):
-        return missing(HOW_FAR, found[0], reading)
-    way = groups.get("way") or groups.get("way2") or ""
-    length = metres(groups["length"], groups["unit"])
-    if length is None:
-        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    length += _HALF_M if groups.get("half") else 0.0
-    try:
-        backward = way.startswith(_BACKWARD)
-        return Steps((Move(distance_m=-length if backward else length),))
-    except ValidationError:
-        return Problem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
-
-
-_TOO_FAR = say("grammar.too_far")
-
-
-def turn_and_move(found: Match[str], reading: Reading) -> Meaning:
-    """Turn, then move straight: "drive 2 m, 30 degrees left of straight ahead"."""
-    turned, moved = turn(found, reading), move(found, reading)
-    if isinstance(turned, Steps) and isinstance(moved, Steps):
-        return Steps((*turned.steps, *moved.steps))
-    return moved if isinstance(turned, Steps) else turned
-
-
-def patrol(found: Match[str], reading: Reading) -> Meaning:
-    """Visit a place of a patrol; places that follow are joined to it."""
-    meaning = go_to(found["place"], reading)
-    if not isinstance(meaning, Steps):
-        return meaning
-    places = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
-    often = times(found["times"]) if found.groupdict().get("times") else 1
-    return Steps((Patrol(places=places * often),))
-
-
-def patrol_all(found: Match[str], reading: Reading) -> Meaning:
-    """Visit every room."""
-    rooms = tuple(entry.id for entry in reading.vocabulary.entries if entry.kind == "room")
-    if not rooms:
-        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    return Steps((Patrol(places=rooms[:20]),))
-
-
-def in_all(found: Match[str], reading: Reading) -> Meaning | None:
-    """Read "in every room" as the round, where it opens an order and more follows."""
-    return patrol_all(found, reading) if reading.opens else None
-
-
-def wander(found: Match[str], reading: Reading) -> Meaning:
-    """Ask where to, where somebody wants the robot to roam or patrol no place at all."""
-    return missing(WHERE, found[0], reading)
-
-
-WHERE = say("grammar.which_places")

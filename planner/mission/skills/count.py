@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import say
+from planner.language.questions import has_several_neighbours
 from planner.mission.skills.actions import Finish, Retry, Scene, SkillAction
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import look_round
@@ -20,7 +21,6 @@ from planner.mission.skills.object_matching import apart, confirmed, fits, sure,
 from planner.mission.skills.result_text import by_neighbour, counted, looked_in, room_name
 from planner.mission.skills.search import affords, begin, spent, spots, within
 from planner.mission.skills.skill_state import Notes
-from planner.mission.skills.spatial_relations import several
 from planner.mission.skills.viewpoints import NEAR, room_at
 from planner.plan import Bilingual, Code
 
@@ -55,7 +55,7 @@ def _narrowed(scene: Scene, pose: Pose2, wanted: Wanted) -> Scene:
     It is the first in order that has one; a room that was not looked through may have one yet.
     """
     by, words = wanted.by, scene.step.object or ""
-    if by is None or scene.step.place is not None or several(words, by.label):
+    if by is None or scene.step.place is not None or has_several_neighbours(words, by.label):
         return scene
     notes, neighbours = scene.notes, _neighbours(scene, wanted)
     has = {t.room or room_at(scene.facts, (t.x_m, t.y_m)) for t in neighbours}

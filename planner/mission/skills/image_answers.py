@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import CATALOGUE, say
+from planner.language.catalogue import build, raw, say
 from planner.mission.skills.directions import direction, goes_round, listed
 from planner.plan import Bilingual
 
@@ -62,6 +62,6 @@ def _ended(text: Bilingual) -> Bilingual:
 
     def ended(language: str) -> str:
         own = text.of(language)
-        return own if own.endswith(_ENDS) else own + CATALOGUE.raw("joint.full_stop", language)
+        return own if own.endswith(_ENDS) else own + raw("joint.full_stop", language)
 
-    return CATALOGUE.build(ended)
+    return build(ended)

@@ -11,12 +11,11 @@ to which there was no way was not. Budget: one leg and one turn about.
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, message, say
-from planner.language.folding import fold
+from planner.language.questions import looks_round
 from planner.mission.skills.actions import (
     AskImage,
     Fail,
@@ -30,7 +29,7 @@ from planner.mission.skills.directions import direction, goes_round, listed
 from planner.mission.skills.image_answers import reading
 from planner.mission.skills.image_errors import why_silent
 from planner.mission.skills.look_around import LOOKS, look_round
-from planner.mission.skills.object_questions import unknown_kind
+from planner.mission.skills.object_query import unknown_kind
 from planner.mission.skills.result_text import unknown_name
 from planner.mission.skills.scene_answers import Told, answer
 from planner.mission.skills.search import begin, spots
@@ -42,20 +41,9 @@ from wire import wrap
 if TYPE_CHECKING:
     from wire import Pose2
 
-_ROUND = re.compile(
-    r"\b(?:look|turn)(?:s|ing)? (?:all )?a?round\b|\b(?:all around|everywhere|surroundings)\b"
-    r"|\baround(?: (?:you|me|us|here|there|the (?:room|house|home|place|flat)))?[ ?.!]*$"
-    r"|环顾|环境|四处|到处|(?:^|[你您我看察在有 ，])的?(?:四周|周围)"
-)
-"""To look about; "a round table" and "around the table" are things to look at."""
 GAZED, ASKED = 1, 2
 NO_DETECTOR = say("look.no_detector")
 """Who has none has not seen that nothing is there."""
-
-
-def looks_round(question: str) -> bool:
-    """Tell whether a question asks to look about, and not ahead alone."""
-    return _ROUND.search(fold(question)) is not None
 
 
 def look(scene: Scene) -> SkillAction:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from math import atan2, hypot
 from typing import TYPE_CHECKING
 
-from planner.language.folding import CHINESE, fold
+from planner.language.folding import fold
 from planner.language.object_classes import kind_of
-from planner.language.object_names import resolve, singles_out
+from planner.language.object_names import first_named, resolve, singles_out
+from planner.language.questions import parted
 from planner.mission.skills.perception import Wanted
-from planner.mission.skills.spatial_relations import parted, stands
+from planner.mission.skills.spatial_relations import stands
 from planner.plan import Found, Language
 from wire import wrap
 
@@ -35,11 +35,6 @@ SOMEBODY = frozenset(
     | {"他", "她", "他们", "她们"}
 )
 """People by pronoun: who is meant, no eye can tell."""
-_WORD = re.compile(r"[a-z0-9'-]+")
-_CHINESE = re.compile(rf"[{CHINESE}]+")
-LONGEST_EN, LONGEST_ZH = 3, 8
-READ = 120
-"""Characters of a question: each piece is looked up, on the event loop."""
 
 
 def wanted_of(scene: Scene) -> Wanted | None:
@@ -82,21 +77,8 @@ def one_of(scene: Scene) -> Wanted | None:
 
 def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:
     """Return the first thing that a whole sentence names, the longest name that fits."""
-    for words in _pieces(fold(text[:READ])):
-        found = resolve(words, None, classes)
-        if found is not None:
-            return Wanted(*found)
-    return None
-
-
-def _pieces(text: str) -> Iterable[str]:
-    """Yield the runs of words of a sentence that may be a name, the longest first."""
-    for run in _CHINESE.findall(text):
-        for length in range(min(LONGEST_ZH, len(run)), 0, -1):
-            yield from (run[at : at + length] for at in range(len(run) - length + 1))
-    words = _WORD.findall(text)
-    for length in range(LONGEST_EN, 0, -1):
-        yield from (" ".join(words[at : at + length]) for at in range(len(words) - length + 1))
+    found = first_named(text, classes)
+    return Wanted(*found) if found is not None else None
 
 
 def fits(thing: Thing, wanted: Wanted | None) -> bool:

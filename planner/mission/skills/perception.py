@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.spatial_relations import Relation
+from planner.language.questions import Relation
 from planner.plan import BARE, Means
 
 if TYPE_CHECKING:

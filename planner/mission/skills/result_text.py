@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.object_classes import HOME
 from planner.language.object_names import listed as labels_listed
-from planner.language.object_names import named, singles_out
+from planner.language.object_names import named, named_several, singles_out
 from planner.mission.skills.spatial_relations import told
 from planner.plan import Bilingual, Code, same
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from planner.mission.state import SiteView
     from planner.perception.snapshot import Thing
 
-_MANY = {"person": "people", "sheep": "sheep", "knife": "knives", "mouse": "mice"}
 _SHOWN = 12
 NOWHERE = say("result.nowhere")
 HERE = say("result.here")
@@ -36,13 +35,7 @@ def counted(count: int, label: str, color: str | None = None) -> Bilingual:
     name = named(label, color)
     if count == 1:
         return say("result.one", name=name)
-    first, _, last = name.en.rpartition(" ")
-    many = f"{first} {_MANY.get(label) or _plural(last)}".strip()
-    return say("result.many", count=count, name=Bilingual(en=many, zh=name.zh))
-
-
-def _plural(word: str) -> str:
-    return f"{word}es" if word.endswith(("s", "x", "ch", "sh")) else f"{word}s"
+    return say("result.many", count=count, name=named_several(label, color))
 
 
 def known_things(classes: tuple[str, ...]) -> Bilingual:

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, NamedTuple
 from planner.language.catalogue import say
 from planner.language.object_names import named, resolve
 from planner.mission.skills.object_matching import apart, confirmed, fits, sure
-from planner.mission.skills.object_query import FLOOR, sought_in
-from planner.mission.skills.object_questions import unknown_kind
+from planner.mission.skills.object_query import FLOOR, sought_in, unknown_kind
 from planner.mission.skills.result_text import counted, listed, unknown_name
 from planner.mission.skills.search import within
-from planner.mission.skills.spatial_relations import Relation, judged, on_floor
+from planner.mission.skills.spatial_relations import judged, on_floor
 from planner.plan import Bilingual, same
 
 if TYPE_CHECKING:
+    from planner.language.questions import Relation
     from planner.mission.skills.actions import Scene
     from planner.mission.skills.perception import Wanted
     from planner.perception.snapshot import Thing

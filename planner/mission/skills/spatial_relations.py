@@ -1,4 +1,4 @@
-"""Read which neighbour a thing is told by, and judge whether it stands so. Pure.
+"""Judge whether a thing stands to its neighbour as it is told. Pure.
 
 "the bottle on the table", "椅子旁边的箱子": both must be kinds that the eyes know, and they must be
 sure of the neighbour. Positions are middles; on and under reach as far as such a neighbour
@@ -7,14 +7,12 @@ does and both positions' deviations; what is on it is higher than half of it, wh
 
 from __future__ import annotations
 
-import re
-from enum import StrEnum
 from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import say
-from planner.language.folding import fold_words
 from planner.language.object_classes import kind_of
+from planner.language.questions import Relation
 from planner.plan import Bilingual
 
 if TYPE_CHECKING:
@@ -30,41 +28,6 @@ SUPPOSED_M = 0.4
 """What may stand on a table is put on the floor where there is no depth, and is so unsure."""
 LOW_M = 0.25
 """A middle so low lies on the floor, however flat its kind is."""
-_EN = re.compile(
-    r"(?P<what>.+?) (?:(?P<on>on(?: top of)?)|(?P<under>under(?:neath)?|below|beneath)"
-    r"|(?P<near>near|next to|beside|close to|by)) (?P<by>.+)"
-)
-_ZH = re.compile(
-    r"(?P<by>.+?)(?:(?P<on>上面?|上边)|(?P<under>下面?|下边|底下)|(?P<near>旁边?|边上|附近))的(?P<what>.+)"
-)
-
-
-_SEVERAL = re.compile(r"\b(?:all|every|each|any|both|two|three|\d+)\b|所有|全部|每|各|几|两|三")
-
-
-class Relation(StrEnum):
-    """How a thing stands to its neighbour."""
-
-    ON = "on"
-    UNDER = "under"
-    NEAR = "near"
-
-
-def parted(words: str) -> tuple[str, Relation, str] | None:
-    """Return the thing's words, how it stands, and its neighbour's words; None without any."""
-    plain = fold_words(words)
-    found = _ZH.fullmatch(plain) or _EN.fullmatch(plain)
-    if found is None:
-        return None
-    how = next(relation for relation in Relation if found[relation.value])
-    return found["what"], how, found["by"]
-
-
-def several(words: str, label: str) -> bool:
-    """Tell whether words mean more than one neighbour, of this kind: ``the cups on the tables``."""
-    by = (parted(words) or ("", "", ""))[2]
-    one, many = (kind_of(label).en, *kind_of(label).also_en), by.endswith("s")
-    return _SEVERAL.search(by) is not None or (many and not by.endswith(one))
 
 
 def stands(thing: Thing, relation: Relation, by: Thing) -> bool:

@@ -10,13 +10,16 @@ from hypothesis import settings
 # Coverage asks for lines, not for luck: few examples of each law, the same ones each time.
 settings.register_profile("coverage", deadline=None, derandomize=True, max_examples=4)
 
-QUICK = frozenset(
+STORIES = frozenset(
     """
-    test_ages_and_docs test_branches test_drive_out test_fence test_freespace test_horizon
-    test_kinematics test_limiter test_modes test_numbers test_odometry test_path test_quick_core
-    test_quick_corners test_scanpicture test_stopcurve test_wheelcontrol
+    test_brake_learning test_detect_motion_windows test_detectors_edges test_detectors_windows
+    test_external_velocity_story test_fence_request test_grants test_motion_gates_walls test_pursuit
+    test_sensor_update_lies test_step_story
     """.split()  # noqa: SIM905  # one name a word reads better
 )
+"""Files whose tests drive for seconds of the world's time."""
+NUMBERS = frozenset({"test_edges", "test_numbers"})
+"""Laws that need no drive."""
 LONG = (
     "fed_forward_once",
     "hand_on_the_stick_crosses",
@@ -43,9 +46,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         test = getattr(item, "obj", None)
         plain = not getattr(test, "is_hypothesis_test", False)
-        if _quick(item.path) and plain and not any(part in item.name for part in LONG):
+        drives = "World" in getattr(getattr(test, "__code__", None), "co_names", ())
+        long = drives or any(part in item.name for part in LONG)
+        if _quick(item.path) and plain and not long:
             item.add_marker("core_quick")
 
 
 def _quick(test_file: Path) -> bool:
-    return test_file.stem in QUICK or test_file.stem.endswith("_exact")
+    long_laws = test_file.parent.name == "laws" and test_file.stem not in NUMBERS
+    return not long_laws and test_file.stem not in STORIES

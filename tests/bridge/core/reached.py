@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from functools import cache
 
+from bridge.core import Inbox
+from bridge.core.state import draft
+from bridge.core.tick_context import TickContext
+from tests.bridge.core.external_brain import drive_for, external_world
+from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.scripted import World
-from tests.bridge.core.test_external_brain import drive_for, external_world
 from wire import Mode
 
 
@@ -155,3 +159,8 @@ def _reached(name: str) -> World:
 def reached(name: str) -> World:
     """Return a world of one's own in the mode."""
     return _reached(name).fork()
+
+
+def tick_of(world: World) -> TickContext:
+    """Return the next tick of a world, in which nothing has come."""
+    return TickContext(world.core, draft(world.state), Inbox(), world.now_s, PERIOD_S)

@@ -50,11 +50,12 @@ from wire import (
     compose,
 )
 
+ROBOT = RobotDescription()
 FENCE = build_fence(MAP_ID, (((-5.5, -5.5), (5.5, -5.5), (5.5, 5.5), (-5.5, 5.5)),))
 
 
 def config(robot: RobotDescription | None = None) -> CoreConfig:
-    made = RobotDescription() if robot is None else robot
+    made = ROBOT if robot is None else robot
     return CoreConfig(
         robot=made,
         robot_hash=made.hash,

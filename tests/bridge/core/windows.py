@@ -1,4 +1,4 @@
-"""Bring a row to the edge of its window. Shared by the tests of windows."""
+"""Bring a row to the edge of its window, and ask what a tick showed or dropped."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 from bridge.core import RejectedAt
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.scripted import World
-from wire import Rejected
+from wire import Rejected, Status
 
 
 def silent_for(world: World, ticks: int) -> None:
@@ -34,3 +34,14 @@ def raised(world: World, stage: str) -> bool:
 def bad_bytes(world: World, count: int, key: str = "cmd/waypoints") -> None:
     rejected = (RejectedAt(key, Rejected("invalid", "points.0.x_m: input is not finite")),)
     world.extra = replace(world.extra, rejected=rejected * count)
+
+
+def dropped(world: World, code: str) -> bool:
+    """Take a tick and tell whether it dropped something for this reason."""
+    return code in world.tick().reasons
+
+
+def shown(world: World) -> Status:
+    """Return the newest status."""
+    assert world.status is not None
+    return world.status

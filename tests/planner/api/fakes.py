@@ -178,6 +178,9 @@ class FakeBudget:
         self.calls = 0
         self.asked: list[str | None] = []
 
+    async def look(self, goal: str | None = None) -> None:
+        pass
+
     def usage(self, goal: str | None = None) -> Usage:
         self.asked.append(goal)
         spent = Amounts(calls=self.calls, prompt_tokens=9, reply_tokens=3, seconds=0.5, money=0.1)
@@ -240,4 +243,4 @@ class FakeServices:
         self.brain: Brain = OfflineBrain()
         self.site = two_room()
         self.memory = KnownPlaces(self.site)
-        self.fences = FenceProposals(Path("/nowhere"))
+        self.fences = FenceProposals.in_home(Path("/nowhere"))

@@ -24,7 +24,7 @@ KEEP_OUT = [[0.4, 3.4], [0.9, 3.4], [0.9, 3.9], [0.4, 3.9]]
 @pytest.fixture
 def services(tmp_path: Path) -> FakeServices:
     made = FakeServices(STATUS)
-    made.fences = FenceProposals(tmp_path / "proposals")
+    made.fences = FenceProposals.in_home(tmp_path)
     return made
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
-import os
+import resource
+import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from datetime import UTC, date, datetime
@@ -15,12 +17,14 @@ from hypothesis import strategies as st
 
 from planner.brain import OutOfBudget
 from planner.brain.usage_meter import thinking_about
-from planner.budget import Clocks, Ledger, Purse
-from planner.budget.ledger import FOLDER, KEPT_DAYS
+from planner.budget import Clocks, Ledger, Purse, Usage
+from planner.budget.budget import OpenCall
+from planner.budget.ledger import FOLDER, KEPT_DAYS, LOOK_BACK_DAYS
 from planner.budget.totals import Spent, cost, overrun
 from planner.budget.utc_day import DAY_S, Days, utc_date
 from planner.settings import BudgetSettings, DayLimits, GoalLimits, Price
-from wire import Misconfigured
+from planner.state_database import FILE, StateDatabase
+from wire import Misconfigured, Unwritable
 
 NOON = datetime(2026, 3, 10, 12, 0, tzinfo=UTC).timestamp()
 TODAY = date(2026, 3, 10)
@@ -48,27 +52,37 @@ class Time:
 
 @contextmanager
 def purse(home: Path, time: Time, budget: BudgetSettings = FEW, most: int = 10) -> Iterator[Purse]:
-    kept = Purse(budget, Ledger(home), model="m", most_reply=most, clocks=time.clocks)
+    kept = Purse(budget, Ledger.in_home(home), model="m", most_reply=most, clocks=time.clocks)
     try:
         yield kept
     finally:
         kept.close()
 
 
+def open_(kept: Purse, prompt: int = 20) -> OpenCall:
+    return asyncio.run(kept.open(prompt))
+
+
 def call(kept: Purse, goal: str = "g1", prompt: int = 20, reply: int = 5) -> None:
     with thinking_about(goal):
-        kept.open(prompt).close(prompt, reply)
+        open_(kept, prompt).close(prompt, reply)
+
+
+def look(kept: Purse) -> Usage:
+    """Return the meter with what other programs have spent."""
+    asyncio.run(kept.look())
+    return kept.usage()
 
 
 def test_a_call_is_counted_at_its_worst_and_settled_by_what_it_came_to(tmp_path: Path) -> None:
     time = Time()
     with purse(tmp_path, time) as kept:
         with thinking_about("g1"):
-            bill = kept.open(20)
+            bill = open_(kept)
         assert bill.most == 10
-        open_ = kept.usage("g1")
-        assert (open_.under_way, open_.today.calls, open_.today.reply_tokens) == (1, 1, 10)
-        assert open_.goal == open_.today
+        now = kept.usage("g1")
+        assert (now.under_way, now.today.calls, now.today.reply_tokens) == (1, 1, 10)
+        assert now.goal == now.today
         time.pass_(1.5)
         bill.close(30, 5)
         bill.close(30, 5)
@@ -118,11 +132,11 @@ def test_each_limit_refuses_the_call_that_would_pass_it(
 ) -> None:
     time = Time()
     with purse(tmp_path, time, budget) as kept, thinking_about("g1"):
-        bill = kept.open(20)
+        bill = open_(kept)
         time.pass_(2.0)
         bill.close(20, 5)
         with pytest.raises(OutOfBudget, match=told):
-            kept.open(20)
+            open_(kept)
 
 
 def test_midnight_gives_the_day_anew_but_not_the_goal(tmp_path: Path) -> None:
@@ -145,7 +159,7 @@ def test_a_call_over_midnight_counts_to_the_day_it_went_out(tmp_path: Path) -> N
     time = Time()
     patient = BudgetSettings(goal=GoalLimits(seconds=DAY_S))
     with purse(tmp_path, time, patient) as kept, thinking_about("g1"):
-        bill = kept.open(20)
+        bill = open_(kept)
         time.pass_(DAY_S / 2)
         assert kept.usage().today.calls == 0
         bill.close(20, 5)
@@ -192,7 +206,7 @@ def test_a_clock_that_leapt_ahead_shuts_the_budget_for_a_day_of_running_at_most(
 
 def test_a_call_that_dies_with_the_process_stays_counted(tmp_path: Path) -> None:
     with purse(tmp_path, Time()) as kept, thinking_about("g1"):
-        kept.open(20)
+        open_(kept)
     with purse(tmp_path, Time()) as kept:
         today = kept.usage().today
         assert (today.calls, today.prompt_tokens, today.reply_tokens) == (1, 20, 10)
@@ -204,18 +218,17 @@ def test_two_programs_of_one_home_spend_from_one_budget(tmp_path: Path) -> None:
             call(kept, "g1")
         with pytest.raises(OutOfBudget, match="per goal"):
             call(other, "g1")
-        assert one.usage() == other.usage().model_copy(
-            update={"calls_since_start": 2, "refused": None}
-        )
+        assert look(one) == look(other).model_copy(update={"calls_since_start": 2, "refused": None})
 
 
 def test_no_goal_no_call(tmp_path: Path) -> None:
     with purse(tmp_path, Time()) as kept:
         with pytest.raises(OutOfBudget, match="no goal asked") as refused:
-            kept.open(20)
+            open_(kept)
         assert refused.value.said.zh
         assert (kept.usage().idle_calls, kept.usage().today.calls) == (1, 0)
-        assert not (tmp_path / FOLDER).exists()
+        assert look(kept).today.calls == 0
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
@@ -242,72 +255,121 @@ def test_a_line_that_cannot_be_read_counts_as_a_call(line: str, tmp_path: Path) 
         assert kept.usage().today.calls == 3
 
 
+@contextmanager
+def full_disk() -> Iterator[None]:
+    """Refuse each write of this process, as a full disk does."""
+    most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, most[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, most)
+
+
+@pytest.mark.parametrize("kept_before", [True, False])
 def test_a_disk_that_is_full_refuses_the_call_and_says_so(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    kept_before: bool, tmp_path: Path
 ) -> None:
+    if kept_before:
+        with purse(tmp_path, Time()) as kept:
+            call(kept, "g0")
     with purse(tmp_path, Time()) as kept:
-        monkeypatch.setattr("planner.budget.daily_file.os.write", lambda _file, _line: 3)
-        with pytest.raises(OutOfBudget, match="written down") as refused:
+        with full_disk(), pytest.raises(OutOfBudget, match="written down") as refused:
             call(kept)
         assert "disk" in refused.value.said.en
-        monkeypatch.undo()
         call(kept)
         assert kept.usage().refused is None
+        assert kept.usage().today.calls == 1 + kept_before
 
 
-@pytest.mark.parametrize("mine", [False, True])
-@pytest.mark.parametrize("settling", [False, True])
-def test_a_line_that_a_full_disk_cut_spoils_no_other(
-    settling: bool, mine: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    write = os.write
-    (tmp_path / FOLDER).mkdir()
-    (tmp_path / FOLDER / f"{TODAY}.jsonl").write_text("")
-    with purse(tmp_path, Time()) as kept, purse(tmp_path, Time()) as other:
-        next_ = kept if mine else other
-        assert other.usage() == kept.usage()
+def test_what_cannot_be_settled_stays_at_its_worst(tmp_path: Path) -> None:
+    with purse(tmp_path, Time()) as kept:
         with thinking_about("g0"):
-            bill = kept.open(20) if settling else None
-        assert other.usage().today == kept.usage().today
-        monkeypatch.setattr(
-            "planner.budget.daily_file.os.write", lambda f, line: write(f, line[:9])
-        )
-        if bill is not None:
-            bill.close(30, 5)  # stays at its worst
-        else:
-            with pytest.raises(OutOfBudget):
-                call(kept, "g0")
-        monkeypatch.undo()
-        call(next_, "g1")
-        usage = kept.usage("g1")
-        assert usage.goal is not None
-        assert (usage.goal.calls, usage.goal.prompt_tokens, usage.goal.reply_tokens) == (1, 20, 5)
-        assert (usage.today.calls, usage.today.reply_tokens) == ((3, 15) if settling else (2, 5))
+            bill = open_(kept)
+        with full_disk():
+            bill.close(30, 5)
+            look(kept)
+        assert (kept.usage().today.calls, kept.usage().today.reply_tokens) == (1, 10)
+        call(kept, "g1")
+        assert (kept.usage().today.calls, kept.usage().today.reply_tokens) == (2, 15)
+
+
+def test_a_ledger_that_another_program_holds_keeps_the_loop_free(tmp_path: Path) -> None:
+    async def story(kept: Purse, holder: sqlite3.Connection) -> OpenCall:
+        with thinking_about("g1"):
+            opening = asyncio.create_task(kept.open(20))
+        for _ in range(10):
+            await asyncio.sleep(0)
+        assert not opening.done()
+        assert kept.usage().today.calls == 1
+        holder.execute("ROLLBACK")
+        return await opening
+
+    with purse(tmp_path, Time()) as kept:
+        call(kept, "g0")
+        with closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as holder:
+            look(kept)
+            holder.execute("BEGIN IMMEDIATE")
+            asyncio.run(story(kept, holder)).close(20, 5)
+        assert look(kept).today.calls == 2
 
 
 def test_a_folder_that_cannot_be_read_refuses_to_start(tmp_path: Path) -> None:
     (tmp_path / FOLDER).write_text("no folder")
     with pytest.raises(Misconfigured) as wrong:
-        Ledger(tmp_path)
+        Ledger.in_home(tmp_path)
     assert wrong.value.code == "budget_unreadable"
+    assert not isinstance(wrong.value, Unwritable), "no restart mends it"
 
 
-def test_an_old_day_that_cannot_be_thrown_away_at_present_refuses_nothing(tmp_path: Path) -> None:
-    (tmp_path / FOLDER / "2020-01-01.jsonl").mkdir(parents=True)  # even root unlinks no folder
-    with closing(Ledger(tmp_path)) as ledger:
-        ledger.remember(date(2026, 1, 1))
+def test_old_days_are_thrown_away_and_what_goals_spent_long_ago_counts_to_its_day_alone(
+    tmp_path: Path,
+) -> None:
+    time = Time()
+    with purse(tmp_path, time) as kept:
+        call(kept, "old")
+    time.pass_((LOOK_BACK_DAYS + 1) * DAY_S)
+    with purse(tmp_path, time) as kept:
+        call(kept, "new")
+        goal = kept.usage("old").goal
+        assert goal is not None
+        assert goal.calls == 0
+    query = "SELECT day, goal, calls FROM spent"
+    with closing(StateDatabase(tmp_path)) as database:
+        assert sorted(database.read(query)) == [(str(TODAY), "", 1), ("2026-03-19", "new", 1)]
+    time.pass_((KEPT_DAYS + 1) * DAY_S)
+    with purse(tmp_path, time):
+        pass
+    with closing(StateDatabase(tmp_path)) as database:
+        assert database.read(query) == []
 
 
-def test_old_days_are_thrown_away_and_other_files_are_left_alone(tmp_path: Path) -> None:
-    folder = tmp_path / FOLDER
+# The layout before -------------------------------------------------------------------------------
+
+
+def write_days(home: Path, **days: str) -> Path:
+    folder = home / FOLDER
     folder.mkdir()
-    old = date.fromordinal(TODAY.toordinal() - KEPT_DAYS - 1)
-    names = [f"{old}.jsonl", "2026-13-77.jsonl", "notes.txt", "2026-03-01.jsonl"]
-    for name in names:
-        (folder / name).write_text("")
-    with purse(tmp_path, Time()) as kept:
-        assert kept.usage().day == TODAY
-    assert sorted(path.name for path in folder.iterdir()) == sorted(names[1:])
+    for day, text in days.items():
+        (folder / f"{day.removeprefix('d').replace('_', '-')}.jsonl").write_text(text)
+    return folder
+
+
+def test_the_files_of_days_are_taken_over_once_and_kept_beside(tmp_path: Path) -> None:
+    line = json.dumps({"goal": "g1", "calls": 1, "prompt_tokens": 20, "money": 0.07}) + "\n"
+    folder = write_days(tmp_path, d2026_03_10=line * 2, d2026_03_01=line, d2025_01_01=line)
+    (folder / "notes.txt").write_text("mine")
+    (folder / "2026-13-77.jsonl").write_text(line)
+    for _ in range(2):
+        with purse(tmp_path, Time()) as kept:
+            usage = kept.usage("g1")
+            assert (usage.today.calls, usage.today.money) == (2, 0.14)
+            assert usage.goal is not None
+            assert usage.goal.calls == 2, "it began over a week ago: that day is not looked at"
+    beside = tmp_path / "spent.old"
+    assert {path.name for path in tmp_path.iterdir()} == {beside.name, FILE}
+    assert (beside / "notes.txt").read_text() == "mine"
+    assert (beside / f"{TODAY}.jsonl").read_text() == line * 2
 
 
 _STEPS = st.lists(

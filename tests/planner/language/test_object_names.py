@@ -6,8 +6,16 @@ import pytest
 
 from planner.language import color_names
 from planner.language.object_classes import KINDS
-from planner.language.object_names import canonical, listed, named, resolve, singles_out
-from planner.plan import Language
+from planner.language.object_names import (
+    canonical,
+    listed,
+    named,
+    named_several,
+    resolve,
+    singles_out,
+    synonyms,
+)
+from planner.plan import Bilingual, Language
 from tests.conftest import ROOT
 
 MEANT = {
@@ -77,19 +85,28 @@ def test_a_thing_is_named_in_both_languages() -> None:
     assert named("fork_lift").en == "fork lift"
     assert listed(["cup", "tv"]).zh == "杯子、电视"
     assert listed(list(KINDS), 2).en.endswith(f"and {len(KINDS) - 2} more")
-    for kind in KINDS.values():  # no two classes share a word
-        assert canonical(kind.en) == kind.id, kind.id
-        assert resolve(kind.zh) == (kind.id, None), kind.id
+    for label in KINDS:  # no two classes share a word
+        for words in synonyms(label, Language.EN):
+            assert canonical(words) == label
+        assert resolve(named(label).zh) == (label, None)
+        assert resolve(named_several(label).en) == (label, None)
+
+
+def test_several_things_have_their_plural() -> None:
+    several = [named_several(label).en for label in ("cup", "knife", "wine_glass", "grand_brush")]
+    assert several == ["cups", "knives", "wine glasses", "grand brushes"]
+    assert named_several("sheep", "black") == Bilingual(en="black sheep", zh="黑色的羊")
 
 
 def test_colours_are_told_by_their_plain_words() -> None:
-    told = "".join(color_names.names_of(color)[1] for color in color_names.COLORS)
+    told = "".join(color_names.color_name(color).zh for color in color_names.COLORS)
     assert told == "红色橙色黄色绿色蓝色紫色粉色棕色黑色灰色白色"
 
 
 @pytest.mark.parametrize("color", color_names.COLORS)
 def test_every_colour_has_its_words(color: str) -> None:
-    en, zh = color_names.names_of(color)
+    name = color_names.color_name(color)
+    en, zh = name.en, name.zh
     assert color_names.color_of(en) == color_names.color_of(zh) == color
     assert resolve(f"{en} cup") == resolve(f"{zh}的杯子") == ("cup", color)
     assert color_names.may_be(color, color)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import errno
-import os
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -24,7 +22,8 @@ from planner.site import (
     TaughtPlaces,
 )
 from planner.site.places import Names
-from planner.site.taught_places import FILE
+from planner.site.taught_places import FILE, TaughtFile
+from planner.state_database import StateDatabase
 from tests.planner.mission.fakes import status
 from tests.planner.mission.live import StraightRouter
 from wire import Pose2, Status, Twist2
@@ -33,6 +32,10 @@ ROOT = Path(__file__).resolve().parents[3]
 SITE = Site.load(ROOT / "sites" / "two_room")
 HERE = Pose2(1.0, 4.2, 0.5)
 DAY = datetime(2026, 11, 21, tzinfo=UTC)
+CORNER = TaughtPlace(
+    id="corner", name=Names(en="corner", zh="角落"), pose=HERE, map_id=SITE.map_id, by="page",
+    taught=DAY,
+)  # fmt: skip
 
 
 class Bridge:
@@ -63,6 +66,11 @@ def memory(
 
 def teach(kept: KnownPlaces, *args: Any, **named: Any) -> TaughtPlace:
     return asyncio.run(kept.teach(Lesson(*args, **named)))[0]
+
+
+def teach_many(kept: KnownPlaces) -> None:
+    for letter in "abcdefghijklmnopqrstuvwxyz":
+        teach(kept, f"place {letter}")
 
 
 def refused(kept: KnownPlaces, *args: Any, **named: Any) -> str:
@@ -142,7 +150,7 @@ def test_a_name_that_is_none_is_refused(
     tmp_path: Path, names: tuple[str | None, ...], code: str
 ) -> None:
     assert refused(memory(tmp_path), *names) == code
-    assert not (tmp_path / FILE).exists()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_name_that_looks_like_another_is_refused(tmp_path: Path) -> None:
@@ -239,35 +247,50 @@ def test_an_id_of_ones_own_is_judged_as_a_name(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("broken", "number", "code"),
-    [
-        ("fsync", errno.ENOSPC, "disk_full"),
-        ("fsync", errno.EIO, "places_unwritable"),
-        ("replace", errno.EACCES, "places_unwritable"),
-    ],
+    ("pragma", "code"),
+    [("max_page_count = 1", "disk_full"), ("query_only = ON", "places_unwritable")],
 )
-def test_what_cannot_be_written_changes_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: str, number: int, code: str
-) -> None:
-    kept = memory(tmp_path)
+def test_what_cannot_be_written_changes_nothing(tmp_path: Path, pragma: str, code: str) -> None:
+    database = StateDatabase(tmp_path)
+    kept = KnownPlaces(SITE, TaughtPlaces.in_home(tmp_path, database), clock=lambda: DAY)
+    kept.use(Bridge(), StraightRouter())
     made = teach(kept, "corner")
-
-    def fails(*_: object) -> None:
-        raise OSError(number, os.strerror(number))
-
-    monkeypatch.setattr(os if broken == "fsync" else Path, broken, fails)
-    assert refused(kept, "nook") == code
+    database.read(f"PRAGMA {pragma}")  # of this connection: as where the disk or home is so
     with pytest.raises(PlaceRefused, match=code):
-        asyncio.run(kept.forget("corner"))
-    assert [p.name for p in tmp_path.iterdir()] == [FILE]
-    assert [shown.place for shown in memory(tmp_path).taught] == [made]
+        teach_many(kept)  # until a page more is needed
+    database.close()
+    assert [shown.place for shown in memory(tmp_path).taught] == [k.place for k in kept.taught]
+    assert kept.taught[0].place == made
 
 
 def test_a_file_that_is_not_ours_is_never_passed_over(tmp_path: Path) -> None:
-    for text in ("", "{", '{"version": 2}', '{"places": [{"id": "x"}]}'):
+    whole = TaughtFile(places=(CORNER,)).model_dump_json()
+    for text in ("", "{", '{"version": 2}', '{"places": [{"id": "x"}]}', whole[:-20]):
         (tmp_path / FILE).write_text(text, "utf-8")
         with pytest.raises(SiteError):
             memory(tmp_path)
+        assert (tmp_path / FILE).read_text("utf-8") == text
+    (tmp_path / FILE).unlink()
+    teach(memory(tmp_path), "corner")
+    with StateDatabase(tmp_path).change() as connection:
+        connection.execute("UPDATE places SET record = '{}'")
+    with pytest.raises(SiteError, match="value_malformed"):
+        memory(tmp_path)
+
+
+def test_the_file_of_the_layout_before_is_taken_over_once_and_kept_beside(tmp_path: Path) -> None:
+    text = TaughtFile(places=(CORNER,)).model_dump_json()
+    (tmp_path / FILE).write_text(text, "utf-8")
+    kept = memory(tmp_path)
+    assert [shown.place for shown in kept.taught] == [CORNER]
+    assert (tmp_path / "places.json.old").read_text("utf-8") == text
+    asyncio.run(kept.forget("corner"))
+    assert memory(tmp_path).taught == ()
+    (tmp_path / FILE).write_text(text, "utf-8")  # a person puts it back
+    assert [shown.place for shown in memory(tmp_path).taught] == [CORNER]
+    assert {path.name for path in tmp_path.glob("places*")} == {
+        "places.json.old", "places.json.old-2"
+    }  # fmt: skip
 
 
 def test_who_leaves_half_way_leaves_disk_and_memory_one(tmp_path: Path) -> None:

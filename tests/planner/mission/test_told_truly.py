@@ -135,7 +135,7 @@ def conditions() -> list[Goal]:
     return goals
 
 
-GOALS = [*looks(), *tours(), *errands(), *conditions()]
+GOALS = {"looks": looks(), "tours": tours(), "errands": errands(), "conditions": conditions()}
 
 
 def told(mission: Mission) -> Bilingual:
@@ -153,14 +153,19 @@ def played(goal: Goal, manner: str, **more: Any) -> tuple[Telling, Mission]:
     return world, world.play(*goal.thoughts)
 
 
+def test_the_scripted_goals_are_many_and_half_of_them_disturbed() -> None:
+    goals = [goal for each in GOALS.values() for goal in each]
+    assert len({goal.name for goal in goals}) >= 150
+    disturbed = [g for g in goals if g.shut or any(s.kind == "ask" for s in g.thoughts[0].steps)]
+    assert len(disturbed) * 2 >= len(goals)
+
+
 @pytest.mark.parametrize("manner", ["honest", "denies", "describes", "down"])
-def test_no_scripted_goal_tells_anything_untrue(manner: str) -> None:
+@pytest.mark.parametrize("kind", GOALS)
+def test_no_scripted_goal_tells_anything_untrue(kind: str, manner: str) -> None:
     """Wrong: a yes told where nothing is, none told where something is, or a law broken."""
-    assert len({goal.name for goal in GOALS}) >= 150
-    disturbed = [g for g in GOALS if g.shut or any(s.kind == "ask" for s in g.thoughts[0].steps)]
-    assert len(disturbed) * 2 >= len(GOALS)
     wrong: list[str] = []
-    for goal in GOALS:
+    for goal in GOALS[kind]:
         world, mission = played(goal, manner)
         said = told(mission)
         wrong += [f"{goal.name}: {each}" for each in untruths(mission, NAMES)]

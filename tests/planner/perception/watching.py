@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from planner.perception.frame_update import Scenery
 from planner.perception.object_store import FILE, ThingStore
 from planner.perception.perception_loop import Sightseer
 from planner.perception.pose_buffer import Poses
+from planner.state_database import StateDatabase
 from tests.planner.perception.scenes import CAMERA, box_of, image, two_room, view
 from wire import Image, Localization, Odometry, Pose2, Rejected, Twist2
 
@@ -68,6 +70,11 @@ class FakeDetector:
         return self.depth_m
 
 
+def store_in(home: Path, wall: Callable[[], float], map_id: str = MAP_ID) -> ThingStore:
+    """Return the store of a home folder with a wall clock of its own."""
+    return ThingStore(StateDatabase(home), home / FILE, map_id, wall=wall)
+
+
 class World:
     """Be a robot that stands at (1.0, 1.5), its camera, its clock."""
 
@@ -75,7 +82,7 @@ class World:
         self.now_s = 1_000.0
         self.camera, self.detector, self.seq = FakeCamera(), FakeDetector(), 0
         self.poses = Poses(MAP_ID)
-        store = None if home is None else ThingStore(home / FILE, MAP_ID, wall=lambda: self.now_s)
+        store = None if home is None else store_in(home, lambda: self.now_s)
         self.means = Means(
             Scenery(two_room(), CAMERA.model_copy(update=camera)), self.camera, self.detector,
             self.poses, store, rate_hz=10.0,

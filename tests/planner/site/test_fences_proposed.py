@@ -127,7 +127,7 @@ class Clock:
 
 @pytest.fixture
 def store(tmp_path: Path) -> FenceProposals:
-    return FenceProposals(tmp_path / "proposals", Clock())
+    return FenceProposals.in_home(tmp_path, clock=Clock())
 
 
 def small(number: int) -> FenceFile:
@@ -143,7 +143,7 @@ def test_a_proposal_is_named_by_the_hash_that_status_will_show(store: FencePropo
 
 def test_proposals_outlive_a_restart_and_come_newest_first(store: FenceProposals) -> None:
     first, second = store.propose(small(1), "cli"), store.propose(small(2), "page")
-    again = FenceProposals(store._folder)
+    again = FenceProposals.in_home(store._database.path.parent)
     assert [item.id for item in again.all()] == [second.id, first.id]
 
 
@@ -157,19 +157,36 @@ def test_the_same_text_again_is_one_proposal_open_anew(store: FenceProposals) ->
 
 def test_a_text_that_was_changed_on_the_disk_is_no_proposal(store: FenceProposals) -> None:
     item = store.propose(small(1), "cli")
-    path = next(store._folder.glob("*.json"))
-    path.write_text(path.read_text().replace("0.301", "0.001"))
+    with store._database.change() as connection:
+        connection.execute("UPDATE fence_proposals SET record = replace(record, '0.301', '0.001')")
     with pytest.raises(FenceRefused, match="unknown_fence_proposal"):
         store.get(item.id)
 
 
-@pytest.mark.parametrize("data", [b"", b"{}", b"\xff", b"[1]"])
-def test_a_file_that_is_none_of_ours_is_left_alone(store: FenceProposals, data: bytes) -> None:
-    store.propose(small(1), "cli")
-    odd = store._folder / "0123456789abcdef.json"
-    odd.write_bytes(data)
-    assert len(store.all()) == 1
-    assert odd.read_bytes() == data
+def test_files_of_the_layout_before_are_taken_over_once_and_kept_beside(
+    store: FenceProposals, tmp_path: Path
+) -> None:
+    item = store.propose(small(1), "cli")
+    folder = tmp_path / "before" / "fence" / "proposals"
+    folder.mkdir(parents=True)
+    whole = item.model_dump_json(indent=1)
+    (folder / f"{item.id}.json").write_text(whole)
+    odd = {
+        b"",
+        b"{}",
+        b"\xff",
+        b"[1]",
+        whole[:99].encode(),
+        whole.replace("0.301", "0.001").encode(),
+    }
+    for number, data in enumerate(odd):
+        (folder / f"{number:016x}.json").write_bytes(data)
+    for _ in range(2):
+        after = FenceProposals.in_home(tmp_path / "before")
+        assert after.all() == [item]
+    assert not folder.exists()
+    beside = folder.with_name("proposals.old")
+    assert {path.read_bytes() for path in beside.iterdir()} == odd | {whole.encode()}
 
 
 def test_too_many_that_wait_are_refused_until_some_are_decided(store: FenceProposals) -> None:

@@ -17,17 +17,12 @@ from bridge.realtime import Right
 from pons.__main__ import main
 from pons.doctor import command, host_checks, jitter, model_checks, path_checks
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict
+from pons.robot_processes import free_port
 from pons.settings import CHECKOUT, Settings
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
-
-
-def free_port() -> int:
-    with closing(socket.socket()) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def described(home: Path) -> Settings:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from planner.brain import BrainDown, PlanRejected, ScriptedBrain
-from planner.budget.daily_file import MAX_ID
+from planner.budget.ledger import MAX_ID
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
 from pons.evals.cases import Case

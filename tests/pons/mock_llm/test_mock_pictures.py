@@ -164,7 +164,7 @@ def test_what_a_picture_costs_is_the_goals(mock: RunningMock, tmp_path: Path) ->
     mock.set()
 
     async def story() -> tuple[int, int]:
-        purse = Purse(BudgetSettings(), Ledger(tmp_path), most_reply=1000)
+        purse = Purse(BudgetSettings(), Ledger.in_home(tmp_path), most_reply=1000)
         model = EndpointBrain(ModelSettings(url=mock.url, name="m"), tmp_path, meter=purse)
         await model.looker().describe(Asked(PLAIN, "?", goal="g1"))
         mine, other = purse.usage("g1").goal, purse.usage("g2").goal

@@ -20,11 +20,11 @@ from typing import TYPE_CHECKING, Any
 import psutil
 
 from pons.http import PlannerDown, PlannerProblem, call
+from pons.robot_processes import free_port
 from pons.settings import CHECKOUT, Settings
 from processes.parent_death import child_command, module_in
 from tools.bench.chaos.draw import PROCESSES
 from tools.bench.context import MeasurementFailure, line, until
-from tools.bench.robot import free_port
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

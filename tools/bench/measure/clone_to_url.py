@@ -10,9 +10,9 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from pons.machine import ROOT
+from pons.robot_processes import free_port
 from tools.bench.context import MeasurementFailure
 from tools.bench.report import ReportRow, row_of
-from tools.bench.robot import free_port
 
 if TYPE_CHECKING:
     from pathlib import Path

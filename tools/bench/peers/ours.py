@@ -32,7 +32,7 @@ def main(path: str, home: Path) -> None:
     """Take turns with the bench."""
     facts, count = PeerFacts.load(path), 0
     warm_up()
-    purse = Purse(UNBOUND, Ledger(home), most_reply=1000)
+    purse = Purse(UNBOUND, Ledger.in_home(home), most_reply=1000)
     model = EndpointBrain(ModelSettings(url=facts.url, name="pons"), home, meter=purse)
     words = vocabulary_of(Site.load(Path(facts.site)))
     think = thinker(FallbackBrain(model, OfflineBrain()), words)

@@ -4,39 +4,38 @@ from __future__ import annotations
 
 from re import Match
 
-from planner.language.grammar.en.words import GO, THE
-from planner.language.grammar.grammar import (
-    QUOTE,
-    about,
+from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.driving_steps import (
     come_back,
     drive_into,
     drive_to,
     home,
-    lacks,
-    on_topic,
-    route,
-    rule,
-    say,
-    set_out,
-    stand,
-    unread,
-    wait,
-)
-from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.numbers import EN_ANGLE, EN_DURATION, EN_LENGTH, TIMES
-from planner.language.grammar.parse_result import Meaning, Reading, Rule
-from planner.language.grammar.small_talk import Topic
-from planner.language.grammar.step_builders import (
-    HOW_LONG,
-    WHERE_ARE_YOU,
-    WHERE_TO,
-    missing,
     move,
     patrol,
     patrol_all,
+    route,
+    say,
+    set_out,
+    stand,
     turn,
+    wait,
     wander,
 )
+from planner.language.grammar.en import GO, THE
+from planner.language.grammar.lexicon import MARK
+from planner.language.grammar.numbers import EN_ANGLE, EN_DURATION, EN_LENGTH, TIMES
+from planner.language.grammar.parse_result import (
+    Meaning,
+    Reading,
+    Rule,
+    about,
+    lacks,
+    on_topic,
+    rule,
+    unread,
+)
+from planner.language.grammar.small_talk import Topic
+from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
 from planner.plan import Code
 
 _LEAD = (

@@ -6,11 +6,20 @@ import re
 from re import Match
 
 from planner.language.folding import CHINESE
-from planner.language.grammar.en.words import PREP, THE, loc, sure_loc
-from planner.language.grammar.grammar import Build, lacks, rule, where
+from planner.language.grammar.en import PREP, THE, loc, sure_loc
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.objects import HOW_EN, by_neighbour
-from planner.language.grammar.parse_result import Meaning, Problem, Reading, Rule, Steps
+from planner.language.grammar.noun_phrases import HOW_EN, by_neighbour
+from planner.language.grammar.parse_result import (
+    Build,
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    lacks,
+    rule,
+    where,
+)
 from planner.language.grammar.step_builders import (
     count,
     find,

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar import past_tense, relative_position
+from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_EN
-from planner.language.grammar.en import driving, objects, people
-from planner.language.grammar.en.words import PERSON
-from planner.language.grammar.grammar import Grammar, lacks, next_place, rule, unread
+from planner.language.grammar.clauses import Grammar
+from planner.language.grammar.driving_steps import next_place
+from planner.language.grammar.en import PERSON, driving, objects, people
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.manipulation import lacks_arm
+from planner.language.grammar.parse_result import lacks, rule, unread
+from planner.language.grammar.unsupported import lacks_arm
 from planner.plan import Code
 
 _ARM = (
@@ -138,8 +139,8 @@ ENGLISH = Grammar(
     ),
     rules=(
         *driving.TALK,
-        *past_tense.ENGLISH,
-        *relative_position.ENGLISH,
+        *unsupported.PAST_ENGLISH,
+        *unsupported.ASIDE_ENGLISH,
         *people.RULES,
         *driving.RULES,
         rule(

@@ -5,11 +5,23 @@ from __future__ import annotations
 import re
 from re import Match
 
-from planner.language.grammar.en.words import DESCRIPTION, PERSON, THE, loc
-from planner.language.grammar.grammar import QUOTE, ahead, lacks, rule, where
+from planner.language.catalogue import say
+from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.en import DESCRIPTION, PERSON, THE, loc
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.objects import known, several
-from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
+from planner.language.grammar.noun_phrases import known, several
+from planner.language.grammar.parse_result import (
+    About,
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    ahead,
+    lacks,
+    rule,
+    where,
+)
 from planner.language.grammar.small_talk import Topic, told, topic_of
 from planner.language.grammar.step_builders import (
     follow,
@@ -20,7 +32,7 @@ from planner.language.grammar.step_builders import (
     one_at_a_time,
     place_of,
     saying,
-    spoken,
+    told_in,
 )
 from planner.plan import Ask, Code, Decide, GoToObject, Say
 
@@ -72,9 +84,9 @@ def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
 
 
 def _greet(found: Match[str], reading: Reading) -> Meaning:
-    hello = spoken("Hello!", "你好！", reading)
     name = label_of(found["who"], reading) if found["who"] not in ("them", "him", "her") else ""
-    said = f"Hello, {name}!" if name[:1].isupper() else hello
+    called = say("spoken.hello_name", name=name).en if name[:1].isupper() else None
+    said = called or told_in("spoken.hello", reading)
     return meet(found["who"], where(found, "at"), reading, said)
 
 
@@ -102,8 +114,8 @@ def _introduce(found: Match[str], reading: Reading) -> Meaning:
     second = meet(found["other"], where(found, "at2"), then)
     if not isinstance(second, Steps):
         return second
-    words = spoken(f"This is {first.person}.", f"这是{first.person}。", reading)
-    come = Say(text=spoken("Please come with me.", "请跟我来。", reading))
+    words = told_in("spoken.this_is", reading, name=first.person or "")
+    come = Say(text=told_in("spoken.come", reading))
     return Steps((*first.steps, come, *second.steps, Say(text=words)), person=second.person)
 
 

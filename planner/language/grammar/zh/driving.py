@@ -4,40 +4,40 @@ from __future__ import annotations
 
 from re import Match
 
-from planner.language.grammar.grammar import (
-    QUOTE,
-    about,
+from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.driving_steps import (
     come_back,
     drive_to,
     home,
-    lacks,
-    on_topic,
-    route,
-    rule,
-    say,
-    set_out,
-    stand,
-    unread,
-    wait,
-)
-from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
-from planner.language.grammar.parse_result import Meaning, Reading, Rule, Steps
-from planner.language.grammar.small_talk import Topic
-from planner.language.grammar.step_builders import (
-    HOW_LONG,
-    WHERE_ARE_YOU,
-    WHERE_TO,
     in_all,
-    missing,
     move,
     patrol,
     patrol_all,
+    route,
+    say,
+    set_out,
+    stand,
     turn,
     turn_and_move,
+    wait,
     wander,
 )
-from planner.language.grammar.zh.words import ALL_ROOMS, GO
+from planner.language.grammar.lexicon import MARK
+from planner.language.grammar.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
+from planner.language.grammar.parse_result import (
+    Meaning,
+    Reading,
+    Rule,
+    Steps,
+    about,
+    lacks,
+    on_topic,
+    rule,
+    unread,
+)
+from planner.language.grammar.small_talk import Topic
+from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
+from planner.language.grammar.zh import ALL_ROOMS, GO
 from planner.plan import Code, Say
 
 _AFTER = r"(?:去一下|去一趟|去|来|过去|待命|停下来?|等我|一下|一趟|走一趟|转转|转一圈)?"

@@ -11,12 +11,20 @@ import re
 from dataclasses import replace
 from re import Match
 
-from planner.language.grammar.grammar import ahead, rule, where
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.objects import HOW_ZH, by_neighbour, known
-from planner.language.grammar.parse_result import Meaning, Problem, Reading, Rule, Steps
+from planner.language.grammar.noun_phrases import HOW_ZH, by_neighbour, known
+from planner.language.grammar.parse_result import (
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    ahead,
+    rule,
+    where,
+)
 from planner.language.grammar.step_builders import arrive, count, find, look, offer_search, place_of
-from planner.language.grammar.zh.words import SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
+from planner.language.grammar.zh import SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
 from planner.plan import Code, Count, Step
 
 _AT = rf"(?:{loc('at')})?"

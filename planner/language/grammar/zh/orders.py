@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar import past_tense, relative_position
+from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_ZH
-from planner.language.grammar.grammar import Grammar, lacks, next_place, rule, unread
+from planner.language.grammar.clauses import Grammar
+from planner.language.grammar.driving_steps import next_place
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.manipulation import lacks_arm
-from planner.language.grammar.zh import driving, objects, people
-from planner.language.grammar.zh.words import ALL_ROOMS, GO, IN, SEE, VERB
+from planner.language.grammar.parse_result import lacks, rule, unread
+from planner.language.grammar.unsupported import lacks_arm
+from planner.language.grammar.zh import ALL_ROOMS, GO, IN, SEE, VERB, driving, objects, people
 from planner.plan import Code
 
 _ARM = (
@@ -99,11 +100,11 @@ CHINESE = Grammar(
     rules=(
         *driving.RULES[:-2],
         *people.GUIDE,
-        *past_tense.CHINESE,
+        *unsupported.PAST_CHINESE,
         *objects.NEIGHBOUR_RULES,
         rule(rf"{_NO_LOOK}(?!{_WITH_ARM}).*{_ARM}.*", unread),
         rule(rf"{_NO_LOOK}.*{_ARM}.*", lacks_arm),
-        *relative_position.CHINESE,
+        *unsupported.ASIDE_CHINESE,
         *people.RULES,
         *objects.RULES,
         *driving.RULES[-2:],

@@ -4,9 +4,20 @@ from __future__ import annotations
 
 from re import Match
 
-from planner.language.grammar.grammar import QUOTE, lacks, rule, where
-from planner.language.grammar.objects import several
-from planner.language.grammar.parse_result import About, Meaning, Problem, Reading, Rule, Steps
+from planner.language.catalogue import say
+from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.noun_phrases import several
+from planner.language.grammar.parse_result import (
+    About,
+    Meaning,
+    Problem,
+    Reading,
+    Rule,
+    Steps,
+    lacks,
+    rule,
+    where,
+)
 from planner.language.grammar.small_talk import Topic, told, topic_of
 from planner.language.grammar.step_builders import (
     follow,
@@ -16,7 +27,7 @@ from planner.language.grammar.step_builders import (
     one_at_a_time,
     place_of,
 )
-from planner.language.grammar.zh.words import GO, IN, PERSON, SPOT, loc
+from planner.language.grammar.zh import GO, IN, PERSON, SPOT, loc
 from planner.plan import Ask, Code
 
 _FIND = r"(?:接到?|找到|寻找|找找看?|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
@@ -40,8 +51,9 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
 
 def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading)
-    said = f"{name}，你好！" if "\ue900" <= found["who"][0] <= "\ue9ff" else "你好！"
-    return meet(found["who"], where(found, "at"), reading, said)
+    is_name = "\ue900" <= found["who"][0] <= "\ue9ff"
+    said = say("spoken.hello_name", name=name) if is_name else say("spoken.hello")
+    return meet(found["who"], where(found, "at"), reading, said.zh)
 
 
 def _follow(found: Match[str], reading: Reading) -> Meaning:

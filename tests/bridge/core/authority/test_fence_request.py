@@ -9,9 +9,8 @@ import pytest
 from bridge.core.authority.fence_request import hear_fence
 from bridge.core.authority.requests import nonce_text
 from bridge.core.inbox import FenceArrival, FenceDone
-from tests.bridge.core.reached import reached
+from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import World
-from tests.bridge.core.test_quick_core import tick_of
 from wire import Mode
 
 TEXT = '{"version":1}'

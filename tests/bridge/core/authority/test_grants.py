@@ -1,10 +1,9 @@
-"""What planners and other brains may drive is metered here, whatever they ask for and how often."""
+"""Hold what is granted, metered and spent: missions, a person's cap, and what a hand may drive."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from math import inf, nan
-from typing import TYPE_CHECKING
 
 import pytest
 from pydantic import ValidationError
@@ -16,14 +15,11 @@ from bridge.core.authority.grants import (
     OPERATOR_SECONDS,
 )
 from bridge.core.geometry.fence import build_fence
-from bridge.core.state_orders import MAX_MISSIONS
+from bridge.core.state_orders import MAX_MISSIONS, Grants
+from tests.bridge.core.external_brain import drive_for, external_world
 from tests.bridge.core.fake_planner import MAP_ID, FakePlanner
 from tests.bridge.core.scripted import World, config
-from tests.bridge.core.test_external_brain import drive_for, external_world
 from wire import Grant, Mode
-
-if TYPE_CHECKING:
-    from bridge.core.state_orders import Grants
 
 
 def way_m(world: World) -> float:
@@ -227,15 +223,6 @@ def test_another_brain_is_metered_like_a_planner_and_ends_with_its_grant() -> No
     assert OPERATOR_METRES - left(world).operator_metres == pytest.approx(way_m(world), abs=0.01)
 
 
-def test_asking_again_for_a_mission_adds_nothing() -> None:
-    world = World().driving()
-    metres = left(world).metres
-    for _ in range(20):
-        ask(world, "m1")
-        world.tick()
-    assert left(world).metres < metres
-
-
 def test_what_is_left_outlives_a_restart_of_the_planner() -> None:
     world = World().driving()
     world.run(1.0)
@@ -293,14 +280,6 @@ def test_a_budget_that_is_no_number_is_no_message(odd: float) -> None:
         Grant(planner_id="p", epoch="b-1", seen=1, mission="m", metres=odd, seconds=1.0)
 
 
-def test_a_stall_costs_the_time_it_took() -> None:
-    world = World().driving()
-    seconds = left(world).operator_seconds
-    world.tick(7.0)
-    assert seconds - left(world).operator_seconds == pytest.approx(7.0)
-    assert left(world).seconds >= 0.0
-
-
 def test_a_clock_that_runs_backwards_gives_nothing_back() -> None:
     world = World().driving()
     before = left(world)
@@ -331,16 +310,6 @@ def test_a_person_who_resumes_fills_it_up_again() -> None:
     world.op("resume", authentic=False)
     world.tick()
     assert left(world).operator_metres <= 2.0, "nobody else can"
-
-
-def test_a_grant_from_before_a_jump_of_the_pose_is_dropped() -> None:
-    world = World().armed()
-    world.run(0.3)
-    world.state.pose = replace(world.state.pose, jumped_s=world.now_s)
-    ask(world, "late")
-    decision = world.tick()
-    assert "grant_before_jump" in decision.reasons
-    assert left(world).mission is None
 
 
 @pytest.mark.parametrize("spent", range(4))

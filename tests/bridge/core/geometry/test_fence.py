@@ -1,24 +1,21 @@
-"""Hold the fence's geometry against shapes whose answers are known, and against sampling."""
+"""Hold the fence to its outlines: inside, margins, crossings, zones, and the file it comes from."""
 
 from __future__ import annotations
 
 import json
-from math import hypot
-from typing import TYPE_CHECKING
+from math import hypot, sqrt
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.geometry.fence import SIGHT_M, Zone, build_fence
+from bridge.core.geometry import fence as fences
+from bridge.core.geometry.fence import SIGHT_M, FenceCell, Zone, build_fence
+from bridge.core.geometry.polygon import Edge, Polygon, nearest_m, permits
 from bridge.fence_file import load_fence, parse_fence
 from wire.errors import Misconfigured
 from wire.fingerprint import fingerprint
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from bridge.core.geometry.polygon import Polygon
 
 MAP = "0123456789abcdef"
 
@@ -28,27 +25,10 @@ def box(x0: float, y0: float, x1: float, y1: float) -> Polygon:
 
 
 ROOM = build_fence(MAP, (box(0, 0, 6, 4),), (box(2, 1, 3, 2),))
+
+
 # two rooms that overlap in a doorway: the overlap's lines are no fence
 PAIR = build_fence(MAP, (box(0, 0, 3, 3), box(2.5, 1, 6, 2)))
-# two rooms that share a whole edge
-TWINS = build_fence(MAP, (box(0, 0, 3, 3), box(3, 0, 6, 3)))
-
-
-@pytest.mark.parametrize(
-    ("x", "y", "allowed"),
-    [(1, 1, True), (2.5, 1.5, False), (-0.1, 1, False), (5.9, 3.9, True), (7, 7, False)],
-)
-def test_points_inside_and_outside(x: float, y: float, allowed: bool) -> None:
-    assert ROOM.allows(x, y) is allowed
-    assert (ROOM.margin_m(x, y) > 0) is allowed
-
-
-@pytest.mark.parametrize(
-    ("x", "y", "margin"),
-    [(0.2, 2, 0.2), (2.5, 0.75, 0.25), (-0.5, 2, -0.5), (2.5, 1.5, -0.5), (4.5, 2.5, SIGHT_M)],
-)
-def test_distance_to_the_boundary(x: float, y: float, margin: float) -> None:
-    assert ROOM.margin_m(x, y) == pytest.approx(margin)
 
 
 @pytest.mark.parametrize(
@@ -77,23 +57,10 @@ def test_lines_between_overlapping_outlines_are_no_fence() -> None:
     assert PAIR.crosses(2.75, 1.5, 4, 2.5)
 
 
-def test_an_edge_shared_by_two_outlines_is_no_fence() -> None:
-    assert not TWINS.crosses(2.9, 1.5, 3.1, 1.5)
-    assert TWINS.margin_m(2.9, 1.5) == pytest.approx(SIGHT_M)
-
-
 def test_a_fence_that_allows_nothing_lets_nothing_in() -> None:
     nothing = build_fence(MAP, ())
     assert not nothing.allows(0, 0)
     assert nothing.margin_m(0, 0) == -SIGHT_M
-
-
-def test_the_slowest_zone_rules() -> None:
-    zones = (Zone(box(0, 0, 2, 2), 0.3), Zone(box(1, 1, 3, 3), 0.2))
-    fence = build_fence(MAP, (box(0, 0, 6, 4),), (), zones)
-    assert fence.max_speed_mps(0.5, 0.5) == 0.3
-    assert fence.max_speed_mps(1.5, 1.5) == 0.2
-    assert fence.max_speed_mps(5, 3) is None
 
 
 @given(st.floats(-1.5, 7.5), st.floats(-1.5, 5.5))
@@ -170,3 +137,56 @@ def test_a_fence_that_leaves_a_strip_is_none_that_leaves_nothing() -> None:
 def test_a_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Misconfigured, match="fence_missing"):
         load_fence(tmp_path / "none.json")
+
+
+def oblong(x0: float, y0: float, x1: float, y1: float) -> Polygon:
+    return ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+
+
+def line(x0: float, y0: float, x1: float, y1: float) -> Edge:
+    return x0, y0, x1 - x0, y1 - y0, (x1 - x0) ** 2 + (y1 - y0) ** 2
+
+
+ROOMS = build_fence(
+    "0" * 16, (oblong(-3, -1, 9, 5),), (oblong(2, 1, 3, 2),), (Zone(oblong(0, 0, 2, 2), 0.3),)
+)
+
+
+def test_cells_hold_all_that_may_be_seen_from_them() -> None:
+    room = build_fence("0" * 16, ROOMS.allowed, ROOMS.keep_outs)
+    assert (room.cell_m, room.cells) == (0.25, ROOMS.cells)  # 12 m in 48
+    assert build_fence("0" * 16, (oblong(0, -12, 3, 12),)).cell_m == 0.5
+    assert build_fence("0" * 16, (oblong(-10, 0, 15, 3),)).cell_m == pytest.approx(25 / 48)
+    assert build_fence("0" * 16, ()).cells == {}
+    low, high = min(room.cells), max(room.cells)
+    assert (low, high) == ((-16, -8), (40, 24))  # 1 m more than the outline, all around
+    half = 0.125 * sqrt(2) + 1e-6
+    for (i, j), cell in room.cells.items():
+        if (i + 3 * j) % 7:
+            continue
+        x, y = (i + 0.5) * 0.25, (j + 0.5) * 0.25
+        away = nearest_m(ROOMS.boundary, x, y)
+        assert set(cell.edges) == {e for e in ROOMS.boundary if nearest_m((e,), x, y) <= 1.0 + half}
+        assert (cell.inside is None) is (away <= half)
+        if cell.inside is not None:
+            assert cell.inside is permits(ROOMS.allowed, ROOMS.keep_outs, x, y)
+
+
+def test_long_and_short_segments_are_tried_against_all_that_they_can_meet() -> None:
+    for x0, y0, x1, y1, crosses in (
+        (1.0, 1.5, 1.9, 1.5, False), (1.0, 1.5, 2.0, 1.5, True), (1.9, 1.5, 3.1, 1.5, True),
+        (1.5, 1.5, 3.5, 1.5, True), (-2.0, 1.5, 8.0, 1.5, True), (-2.0, 2.5, 8.0, 2.5, False),
+        (-2.0, 0.5, -3.5, 0.5, True), (8.5, 4.5, 8.5, 5.5, True), (1.9, 0.9, 3.1, 0.9, False),
+        (1.0, 0.0, 1.0, 1.0, False), (2.5, 1.5, 2.5, 1.6, True), (4.0, 1.5, 2.5, 1.5, True),
+        (0.7, -0.6, 4.3, 3.0, True), (0.5, 1.5, 4.0, 1.5, True), (2.5, -0.9, 2.5, 4.0, True),
+    ):  # fmt: skip
+        assert ROOMS.crosses(x0, y0, x1, y1) is crosses, (x0, y0, x1, y1)
+        assert ROOMS.crosses(x1, y1, x0, y0) is crosses
+
+
+def test_a_square_on_the_boundary_answers_point_by_point() -> None:
+    cell = fences._cell_at(0.0, 0.0, 0.25, (line(0, -9, 0, 9),), (oblong(0, -9, 9, 9),), ())
+    assert cell == FenceCell((line(0, -9, 0, 9),), None)
+    for x, inside, edges in ((0.18, True, 1), (-0.18, False, 1), (1.17, True, 1), (1.18, True, 0)):
+        cell = fences._cell_at(x, 0.0, 0.25, (line(0, -9, 0, 9),), (oblong(0, -9, 9, 9),), ())
+        assert (cell.inside, len(cell.edges)) == (inside, edges)

@@ -1,44 +1,32 @@
-"""Hold the wheel arithmetic against formulas, against other controllers, and against any float."""
+"""Hold wheels and motions to each other, and a motion to its limits."""
 
 from __future__ import annotations
 
-from math import isfinite
+from math import inf, isfinite, nan, sqrt
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.geometry.kinematics import (
+    STOPPED,
     fastest_rim,
     rim_speeds,
     saturate,
+    scale_twist,
     twist_of,
     wheels_of,
 )
-from wire.geometry import MAX_SPEED_MPS, STILL, Twist2
+from tests.bridge.core.table import table
+from wire import STILL, RobotDescription, Twist2
+from wire.geometry import MAX_SPEED_MPS
 from wire.robot import Base, Limits
 
 BASE, LIMITS = Base(), Limits()
+
 anything = st.floats()
+
 some_speed = st.floats(-50, 50)
-
-
-# Vectors of ros2_controllers' diff_drive_controller tests, DD1 to DD3 and DD13, DD14.
-@pytest.mark.parametrize(
-    ("radius", "separation", "v", "w", "left", "right"),
-    [
-        (1.0, 0.4, 1.0, 0.0, 1.0, 1.0),
-        (0.1, 1.0, 1.0, 0.0, 10.0, 10.0),
-        (0.1, 0.4, 1.0, 1.0, 8.0, 12.0),
-    ],
-)
-def test_wheel_speeds_match_the_formula(
-    radius: float, separation: float, v: float, w: float, left: float, right: float
-) -> None:
-    base = Base(wheel_radius_m=radius, wheel_separation_m=separation)
-    wheels = wheels_of(Twist2(v, w), base)
-    assert wheels.left_radps == pytest.approx(left)
-    assert wheels.right_radps == pytest.approx(right)
 
 
 @given(some_speed, some_speed)
@@ -48,26 +36,9 @@ def test_wheels_and_twist_are_inverse(left: float, right: float) -> None:
     assert back.right_radps == pytest.approx(right, abs=1e-9)
 
 
-def test_speed_above_the_limit_becomes_the_limit() -> None:
-    assert saturate(Twist2(5.0, 0.0), BASE, LIMITS) == Twist2(0.5, 0.0)
-    assert saturate(Twist2(0.0, 5.0), BASE, LIMITS) == Twist2(0.0, 1.0)
-
-
 def test_what_is_within_limits_passes_unchanged() -> None:
     asked = Twist2(0.5, 1.0)
     assert saturate(asked, BASE, LIMITS) is asked
-
-
-def test_lateral_acceleration_slows_both_by_one_factor() -> None:
-    limits = Limits(max_speed_mps=1.0, max_turn_radps=2.0, max_lateral_mps2=0.5)
-    slowed = saturate(Twist2(1.0, 2.0), BASE, limits)
-    assert slowed.v_mps * slowed.w_radps == pytest.approx(0.5)
-    assert slowed.w_radps / slowed.v_mps == pytest.approx(2.0)
-
-
-@pytest.mark.parametrize("cap", [-0.1, 1.1, float("nan"), float("inf")])
-def test_an_impossible_cap_is_standstill(cap: float) -> None:
-    assert saturate(Twist2(0.1, 0.1), BASE, LIMITS, cap) == STILL
 
 
 @given(anything, anything, st.floats(0, 1))
@@ -110,3 +81,69 @@ def test_a_runaway_is_still_seen_as_fast() -> None:
 def test_fastest_rim_is_the_faster_wheel(v: float, w: float) -> None:
     left, right = rim_speeds(Twist2(v, w), 0.5)
     assert fastest_rim(Twist2(v, w), 0.5) == pytest.approx(max(abs(left), abs(right)))
+
+
+CART = RobotDescription.model_validate(
+    {
+        "base": {"wheel_radius_m": 0.2, "wheel_separation_m": 0.8, "radius_m": 0.5},
+        "limits": {"max_wheel_radps": 4.0, "max_speed_mps": 0.6, "max_turn_radps": 1.5},
+        "drive": {
+            "lag_s": 0.08, "response_s": 0.05, "dead_zone_radps": 0.1, "kp": 0.5,
+            "ki_per_s": 10.0, "max_correction": 0.2,
+        },
+    }
+)  # fmt: skip
+
+
+FRAME, BOUNDS = CART.base, CART.limits
+
+
+def test_rims_and_wheels_of_a_motion_and_back() -> None:
+    twist = Twist2(0.3, -0.5)
+    assert rim_speeds(twist, 0.8) == pytest.approx((0.5, 0.1))
+    for v, w in ((0.3, -0.5), (-0.3, -0.5), (-0.3, 0.5)):
+        assert fastest_rim(Twist2(v, w), 0.8) == pytest.approx(0.5)
+    wheels = wheels_of(twist, FRAME)
+    assert (wheels.left_radps, wheels.right_radps) == pytest.approx((2.5, 0.5))
+    back = twist_of(2.5, 0.5, FRAME)
+    assert (back.v_mps, back.w_radps) == pytest.approx((0.3, -0.5))
+    for odd in (inf, nan, -inf):
+        assert wheels_of(Twist2(odd, 0.0), FRAME) == STOPPED
+        assert twist_of(odd, 0.0, FRAME) == STILL
+        assert twist_of(0.0, odd, FRAME) == STILL
+    assert wheels_of(Twist2(1e308, 1e309), FRAME) == STOPPED
+    assert wheels_of(Twist2(1e308, -1e308), FRAME) == STOPPED
+
+
+@table(
+    ("v", "w", "cap", "factor"),
+    [
+        (0.6, 0.0, 1.0, 1.0), (0.8, 0.0, 1.0, 0.75), (-0.8, 0.0, 1.0, 0.75),
+        (0.0, 1.5, 1.0, 1.0), (0.0, -2.0, 1.0, 0.75), (0.3, 0.0, 0.5, 1.0),
+        (0.6, 0.0, 0.5, 0.5), (0.0, 1.5, 0.5, 0.5), (0.4, 1.0, 1.0, 1.0),
+        (0.5, 1.0, 1.0, 0.8 / 0.9), (0.4, 1.4, 1.0, 0.8 / 0.96), (0.6, 0.2, 0.0, 0.0),
+        (0.6, 1.0, 0.1, 0.1), (0.1, 0.1, -1e-9, None), (0.1, 0.1, 1.0 + 1e-9, None),
+        (0.1, 0.1, nan, None), (nan, 0.1, 1.0, None), (0.1, inf, 1.0, None),
+    ],
+)  # fmt: skip
+def test_one_factor_brings_a_motion_within_all_limits(
+    v: float, w: float, cap: float, factor: float | None
+) -> None:
+    out = saturate(Twist2(v, w), FRAME, BOUNDS, cap)
+    if factor is None:
+        assert out == STILL
+    else:
+        assert (out.v_mps, out.w_radps) == pytest.approx((v * factor, w * factor))
+
+
+def test_lateral_acceleration_is_held_by_its_root() -> None:
+    limits = BOUNDS.model_copy(update={"max_lateral_mps2": 0.2})
+    for v, w, factor in ((0.4, 0.5, 1.0), (0.4, 0.8, sqrt(0.2 / 0.32)), (-0.4, 0.8, sqrt(0.625))):
+        out = saturate(Twist2(v, w), FRAME, limits)
+        assert (out.v_mps, out.w_radps) == pytest.approx((v * factor, w * factor))
+
+
+def test_a_factor_of_one_changes_no_bit() -> None:
+    odd = Twist2(0.1 + 0.2, 0.7)
+    assert scale_twist(odd, 1.0) is odd
+    assert scale_twist(Twist2(0.4, -0.2), 0.5) == Twist2(0.2, -0.1)

@@ -1,4 +1,4 @@
-"""Hold the picture of a scan: what a beam means, and which beams lie in a sector."""
+"""Hold the picture of a scan to its beams."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from bridge.core.geometry.lidar_scan import ScanPicture
-from wire.geometry import IDENTITY
+from bridge.core.geometry.lidar_scan import ScanPicture, Sector
+from tests.bridge.core.beams import picture
+from tests.bridge.core.table import table
+from wire import IDENTITY, Scan
 from wire.robot import LidarConfig
-from wire.sensors import Scan
 
 LIDAR = LidarConfig()
+EPS = 1e-6
 
 
 def scan(ranges: list[float | None], first: float = 0.0, step: float | None = None) -> Scan:
@@ -30,12 +32,12 @@ def scan(ranges: list[float | None], first: float = 0.0, step: float | None = No
     )
 
 
-def picture(ranges: list[float | None], lidar: LidarConfig = LIDAR, **kind: float) -> ScanPicture:
+def taken(ranges: list[float | None], lidar: LidarConfig = LIDAR, **kind: float) -> ScanPicture:
     return ScanPicture.from_scan(scan(ranges, **kind), IDENTITY, lidar)
 
 
 def test_a_beam_is_a_point_nothing_or_too_near() -> None:
-    made = picture([1.0, None, 0.05, 9.0, 0.0, 8.0, 0.12, 2.0])
+    made = taken([1.0, None, 0.05, 9.0, 0.0, 8.0, 0.12, 2.0])
     step = tau / 8
     expected = [(1.0, 0), (0.12, 2), (0.12, 4), (8.0, 5), (0.12, 6), (2.0, 7)]
     assert made.xs_m == pytest.approx([r * cos(i * step) for r, i in expected])
@@ -45,15 +47,15 @@ def test_a_beam_is_a_point_nothing_or_too_near() -> None:
 
 
 def test_the_lidar_stands_where_the_robot_says() -> None:
-    made = picture([1.0, None], LidarConfig(x_m=0.2, y_m=-0.1, yaw_rad=pi / 2), step=0.1)
+    made = taken([1.0, None], LidarConfig(x_m=0.2, y_m=-0.1, yaw_rad=pi / 2), step=0.1)
     assert made.xs_m == pytest.approx([0.2])
     assert made.ys_m == pytest.approx([0.9])
     assert made.nearest_m is not None
     assert made.nearest_m <= 0.9
 
 
-def test_an_empty_scan_is_a_picture_of_nothing() -> None:
-    made = picture([])
+def test_an_empty_scan_is_a_taken_nothing() -> None:
+    made = taken([])
     assert (made.beams, made.returns, made.nearest_m) == (0, 0, None)
     assert not made.sector(0.0, 1.0).is_known
     assert not made.sector(0.0, 1.0).covered
@@ -68,7 +70,7 @@ def test_an_empty_scan_is_a_picture_of_nothing() -> None:
 def test_a_sector_counts_its_beams(
     ranges: list[float | None], first: float, middle: float, half: float
 ) -> None:
-    made = picture(ranges, first=first)
+    made = taken(ranges, first=first)
     sector = made.sector(middle, half)
     step = tau / max(len(ranges), 7)
 
@@ -81,12 +83,6 @@ def test_a_sector_counts_its_beams(
     assert len(sure) <= sector.beams <= len(maybe)
     came = [i for i in maybe if (r := ranges[i]) is not None and r <= 8.0]
     assert sector.returned <= len(came)
-
-
-def test_all_round_counts_no_beam_twice() -> None:
-    made = picture([1.0] * 360)
-    assert made.sector(0.3, pi).beams == 360
-    assert made.sector(0.3, 4.0).returned == 360
 
 
 @given(
@@ -110,19 +106,61 @@ def test_within_sight_no_return_is_left_out(
         assert all(hypot(x, y) >= near.nearest_m - 1e-9 for x, y in everything)
 
 
-@pytest.mark.parametrize(
-    ("middle", "half", "covered"),
-    [(0.0, 1.0, True), (0.0, 2.3, True), (0.0, 2.5, False), (pi, 0.1, False), (2.0, 0.3, True)],
-)
-def test_a_lidar_of_three_quarters_covers_only_its_field(
-    middle: float, half: float, covered: bool
-) -> None:
-    made = picture([1.0] * 270, first=radians(-135), step=radians(1))
-    assert made.sector(middle, half).covered is covered
-
-
 @given(st.lists(st.none() | st.floats(0, 1000), max_size=20))
 def test_a_picture_survives_json(ranges: list[float | None]) -> None:
     adapter = TypeAdapter(ScanPicture)
-    made = picture(ranges)
+    made = taken(ranges)
     assert adapter.validate_json(adapter.dump_json(made)) == made
+
+
+@table(
+    ("first", "count", "middle", "half", "beams"),
+    [
+        (0, 360, 0.0, 10.2, 21), (0, 360, 0.4, 10.2, 20), (0, 360, 180.0, 0.4, 1),
+        (0, 360, 359.9, 10.2, 21), (-90, 181, 0.0, 200.0, 181), (-90, 181, 90.0, 10.2, 11),
+        (-90, 181, -90.0, 10.2, 11), (-90, 181, 180.0, 10.2, 0), (-90, 181, 120.0, 40.2, 11),
+        (200, 360, 195.0, 10.2, 21), (0, 400, 20.0, 10.2, 42), (0, 360, 0.5, -1.0, 0),
+        (0, 360, 3.0, 0.0, 1), (350, 30, 5.0, 90.0, 30), (0, 360, 720.4, 10.2, 20),
+    ],
+)  # fmt: skip
+def test_beams_of_a_sector(first: int, count: int, middle: float, half: float, beams: int) -> None:
+    made = picture({}, first=first, count=count)
+    sector = made.sector(radians(middle), radians(half))
+    assert (sector.beams, sector.returned) == (beams, beams)
+    gone = picture({}, first=first, count=count, others=None).sector(radians(middle), radians(half))
+    assert (gone.beams, gone.returned) == (beams, 0)
+    last = picture({}, first=first, count=count, others=8.0)
+    assert last.sector(radians(middle), radians(half)).returned == beams
+    far = picture({}, first=first, count=count, others=8.0 + EPS)
+    assert far.sector(radians(middle), radians(half)).returned == 0
+
+
+def test_half_of_the_beams_is_enough_and_none_are_not() -> None:
+    assert Sector(4, 2, True).is_known
+    assert Sector(1, 1, True).is_known
+    assert Sector(5, 3, True).is_known
+    assert not Sector(5, 2, True).is_known
+    assert not Sector(0, 0, True).is_known
+
+
+@table(
+    ("middle", "half", "covered"),
+    [
+        (0.0, 90.9, True), (0.0, 91.6, False), (45.0, 46.0, True), (45.0, 47.1, False),
+        (-45.0, 45.9, True), (-45.0, 46.1, False), (180.0, 1.0, False), (-91.0 + 0.1, 0.0, True),
+        (-91.1, 0.0, False),
+    ],
+)  # fmt: skip
+def test_a_field_covers_a_beam_more_than_it_has(middle: float, half: float, covered: bool) -> None:
+    made = picture({}, first=-90, count=181)  # from -91 to 92 degrees, the spare beam counted
+    assert made.sector(radians(middle), radians(half)).covered is covered
+
+
+def test_a_point_is_kept_for_where_the_robot_is_not_for_where_its_lidar_is() -> None:
+    lidar = LidarConfig(x_m=0.3, y_m=0.1)
+    made = picture({180: 0.75}, lidar, sight_m=0.5)  # 0.46 m from the middle of the robot
+    assert made.xs_m == pytest.approx((-0.45,))
+    assert made.ys_m == pytest.approx((0.1,))
+    again_xs, again_ys = made.points(0.5 + EPS)
+    assert (again_xs[180], again_ys[180]) == pytest.approx((-0.45, 0.1))
+    assert (len(made.points(0.5)[0]), len(again_xs)) == (1, 360)

@@ -1,23 +1,25 @@
-"""Hold odometry against the exact arc, against other controllers' vectors, and against nonsense."""
+"""Hold the motion of the robot to what its wheels turned."""
 
 from __future__ import annotations
 
-from math import cos, isfinite, pi, sin
+from math import cos, inf, isfinite, nan, pi, sin
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from bridge.core.geometry.odometry import OdometryState, advance, along_arc, roll
-from wire.geometry import IDENTITY, Pose2, Twist2
+from bridge.core.geometry.odometry import OdometryState, advance, along_arc, arc_end, roll
+from tests.bridge.core.reached import reached
+from tests.bridge.core.table import table
+from wire import IDENTITY, STILL, DriveState, Pose2, RobotDescription
+from wire.geometry import MAX_COORDINATE_M
 from wire.robot import Base
-from wire.sensors import DriveState
 
 BASE = Base(wheel_radius_m=1.0, wheel_separation_m=1.0)
 
 
-def reading(left: float, right: float, *, boot: str = "a", speed: float = 0.0) -> DriveState:
+def reading_of(left: float, right: float, *, boot: str = "a", speed: float = 0.0) -> DriveState:
     return DriveState.model_construct(
         boot_id=boot,
         seq=1,
@@ -48,49 +50,11 @@ def test_arcs_are_exact(left: float, right: float, x: float, y: float, yaw: floa
     assert (pose.x_m, pose.y_m, pose.yaw_rad) == pytest.approx((x, y, yaw))
 
 
-def test_driving_from_a_set_pose_goes_along_its_heading() -> None:
-    pose = roll(Pose2(5.0, -2.0, pi / 2), 1.0, 1.0, 1.0)
-    assert (pose.x_m, pose.y_m, pose.yaw_rad) == pytest.approx((5.0, -1.0, pi / 2))
-
-
-def test_the_first_reading_is_the_zero() -> None:
-    state = advance(OdometryState(), reading(100.0, -7.0), BASE)
-    assert state.base_in_odom == IDENTITY
-    assert state.travelled_m == 0.0
-
-
-def test_steps_add_up_and_are_metered() -> None:
-    state = advance(OdometryState(), reading(0.0, 0.0), BASE)
-    for angle in (0.5, 1.0, 0.5):
-        state = advance(state, reading(angle, angle, speed=0.2), BASE)
-    assert state.base_in_odom == Pose2(0.5, 0.0, 0.0)
-    assert state.travelled_m == pytest.approx(1.5)
-    assert state.measured == Twist2(0.2, 0.0)
-
-
-def test_another_boot_moves_nothing() -> None:
-    state = advance(OdometryState(), reading(0.0, 0.0), BASE)
-    state = advance(state, reading(0.5, 0.5), BASE)
-    state = advance(state, reading(0.0, 0.0, boot="b"), BASE, rezero=True)
-    state = advance(state, reading(0.25, 0.25, boot="b"), BASE)
-    assert state.base_in_odom == Pose2(0.75, 0.0, 0.0)
-    assert state.jumps == 0
-
-
-def test_an_impossible_step_is_counted_not_driven() -> None:
-    state = advance(OdometryState(), reading(0.0, 0.0), BASE)
-    state = advance(state, reading(1e9, 1e9), BASE)
-    assert state.base_in_odom == IDENTITY
-    assert state.jumps == 1
-    state = advance(state, reading(1e9 + 0.5, 1e9 + 0.5), BASE)
-    assert state.base_in_odom == Pose2(0.5, 0.0, 0.0)
-
-
 @given(st.lists(st.tuples(st.floats(), st.floats(), st.floats()), max_size=5))
 def test_no_reading_raises_or_leaves_the_finite(readings: list[tuple[float, float, float]]) -> None:
     state = OdometryState()
     for left, right, speed in readings:
-        state = advance(state, reading(left, right, speed=speed), BASE)
+        state = advance(state, reading_of(left, right, speed=speed), BASE)
     adapter = TypeAdapter(OdometryState)
     assert adapter.validate_json(adapter.dump_json(state)) == state
 
@@ -110,3 +74,95 @@ def test_an_arc_may_be_gone_in_parts(length: float, turn: float, part: float) ->
         along_arc(IDENTITY, length * part, turn * part), length * (1 - part), turn * (1 - part)
     )
     assert (halved.x_m, halved.y_m) == pytest.approx((whole.x_m, whole.y_m), abs=1e-6)
+
+
+CART = RobotDescription.model_validate(
+    {
+        "base": {"wheel_radius_m": 0.2, "wheel_separation_m": 0.8, "radius_m": 0.5},
+        "limits": {"max_wheel_radps": 4.0, "max_speed_mps": 0.6, "max_turn_radps": 1.5},
+        "drive": {
+            "lag_s": 0.08, "response_s": 0.05, "dead_zone_radps": 0.1, "kp": 0.5,
+            "ki_per_s": 10.0, "max_correction": 0.2,
+        },
+    }
+)  # fmt: skip
+
+
+FRAME, BOUNDS = CART.base, CART.limits
+
+
+def reading(left: float, right: float, *, speeds: tuple[float, float] = (0.0, 0.0)) -> DriveState:
+    state = reached("active").state.drive.newest
+    assert state is not None
+    return state.model_copy(
+        update={
+            "left_rad": left, "right_rad": right,
+            "left_radps": speeds[0], "right_radps": speeds[1],
+        }
+    )  # fmt: skip
+
+
+def test_what_leaves_the_world_or_is_no_number_moves_nothing() -> None:
+    pose = Pose2(1.0, 2.0, 0.5)
+    for turn in (inf, -inf, nan):
+        assert arc_end(pose, 1.0, turn) == (1.0, 2.0)
+        assert along_arc(pose, 1.0, turn) == pose
+    edge = Pose2(MAX_COORDINATE_M - 1.0, 0.0, 0.0)
+    assert along_arc(edge, 1.0, 0.0).x_m == MAX_COORDINATE_M
+    assert along_arc(edge, 1.001, 0.0) == edge
+    for yaw in (0.0, pi / 2, pi, -pi / 2):
+        far = Pose2(cos(yaw) * (MAX_COORDINATE_M - 1), sin(yaw) * (MAX_COORDINATE_M - 1), yaw)
+        assert along_arc(far, 1.5, 0.0) == far
+        assert along_arc(far, 0.5, 0.0) != far
+
+
+def test_two_wheel_paths_make_an_arc() -> None:
+    there = roll(Pose2(0.0, 0.0, 0.0), 0.1, 0.5, 0.8)  # 0.3 m, turning by 0.5 rad
+    assert (there.x_m, there.y_m) == pytest.approx((0.6 * sin(0.5), 0.6 * (1 - cos(0.5))))
+    assert there.yaw_rad == pytest.approx(0.5)
+
+
+@table(
+    ("left", "right", "rezero", "rolls", "jumps"),
+    [
+        (1.5, 4.5, False, (0.1, 0.5), 0),
+        (0.5, 1.5, False, (-0.1, -0.1), 0),
+        (6.0, 2.0, False, (1.0, 0.0), 0),
+        (6.0 + 1e-6, 2.0, False, (0.0, 0.0), 1),
+        (1.0, 7.0 + 1e-6, False, (0.0, 0.0), 1),
+        (1.0, -3.0 - 1e-6, False, (0.0, 0.0), 1),
+        (-4.0, -3.0, False, (-1.0, -1.0), 0),
+        (nan, 2.0, False, (0.0, 0.0), 1),
+        (1.5, 4.5, True, (0.0, 0.0), 0),
+    ],
+)
+def test_a_reading_rolls_the_robot_by_what_its_wheels_turned(
+    left: float, right: float, rezero: bool, rolls: tuple[float, float], jumps: int
+) -> None:
+    start = Pose2(3.0, 4.0, 1.0)
+    state = OdometryState(start, STILL, 1.0, 2.0, 10.0, 20.0, 5)
+    after = advance(state, reading(left, right, speeds=(2.5, 0.5)), FRAME, rezero=rezero)
+    assert after.base_in_odom == roll(start, *rolls, 0.8) if any(rolls) else start
+    assert (after.measured.v_mps, after.measured.w_radps) == pytest.approx((0.3, -0.5))
+    assert after.travelled_m == pytest.approx(10.0 + abs(sum(rolls)) / 2)
+    assert after.turned_rad == pytest.approx(20.0 + abs(rolls[1] - rolls[0]) / 0.8)
+    assert after.jumps == 5 + jumps
+    assert (after.left_rad, after.right_rad) == (None if left != left else left, right)
+
+
+@table("had", [(None, 2.0), (1.0, None), (None, None)])
+def test_without_a_zero_nothing_moves(had: tuple[float | None, float | None]) -> None:
+    after = advance(OdometryState(Pose2(3, 4, 1), STILL, *had), reading(1.5, 2.5), FRAME)
+    assert after.base_in_odom == Pose2(3, 4, 1)
+    assert (after.left_rad, after.right_rad, after.jumps) == (1.5, 2.5, 0)
+    far = advance(OdometryState(), reading(1e9, -1e9 - 1.0), FRAME)
+    assert (far.left_rad, far.right_rad) == (1e9, None)
+
+
+def test_what_is_metered_stays_a_number() -> None:
+    full = OdometryState(STILL_POSE, STILL, 0.0, 0.0, 1e12, 1e12)
+    after = advance(full, reading(-2.0, 4.0), FRAME)
+    assert (after.travelled_m, after.turned_rad) == (1e12, 1e12)
+
+
+STILL_POSE = Pose2(0.0, 0.0, 0.0)

@@ -1,27 +1,32 @@
-"""What stops teach of the brakes: worse at once, better only by many, never beyond robot.toml."""
+"""Hold what stops of late and weak robots teach."""
 
 from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass, field, replace
-from itertools import cycle, islice
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bridge.core import CoreConfig, initial
-from bridge.core.motion.brake_learning import BETTER_STOPS, after_cut, after_stop
+from bridge.core.motion.brake_learning import after_cut, after_stop
 from bridge.core.motion.braking import stop_length_m
 from bridge.core.state_motion import LEAST_SHARE, MOST_LAG_S, UNLEARNT, Learnt, Ramp
 from tests.bridge.core.fake_planner import PERIOD_S, FakeDrive
+from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
 from wire import DriveState, Mode, RobotDescription, Twist2
 
 _WHOLE = RobotDescription()
+
 _PLAIN = {"kp": 0.0, "ki_per_s": 0.0, "response_s": 0.0, "dead_zone_radps": 0.0}
+
+
 ROBOT = _WHOLE.model_copy(update={"drive": _WHOLE.drive.model_copy(update=_PLAIN)})
 """Without wheel control, which makes up for part of what is to be learnt."""
+
+
 LAG_S, DECEL = ROBOT.drive.lag_s, ROBOT.limits.max_decel_mps2
 
 
@@ -158,9 +163,6 @@ def test_a_ramp_that_nothing_measures_for_a_while_is_let_go() -> None:
     assert world.state.ramp is None
 
 
-# Ramps as they end, without a world --------------------------------------------------------------
-
-
 def ramp(lag_s: float, share: float = 1.0, speed: float = 0.5) -> Ramp:
     """Return an ordinary stop of a robot that is so late and brakes so weakly, in closed form."""
     sent_m = speed * speed / (2 * DECEL) + speed * 0.05
@@ -169,47 +171,6 @@ def ramp(lag_s: float, share: float = 1.0, speed: float = 0.5) -> Ramp:
     late, real_s = lag_s + 0.25 * speed / DECEL * (1 / share - 1), sent_s / share
     marks = (1.0, 1.0 + sent_s, 1.0 + late, 1.0 + late + real_s)
     return Ramp(0.9, speed, speed, 0.0, 0.0, sent_m, real_m, 0.0, *marks)
-
-
-def after(known: Learnt, *ramps: Ramp) -> Learnt:
-    for one in ramps:
-        known = after_stop(known, one, ROBOT)
-    return known
-
-
-def test_worse_counts_at_once_and_the_worst_stays() -> None:
-    known = after(UNLEARNT, ramp(0.2), ramp(0.1), ramp(0.15))
-    assert known.lag_more_s == pytest.approx(0.14)
-    known = after(known, ramp(0.1, share=0.5), ramp(0.1))
-    assert known.decel_share == pytest.approx(0.5)
-
-
-def test_better_counts_after_many_in_a_row_and_only_as_good_as_the_worst_of_them() -> None:
-    known = after(UNLEARNT, ramp(0.26))
-    better = list(islice(cycle([ramp(0.10), ramp(0.15), ramp(0.12)]), BETTER_STOPS))
-    almost = after(known, *better[:-1])
-    assert almost.lag_more_s == known.lag_more_s
-    assert after(almost, better[-1]).lag_more_s == pytest.approx(0.09)
-
-
-def test_one_bad_stop_in_between_begins_the_count_anew() -> None:
-    known = after(UNLEARNT, ramp(0.26))
-    dither = list(
-        islice(cycle([*[ramp(0.08)] * (BETTER_STOPS - 1), ramp(0.255)]), 10 * BETTER_STOPS)
-    )
-    assert after(known, *dither).lag_more_s == known.lag_more_s
-
-
-def test_slower_stops_than_the_one_that_taught_unlearn_nothing() -> None:
-    known = after(UNLEARNT, ramp(0.26), ramp(0.1, share=0.5))
-    slow = after(known, *[ramp(0.06, speed=0.3)] * (3 * BETTER_STOPS))
-    assert (slow.lag_more_s, slow.decel_share) == (known.lag_more_s, known.decel_share)
-
-
-def test_stronger_brakes_are_believed_after_many_stops_from_the_same_speed() -> None:
-    known = after(UNLEARNT, ramp(0.06, share=0.5))
-    assert after(known, *[ramp(0.06)] * (BETTER_STOPS - 1)).decel_share == known.decel_share
-    assert after(known, *[ramp(0.06)] * BETTER_STOPS).decel_share == 1.0
 
 
 @settings(max_examples=60, deadline=None)
@@ -228,19 +189,6 @@ def test_nothing_makes_it_better_than_configured_or_worse_than_believable(
         assert LEAST_SHARE <= known.decel_share <= 1.0
 
 
-def test_a_ramp_too_short_to_pass_both_marks_tells_no_slope() -> None:
-    whole = ramp(0.1, share=0.5)
-    for cut in (replace(whole, sent_low_s=None), replace(whole, real_high_s=None)):
-        assert after_stop(UNLEARNT, cut, ROBOT).decel_share == 1.0
-
-
-def test_the_same_weakness_again_keeps_what_is_known_and_ends_the_count() -> None:
-    known = after(UNLEARNT, ramp(0.06, share=0.5), *[ramp(0.06)] * 3)
-    assert known.share_better == 3
-    again = after(known, ramp(0.06, share=0.48))
-    assert (again.decel_share, again.share_better) == (known.decel_share, 0)
-
-
 def test_a_wheel_that_runs_away_while_it_should_stop_teaches_nothing() -> None:
     world = World(config(ROBOT), drive=Metal()).driving()
     world.stop()
@@ -249,3 +197,13 @@ def test_a_wheel_that_runs_away_while_it_should_stop_teaches_nothing() -> None:
     world.run(0.06)
     assert world.state.ramp is None
     assert world.state.learnt == UNLEARNT
+
+
+def test_a_stop_teaches_how_the_robot_brakes() -> None:
+    world = reached("active")
+    world.stop()
+    world.run(0.05)
+    assert world.state.ramp is not None
+    world.run(1.5)
+    assert world.state.ramp is None
+    assert world.state.learnt.stops == 1

@@ -1,15 +1,22 @@
-"""A bumper shuts its own direction and slows the others; so does a cliff ahead."""
+"""Hold what a touched input shuts."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.motion.contact_gate import contact_gate, touched_input
+from bridge.core.state_motion import Gate
+from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import FakeDrive
-from tests.bridge.core.scripted import World
-from wire import STILL, DriveState, Mode, Twist2
+from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.scripted import ROBOT, World
+from tests.bridge.core.table import table
+from wire import STILL, DriveState, Mode, Pose2, Twist2
 
 speeds = st.floats(-2.0, 2.0)
 
@@ -82,3 +89,69 @@ def test_a_hand_on_the_stick_may_back_away_slowly() -> None:
         world.teleop(0.4, 0.0, held=True)
         world.tick()
     assert world.sent.v_mps <= 1e-9
+
+
+def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: bool) -> TickContext:
+    """Return a tick with a scan that shows the same distance all around, taken here and now."""
+    tick = tick_of(reached(start))
+    scan = tick.s.lidar.newest
+    assert scan is not None
+    scan = scan.model_copy(
+        update={"ranges_m": (ranges_m,) * len(scan.ranges_m), "stamp_s": tick.now_s}
+    )
+    picture = ScanPicture.from_scan(scan, tick.s.odometry.base_in_odom, ROBOT.lidar)
+    tick.s.lidar = replace(tick.s.lidar, newest=scan, picture=picture, received_s=tick.now_s)
+    state = tick.s.drive.newest
+    assert state is not None
+    tick.s.drive.newest = state.model_copy(update=drive)
+    tick.robot_in_map = Pose2(0.0, 0.0, 0.0)
+    tick.s.motion.bound_by, tick.s.motion.free_m, tick.room_m = "robot", 9.0, 9.0
+    tick.s.gate = Gate(shut_since_s=1.0)
+    return tick
+
+
+@table(
+    ("asked", "passed"),
+    [
+        (Twist2(-0.05, 0.1), Twist2(-0.05, 0.1)),
+        (Twist2(-0.2, 0.0), Twist2(-0.1, 0.0)),
+        (Twist2(-0.2, 0.2), Twist2(-0.1, 0.1)),
+        (Twist2(-0.1, 0.6), Twist2(-0.05, 0.3)),
+        (Twist2(0.0, 0.1), Twist2(0.0, 0.1)),
+        (Twist2(0.0, -0.6), Twist2(0.0, -0.3)),
+        (STILL, STILL),
+    ],
+)
+def test_away_from_a_contact_one_creeps(asked: Twist2, passed: Twist2) -> None:
+    state = driving(bumper_front=True).s.drive.newest
+    got = contact_gate(state, asked)
+    assert (got.v_mps, got.w_radps) == pytest.approx((passed.v_mps, passed.w_radps))
+
+
+@pytest.mark.parametrize(
+    ("pressed", "v_mps", "name"),
+    [
+        ("bumper_front", 0.3, "bumper_front"),
+        ("bumper_front", -0.3, None),
+        ("bumper_rear", -0.3, "bumper_rear"),
+        ("bumper_rear", 0.3, None),
+        ("cliff", 0.3, "cliff"),
+        ("cliff", -0.3, None),
+        ("cliff", 0.0, None),
+        ("bumper_rear", 0.0, None),
+    ],
+)
+def test_a_contact_shuts_the_way_it_faces(pressed: str, v_mps: float, name: str | None) -> None:
+    state = reached("active").state.drive.newest
+    assert state is not None
+    state = state.model_copy(update={pressed: True})
+    assert touched_input(state, v_mps) == name
+    assert touched_input(None, v_mps) is None
+    passed = contact_gate(state, Twist2(v_mps, 1.0))
+    if name is not None:
+        assert passed == Twist2(0.0, 0.3)
+    elif v_mps:
+        assert passed.v_mps == pytest.approx(v_mps / abs(v_mps) * 0.09)
+        assert passed.w_radps == pytest.approx(0.3)
+    else:
+        assert passed == Twist2(0.0, 0.3)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, inf, pi, sin, tau
+from math import cos, hypot, pi, sin, tau
 
 import pytest
 from hypothesis import assume, example, given
@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.geometry.odometry import along_arc
-from bridge.core.motion.braking import path_decel_mps2, reaction_s, speed_scale, speed_within
+from bridge.core.motion.braking import speed_scale, speed_within
 from bridge.core.motion.free_distance import FreeLength, free_length
 from bridge.core.sensing.look_distance import MARGIN_M, REACH_M
 from tests.laws import at_least
-from wire.geometry import IDENTITY, Pose2, Twist2, compose
+from wire.geometry import IDENTITY, Pose2, Twist2
 from wire.robot import Base, LidarConfig, Limits
 from wire.sensors import Scan
 
@@ -78,12 +78,6 @@ def test_a_wall_ahead_leaves_its_distance_less_disc_and_margin() -> None:
     assert free_length(made, IDENTITY, Twist2(-0.5, 0.0), RADIUS).s_m == REACH_M
 
 
-def test_odometry_moves_the_robot_among_the_points() -> None:
-    made = picture(wall(IDENTITY, 1.0, 0.0), Pose2(5.0, 5.0, pi / 2))
-    moved = compose(Pose2(5.0, 5.0, pi / 2), Pose2(0.2, 0.0, 0.0))
-    assert free_length(made, moved, Twist2(0.5, 0.0), RADIUS).s_m == pytest.approx(0.8 - DISC)
-
-
 directions = st.floats(-pi, pi)
 
 
@@ -132,32 +126,6 @@ def test_at_contact_there_is_no_way_round_the_circle(
     assert free.s_m <= 1e-6
 
 
-def test_what_lies_further_ahead_may_be_touched_first() -> None:
-    ranges = list(OPEN)
-    ranges[0] = 1.0  # touched after 0.65 m
-    ranges[26] = 0.775  # 0.70 ahead, 0.34 aside: touched after 0.61 m
-    free = free_length(picture(ranges), IDENTITY, Twist2(0.5, 0.0), RADIUS)
-    x, y = 0.775 * cos(26 * tau / 360), 0.775 * sin(26 * tau / 360)
-    assert x > 1.0 - DISC
-    assert free.s_m == pytest.approx(x - (DISC**2 - y**2) ** 0.5)
-
-
-def test_a_beam_under_range_is_an_obstacle_there() -> None:
-    ranges: list[float | None] = [7.0] * 360
-    ranges[0] = 0.01
-    made = picture(ranges)
-    assert free_length(made, IDENTITY, Twist2(0.2, 0.0), RADIUS).s_m == 0.0
-    assert free_length(made, IDENTITY, Twist2(-0.2, 0.0), RADIUS).touching
-
-
-def test_silence_is_free_only_where_half_came_back() -> None:
-    quiet: list[float | None] = [None if 10 <= i <= 350 and i % 4 else 7.0 for i in range(360)]
-    assert free_length(picture(quiet), IDENTITY, Twist2(-0.2, 0.0), RADIUS).known is False
-    half: list[float | None] = [None if i % 2 else 7.0 for i in range(360)]
-    assert free_length(picture(half), IDENTITY, Twist2(0.2, 0.0), RADIUS).known is True
-    assert free_length(picture([None] * 360), IDENTITY, Twist2(0.2, 0.0), RADIUS).known is False
-
-
 @at_least(200)
 @given(
     st.sets(st.integers(0, 359), max_size=40),
@@ -180,57 +148,6 @@ def test_what_is_known_without_counting_is_known_by_counting(
         assert free_length(made, start, Twist2(v, w), RADIUS) == quick
 
 
-def test_a_way_that_the_lidar_does_not_cover_is_not_entered() -> None:
-    scan = Scan(
-        boot_id="a",
-        seq=1,
-        stamp_s=0.0,
-        angle_min_rad=-2.2,
-        angle_increment_rad=4.4 / 180,
-        range_min_m=0.12,
-        range_max_m=8.0,
-        ranges_m=(7.0,) * 181,
-    )
-    made = ScanPicture.from_scan(scan, IDENTITY, LIDAR)
-    assert free_length(made, IDENTITY, Twist2(0.3, 0.0), RADIUS).s_m == REACH_M
-    behind = free_length(made, IDENTITY, Twist2(-0.3, 0.0), RADIUS)
-    assert (behind.s_m, behind.covered) == (0.0, False)
-
-
-@pytest.mark.parametrize("direction", [i * tau / 16 for i in range(16)])
-def test_beside_a_wall_only_what_loses_no_clearance_passes(direction: float) -> None:
-    made = picture(wall(IDENTITY, 0.33, direction))
-    scale = {}
-    for name, twist in {"fore": Twist2(0.5, 0.0), "turn": Twist2(0.0, 1.0)}.items():
-        free = free_length(made, IDENTITY, twist, RADIUS)
-        scale[name] = speed_scale(free.s_m, twist, BASE, LIMITS, 0.3, touching=free.touching)
-    assert scale["turn"] == pytest.approx(0.3)
-    towards = cos(direction)
-    if towards > 0.01:
-        assert scale["fore"] == 0.0
-    else:
-        assert scale["fore"] == pytest.approx(0.2)  # 0.1 of 0.5 m/s
-
-
-def test_turning_in_place_needs_no_room_but_the_disc() -> None:
-    made = picture(wall(IDENTITY, DISC + 0.001, 0.4))
-    free = free_length(made, IDENTITY, Twist2(0.0, 1.0), RADIUS)
-    assert speed_scale(free.s_m, Twist2(0.0, 1.0), BASE, LIMITS, 0.3, touching=free.touching) == 1.0
-
-
-@pytest.mark.parametrize("odd", [float("nan"), inf, -inf])
-def test_what_is_not_a_number_is_not_free(odd: float) -> None:
-    made = picture(OPEN)
-    assert free_length(made, IDENTITY, Twist2(odd, 0.0), RADIUS).s_m == 0.0
-    assert free_length(made, IDENTITY, Twist2(0.3, odd), RADIUS).s_m == 0.0
-    assert free_length(made, Pose2(odd, 0.0, 0.0), Twist2(0.3, 0.0), RADIUS).s_m == 0.0
-
-
-def test_a_picture_from_elsewhere_says_nothing() -> None:
-    made = picture(OPEN)
-    assert free_length(made, Pose2(1.5, 0.0, 0.0), Twist2(0.3, 0.0), RADIUS).covered is False
-
-
 @given(st.floats(), st.floats(), st.floats(-2, 2), st.floats(-2, 2), st.floats(-7, 7))
 @example(0.5, 8.98846567431158e307, 0.0, 0.0, 0.0)  # w / v is infinite
 @example(0.5, 8.9e307, 0.0, 0.0, 0.0)
@@ -247,12 +164,3 @@ def test_no_motion_raises(v: float, w: float, x: float, y: float, yaw: float) ->
 def test_the_speed_within_a_length_stops_within_it(s: float, decel: float, late: float) -> None:
     v = speed_within(s, decel, late)
     assert v * late + v * v / (2 * decel) == pytest.approx(s)
-
-
-def test_a_turn_stops_later_than_a_straight() -> None:
-    assert path_decel_mps2(Twist2(0.4, 0.0), BASE, LIMITS) == LIMITS.max_decel_mps2
-    assert path_decel_mps2(Twist2(0.4, 0.8), BASE, LIMITS) == pytest.approx(0.4 / 0.6)
-
-
-def test_reaction_counts_scan_age_second_scan_lag_and_jerk() -> None:
-    assert reaction_s(0.05, 0.1, 0.06, LIMITS) == pytest.approx(0.05 + 0.1 + 0.06 + 0.05)

@@ -1,4 +1,4 @@
-"""Hold the limiter against other smoothers' vectors and against laws over any input."""
+"""Hold the limiter to a smoother written plainly, and to its limits under any input."""
 
 from __future__ import annotations
 
@@ -12,11 +12,15 @@ from pydantic import TypeAdapter
 from bridge.core.geometry.kinematics import fastest_rim, rim_speeds, saturate
 from bridge.core.motion.limiter import shape, stopping_m, tick_length
 from bridge.core.state_motion import LimiterState, Profile
-from wire.geometry import STILL, Twist2
+from tests.bridge.core.table import table
+from wire import STILL, RobotDescription, Twist2
 from wire.robot import Base, Limits
 
 BASE, LIMITS = Base(), Limits()
+
 DT = 0.01
+
+
 # The vectors are of limiters without a jerk limit: bounds as high as robot.toml allows, and beyond.
 QUICK = {"max_jerk_mps3": 1e6, "stop_jerk_mps3": 1e6, "max_speed_mps": 2.0, "max_wheel_radps": 99.0}
 
@@ -30,35 +34,6 @@ def unjerked(accel: float, decel: float) -> Limits:
             "hardest_decel_mps2": max(decel, 2.5),
         }
     )
-
-
-def ticks_to(target: float, start: float, limits: Limits, dt: float) -> tuple[int, list[float]]:
-    memory, speeds = LimiterState(Twist2(start, 0.0)), [start]
-    while speeds[-1] != target:
-        memory = shape(Twist2(target, 0.0), memory, BASE, limits, dt, period_s=dt)
-        speeds.append(memory.sent.v_mps)
-        assert len(speeds) < 10_000
-    return len(speeds) - 1, speeds
-
-
-# ros2_controllers' acceleration limiter table, 1 ms. They have limits per direction; ours are one
-# pair, towards zero and away from it, so their reverse rows run with their reverse numbers.
-@pytest.mark.parametrize(
-    ("start", "target", "accel", "decel", "seconds"),
-    [
-        (0.0, 1.0, 2.0, 4.0, 0.5),
-        (1.0, 0.0, 2.0, 4.0, 0.25),
-        (0.0, -1.0, 8.0, 10.0, 0.125),
-        (-1.0, 0.0, 8.0, 10.0, 0.1),
-        (0.0, 1.0, 5.0, 4.0, 0.2),
-    ],
-)
-def test_ramps_take_the_expected_time(
-    start: float, target: float, accel: float, decel: float, seconds: float
-) -> None:
-    ticks, speeds = ticks_to(target, start, unjerked(accel, decel), 0.001)
-    assert ticks in (round(seconds * 1000), round(seconds * 1000) + 1)
-    assert all(abs(speed) < abs(target) for speed in speeds[:-1] if abs(target) > abs(start))
 
 
 # nav2's velocity smoother at 20 Hz, VS4 to VS9.
@@ -91,55 +66,6 @@ def test_steps_match_the_smoother(
     assert memory.sent.v_mps == pytest.approx(expected)
 
 
-def test_a_reversal_brakes_to_zero_then_accelerates() -> None:
-    # VS6 in full: four steps of 0.05 down, then steps of 0.005 up.
-    _, speeds = ticks_to(0.05, -0.2, unjerked(0.1, 1.0), 0.05)
-    assert speeds[:6] == pytest.approx([-0.2, -0.15, -0.1, -0.05, 0.0, 0.005])
-
-
-def test_four_hundred_equal_steps_then_holds() -> None:
-    ticks, _ = ticks_to(2.0, 0.0, unjerked(0.1, 1.0), 0.05)
-    assert ticks in (400, 401)
-
-
-def test_the_first_command_from_rest_is_one_step() -> None:
-    memory = shape(Twist2(0.5, 0.0), LimiterState(), BASE, unjerked(2.5, 2.5), 0.05, period_s=0.05)
-    assert memory.sent == Twist2(0.125, 0.0)
-
-
-def test_starting_is_gentle_and_stopping_is_not() -> None:
-    started = shape(Twist2(0.5, 0.0), LimiterState(), BASE, LIMITS, DT)
-    assert started.sent.v_mps == pytest.approx(LIMITS.max_jerk_mps3 * DT * DT)
-    going = LimiterState(Twist2(0.5, 0.0))
-    stopped = shape(STILL, going, BASE, LIMITS, DT)
-    assert 0.5 - stopped.sent.v_mps == pytest.approx(LIMITS.stop_jerk_mps3 * DT * DT)
-
-
-def test_acceleration_fades_out_at_the_target() -> None:
-    memory, steps = LimiterState(), [0.0]
-    while memory.sent.v_mps < 0.5:
-        following = shape(Twist2(0.5, 0.0), memory, BASE, LIMITS, DT)
-        steps.append(following.sent.v_mps - memory.sent.v_mps)
-        memory = following
-    assert max(steps) == pytest.approx(LIMITS.max_accel_mps2 * DT)
-    assert steps[-1] < 0.3 * max(steps)
-
-
-def test_jerk_yields_where_the_room_is_short() -> None:
-    going = LimiterState(Twist2(0.5, 0.0))
-    need = stopping_m(going.sent, 0.0, BASE, LIMITS, DT)
-    gentle = shape(STILL, going, BASE, LIMITS, DT, room_m=need + 0.01)
-    firm = shape(STILL, going, BASE, LIMITS, DT, room_m=need - 0.01)
-    assert gentle.sent.v_mps > firm.sent.v_mps
-    assert firm.sent.v_mps == pytest.approx(0.5 - LIMITS.max_decel_mps2 * DT)
-
-
-@pytest.mark.parametrize("room", [float("nan"), -1.0, 0.0])
-def test_no_room_is_no_jerk_limit(room: float) -> None:
-    going = LimiterState(Twist2(0.5, 0.0))
-    assert shape(STILL, going, BASE, LIMITS, DT, room_m=room).sent.v_mps == pytest.approx(0.49)
-
-
 def test_the_stopping_length_is_enough_and_not_much_more() -> None:
     memory, gone = LimiterState(Twist2(0.5, 0.0)), 0.0
     need = stopping_m(memory.sent, 0.0, BASE, LIMITS, DT)
@@ -149,57 +75,17 @@ def test_the_stopping_length_is_enough_and_not_much_more() -> None:
     assert need - 0.02 <= gone <= need
 
 
-def test_a_turn_in_place_and_standstill_need_no_path() -> None:
-    assert stopping_m(STILL, 0.0, BASE, LIMITS, DT) == 0.0
-    assert stopping_m(Twist2(0.0, 1.0), 0.0, BASE, LIMITS, DT) == 0.0
-
-
-def test_a_wheel_that_need_not_change_holds_nothing_up() -> None:
-    pivot = Twist2(0.1, 0.4)  # the left wheel stands
-    memory = shape(pivot, LimiterState(), BASE, unjerked(1.0, 1.0), DT)
-    assert rim_speeds(memory.sent, BASE.wheel_separation_m) == pytest.approx((0.0, 0.01))
-
-
-def test_the_hardest_stop_has_no_jerk_limit() -> None:
-    memory = LimiterState(Twist2(0.5, 0.0))
-    for _ in range(20):
-        memory = shape(Twist2(0.5, 0.0), memory, BASE, LIMITS, DT, profile=Profile.FASTEST)
-    assert memory.sent.v_mps == pytest.approx(0.0, abs=1e-12)
-
-
-def test_a_stop_goes_on_from_the_deceleration_under_way() -> None:
-    braking = LimiterState(Twist2(0.4, 0.0), -1.0, -1.0)
-    memory = shape(Twist2(0.4, 0.0), braking, BASE, LIMITS, DT, profile=Profile.STOP)
-    assert memory.sent.v_mps == pytest.approx(0.39)
-
-
 def test_a_stop_while_accelerating_never_speeds_up_first() -> None:
     rising = LimiterState(Twist2(0.3, 0.0), 0.5, 0.5)
     assert shape(STILL, rising, BASE, LIMITS, DT).sent.v_mps < 0.3
 
 
-@pytest.mark.parametrize(
-    ("dt", "period", "held"),
-    [
-        (0.01, 0.01, 0.01),
-        (0.0, 0.01, 0.005),
-        (-5.0, 0.01, 0.005),
-        (9.0, 0.01, 0.02),
-        (float("inf"), 0.01, 0.02),
-        (float("nan"), 0.01, 0.01),
-        (0.01, float("nan"), 0.01),
-        (0.01, 0.0, 0.01),
-    ],
-)
-def test_a_tick_is_never_taken_longer_than_two_periods(
-    dt: float, period: float, held: float
-) -> None:
-    assert tick_length(dt, period) == held
-
-
 speeds = st.builds(Twist2, st.floats(-2, 2), st.floats(-4, 4))
+
 wild = st.builds(Twist2, st.floats(), st.floats())
+
 memories = st.builds(LimiterState, speeds, st.floats(-3, 3), st.floats(-3, 3))
+
 profiles = st.sampled_from(Profile)
 
 
@@ -276,3 +162,90 @@ def test_a_stop_order_is_no_slower_than_letting_go(memory: LimiterState) -> None
     ordered = shape(Twist2(0.5, 0.0), memory, BASE, LIMITS, DT, profile=Profile.STOP)
     let_go = shape(STILL, memory, BASE, LIMITS, DT)
     assert fastest_rim(ordered.sent, 0.5) <= fastest_rim(let_go.sent, 0.5)
+
+
+CART = RobotDescription()
+
+FRAME, BOUNDS = CART.base, CART.limits
+
+
+def shaped(target: Twist2, memory: LimiterState, dt_s: float = DT) -> LimiterState:
+    return shape(target, memory, FRAME, BOUNDS, dt_s)
+
+
+@table("sign", [1.0, -1.0])
+def test_from_rest_either_way_the_gentle_jerk_counts(sign: float) -> None:
+    after = shaped(Twist2(0.5 * sign, 0.0), LimiterState())
+    assert after.sent.v_mps == pytest.approx(sign * 2.0 * DT * DT), "2 m/s3, not 10"
+
+
+@table(
+    ("dt_s", "length_s"),
+    [(0.004, 0.005), (0.005, 0.005), (0.0053, 0.0053), (0.02, 0.02), (0.021, 0.02), (0.027, 0.02),
+     (float("nan"), 0.01), (-1.0, 0.005)],
+)  # fmt: skip
+def test_a_tick_is_held_between_half_a_period_and_two(dt_s: float, length_s: float) -> None:
+    assert tick_length(dt_s, 0.01) == length_s
+
+
+def test_acceleration_fades_as_the_square_root_of_twice_the_jerk_and_the_rest() -> None:
+    # 1 mm/s left: sqrt(2 x 2 x 0.001) = 63 mm/s2
+    memory = LimiterState(Twist2(0.299, 0.0), 0.5, 0.5)
+    after = shaped(Twist2(0.3, 0.0), memory)
+    assert after.sent.v_mps == pytest.approx(0.299 + 0.004**0.5 * DT)
+
+
+@table("had", [-1.0, 1.0])
+def test_what_a_wheel_that_stays_as_it_is_did_before_hurries_no_other(had: float) -> None:
+    # the left wheel keeps 0.2 m/s though it was changing; the right one begins gently: 2 m/s3
+    after = shaped(Twist2(0.25, 0.2), LimiterState(Twist2(0.2, 0.0), had, 0.0))
+    right = after.sent.v_mps + 0.25 * after.sent.w_radps
+    assert right - 0.2 == pytest.approx(2.0 * DT * DT)
+
+
+def test_a_wheel_that_stays_lets_the_other_slow_quickly() -> None:
+    # rims at 0.25 and 0.25 m/s, wanted 0.25 and 0.05: 10 m/s3, not 2
+    after = shaped(Twist2(0.15, -0.4), LimiterState(Twist2(0.25, 0.0)))
+    assert after.sent.v_mps + 0.25 * after.sent.w_radps == pytest.approx(0.25 - 10.0 * DT * DT)
+    assert after.sent.v_mps - 0.25 * after.sent.w_radps == pytest.approx(0.25)
+
+
+def test_the_jerk_counts_where_the_room_is_just_enough() -> None:
+    last = Twist2(0.3, 0.0)
+    needs_m = stopping_m(last, 0.0, FRAME, BOUNDS, DT)
+    for room_m, slowed_mps in ((needs_m, 10.0 * DT * DT), (needs_m * 0.999, 1.0 * DT)):
+        after = shape(Twist2(0.0, 0.0), LimiterState(last), FRAME, BOUNDS, DT, room_m=room_m)
+        assert 0.3 - after.sent.v_mps == pytest.approx(slowed_mps)
+
+
+@table(
+    ("dt_s", "period_s", "length_s"),
+    [(0.6, 1.0, 0.6), (1.05, 1.05, 0.02), (0.01, 0.0, 0.01), (0.3, -1.0, 0.02)],
+)
+def test_a_period_is_one_of_at_most_a_second(dt_s: float, period_s: float, length_s: float) -> None:
+    assert tick_length(dt_s, period_s) == length_s
+
+
+def test_a_tick_that_can_make_the_whole_change_makes_it_exactly() -> None:
+    memory = LimiterState(Twist2(0.001, 0.0), -1.0, -1.0)
+    after = shaped(Twist2(0.0, 0.0), memory)
+    assert after.sent == Twist2(0.0, 0.0)
+    assert (after.left_mps2, after.right_mps2) == pytest.approx((-0.1, -0.1))
+    assert shaped(Twist2(0.001, 0.0), memory) == LimiterState(Twist2(0.001, 0.0))
+
+
+def test_brakes_that_are_not_1_mps2_take_their_time_of_a_tick() -> None:
+    # 3 mm/s take 5 ms at 0.6 m/s2; the 5 ms left give 2.5 mm/s the other way at 0.5 m/s2
+    robot = RobotDescription.model_validate({"limits": {"max_decel_mps2": 0.6}})
+    memory = LimiterState(Twist2(0.003, 0.0), -9.0, -9.0)
+    after = shape(Twist2(-0.5, 0.0), memory, FRAME, robot.limits, DT)
+    assert after.sent.v_mps == pytest.approx(-0.0025)
+
+
+@table("sign", [1.0, -1.0])
+def test_either_way_slowing_is_quick_and_speeding_up_gentle(sign: float) -> None:
+    memory = LimiterState(Twist2(0.3 * sign, 0.0))
+    slowed = shaped(Twist2(0.1 * sign, 0.0), memory)
+    assert slowed.sent.v_mps == pytest.approx(sign * (0.3 - 10.0 * DT * DT))
+    faster = shaped(Twist2(0.5 * sign, 0.0), memory)
+    assert faster.sent.v_mps == pytest.approx(sign * (0.3 + 2.0 * DT * DT))

@@ -1,15 +1,21 @@
-"""The command carries what wheel control adds; what is remembered as meant does not."""
+"""Hold what the wheels are told: feed-forward, correction, torque, and what a mode follows."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 
 from bridge.core.geometry.kinematics import wheels_of
-from bridge.core.state_motion import AT_REST, Wheel
-from bridge.core.tick_context import MOVING
-from tests.bridge.core.reached import reached
+from bridge.core.motion import wheel_command
+from bridge.core.motion.wheel_command import limit
+from bridge.core.state import RowUp
+from bridge.core.state_motion import AT_REST, LimiterState, Wheel
+from bridge.core.tick_context import MOVING, TickContext
+from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import World, config
-from wire import STILL, Mode, RobotDescription
+from tests.bridge.core.table import table
+from wire import STILL, Mode, RobotDescription, Twist2
 
 
 def test_the_dead_zone_is_fed_forward_once_and_not_remembered() -> None:
@@ -119,3 +125,91 @@ def test_after_a_freeze_nothing_is_ramped_down(start: str) -> None:
             assert world.mode not in MOVING
         else:
             assert abs(world.sent.v_mps - had.v_mps) < 0.05
+
+
+NOW_S = 100.0
+
+
+def at(start: str = "active") -> TickContext:
+    tick = tick_of(reached(start))
+    tick.now_s = NOW_S
+    return tick
+
+
+@table(
+    ("start", "powered"),
+    [
+        ("disarmed", False), ("estopped", False), ("fault", False), ("estopped_moving", True),
+        ("hold", True), ("stopping_by_row", True), ("active", True),
+    ],
+)  # fmt: skip
+def test_torque_is_on_where_it_may_move_or_has_to_stop(start: str, powered: bool) -> None:
+    tick = at(start)
+    tick.s.motion.free_m, tick.s.motion.cap = 9.0, 0.5
+    tick.s.motion.bound_by = "robot"
+    after = limit(tick, Twist2(0.3, 0.0))
+    assert tick.s.motion.powered is powered
+    if not powered:
+        assert after == LimiterState()
+        told: tuple[object, ...] = (tick.s.motion.free_m, tick.s.motion.bound_by, tick.s.motion.cap)
+        assert told == (None, "unpowered", 0.0)
+
+
+def test_without_a_path_or_a_place_nothing_is_followed() -> None:
+    tick = at()
+    assert wheel_command.follow_horizon(tick) is None  # no place in this tick yet
+    tick.robot_in_map = tick.s.odometry.base_in_odom
+    answer = wheel_command.follow_horizon(tick)
+    assert answer is not None
+    assert answer.target != STILL
+    tick.s.leg = replace(tick.s.leg, path=None)
+    assert wheel_command.follow_horizon(tick) is None
+
+
+@table(("start", "arrives"), [("teleop", False), ("active_external", False)])
+def test_a_hand_and_another_brain_have_no_end(start: str, arrives: bool) -> None:
+    assert wheel_command.requested_twist(at(start))[1] is arrives
+    assert wheel_command.requested_twist(at(start))[0] != STILL
+
+
+@table(
+    ("what", "corrects"),
+    [("nothing", True), ("disabled", False), ("timed_out", False), ("stale", False),
+     ("reborn", False), ("silent", None), ("absent", False)],
+)  # fmt: skip
+def test_wheels_are_corrected_by_readings_that_may_be_trusted(
+    what: str, corrects: bool | None
+) -> None:
+    tick = at()
+    motion, drive = tick.s.motion, tick.s.drive
+    state = drive.newest
+    assert state is not None
+    drive.received_s, drive.reborn_s = NOW_S, NOW_S if what == "reborn" else None
+    changed = {"disabled": {"enabled": False}, "timed_out": {"timed_out": True}}.get(what, {})
+    drive.newest = state.model_copy(update={"left_radps": 3.0, "right_radps": 3.5, **changed})
+    tick.s.rows = {"ENC_STALE.0": RowUp(0.0, 0.0, "old")} if what == "stale" else {}
+    if what == "silent":
+        drive.received_s = NOW_S - 0.01
+    if what == "absent":
+        drive.newest = None
+    motion.limiter = LimiterState(Twist2(0.4, 0.0))
+    wheel = replace(AT_REST, told_radps=4.0, due_radps=4.0, expected_radps=4.0, push=0.25)
+    motion.left = motion.right = wheel
+    told = wheel_command.command(tick)
+    assert tick.s.mode is Mode.ACTIVE
+    if corrects is None:  # no reading in this tick: what was found before stays
+        assert (motion.left.push, motion.right.push) == (0.25, 0.25)
+    elif corrects:
+        assert 0.25 < motion.right.push < motion.left.push
+        assert told.left_radps > told.right_radps
+    else:
+        assert (motion.left.push, motion.right.push) == (0.0, 0.0)
+
+
+def test_without_a_pose_or_a_path_nothing_is_followed() -> None:
+    world = reached("active")
+    world.state.leg = replace(world.state.leg, path=None)
+    assert world.planner is not None
+    world.planner.next_horizon_s = 1e9
+    world.tick()
+    assert world.state.motion.asked == STILL

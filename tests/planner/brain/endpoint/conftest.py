@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import pytest
 
-from planner.brain.endpoint import http_status
+from planner.brain.endpoint import response
 
 
 @pytest.fixture(autouse=True)
 def short_pauses() -> Iterator[None]:
     """Shorten the pause before a second try."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(http_status, "PAUSE_S", 0.01)
+        patch.setattr(response, "PAUSE_S", 0.01)
         yield

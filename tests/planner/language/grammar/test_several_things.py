@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner.language.grammar import Context, plan
-from planner.language.grammar.objects import several
+from planner.language.grammar.noun_phrases import several
 from planner.plan import EVERY_KIND, Clarify, Code, Find, StepPlan, Vocabulary
 
 SEES = Context(

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import ast
+import tomllib
 from string import Formatter
 from typing import TYPE_CHECKING
 
 import pytest
 
 from planner.language.catalogue import CATALOGUE
+from planner.language.catalogue.words import FOLDER, PLACES, read_plain_lines
+from planner.language.object_classes import KINDS
 from planner.plan import Code
 
 if TYPE_CHECKING:
@@ -24,15 +27,34 @@ def blanks(text: str) -> set[str]:
     return {name.partition(".")[0] for name in fields}
 
 
+PLURALS = {code for code in CODES if code.startswith("plural.")} - {"plural.other"}
+"""Each language lists those that its own rule does not make."""
+
+
 @pytest.mark.parametrize("language", sorted(MESSAGES))
 def test_every_language_has_every_message(language: str) -> None:
-    assert sorted(MESSAGES[language]) == CODES
+    assert sorted(set(MESSAGES[language]) - PLURALS) == sorted(set(CODES) - PLURALS)
+
+
+def test_things_have_words_in_every_language_and_plurals_are_of_things() -> None:
+    assert set(CATALOGUE.keys("noun")) == set(KINDS)
+    assert {code.removeprefix("plural.") for code in PLURALS} <= set(KINDS)
+
+
+@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.toml")), ids=lambda path: str(path.stem))
+def test_our_files_are_as_plain_as_the_quick_reader_needs(path: Path) -> None:
+    tables = tomllib.loads(path.read_text("utf-8"))
+    assert read_plain_lines(path.read_text("utf-8")) == {
+        f"{group}.{key}": text for group, table in tables.items() for key, text in table.items()
+    }
 
 
 @pytest.mark.parametrize("language", sorted(MESSAGES))
 def test_every_language_has_the_same_blanks(language: str) -> None:
     odd = [
-        code for code in CODES if blanks(MESSAGES[language][code]) != blanks(MESSAGES["en"][code])
+        code
+        for code in set(CODES) - PLURALS
+        if blanks(MESSAGES[language][code]) != blanks(MESSAGES["en"][code])
     ]
     assert odd == []
 
@@ -65,7 +87,7 @@ def test_no_message_is_left_over(repository: Path) -> None:
     starts = tuple(text for text in strings if text.endswith((".", "_")) and text[:1].isalpha())
     groups = {code.partition(".")[0] for code in CODES}
     computed = tuple(s for s in starts if s.partition(".")[0] in groups and "." in s)
-    quoted = tuple(f"{group}." for group in ("paused", "beside"))
+    quoted = tuple(f"{group}." for group in ("paused", "beside", *PLACES))
     left = [c for c in CODES if c not in strings and not c.startswith(computed + quoted)]
     assert left == []
 

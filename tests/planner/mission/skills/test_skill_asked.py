@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from planner.mission.skills import Drive, Eyesight, Fail, Observe, act_of
-from planner.mission.skills.object_questions import asked_for, unknown_kind
+from planner.mission.skills.object_query import unknown_kind
 from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import Look, Sight
 from planner.plan import Bilingual, Code, Language
@@ -76,29 +76,6 @@ def test_a_question_about_one_kind_that_is_not_known_is_told_apart(
 def test_whatever_else_is_asked_is_looked_at(question: str) -> None:
     for language in Language:
         assert unknown_kind(question, HOME, language, CLASSES) is None
-
-
-@pytest.mark.parametrize(
-    ("question", "asked"),
-    [
-        ("is there a red cup next to the coffee table?", ("red cup", "next to the coffee table")),
-        ("Do you see Mary on the sofa?", ("mary", "on the sofa")),
-        ("is my cup still on the table", ("cup", "on the table")),
-        ("沙发旁边有没有红色的杯子？", ("红色的杯子", "沙发旁边")),
-        ("桌子上有书吗", ("书", "桌子上")),
-        ("书在桌子上吗", ("书", "桌子上")),
-        ("有人在桌子旁边吗", ("有人", "桌子旁边")),
-        ("有没有杯子在桌子上", ("杯子", "桌子上")),
-        ("看到两瓶牛奶了吗", ("牛奶", "")),
-        ("what is on the table?", None),
-        ("客厅什么情况", None),
-    ],
-)
-def test_where_a_thing_may_be_is_told_apart_from_what_is_asked_for(
-    question: str, asked: tuple[str, str] | None
-) -> None:
-    found = asked_for(question, HOME)
-    assert (found and (found.what, found.where)) == asked
 
 
 PIANO, OPEN = "is there a piano in the kitchen?", "what is there?"

@@ -6,10 +6,11 @@ from typing import Any
 
 import pytest
 
+from planner.language.questions import Relation
 from planner.mission.skills import Drive, Eyesight, Fail, Finish, Observe, Wanted, act_of
 from planner.mission.skills.object_matching import meant, picks_out
 from planner.mission.skills.skill_state import Notes
-from planner.mission.skills.spatial_relations import Relation, parted, stands
+from planner.mission.skills.spatial_relations import stands
 from planner.perception.snapshot import Look, Sight, Thing
 from planner.plan import Code, Language
 from tests.planner.mission.skills.scenes import scene
@@ -104,7 +105,6 @@ def test_nobody_is_followed_by_a_neighbour_and_what_is_said_of_it_does_not_offer
 
 @pytest.mark.parametrize("words", ["bottle on the table", "桌子上的瓶子"])
 def test_only_what_stands_there_is_found_and_gone_to(words: str) -> None:
-    assert parted("red cup") is None
     found = looking("find", words, OTHER, THERE, TABLE, **GAZED)
     assert isinstance(found, Finish)
     assert found.figures["found"].x_m == 1.7

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import pytest
 
+from planner.language.catalogue import CATALOGUE
 from planner.language.object_classes import KINDS
+from planner.language.questions import Relation
 from planner.mission.skills import Drive, Eyesight, Observe, Wanted, act_of
-from planner.mission.skills.room_priors import SORTS, likely_rooms
-from planner.mission.skills.spatial_relations import Relation
+from planner.mission.skills.room_priors import THINGS, likely_rooms
 from planner.mission.skills.viewpoints import in_order
 from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import Sight, Thing
@@ -61,7 +62,8 @@ def test_a_rooms_name_says_what_is_likely_there(names: tuple[str, ...], labels: 
 
 
 def test_the_table_names_kinds_that_there_are() -> None:
-    assert {label for sort in SORTS for label in sort.things.split()} <= set(KINDS)
+    assert {label for things in THINGS.values() for label in things.split()} <= set(KINDS)
+    assert set(THINGS) <= set(CATALOGUE.keys("room"))
 
 
 @pytest.mark.parametrize(

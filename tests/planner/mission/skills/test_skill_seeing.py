@@ -19,7 +19,6 @@ from planner.mission.skills import (
     Way,
 )
 from planner.mission.skills.go_to_object import FACE, JUDGE
-from planner.mission.skills.look import looks_round
 from planner.mission.skills.object_matching import APART_S, apart, confirmed, fits, mentioned
 from planner.mission.skills.perception import Answer
 from planner.mission.skills.result_text import counted, found_at, listed, looked_in
@@ -193,20 +192,6 @@ def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() 
         zh="视觉模型（看的是前方的画面）补充：牌子：去厨房。",
     )
     assert done.said == Bilingual(en="I see 1 red cup.", zh="看到 1 个红色的杯子。")
-
-
-@pytest.mark.parametrize(
-    ("question", "about"),
-    [
-        ("look around", True), ("Look round, please", True), ("what is around you?", True),
-        ("who is around?", True), ("describe your surroundings", True), ("看看四周", True),
-        ("周围有什么？", True), ("环顾一下", True), ("你的周围有人吗", True),
-        ("is there a round table?", False), ("what stands around the table?", False),
-        ("桌子周围有什么", False), ("what do you see?", False), ("有没有圆桌", False),
-    ],
-)  # fmt: skip
-def test_only_who_asks_for_it_has_the_robot_turn_about(question: str, about: bool) -> None:
-    assert looks_round(question) is about
 
 
 def test_an_answer_is_waited_for_as_long_as_a_model_may_be_given() -> None:

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
+from planner.language.questions import Relation
 from planner.mission.skills import Wanted
 from planner.mission.skills.object_query import FLOOR, Sought, sought_in
-from planner.mission.skills.spatial_relations import Relation
 from planner.mission.state import SiteView, Target
 from planner.plan import Bilingual
 from tests.planner.mission.fakes import room

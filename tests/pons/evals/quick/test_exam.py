@@ -50,7 +50,7 @@ def mock() -> Iterator[RunningMock]:
 
 def taken(mock: RunningMock, home: Path, caps: Caps | None = None, **day: int) -> Exam:
     """Let the mock take the exam."""
-    model = ModelSettings(url=mock.url, name="mock", timeout_s=0.5)
+    model = ModelSettings(url=mock.url, name="mock", timeout_s=1.0)
     settings = Settings(model=model, budget=BudgetSettings(day=DayLimits(**day)))
     return asyncio.run(examine(settings, model, home, None, caps or Caps()))
 
@@ -65,8 +65,9 @@ def test_a_good_model_takes_every_mode_and_pays_for_its_calls(
     for part in (ExamPart.REFUSAL, ExamPart.INJECTION):
         assert {m.result for m in exam.of(part)} == {"right"}
     assert mock.report()["calls"] - before == exam.cost.calls
-    ledger = Ledger(tmp_path)
+    ledger = Ledger.in_home(tmp_path)
     today = ledger.newest or utc_date(0.0)
+    ledger.remember(today)
     assert ledger.of_day(today).calls == exam.cost.calls > len(QUESTIONS)
     ledger.close()
     assert not (tmp_path / "model_dialects.json").exists()
@@ -177,10 +178,10 @@ def test_no_call_of_an_exam_passes_what_was_said_to_be_the_most(
     sent, limits = list[int](), list[GoalLimits]()
 
     class Noted(Purse):
-        def open(self, prompt_tokens: int) -> OpenCall:
+        async def open(self, prompt_tokens: int) -> OpenCall:
             limits.append(self._budget.goal)
             sent.append(prompt_tokens)
-            return super().open(prompt_tokens)
+            return await super().open(prompt_tokens)
 
     monkeypatch.setattr("pons.evals.model_access.Purse", Noted)
     for fault in (None, "garbage"):  # with garbage, each second call is a repair

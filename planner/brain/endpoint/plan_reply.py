@@ -1,0 +1,343 @@
+"""Turn what a model wrote into a plan, or say why it is none. Trusts nothing in it. Pure.
+
+Models wrap their JSON in code fences, in thoughts and in prose, and write it twice. Nothing is
+mended here: what is cut off, holds NaN or a key twice is no JSON. Whatever a reply holds, the
+result is a plan of the closed vocabulary or a list of reasons that the model can read. Of a reply
+that is still being written `Drafting` finds the words to show and the steps that are complete, for
+showing and for routing ahead: it may be wrong, and nothing in it can start a motion.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import time
+import unicodedata
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from planner.brain.schema import CLARIFY_CODES, KINDS, REFUSE_CODES
+from planner.brain.streamed_draft import MAX_DRAFT, Draft, Hear
+from planner.plan import (
+    MAX_STEPS,
+    PLAN,
+    RUNNABLE,
+    Answer,
+    Clarify,
+    Refuse,
+    Step,
+    StepPlan,
+    Vocabulary,
+    check_plan,
+    places_of,
+)
+
+MAX_CHARACTERS = 64_000
+"""Of what is no thought. A plan of 20 steps has under 16 000; the bound keeps reading quick."""
+MAX_STARTS = 40
+"""Braces at which an object is looked for."""
+
+_TAG = re.compile(r"<(/?)(?:think|thinking|reasoning|thought)>", re.IGNORECASE)
+_MEANT = re.compile(r'\{\s*["{\[}]')  # "{name}" in prose is no object, '{"kind' is
+
+
+def _no_constant(name: str) -> float:
+    raise ValueError(f"{name} is no JSON number")
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object; of two values for one key neither is what was meant."""
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a key stands twice in one object")
+    return found
+
+
+_DECODER = json.JSONDecoder(parse_constant=_no_constant, object_pairs_hook=_once)
+
+
+class NoObject(Exception):
+    """There is no one object in the text; the message tells the model why."""
+
+
+def one_object(text: str) -> dict[str, Any]:
+    """Return the one object that a reply consists of; the same object twice counts as one.
+
+    Raises:
+        NoObject: there is none, or there are several.
+    """
+    spoken = without_thoughts(text)
+    if len(spoken) > MAX_CHARACTERS:
+        raise NoObject(f"the reply has {len(spoken)} characters; at most {MAX_CHARACTERS} are read")
+    found = _objects(spoken)  # a fence says nothing: what is refused beside it counts as well
+    distinct = [each for i, each in enumerate(found) if each not in found[:i]]
+    if not distinct:
+        raise NoObject(_why_none(text, spoken))
+    if len(distinct) > 1:
+        raise NoObject(f"the reply holds {len(distinct)} JSON objects; expected exactly one")
+    return distinct[0]
+
+
+def without_thoughts(text: str) -> str:
+    """Drop thoughts: closed ones, those that began before the reply, those that never end.
+
+    One pass over the tags: a pattern for pairs takes quadratic time on tags that never close.
+    """
+    spoken: list[str] = []
+    at, inside = 0, False
+    for tag in _TAG.finditer(text):
+        if tag[1]:
+            if not inside:  # it began before the reply did
+                spoken.clear()
+            at, inside = tag.end(), False
+        elif not inside:
+            spoken.append(text[at : tag.start()])
+            inside = True
+    if not inside:
+        spoken.append(text[at:])
+    return "".join(spoken)
+
+
+def _objects(text: str) -> list[dict[str, Any]]:
+    """Return the outermost objects of a text, at most a handful; none where one is broken.
+
+    What lies inside a broken object was never meant alone, so it is not looked at.
+    """
+    found: list[dict[str, Any]] = []
+    at = text.find("{")
+    for _ in range(MAX_STARTS):
+        if at < 0:
+            break
+        try:
+            value, end = _DECODER.raw_decode(text, at)
+        except (ValueError, RecursionError):
+            if _MEANT.match(text, at):
+                return []
+            end = at + 1
+        else:
+            found.append(value)
+        at = text.find("{", end)
+    return found
+
+
+def _why_none(text: str, spoken: str) -> str:
+    if not text.strip():
+        return "the reply is empty"
+    if not spoken.strip():
+        return "the reply holds thoughts alone and no JSON object"
+    if "{" not in spoken:
+        return "the reply holds no JSON object"
+    return "the reply's JSON is cut off, too deep, malformed or repeats a key"
+
+
+MAX_TEXT = 600
+MAX_OPTIONS = 8
+MAX_REASONS = 6
+_KEYS = {
+    "plan": {"steps"},
+    "answer": {"en", "zh"},
+    "clarify": {"code", "en", "zh", "options"},
+    "refuse": {"code", "en", "zh"},
+}
+_CODES = {"clarify": CLARIFY_CODES, "refuse": REFUSE_CODES}
+# Marks that turn or hide text, and what is no text at all, have no place in words for a person.
+_UNSEEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn"})
+
+Planned = StepPlan | Answer | Clarify | Refuse
+
+
+@dataclass(frozen=True, slots=True)
+class Unusable:
+    """Hold why a reply is no plan, for the repair turn."""
+
+    reasons: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return "; ".join(self.reasons)
+
+
+def judge(
+    text: str, vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE
+) -> Planned | Unusable:
+    """Return the plan that a reply is, or why it is none.
+
+    A plan that only the robot's own lack makes impossible (no camera, no arm) is returned as it is:
+    the mission refuses it with the right code.
+    """
+    try:
+        shaped = _shaped(one_object(text), vocabulary)
+    except NoObject as why:
+        return Unusable((str(why),))
+    except RecursionError:  # two deep objects were compared
+        return Unusable(("the reply's JSON is too deep",))
+    if isinstance(shaped, Unusable):
+        return shaped
+    try:
+        plan = PLAN.validate_python(shaped)
+    except ValidationError as wrong:
+        return Unusable(tuple(map(_told, wrong.errors(include_url=False)[:MAX_REASONS])))
+    rejection = check_plan(plan, vocabulary, runnable)
+    if rejection is not None and rejection.repairable:
+        known = ", ".join(list(vocabulary.by_id)[:40]) or "none"
+        told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in rejection.reasons]
+        return Unusable((*told[:MAX_REASONS], f"known places: {known}"))
+    return plan
+
+
+def _shaped(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
+    """Return the reply in the plan's own shape; what does not belong there is a reason."""
+    kind = reply.get("kind")
+    if not isinstance(kind, str) or kind not in KINDS:
+        return Unusable((f"kind must be one of {', '.join(KINDS)}",))
+    filled = {k: v for k, v in reply.items() if k != "kind" and v not in (None, "", [])}
+    extra = sorted(clean(str(key))[:40] for key in filled.keys() - _KEYS[kind])
+    if extra:
+        takes, found = ", ".join(sorted(_KEYS[kind])), ", ".join(extra[:MAX_REASONS])
+        return Unusable((f"{kind} takes {takes} and not: {found}",))
+    if kind == "plan":
+        return _steps(filled.get("steps"))
+    return _words(kind, filled, vocabulary)
+
+
+def _steps(steps: object) -> dict[str, Any] | Unusable:
+    if not isinstance(steps, list) or not all(isinstance(step, dict) for step in steps):
+        return Unusable(("steps must be a list of 1 or more objects",))
+    if len(steps) > MAX_STEPS:
+        return Unusable((f"{len(steps)} steps; at most {MAX_STEPS}",))
+    return {"kind": "plan", "steps": [trimmed(step) for step in steps]}
+
+
+def trimmed(step: dict[str, Any]) -> dict[str, Any]:
+    """Drop fields that a grammar made the model fill with nothing; clean its words."""
+    kept = {k: v for k, v in step.items() if v not in (None, "", [])}
+    return {k: clean(v) if k in ("text", "question") and isinstance(v, str) else v
+            for k, v in kept.items()}  # fmt: skip
+
+
+def _words(kind: str, filled: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
+    en, zh = filled.get("en") or filled.get("zh"), filled.get("zh") or filled.get("en")
+    if not isinstance(en, str) or not isinstance(zh, str):
+        return Unusable((f"{kind} needs the texts en and zh",))
+    said = {"en": _short(en), "zh": _short(zh)}
+    if not said["en"] or not said["zh"]:
+        return Unusable((f"{kind} needs words in en and zh",))
+    if kind == "answer":
+        return {"kind": kind, "text": said}
+    allowed = [code.value for code in _CODES[kind]]
+    code = filled.get("code")
+    if code not in allowed:
+        return Unusable((f"the code of {kind} must be one of {', '.join(allowed)}",))
+    if kind == "refuse":
+        return {"kind": kind, "code": code, "reason": said}
+    options = filled.get("options", [])
+    if not isinstance(options, list) or not all(isinstance(each, str) for each in options):
+        return Unusable(("options must be a list of texts",))
+    words = [short for each in options[:MAX_OPTIONS] if (short := _short(each))]
+    buttons = [{"label": {"en": each, "zh": each}, "text": each} for each in words]
+    return {"kind": kind, "code": code, "question": said, "options": buttons}
+
+
+def clean(text: str) -> str:
+    """Return text that a person can be shown: no control, hidden, turning or broken characters."""
+    plain = " ".join(text[: 4 * MAX_TEXT].split())
+    return "".join(char for char in plain if unicodedata.category(char) not in _UNSEEN)
+
+
+def _short(text: str) -> str:
+    plain = clean(text)
+    return plain if len(plain) <= MAX_TEXT else plain[: MAX_TEXT - 1] + "…"
+
+
+def _at(step: int | None) -> str:
+    return "" if step is None else f"step {step + 1}: "
+
+
+def _told(error: Any) -> str:
+    """Say where pydantic found what; the value itself is not repeated."""
+    return f"{'.'.join(clean(str(part))[:40] for part in error['loc'][:6])}: {error['msg'][:160]}"
+
+
+TELL_S = 0.05
+"""Between two drafts: twenty a second read as a flow."""
+SHARE = 20.0
+_STEP: TypeAdapter[Step] = TypeAdapter(Step)
+_STEPS = re.compile(r'"steps"\s*:\s*\[')
+_KIND = re.compile(r'"kind"\s*:\s*"([a-z_]*)"')
+_NEXT = re.compile(r"[\s,]*")
+_DRAFT_DECODER = json.JSONDecoder()
+"""Lax: a draft is only shown, and the whole reply is judged by the strict one."""
+
+
+class Drafting:
+    """Tell one listener of one reply, now and then."""
+
+    def __init__(
+        self,
+        vocabulary: Vocabulary,
+        runnable: frozenset[str],
+        hear: Hear,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._vocabulary, self._runnable = vocabulary, runnable
+        self._hear, self._clock = hear, clock
+        self._read_s, self._pause_s = float("-inf"), TELL_S
+        self._told: Draft | None = None
+
+    def __call__(self, written: Callable[[], str]) -> None:
+        """Read what is written so far and tell of it, if the last reading is long enough ago."""
+        now_s = self._clock()
+        if now_s - self._read_s < self._pause_s:
+            return
+        text = written()
+        draft = self.draft_of(text) if len(text) <= MAX_CHARACTERS else self._told
+        # What is slow to read is read less often: a twentieth of the loop's time at most.
+        self._read_s = self._clock()
+        self._pause_s = max(TELL_S, SHARE * (self._read_s - now_s))
+        if draft is not None and draft.text and draft != self._told:
+            self._told = draft
+            self._hear(draft)
+
+    def draft_of(self, text: str) -> Draft:
+        """Return what can be shown of a text that goes on."""
+        spoken = without_thoughts(text)
+        shown = clean(spoken[-MAX_DRAFT:])
+        return Draft(text=shown, steps=tuple(self._steps(spoken)))
+
+    def _steps(self, spoken: str) -> list[Step]:
+        """Return the leading steps that are whole; none of a reply that is no plan."""
+        begins, found = _STEPS.search(spoken), list[Step]()
+        if begins is None:
+            return found
+        kind = _KIND.search(spoken, 0, begins.start())
+        if kind is not None and kind[1] != "plan":
+            return found
+        at = begins.end()
+        while len(found) < MAX_STEPS:
+            at = _after(_NEXT, spoken, at)
+            try:
+                value, at = _DRAFT_DECODER.raw_decode(spoken, at)
+            except (ValueError, RecursionError):
+                break
+            step = self._valid(value)
+            if step is None:
+                break
+            found.append(step)
+        return found
+
+    def _valid(self, value: Any) -> Step | None:
+        if not isinstance(value, dict):
+            return None
+        try:
+            step = _STEP.validate_python(trimmed(value))
+        except ValidationError:
+            return None
+        known = all(place in self._vocabulary for place in places_of(step))
+        return step if known and step.kind in self._runnable else None
+
+
+def _after(pattern: re.Pattern[str], text: str, at: int) -> int:
+    found = pattern.match(text, at)
+    return found.end() if found is not None else at

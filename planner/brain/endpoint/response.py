@@ -1,0 +1,295 @@
+"""Read an HTTP answer, never more of it than there may be, and class it by its status.
+
+An answer is a reply, whole or as server-sent events; a body to be made simpler; or a failure that
+another try may mend, or not. Servers differ in the status with which they refuse a mode that they
+don't know, so its words count as well.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import re
+from collections.abc import AsyncIterator, Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import httpx
+
+from planner.brain.endpoint.completion import (
+    Assembly,
+    Broken,
+    complaint_of,
+    declined_by,
+    generated_by,
+    read_json,
+)
+from planner.brain.endpoint.dialect import not_taken
+from planner.brain.errors import BrainDown
+
+_STRUCK = "***"
+MIN_STRUCK = 6
+"""Characters; a shorter key protects nothing, and striking it out would break every reply."""
+_ESCAPED = re.compile(r"\\u00([2-7][0-9a-fA-F])")
+_HALF_ESCAPED = re.compile(r"\\(?:u[0-9a-fA-F]{0,3})?$")
+
+
+class Secret:
+    """Strike a key, which may be empty, out of all that a server says.
+
+    An echo of it must reach neither a log nor a goal.
+    """
+
+    def __init__(self, key: str) -> None:
+        self._key = key if len(key) >= MIN_STRUCK else ""
+        self.header = {"Authorization": f"Bearer {key}"} if key else {}
+
+    def struck(self, text: str) -> str:
+        """Return a text without the key."""
+        return text.replace(self._key, _STRUCK) if self._key else text
+
+    def struck_quoted(self, text: str) -> str:
+        """Return a text without the key, which may stand in it as Python quotes bytes."""
+        return self.struck(self.struck(text).replace("\\\\", "\\").replace("\\'", "'"))
+
+    def struck_bytes(self, raw: bytes) -> bytes:
+        """Return bytes without the key."""
+        return raw.replace(self._key.encode("ascii"), _STRUCK.encode()) if self._key else raw
+
+    def struck_growing(self, text: str) -> str:
+        """Return a text that goes on, without the key, its beginning, its spelling in escapes."""
+        if not self._key:
+            return text
+        whole = _ESCAPED.sub(lambda found: chr(int(found[1], 16)), _HALF_ESCAPED.sub("", text))
+        plain = self.struck(whole)
+        for size in range(min(len(self._key) - 1, len(plain)), 0, -1):
+            if plain.endswith(self._key[:size]):
+                return plain[:-size]
+        return plain
+
+
+BUSY = frozenset({408, 409, 425, 429})
+PAUSE_S = 0.5
+"""Before the second try, where the server names no time."""
+_MODES = re.compile(
+    r"response_format|json_schema|json_object|json schema|tool_choice|structured.?output|guided_"
+    r"|grammar|\btools?\b.{0,40}support|support.{0,40}\btools?\b|requested parameters"
+)
+_NO_MODEL = re.compile(r"\bmodel\b.{0,60}\b(?:not exist|not found|does not exist|doesn't exist)")
+"""What DeepSeek and others answer with 400: no simpler body would find the model."""
+
+
+class BadRequest(Exception):
+    """The server refused the body: perhaps a simpler one pleases it. Holds its words.
+
+    ``generated``: the model did reply, and the server itself found that it does not fit (Groq).
+    ``declined``: the server's own filter refused the order; no other body will please it.
+    """
+
+    def __init__(self, said: str, generated: str | None = None, declined: bool = False) -> None:
+        super().__init__(said)
+        self.generated = generated
+        self.declined = declined
+
+
+@dataclass(frozen=True, slots=True)
+class Again:
+    """Hold a failure that another try may mend, and when."""
+
+    down: BrainDown
+    after_s: float = 0.0
+    lost: bool = False
+    """The connection was lost; perhaps it had only idled too long."""
+
+
+def judged(response: httpx.Response, content: object, said: str) -> Again:
+    """Class an answer that is no 2xx; ``said`` are its words without the key.
+
+    Raises:
+        BadRequest: another body may do.
+        BrainDown: everything else that no other try mends, with ``why``.
+    """
+    status = response.status_code
+    if 300 <= status < 400:
+        raise BrainDown(f"status {status}; redirects are not followed", why="redirect")
+    if status in (401, 403):
+        raise BrainDown(said, why="bad_key")
+    if status in BUSY:
+        return Again(BrainDown(said, why="rate_limited"), _wait_s(response))
+    words = said.lower()
+    modes = _MODES.search(words) is not None or not_taken(words)
+    if status in (400, 422) and _NO_MODEL.search(words) and not modes:
+        raise BrainDown(said, why="unknown_model")
+    if status in (400, 422) or modes:
+        raise BadRequest(said, generated_by(content), declined_by(content))
+    if status in (404, 405, 410):
+        raise BrainDown(said, why="unknown_model")
+    if status >= 500:
+        loads = status == 503 and "load" in said.lower()
+        return Again(BrainDown(said, why="loading" if loads else "server_error"), _wait_s(response))
+    raise BrainDown(said, why="bad_request")
+
+
+def words_of(status: int, content: object) -> str:
+    """Return an answer's words in one short line."""
+    return f"status {status}: {complaint_of(content)}"
+
+
+def _wait_s(response: httpx.Response) -> float:
+    """Return the pause before the next try [s]; a time that is no number counts as for ever."""
+    asked = response.headers.get("retry-after")
+    if asked is None:
+        return PAUSE_S
+    try:
+        seconds = float(asked)
+    except ValueError:
+        return float("inf")
+    return seconds if seconds >= 0.0 else float("inf")
+
+
+DONE = b"[DONE]"
+
+
+class Events:
+    """Cut bytes, as they come, into whole server-sent events.
+
+    Of the format only what chat servers send: ``data:`` lines, comments that keep a connection
+    awake, and ``event: error``. Lines end by LF, CRLF or CR.
+    Source: html.spec.whatwg.org, "Server-sent events", parsing an event stream.
+    """
+
+    def __init__(self) -> None:
+        self._line = bytearray()
+        self._data: list[bytes] = []
+        self._after_cr = False
+        self.done = False
+        """The server said that it is through."""
+
+    def feed(self, raw: bytes) -> Iterator[Any]:
+        """Yield the JSON of each event that these bytes complete; None for one that is no JSON."""
+        if self._after_cr and raw.startswith(b"\n"):
+            raw = raw[1:]
+        self._after_cr = raw.endswith(b"\r")
+        *lines, rest = raw.replace(b"\r\n", b"\n").replace(b"\r", b"\n").split(b"\n")
+        for line in lines:
+            self._line += line
+            whole, self._line = bytes(self._line), bytearray()
+            yield from self._take(whole)
+        self._line += rest
+
+    def end(self) -> Iterator[Any]:
+        """Yield what the last bytes held: some servers end without an empty line."""
+        whole, self._line = bytes(self._line), bytearray()
+        yield from self._take(whole)
+        yield from self._take(b"")
+
+    def _take(self, line: bytes) -> Iterator[Any]:
+        if line.startswith(b"data:"):
+            self._data.append(line[5:].strip())
+            if len(self._data) == 1:  # nearly always the whole event, whatever line follows
+                yield from self._event(whole=False)
+        elif not line and self._data:
+            yield from self._event(whole=True)
+
+    def _event(self, *, whole: bool) -> Iterator[Any]:
+        """Yield what stands in the event's lines; one that goes on is no JSON yet."""
+        data = b"\n".join(self._data)
+        value = None if data == DONE else read_json(data)
+        if data == DONE:
+            self.done = True
+        elif value is not None or (whole and data):
+            yield value
+        elif not whole:
+            return
+        self._data = []
+
+
+MAX_REPLY_BYTES = 1_000_000
+MAX_STREAM_BYTES = 8_000_000
+"""A stream wraps each token in some 300 bytes, and thoughts are streamed too, though not kept."""
+MAX_ERROR_BYTES = 64_000
+END_S = 0.02
+"""For the end of a stream after its last event: only what was read whole is used again."""
+
+Told = Callable[[Callable[[], str]], None]
+"""Takes a way to read what the model has written so far, and reads it when it likes."""
+
+
+class StreamBroken(Exception):
+    """The stream ended before the reply did: a plain call may do better. Holds why."""
+
+
+async def read(
+    response: httpx.Response, secret: Secret, assembly: Assembly, told: Told | None
+) -> Any | Again:
+    """Return the JSON of a reply, put together where it is a stream; None where it is none.
+
+    Raises:
+        BadRequest, BrainDown: see ``status.judged``; ``too_large``, ``bad_reply``.
+        StreamBroken: as it says.
+    """
+    code = response.status_code
+    if not 200 <= code < 300:
+        content = read_json(secret.struck_bytes(await _body(response, MAX_ERROR_BYTES)))
+        return judged(response, content, secret.struck(words_of(code, content)))
+    if response.headers.get("content-type", "").lower().startswith("text/event-stream"):
+        return await _listen(response, secret, assembly, told)
+    return read_json(secret.struck_bytes(await _body(response, MAX_REPLY_BYTES)))
+
+
+async def _listen(
+    response: httpx.Response, secret: Secret, assembly: Assembly, told: Told | None
+) -> dict[str, Any]:
+    """Put a stream together and tell of it as it grows."""
+    _refuse_packed(response)
+    events, size, chunks = Events(), 0, response.aiter_raw()
+    try:
+        async for chunk in chunks:
+            size += len(chunk)
+            if size > MAX_STREAM_BYTES or assembly.size > MAX_REPLY_BYTES:
+                told_bytes = f"{MAX_REPLY_BYTES} bytes, {MAX_STREAM_BYTES} on the wire"
+                raise BrainDown(f"the stream is over {told_bytes}", why="too_large")
+            for event in events.feed(chunk):
+                assembly.add(event)
+            if events.done:
+                await _let_end(chunks)
+                break
+            if told is not None and assembly.begun:
+                told(lambda: secret.struck_growing(assembly.text))
+        for event in events.end():
+            assembly.add(event)
+    except Broken as broken:
+        raise StreamBroken(secret.struck(str(broken))) from None
+    if not events.done and assembly.finish is None:
+        raise StreamBroken("it ended before the reply did")
+    return assembly.completion()
+
+
+async def _let_end(chunks: AsyncIterator[bytes]) -> None:
+    """Read to the end of a stream that said it was through, so that its connection stays."""
+    with contextlib.suppress(TimeoutError, httpx.HTTPError):
+        async with asyncio.timeout(END_S):
+            async for _ in chunks:
+                pass
+
+
+async def _body(response: httpx.Response, cap: int) -> bytes:
+    """Return a body of at most ``cap`` bytes, as it is on the wire; an error is cut there.
+
+    Raises:
+        BrainDown: ``too_large``, as soon as it is; ``bad_reply``: it is packed unasked.
+    """
+    _refuse_packed(response)
+    body = bytearray()
+    async for chunk in response.aiter_raw():
+        if len(body) + len(chunk) > cap:
+            if response.status_code != 200:
+                break
+            raise BrainDown(f"the reply is over {cap} bytes", why="too_large")
+        body += chunk
+    return bytes(body)
+
+
+def _refuse_packed(response: httpx.Response) -> None:
+    if response.headers.get("content-encoding", "identity").lower() not in ("identity", ""):
+        raise BrainDown("the reply is packed, though that was not asked for", why="bad_reply")

@@ -1,0 +1,31 @@
+"""Read a question about what is there, by its words: what it asks for, and where that is to be."""
+
+from planner.language.questions.question import (
+    Asked,
+    PlaceNames,
+    QuestionReading,
+    Relation,
+    Whereabouts,
+    fold_names,
+)
+from planner.language.questions.reader import (
+    has_several_neighbours,
+    looks_round,
+    names_floor,
+    parted,
+    read_question,
+)
+
+__all__ = [
+    "Asked",
+    "PlaceNames",
+    "QuestionReading",
+    "Relation",
+    "Whereabouts",
+    "fold_names",
+    "has_several_neighbours",
+    "looks_round",
+    "names_floor",
+    "parted",
+    "read_question",
+]

@@ -1,0 +1,342 @@
+"""Keep the planner's small stores as tables of one SQLite file of its home folder (ADR 0036).
+
+Taught places, objects seen, fence proposals and what the model has cost: each store owns the
+statements of its table, this file owns the schema, the connection and the errors. WAL; a change is
+on disk before it returns. Whatever SQLite refuses is told as the OSError that a plain file would
+have given, so that each store says it in its own words. Blocks on the disk: never called in the
+event loop.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import logging
+import os
+import sqlite3
+import threading
+from contextlib import closing, contextmanager, suppress
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+from wire import Misconfigured
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+log = logging.getLogger(__name__)
+
+FILE = "state.sqlite"
+VERSION = 1
+PRIVATE = 0o600
+"""Where people were seen in a home is its owner's business, whatever the umask is."""
+WAIT_S = 2.0
+"""For another program of the same home (an exam, a replay) that is writing."""
+_TABLES = """
+CREATE TABLE places (
+    position INTEGER PRIMARY KEY, map_id TEXT NOT NULL, id TEXT NOT NULL, record TEXT NOT NULL,
+    UNIQUE (map_id, id));
+CREATE TABLE objects (
+    position INTEGER PRIMARY KEY, map_id TEXT NOT NULL, id TEXT NOT NULL UNIQUE,
+    record TEXT NOT NULL);
+CREATE TABLE fence_proposals (id TEXT PRIMARY KEY, record TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE spent (
+    day TEXT NOT NULL, goal TEXT NOT NULL, calls INTEGER NOT NULL, prompt_tokens INTEGER NOT NULL,
+    reply_tokens INTEGER NOT NULL, seconds REAL NOT NULL, money REAL NOT NULL,
+    PRIMARY KEY (day, goal)) WITHOUT ROWID;
+CREATE INDEX spent_by_goal ON spent (goal);
+CREATE TABLE imports (path TEXT PRIMARY KEY, fingerprint TEXT NOT NULL) WITHOUT ROWID;
+"""
+_ERRNO = {
+    sqlite3.SQLITE_FULL: errno.ENOSPC,
+    sqlite3.SQLITE_READONLY: errno.EROFS,
+    sqlite3.SQLITE_PERM: errno.EACCES,
+    sqlite3.SQLITE_CANTOPEN: errno.EACCES,
+    sqlite3.SQLITE_BUSY: errno.EAGAIN,
+    sqlite3.SQLITE_LOCKED: errno.EAGAIN,
+}
+_SPOILT = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
+
+
+class StateUnavailable(OSError):
+    """The database can't be read or written now; its errno is what a plain file would have given.
+
+    ``spoilt``: no later try will do better; the file is none of ours any more.
+    """
+
+    def __init__(self, path: Path, error: sqlite3.Error | OSError) -> None:
+        """Keep the words of SQLite, or of the system where they are about the disk."""
+        number, words, self.spoilt = errno.EIO, str(error), False
+        if isinstance(error, OSError):
+            number, words = error.errno or errno.EIO, error.strerror or words
+        else:
+            code = getattr(error, "sqlite_errorcode", 0) & 0xFF
+            number, self.spoilt = _ERRNO.get(code, errno.EIO), code in _SPOILT
+            words = os.strerror(number) if number == errno.ENOSPC else words
+        super().__init__(number, words, str(path))
+
+
+class StateDatabase:
+    """Be the database of one home; made by its first change. Any thread may use it, in turns."""
+
+    def __init__(self, home: Path) -> None:
+        """Say where; nothing is opened yet."""
+        self.path = home.absolute() / FILE
+        self._lock = threading.Lock()
+        self._connection: sqlite3.Connection | None = None
+        self._folder_synced = False
+
+    def read(self, query: str, values: tuple[object, ...] = ()) -> list[tuple[Any, ...]]:
+        """Return rows; none where nothing was ever kept.
+
+        Raises:
+            StateUnavailable: it can't be read.
+            Misconfigured: ``state_version``.
+        """
+        with self._lock, self._translate_errors():
+            connection = self._open(make=False)
+            if connection is not None:
+                return connection.execute(query, values).fetchall()
+            if not self.path.exists():
+                return []
+            return self._read_only(query, values)
+
+    @contextmanager
+    def change(self, *, sync: bool = True) -> Iterator[sqlite3.Connection]:
+        """Lend the connection inside one transaction; after it all is kept, or nothing changed.
+
+        Args:
+            sync: have it outlive a power cut as well as this process; without, see ``sync``.
+
+        Raises:
+            StateUnavailable: it can't be written.
+            Misconfigured: ``state_version``.
+        """
+        with self._lock, self._translate_errors():
+            connection = self._open(make=True)
+            if connection is None:
+                raise sqlite3.OperationalError("unable to open database file")
+            connection.execute(
+                f"PRAGMA synchronous={'FULL' if sync else self._choose_unsynced_mode()}"
+            )
+            with _transaction(connection):
+                yield connection
+
+    def sync(self) -> None:
+        """Have all changes so far outlive a power cut, beside whoever writes more.
+
+        Raises:
+            OSError: the disk refuses.
+        """
+        paths = [(self._log, os.fdatasync)]
+        if not self._folder_synced:  # its name, once
+            paths.append((self._log.parent, os.fsync))
+        for path, sync in paths:
+            try:
+                descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+            except FileNotFoundError:  # it was closed, and synced by that
+                continue
+            try:
+                sync(descriptor)
+            finally:
+                os.close(descriptor)
+        self._folder_synced = True
+
+    def _choose_unsynced_mode(self) -> str:
+        """Return how to write without waiting for the disk, and never to be spoilt by a power cut.
+
+        A log that begins anew over older entries must sync its head first, which NORMAL does; in
+        an empty one there are none.
+        """
+        begun = self._log.exists() and self._log.stat().st_size > 0
+        return "NORMAL" if begun else "OFF"
+
+    @property
+    def _log(self) -> Path:
+        return self.path.with_name(f"{self.path.name}-wal")
+
+    def take_over(self, old: Path, put: Callable[[sqlite3.Connection], None]) -> None:
+        """Take a store of the old layout into its table, once, and keep it beside as ``.old``.
+
+        A crash between the two leaves a mark of what was taken, so that it is never taken twice; an
+        old file that somebody puts there later is taken again.
+
+        Args:
+            old: the file or folder.
+            put: reads it and writes its rows; what it raises leaves everything as it was.
+
+        Raises:
+            StateUnavailable: it can't be written.
+        """
+        if not old.exists():
+            return
+        with self.change() as connection:
+            mark = connection.execute("SELECT fingerprint FROM imports WHERE path = ?", (old.name,))
+            found, now = mark.fetchone(), _fingerprint(old)
+            if now is None:  # another program has just taken it
+                return
+            if found is None or found[0] != now:
+                put(connection)
+                connection.execute("REPLACE INTO imports VALUES (?, ?)", (old.name, now))
+        try:
+            _put_beside(old, "old")
+        except OSError as error:
+            log.warning("%s was taken over and can't be renamed: %s", old, error.strerror)
+        else:
+            with self.change() as connection:
+                connection.execute("DELETE FROM imports WHERE path = ?", (old.name,))
+
+    def put_aside_if_spoilt(self) -> None:
+        """Rename a file that is no database of ours any more; the next change makes a new one.
+
+        Only for the planner, of which a home has one: other programs spend here and rename nothing.
+
+        Raises:
+            Misconfigured: ``state_version``.
+        """
+        try:
+            rows = self.read("PRAGMA quick_check(1)")
+            told = "" if not rows or rows[0][0] == "ok" else str(rows[0][0])
+        except StateUnavailable as error:
+            told = (error.strerror or "") if error.spoilt else ""
+        if not told:
+            return
+        self.close()
+        for end in ("-wal", "-shm"):  # with the file, for whoever wants to save something
+            beside = self.path.with_name(self.path.name + end)
+            if beside.exists():
+                _put_beside(beside, "spoilt")
+        log.error(
+            "state_spoilt: %s: %s; it was put aside as %s, and what was taught, seen, proposed and "
+            "spent begins anew", self.path, told.splitlines()[0][:200],
+            _put_beside(self.path, "spoilt").name,
+        )  # fmt: skip
+
+    def close(self) -> None:
+        """Give the connection back; another use opens it again."""
+        with self._lock:
+            if self._connection is not None:
+                self._connection.close()
+                self._connection = None
+
+    @contextmanager
+    def _translate_errors(self) -> Iterator[None]:
+        """Tell SQLite's errors, and the system's about the file, as StateUnavailable."""
+        try:
+            yield
+        except sqlite3.Error as error:
+            raise StateUnavailable(self.path, error) from None
+
+    def _open(self, *, make: bool) -> sqlite3.Connection | None:
+        """Return the connection; None where there is nothing to read, or it can't be opened so."""
+        if self._connection is not None:
+            return self._connection
+        if not make and not (self.path.exists() and os.access(self.path.parent, os.W_OK)):
+            return None
+        try:
+            _make_file(self.path)
+        except OSError as error:
+            raise StateUnavailable(self.path, error) from None
+        connection = _connect(str(self.path))
+        try:
+            for pragma in ("journal_mode=WAL", "journal_size_limit=1000000", "secure_delete=ON"):
+                connection.execute(f"PRAGMA {pragma}")
+            self._make_tables(connection)
+        except BaseException:
+            connection.close()
+            raise
+        self._connection = connection
+        return connection
+
+    def _make_tables(self, connection: sqlite3.Connection) -> None:
+        if _version(connection) != VERSION:
+            with _transaction(connection):
+                found = _version(connection)  # anew: another program may have made them
+                if found == 0:
+                    for statement in filter(str.strip, _TABLES.split(";")):
+                        connection.execute(statement)
+                    connection.execute(f"PRAGMA user_version={VERSION}")
+                elif found != VERSION:
+                    told = f"{self.path} has schema {found}, expected {VERSION}"
+                    raise Misconfigured("state_version", told)
+
+    def _read_only(self, query: str, values: tuple[object, ...]) -> list[tuple[Any, ...]]:
+        """Read in a folder that can't be written, where WAL's own files can't be made."""
+        connection = _connect(f"{self.path.as_uri()}?mode=ro&immutable=1", uri=True)
+        try:
+            if _version(connection) == 0:
+                return []
+            return connection.execute(query, values).fetchall()
+        finally:
+            connection.close()
+
+
+def _connect(where: str, *, uri: bool = False) -> sqlite3.Connection:
+    return sqlite3.connect(
+        where, timeout=WAIT_S, isolation_level=None, check_same_thread=False, uri=uri
+    )
+
+
+def _version(connection: sqlite3.Connection) -> int:
+    return int(connection.execute("PRAGMA user_version").fetchone()[0])
+
+
+@contextmanager
+def _transaction(connection: sqlite3.Connection) -> Iterator[None]:
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        yield
+        connection.execute("COMMIT")
+    except BaseException:
+        if connection.in_transaction:  # a full disk has ended it by itself
+            connection.execute("ROLLBACK")
+        raise
+
+
+def _make_file(path: Path) -> None:
+    """Make an empty database that nobody else may read, unless there is one; WAL takes its mode.
+
+    In one write and one sync, where SQLite itself takes several. One that is there is never opened
+    here: to close it would drop the locks of this process (sqlite.org, "How To Corrupt An SQLite
+    Database File", 2.2).
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.exists():
+        if path.is_file() and path.stat().st_mode & 0o777 != PRIVATE:
+            path.chmod(PRIVATE)
+        return
+    with closing(sqlite3.connect(":memory:", isolation_level=None)) as blank:
+        blank.executescript(f"{_TABLES}; PRAGMA user_version={VERSION}")
+        data = bytearray(blank.serialize())
+    data[18] = data[19] = 2  # WAL; sqlite.org, "Database File Format", 1.3.3
+    fresh = path.with_name(f"{path.name}.new-{os.getpid()}-{threading.get_ident()}")
+    try:
+        with open(fresh, "wb", opener=lambda name, flags: os.open(name, flags, PRIVATE)) as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        with suppress(FileExistsError):  # another program was quicker
+            path.hardlink_to(fresh)
+    finally:
+        fresh.unlink(missing_ok=True)
+
+
+def _fingerprint(old: Path) -> str | None:
+    """Return a hash of a file, or of the names and files of a folder; None where it is gone."""
+    digest = hashlib.sha256()
+    try:
+        paths = sorted(old.iterdir()) if old.is_dir() else [old]
+        for path in paths:
+            data = path.read_bytes() if path.is_file() else b""
+            digest.update(f"{path.name} {len(data)}\n".encode() + data)
+    except FileNotFoundError:
+        return None
+    return digest.hexdigest()
+
+
+def _put_beside(path: Path, end: str) -> Path:
+    """Rename a file or folder to the first name of its kind that is free."""
+    names = (f"{path.name}.{end}" + (f"-{n}" if n > 1 else "") for n in count(1))
+    beside = next(p for p in map(path.with_name, names) if not p.exists())
+    return path.rename(beside)

@@ -1,0 +1,343 @@
+"""Bring every stage of every row to both edges of its window by real inputs, tick by tick.
+
+Windows in time: until trouble has lasted for the window no tick shows the row, and the first or
+second tick beyond it does. Windows in value: just inside nothing is seen for good, just outside it
+is. Nothing is forced here; times of what came last are read from the state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import cos, radians, sin
+
+import pytest
+
+from bridge.core import ArrivedAt
+from bridge.core.geometry.fence import Zone, build_fence
+from tests.bridge.core import oracle
+from tests.bridge.core.external_brain import drive_for
+from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S
+from tests.bridge.core.reached import reached
+from tests.bridge.core.scripted import World, config
+from tests.bridge.core.windows import bad_bytes, raised
+from wire import Pose2, RobotDescription
+
+Do = Callable[[World], object]
+
+SQUARE = ((-5.5, -5.5), (5.5, -5.5), (5.5, 5.5), (-5.5, 5.5))
+
+
+@dataclass(frozen=True)
+class Edge:
+    """Tell how trouble begins, since when it lasts, and for how long that may be."""
+
+    stage: str
+    window_s: float
+    begin: Do
+    since: Callable[[World], float | None] | None = None
+    """When what came last came; None counts from the first tick of trouble."""
+    keep: Do = lambda _: None
+    start: str = "active"
+
+
+def silent_planner(world: World) -> None:
+    assert world.planner is not None
+    world.planner.silent = True
+
+
+def stale_use(world: World) -> None:
+    assert world.planner is not None
+    assert world.status is not None
+    world.planner.used = world.status.seq
+    world.run(0.1)
+
+
+def no_horizon(world: World) -> None:
+    assert world.planner is not None
+    world.planner.next_horizon_s = 1e9
+
+
+def blind(world: World) -> None:
+    """Cover the lidar just before a scan comes."""
+    world.lidar_blind = True
+    while world.ticks % 10 != 2:
+        world.tick()
+
+
+def set_drive(**values: object) -> Do:
+    def begin(world: World) -> None:
+        for name, value in values.items():
+            setattr(world.drive, name, value)
+
+    return begin
+
+
+def set_world(**values: object) -> Do:
+    def begin(world: World) -> None:
+        for name, value in values.items():
+            setattr(world, name, value)
+
+    return begin
+
+
+def flood(world: World) -> None:
+    world.extra = replace(world.extra, arrived=(ArrivedAt("cmd/hello", 100),))
+
+
+def keep_stick(world: World) -> None:
+    if world.ticks % 5 == 0:
+        world.teleop(0.3, held=True)
+
+
+def echo(world: World) -> float | None:
+    return world.state.ownership.echo_s
+
+
+def scanned(world: World) -> float | None:
+    return world.state.lidar.received_s
+
+
+def driven(world: World) -> float | None:
+    return world.state.drive.received_s
+
+
+def located(world: World) -> float | None:
+    return world.state.pose.received_s
+
+
+def spoken(world: World) -> float | None:
+    return None if world.state.external is None else world.state.external.sent_s
+
+
+EDGES = (
+    Edge("BRAIN_LATE.0", 0.15, silent_planner, echo),
+    Edge("BRAIN_LOST.0", 0.3, silent_planner, echo),
+    Edge("BRAIN_GONE.0", 5.0, silent_planner, echo),
+    Edge("BRAIN_STALE.0", 1.0, stale_use, lambda world: world.state.ownership.used_s),
+    Edge("CMD_STALE.0", 0.5, no_horizon, lambda world: world.state.leg.sent_s),
+    Edge(
+        "CMD_STALE.1",
+        0.25,
+        lambda world: drive_for(world, 0.05),
+        spoken,
+        start="active_external",
+    ),
+    Edge("CMD_FLOOD.0", 1.0, lambda _: None, None, flood),
+    Edge("LIDAR_STALE.0", 0.25, set_world(lidar_silent=True), scanned),
+    Edge("LIDAR_STALE.1", 5.25, set_world(lidar_silent=True), scanned),
+    Edge("NO_RANGE.0", 5.25, set_world(lidar_silent=True), scanned),
+    Edge("NO_RANGE.1", 5.25, set_world(lidar_silent=True), scanned),
+    Edge("LIDAR_BLIND.0", 0.3, blind),
+    Edge("LIDAR_BLIND.1", 5.0, blind),
+    Edge("POSE_LOST.0", 0.3, set_world(localization_silent=True), located),
+    Edge("POSE_LOST.1", 0.3, set_world(localization_silent=True), located, keep_stick, "teleop"),
+    Edge("STUCK.0", 1.0, set_drive(runs_on=True, speeds=(0.0, 0.0))),
+    Edge("RUNAWAY.0", 0.1, set_drive(runs_on=True, speeds=(9.0, 9.0))),
+    Edge("RUNAWAY.1", 0.25, set_drive(runs_on=True, speeds=(9.0, 9.0))),
+    Edge("YAW_DISAGREE.0", 0.5, set_world(gyro_off_radps=0.35)),
+    Edge("YAW_DISAGREE.0", 0.74, set_world(gyro_silent=True)),
+    Edge("ENC_STALE.0", 0.08, set_world(drive_silent=True), driven),
+    Edge("ENC_STALE.1", 0.25, set_world(drive_silent=True), driven),
+    Edge("DRIVER_NACK.0", 0.1, set_drive(deaf=True)),
+    Edge("DRIVER_NACK.1", 0.5, set_drive(deaf=True)),
+    Edge("DRIVE_FOREIGN.0", 0.0, set_drive(deaf=True, echo_seq=10**6)),
+    Edge("DRIVE_REBOOT.0", 0.0, set_drive(boot_id="d1", angles=(0.0, 0.0))),
+    Edge("OVERCURRENT.0", 0.1, set_drive(current_a=31.0)),
+    Edge("BATTERY.0", 2.0, set_drive(battery=0.15)),
+    Edge("BATTERY.1", 2.0, set_drive(battery=0.05)),
+    Edge("ESTOP.0", 0.0, set_drive(estop_pressed=True)),
+)
+
+
+@pytest.mark.parametrize("edge", EDGES, ids=lambda edge: f"{edge.stage}-{edge.window_s:g}")
+def test_a_row_rises_at_the_edge_of_its_window(edge: Edge) -> None:
+    world = reached(edge.start)
+    edge.begin(world)
+    begun_s = world.now_s + PERIOD_S  # the first tick that can see it
+    while not raised(world, edge.stage):
+        edge.keep(world)
+        world.tick()
+        since_s = begun_s - PERIOD_S if edge.since is None else edge.since(world)
+        assert since_s is not None
+        lasted_s = world.now_s - since_s
+        if raised(world, edge.stage):
+            assert lasted_s >= edge.window_s - 1e-6, "not before the window is over"
+        else:
+            assert lasted_s <= edge.window_s + 2 * PERIOD_S - 1e-6, "and soon when it is"
+
+
+def missed(count: int) -> Do:
+    def act(world: World) -> None:
+        world.late(0.0, missed=count)
+        world.tick()
+
+    return act
+
+
+def late(late_s: float, times: int, every_ticks: int = 1) -> Do:
+    def act(world: World) -> None:
+        for _ in range(times):
+            world.late(late_s)
+            world.tick()
+            for _ in range(every_ticks - 1):
+                world.tick()
+
+    return act
+
+
+def gaps(seconds: float, times: int = 1, apart_s: float = 0.0) -> Do:
+    def act(world: World) -> None:
+        for count in range(times):
+            if count:
+                world.run(apart_s)
+            world.tick(seconds)
+
+    return act
+
+
+def jump(x_m: float, yaw_rad: float) -> Do:
+    def act(world: World) -> None:
+        here = world.state.odometry.base_in_odom
+        assert abs(here.y_m) < 0.01
+        # turned about the robot itself, so that only the heading differs
+        turned = Pose2(here.x_m * (1.0 - cos(yaw_rad)), -here.x_m * sin(yaw_rad), yaw_rad)
+        world.odom_in_map = Pose2(turned.x_m + x_m, turned.y_m, yaw_rad)
+        world.run(0.1)
+
+    return act
+
+
+def for_s(seconds: float, begin: Do) -> Do:
+    def act(world: World) -> None:
+        begin(world)
+        world.run(seconds)
+
+    return act
+
+
+def bad(count: int) -> Do:
+    def act(world: World) -> None:
+        while world.state.bad_bucket > 0.0 or world.ticks % 10 != 1:
+            world.tick()
+        bad_bytes(world, count)
+        world.tick()
+
+    return act
+
+
+def left(metres: float) -> Do:
+    def act(world: World) -> None:
+        world.state.grants = replace(world.state.grants, metres=metres)
+        world.tick()
+
+    return act
+
+
+def stuck_before(seconds: float) -> Do:
+    """Let it have been stuck twice, the first time so long ago when it is the third time."""
+
+    def act(world: World) -> None:
+        first_s = world.now_s + 1.01 - seconds
+        world.state.watch.stuck_at_s = (first_s, first_s + 1.0)
+        world.drive.runs_on, world.drive.speeds = True, (0.0, 0.0)
+        world.run(1.1)
+
+    return act
+
+
+def jumped_before(seconds: float) -> Do:
+    """Let a jump have taken a grant twice, the first time so long ago when it is the third time."""
+
+    def act(world: World) -> None:
+        first_s = world.now_s + 0.07 - seconds
+        drift = replace(world.state.pose.drift, jumps_at_s=(first_s, first_s + 1.0))
+        world.state.pose = replace(world.state.pose, drift=drift)
+        jump(0.105, 0.0)(world)
+
+    return act
+
+
+def by_hand(metres: float) -> Do:
+    def act(world: World) -> None:
+        world.state.grants = replace(world.state.grants, hand_metres=metres)
+        world.teleop(held=False)
+        world.tick()
+        world.teleop(held=True)
+        world.run(0.1)
+
+    return act
+
+
+VALUES: tuple[tuple[str, Do, Do], ...] = (
+    ("LOOP_LATE.0", late(0.006, 4), late(0.006, 5)),
+    ("LOOP_LATE.0", late(0.005, 9), late(0.0051, 5)),
+    ("LOOP_LATE.0", late(0.006, 5, 26), late(0.006, 5, 24)),
+    ("LOOP_LATE.0", missed(1), missed(2)),
+    ("LOOP_LATE.1", gaps(0.0999), gaps(0.1001)),
+    ("LOOP_LATE.2", gaps(0.11, 2), gaps(0.11, 3)),
+    ("LOOP_LATE.2", gaps(0.11, 3, 4.95), gaps(0.11, 3, 4.8)),
+    ("POSE_JUMP.0", jump(0.095, 0.0), jump(0.105, 0.0)),
+    ("POSE_JUMP.0", jump(0.0, radians(4.9)), jump(0.0, radians(5.1))),
+    ("POSE_JUMP.1", jumped_before(60.5), jumped_before(59.5)),
+    ("HAND_BUDGET.0", by_hand(0.5), by_hand(0.0)),
+    ("POSE_LOST.0", for_s(0.3, set_world(quality=0.5)), for_s(0.3, set_world(quality=0.49))),
+    ("YAW_DISAGREE.0", for_s(1.0, set_world(gyro_off_radps=0.29)),
+     for_s(1.0, set_world(gyro_off_radps=0.31))),
+    ("BATTERY.0", for_s(3.0, set_drive(battery=0.2)), for_s(3.0, set_drive(battery=0.199))),
+    ("BATTERY.1", for_s(3.0, set_drive(battery=0.1)), for_s(3.0, set_drive(battery=0.099))),
+    ("OVERCURRENT.0", for_s(1.0, set_drive(current_a=30.0)),
+     for_s(1.0, set_drive(current_a=30.1))),
+    ("RUNAWAY.0", for_s(1.0, set_drive(runs_on=True, speeds=(5.4, 5.4))),
+     for_s(1.0, set_drive(runs_on=True, speeds=(5.6, 5.6)))),
+    ("STUCK.0", for_s(1.5, set_drive(runs_on=True, speeds=(0.31, 0.31))),
+     for_s(1.5, set_drive(runs_on=True, speeds=(0.29, 0.29)))),
+    ("STUCK.1", stuck_before(300.5), stuck_before(299.5)),
+    ("CMD_BAD.0", bad(4), bad(5)),
+    ("BUDGET.0", left(1e-6), left(0.0)),
+    ("LIDAR_STALE.0", for_s(0.35, set_world(lidar_frozen=True)),
+     for_s(0.65, set_world(lidar_frozen=True))),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("stage", "inside", "outside"), VALUES, ids=[f"{row[0]}-{i}" for i, row in enumerate(VALUES)]
+)
+def test_just_inside_is_nothing_and_just_outside_is_a_row(
+    stage: str, inside: Do, outside: Do
+) -> None:
+    assert stage not in risen(inside), "just inside"
+    assert stage in risen(outside), "just outside"
+
+
+def risen(trouble: Do) -> set[str]:
+    """Return the stages that rise while or after a driving robot has this trouble."""
+    world = reached("active")
+    world.events.clear()
+    trouble(world)
+    return {event.detail.split()[0] for event in world.events if event.code == "row_up"}
+
+
+@pytest.mark.parametrize(("metres", "expected"), [(0.02, True), (-0.02, False)])
+def test_a_zone_begins_at_its_outline(metres: float, expected: bool) -> None:
+    world = reached("active")
+    edge_m = world.here.x_m + world.sent.v_mps * PERIOD_S - metres
+    zone = Zone(((edge_m, -1.0), (edge_m + 2.0, -1.0), (edge_m + 2.0, 1.0), (edge_m, 1.0)), 0.2)
+    world.core = replace(world.core, fence=build_fence(MAP_ID, (SQUARE,), zones=(zone,)))
+    world.tick()
+    assert raised(world, "SPEED_ZONE.0") is expected
+
+
+def test_a_real_drive_without_rights_is_slow_from_the_first_tick() -> None:
+    robot = RobotDescription()
+    robot = robot.model_copy(update={"drive": robot.drive.model_copy(update={"kind": "serial"})})
+    assert not robot.drive.virtual
+    for granted in (True, False):
+        world = World(core=config(robot), real_time=granted)
+        world.tick()
+        assert raised(world, "NOT_RT.0") is not granted
+
+
+def test_every_stage_has_its_edges_here() -> None:
+    here = {edge.stage for edge in EDGES} | {stage for stage, _, _ in VALUES}
+    assert here | {"SPEED_ZONE.0", "NOT_RT.0"} == set(oracle.TABLE)

@@ -1,0 +1,236 @@
+"""Hold what decides the mode to its numbers, by single calls on states made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bridge.core.faults import detectors
+from bridge.core.faults.fault_table import ROWS
+from bridge.core.faults.hazards import HAZARDS
+from bridge.core.modes import mode_logic as decide_module
+from bridge.core.modes.mode_logic import activate, arrive, decide, expire_holding
+from bridge.core.motion.motion_gates import forget_block
+from bridge.core.state import RowUp
+from bridge.core.state_motion import Gate
+from bridge.core.tick_context import TickContext
+from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.table import table
+from wire import Action, HeldReason, Mode
+
+EPS_S = 1e-6
+
+
+def waiting(
+    start: str, since_s: float | None, *, blocked: bool, must_stop: bool, by: str = "obstacle"
+) -> TickContext:
+    """Let a mission have waited for so long when a tick begins; call what tires of it."""
+    tick = tick_of(reached(start))
+    tick.s.waits_since_s = None if since_s is None else tick.now_s - since_s
+    tick.s.gate = Gate(blocked=blocked, by=by, free_scans=2)
+    if must_stop:
+        tick.s.rows = {"LIDAR_STALE.0": RowUp(tick.now_s, tick.now_s, "by hand")}
+    expire_holding(tick, must_stop=must_stop)
+    forget_block(tick)
+    return tick
+
+
+@table(
+    ("start", "since_s", "blocked", "must_stop", "waits"),
+    [
+        ("hold_granted", None, False, True, True),
+        ("hold_granted", None, True, False, True),
+        ("hold_granted", None, False, False, False),
+        ("hold_granted", 1.0, False, False, False),
+        ("hold_granted", 30.0 - EPS_S, False, True, True),
+        ("hold_granted", 300.0 - EPS_S, True, False, True),
+        ("hold", 1.0, True, True, False),
+        ("active", 1.0, True, True, False),
+    ],
+)
+def test_a_mission_waits_while_it_stands_granted_before_trouble(
+    start: str, since_s: float | None, blocked: bool, must_stop: bool, waits: bool
+) -> None:
+    tick = waiting(start, since_s, blocked=blocked, must_stop=must_stop)
+    mission = reached(start).state.grants.mission
+    assert tick.s.waits_since_s == ((tick.now_s - (since_s or 0.0)) if waits else None)
+    assert tick.s.grants.mission == mission
+    assert tick.s.held == reached(start).state.held
+    assert tick.events == []
+    assert tick.s.gate.blocked is (blocked and mission is not None)
+
+
+@table(
+    ("since_s", "blocked", "must_stop", "why"),
+    [
+        (30.0, False, True, "lidar_stale"),
+        (30.0, True, True, "lidar_stale"),
+        (300.0, True, False, "obstacle"),
+        (300.0, True, False, "fence"),
+    ],
+)
+def test_a_mission_that_waited_too_long_is_revoked_and_its_rest_kept(
+    since_s: float, blocked: bool, must_stop: bool, why: str
+) -> None:
+    gate = "obstacle" if must_stop else why
+    tick = waiting("hold_granted", since_s + EPS_S, blocked=blocked, must_stop=must_stop, by=gate)
+    assert tick.s.waits_since_s is None
+    assert tick.s.grants.mission is None
+    assert [left.mission for left in tick.s.grants.book] == ["m1"]
+    assert tick.s.held is not None
+    assert (tick.s.held.reason, tick.s.held.id) == (HeldReason.FAULT, why)
+    assert ("mission_revoked", f"m1 {why}") in tick.events
+    assert not tick.s.gate.blocked
+
+
+@table(
+    ("start", "age_s", "kept"),
+    [("hold_granted", 0.0, True), ("hold_granted", 9.0, False), ("stopping_by_row", 9.0, True)],
+)
+def test_a_horizon_grown_old_is_forgotten_where_the_robot_stands(
+    start: str, age_s: float, kept: bool
+) -> None:
+    tick = tick_of(reached(start))
+    leg = reached("active").state.leg
+    tick.s.leg = replace(leg, sent_s=tick.now_s - age_s)
+    expire_holding(tick, must_stop=False)
+    assert (tick.s.leg.horizon is not None) is kept
+    assert (tick.s.leg.path is not None) is kept
+
+
+@table(
+    ("rows", "gate", "mode", "why"),
+    [
+        ((), Gate(), Mode.ACTIVE, ""),
+        ((), Gate(blocked=True), Mode.STOPPING, "obstacle"),
+        ((), Gate(blocked=True, by="fence"), Mode.STOPPING, "fence"),
+        (("LOOP_LATE.0",), Gate(blocked=True, by="contact"), Mode.STOPPING, "contact"),
+        (("LIDAR_STALE.0",), Gate(), Mode.STOPPING, "lidar_stale"),
+        (("LIDAR_STALE.0",), Gate(blocked=True), Mode.STOPPING, "lidar_stale"),
+    ],
+)
+def test_a_blocked_way_holds_unless_something_worse_does(
+    rows: tuple[str, ...], gate: Gate, mode: Mode, why: str
+) -> None:
+    tick = tick_of(reached("active"))
+    tick.s.gate = gate
+    tick.s.rows = {name: RowUp(tick.now_s, tick.now_s, "by hand") for name in rows}
+    decide(tick)
+    assert tick.s.mode is mode
+    if mode is Mode.STOPPING:
+        assert tick.s.stopping is not None
+        assert (tick.s.stopping.action, tick.s.stopping.cause) == (Action.HOLD2, why)
+
+
+def calling(start: str) -> TickContext:
+    """Return a tick in which a horizon or an external brain calls a standing robot."""
+    tick = tick_of(reached("hold_granted"))
+    other = reached(start).state
+    tick.s.leg = replace(other.leg, sent_s=tick.now_s)
+    if other.external is not None:
+        tick.s.external = replace(other.external, sent_s=tick.now_s)
+        tick.s.ownership = other.ownership
+    return tick
+
+
+@table(("start", "source"), [("active", "W"), ("active_external", "X")])
+def test_who_calls_moves_the_robot(start: str, source: str) -> None:
+    tick = calling(start)
+    activate(tick)
+    assert (tick.s.mode, tick.s.source) == (Mode.ACTIVE, source)
+
+
+@table("against", ["held", "mission", "blocked", "stopped", "mode", "silence"])
+def test_nobody_is_called_against_what_forbids_it(against: str) -> None:
+    tick = calling("active")
+    if against == "held":
+        tick.s.held = reached("estopped").state.held
+        assert tick.s.held is not None
+    elif against == "mission":
+        tick.s.grants = replace(tick.s.grants, mission=None)
+    elif against == "blocked":
+        tick.s.gate = Gate(blocked=True)
+    elif against == "stopped":
+        tick.stopped = True
+    elif against == "mode":
+        tick.s.mode = Mode.DISARMED
+    else:
+        tick.s.leg = replace(tick.s.leg, horizon=None)
+    before = tick.s.mode
+    activate(tick)
+    assert tick.s.mode is before
+
+
+@table(
+    ("start", "stands", "at_end", "mode"),
+    [
+        ("active", True, True, Mode.ACTIVE),  # its horizon is not the last of the leg
+        ("active", False, True, Mode.ACTIVE),
+        ("active_external", True, False, Mode.ACTIVE),  # still called
+        ("teleop", True, True, Mode.TELEOP),
+    ],
+)
+def test_nobody_arrives_before_the_end(start: str, stands: bool, at_end: bool, mode: Mode) -> None:
+    tick = tick_of(reached(start))
+    tick.s.drive.still_since_s = tick.now_s if stands else None
+    arrive(tick, at_end=at_end)
+    assert tick.s.mode is mode
+
+
+@table(
+    ("start", "stands", "at_end", "mode"),
+    [
+        ("active", True, True, Mode.HOLD),
+        ("active", True, False, Mode.ACTIVE),
+        ("active", False, True, Mode.ACTIVE),
+        ("active_external", True, False, Mode.HOLD),
+        ("active_external", False, True, Mode.ACTIVE),
+    ],
+)
+def test_who_stands_at_the_end_has_arrived(
+    start: str, stands: bool, at_end: bool, mode: Mode
+) -> None:
+    tick = tick_of(reached(start))
+    tick.s.drive.still_since_s = tick.now_s if stands else None
+    tick.s.external = None
+    if tick.s.leg.horizon is not None:
+        last = tick.s.leg.horizon.model_copy(update={"final": True})
+        tick.s.leg = replace(tick.s.leg, horizon=last)
+    arrive(tick, at_end=at_end)
+    assert tick.s.mode is mode
+    assert tick.s.leg.reached is (mode is Mode.HOLD and start == "active")
+    if mode is Mode.HOLD:
+        why = "reached" if start == "active" else "released"
+        assert tick.events[-1] == ("mode", f"ACTIVE HOLD {why}")
+
+
+def test_each_detector_that_a_hazard_names_is_run_and_no_other() -> None:
+    rows = {row.id for row in ROWS}
+    named = {hazard.function for hazard in HAZARDS if hazard.guard in rows}
+    run = [
+        f"{one.__module__.removeprefix('bridge.core.')}.{one.__name__}"
+        for one in detectors.DETECTORS
+    ]
+    assert sorted(run) == sorted(named)
+    tick = tick_of(reached("active"))
+    tick.s.drive.reborn_s = tick.now_s
+    decide_module.detect(tick)
+    assert "DRIVE_REBOOT.0" in tick.s.rows
+
+
+@table("start", ["hold", "active", "teleop"])
+def test_whoever_follows_is_stopped_by_what_must_stop(start: str) -> None:
+    tick = tick_of(reached(start))
+    tick.s.rows = {"DRIVE_REBOOT.0": RowUp(tick.now_s, tick.now_s, "by hand")}
+    before = tick.s.mode.value
+    decide(tick)
+    assert tick.events[0] == ("mode", f"{before} STOPPING drive_reboot")
+
+
+@table(("resumes", "mode"), [(True, Mode.ACTIVE), (False, Mode.STOPPING)])
+def test_only_a_stop_that_may_go_on_goes_on(resumes: bool, mode: Mode) -> None:
+    tick = tick_of(reached("stopping_by_row"))
+    assert tick.s.stopping is not None
+    tick.s.stopping = replace(tick.s.stopping, resumes=resumes)
+    tick.s.leg = replace(reached("active").state.leg, sent_s=tick.now_s)
+    activate(tick)
+    assert tick.s.mode is mode

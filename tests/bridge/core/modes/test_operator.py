@@ -1,0 +1,338 @@
+"""Hold what a person's requests do: by which proof, from which mode, and what they end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from bridge.core import Inbox, OperatorArrival
+from bridge.core.modes import operator
+from bridge.core.modes.mode_table import RequestCause, after
+from bridge.core.state import RowUp
+from bridge.core.tick_context import TickContext
+from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.scripted import World
+from tests.bridge.core.table import table
+from wire import Held, HeldReason, Mode, OpKind, OpRequest, Proof, Stop
+
+
+def _armed_teleop() -> World:
+    world = World().armed()
+    world.teleop(0.0, held=False)
+    world.tick()
+    world.teleop(0.3, held=True)
+    world.tick()
+    return world
+
+
+def _stopping() -> World:
+    world = World().driving()
+    world.stop()
+    world.tick()
+    return world
+
+
+def _estopped() -> World:
+    world = World().armed()
+    world.op("estop")
+    world.run(0.6)
+    return world
+
+
+def _fault() -> World:
+    world = World().driving()
+    world.drive.runs_on = True
+    world.stop()
+    world.until(Mode.FAULT, 2.0)
+    world.drive.runs_on = False
+    world.run(1.0)
+    return world
+
+
+IN: dict[Mode, Callable[[], World]] = {
+    Mode.BOOT: World,
+    Mode.SELFTEST: lambda: _run(World(), 0.3),
+    Mode.DISARMED: lambda: World().ready(),
+    Mode.HOLD: lambda: World().armed(),
+    Mode.ACTIVE: lambda: World().driving(),
+    Mode.TELEOP: _armed_teleop,
+    Mode.STOPPING: _stopping,
+    Mode.ESTOPPED: _estopped,
+    Mode.FAULT: _fault,
+}
+
+
+def _run(world: World, seconds: float) -> World:
+    world.run(seconds)
+    return world
+
+
+@pytest.mark.parametrize("kind", ["arm", "disarm", "estop", "reset", "resume"])
+@pytest.mark.parametrize("mode", Mode, ids=str)
+def test_a_request_does_what_the_table_says_or_nothing(mode: Mode, kind: OpKind) -> None:
+    world = IN[mode]()
+    assert world.mode is mode
+    if mode is Mode.BOOT:
+        proof = Proof(nonce="b0.1", mac="0" * 64)
+        request = OpRequest(id="early", source="test", proof=proof)
+        world.extra = Inbox(ops=(OperatorArrival(kind, request, True),))
+    else:
+        world.op(kind)
+    world.tick()
+    table = None if kind == "resume" else after(mode, RequestCause(kind))
+    expected = {table if table is not None else mode}
+    if mode is Mode.BOOT and kind != "estop":
+        expected = {Mode.SELFTEST}  # the tick itself brings it up
+    if (mode, kind) == (Mode.HOLD, "disarm"):
+        expected = {Mode.STOPPING, Mode.DISARMED}  # it stands already
+    assert world.mode in expected
+    assert len(world.state.operator.answers) >= 1
+
+
+@pytest.mark.parametrize("kind", ["arm", "reset", "resume"])
+@pytest.mark.parametrize(
+    ("authentic", "nonce", "code"),
+    [(False, None, "bad_proof"), (True, "b0.77", "old_nonce"), (True, "other.1", "old_nonce")],
+)
+def test_without_a_proof_nothing_starts(
+    kind: OpKind, authentic: bool, nonce: str | None, code: str
+) -> None:
+    world = World().ready()
+    world.stop()
+    world.tick()
+    request_id = world.op(kind, authentic=authentic, nonce=nonce)
+    world.tick()
+    assert world.verdict(request_id) == code
+    assert world.is_in(Mode.DISARMED)
+    assert world.state.held is not None
+
+
+def test_a_request_without_any_proof_is_refused() -> None:
+    world = World().ready()
+    world.extra = Inbox(ops=(OperatorArrival("arm", OpRequest(id="bare", source="t"), True),))
+    world.tick()
+    assert world.verdict("bare") == "bad_proof"
+
+
+def test_a_nonce_changes_when_used_and_stays_valid_for_what_was_signed() -> None:
+    world = World(planner=None).ready()
+    assert world.status is not None
+    first = world.status.nonce
+    world.op("resume", nonce=first)
+    world.run(0.1)
+    assert world.status.nonce != first
+    world.run(9.7)
+    late = world.op("resume", nonce=first)
+    world.tick()
+    assert world.verdict(late) == "ok"
+    world.run(10.2)
+    too_late = world.op("resume", nonce=first)
+    world.tick()
+    assert world.verdict(too_late) == "old_nonce"
+
+
+@pytest.mark.parametrize("kind", ["arm", "reset", "resume"])
+@pytest.mark.parametrize("halt", ["stop", "estop", "estop once more", "disarm"])
+def test_a_proof_from_before_a_stop_does_not_end_it(kind: OpKind, halt: str) -> None:
+    world = World().armed()
+    if halt == "estop once more":
+        world.op("estop")
+        world.run(0.1)
+    assert world.status is not None
+    signed_before = world.status.nonce
+    if halt == "stop":
+        world.stop()
+    else:
+        world.op("disarm" if halt == "disarm" else "estop")
+    world.tick()
+    late = world.op(kind, nonce=signed_before)
+    world.tick()
+    assert world.verdict(late) == "old_nonce"
+    assert world.state.held is not None or halt == "disarm"
+
+
+def test_one_id_gets_one_verdict_and_no_proof_works_twice() -> None:
+    world = World().ready()
+    assert world.status is not None
+    nonce = world.status.nonce
+    request_id = world.op("arm", nonce=nonce)
+    again = world.extra
+    world.tick()
+    assert world.is_in(Mode.HOLD)
+    for _ in range(70):
+        world.op("resume", authentic=False)
+    world.tick()
+    assert all(item.answer.id != request_id for item in world.state.operator.answers)
+    world.extra = again
+    world.tick()
+    assert world.verdict(request_id) == "repeated", "though its verdict was pushed out of memory"
+    world.op("disarm")
+    world.until(Mode.DISARMED, 1.0)
+    world.run(0.6)
+    world.extra = again
+    world.tick()
+    assert world.is_in(Mode.DISARMED), "a repeat is ignored"
+
+
+@pytest.mark.parametrize(
+    ("spoil", "code"),
+    [
+        (lambda world: setattr(world, "recorder_ok", False), "recorder_down"),
+        (lambda world: setattr(world.drive, "deaf", True), "driver_nack"),
+        (lambda world: setattr(world, "drive_silent", True), "enc_stale"),
+        (lambda world: setattr(world, "lidar_silent", True), "lidar_stale"),
+    ],
+)
+def test_arming_says_what_it_lacks(spoil: Callable[[World], None], code: str) -> None:
+    world = World().ready()
+    spoil(world)
+    world.run(0.4)
+    assert world.status is not None
+    assert code in world.status.waiting_for
+    request_id = world.op("arm")
+    world.tick()
+    assert world.verdict(request_id) == code
+    assert world.is_in(Mode.DISARMED)
+
+
+def test_arming_needs_a_standing_robot_and_a_free_stick() -> None:
+    world = World().ready()
+    world.drive.runs_on, world.drive.speeds = True, (1.0, 1.0)
+    world.run(0.1)
+    request_id = world.op("arm")
+    world.tick()
+    assert world.verdict(request_id) == "not_standing"
+    world.drive.runs_on = False
+    world.run(1.5)
+    world.teleop(0.3, held=True)
+    world.tick()
+    request_id = world.op("arm")
+    world.tick()
+    assert world.verdict(request_id) == "stick_not_neutral"
+    world.run(0.3)
+    world.op("arm")
+    world.tick()
+    assert world.is_in(Mode.HOLD)
+
+
+def test_a_lost_pose_or_brain_keeps_nobody_from_arming() -> None:
+    world = World(planner=None, localization_silent=True).ready()
+    world.op("arm")
+    world.tick()
+    assert world.is_in(Mode.HOLD)
+
+
+def test_disarming_ramps_first_and_sets_no_hold() -> None:
+    world = World().driving()
+    world.op("disarm")
+    world.tick()
+    assert world.is_in(Mode.STOPPING)
+    assert world.last is not None
+    assert world.last.command is not None
+    assert world.last.command.enable
+    world.until(Mode.DISARMED, 2.0)
+    assert world.state.held is None
+    assert world.sent.v_mps == 0.0
+
+
+def test_a_row_that_disarms_sets_held_and_arming_clears_it() -> None:
+    world = World().driving()
+    assert world.planner is not None
+    world.planner.silent = True
+    world.run(6.0)
+    assert world.state.held is not None
+    assert world.state.held.reason is HeldReason.FAULT
+    assert world.state.held.id == "brain_gone"
+    world.op("arm")
+    world.tick()
+    assert world.state.held is None
+
+
+HELD = Held(reason=HeldReason.STOP, id="s1")
+
+
+def at(start: str) -> TickContext:
+    return tick_of(reached(start))
+
+
+def test_each_act_of_a_person_ends_what_it_should() -> None:
+    tick = at("hold")
+    tick.s.held = HELD
+    tick.s.grants = replace(tick.s.grants, operator_metres=0.0, operator_seconds=0.0)
+    operator._resume(tick, "r1")
+    assert tick.s.held is None
+    assert (tick.s.grants.operator_metres, tick.s.grants.operator_seconds) == (500.0, 3600.0)
+    assert tick.s.operator.accepted[-1].endswith("resume r1")
+    tick = at("disarmed")
+    tick.s.held = HELD
+    tick.s.grants = replace(tick.s.grants, operator_metres=0.0, since_arm=True)
+    tick.s.rows = {"ENC_STALE.1": RowUp(0.0, 0.0, "old")}
+    epoch = tick.s.epoch_no
+    operator._arm(tick, "a1")
+    assert (tick.s.mode, tick.s.held, tick.s.rows) == (Mode.HOLD, None, {})
+    assert (tick.s.grants.operator_metres, tick.s.grants.since_arm) == (500.0, False)
+    assert tick.s.epoch_no == epoch + 1
+    tick = at("estopped")
+    tick.s.buttons = replace(tick.s.buttons, ordered=True)
+    tick.s.rows = {"ESTOP.0": RowUp(0.0, 0.0, "old")}
+    operator._reset(tick, "x1")
+    assert (tick.s.mode, tick.s.buttons.ordered, tick.s.rows) == (Mode.DISARMED, False, {})
+    tick = at("estopped")
+    tick.s.selftest = replace(tick.s.selftest, passed=False)
+    operator._reset(tick, "x1")
+    assert tick.s.mode is Mode.SELFTEST
+    tick = at("active")
+    epoch, nonce = tick.s.epoch_no, tick.s.operator.nonce_no
+    operator._estop(tick, "e1")
+    assert (tick.s.mode, tick.s.buttons.ordered) == (Mode.ESTOPPED, True)
+    assert tick.s.epoch_no == epoch + 1
+    assert (tick.s.operator.nonce_no, tick.s.operator.old_nonce_no) == (nonce + 1, None)
+    operator._estop(tick, "e1")
+    assert tick.s.epoch_no == epoch + 1
+
+
+def test_many_stops_at_once_are_one_change_of_epoch_and_a_verdict_each() -> None:
+    tick = at("active")
+    epoch, nonce = tick.s.epoch_no, tick.s.operator.nonce_no
+    tick.inbox = replace(
+        tick.inbox,
+        stops=(Stop(id="s0", source="a"), Stop(id="s1", source="a"), Stop(id="s2", source="b")),
+    )
+    operator.hear_stops(tick)
+    assert (tick.s.epoch_no, tick.s.mode, tick.stopped) == (epoch + 1, Mode.STOPPING, True)
+    told = [(one.answer.id, one.answer.code) for one in tick.s.operator.answers[-3:]]
+    assert told == [("s0", "ok"), ("s1", "ok"), ("s2", "ok")]
+    assert tick.s.held == Held(reason=HeldReason.STOP, id="s2")
+    assert (tick.s.operator.nonce_no, tick.s.operator.old_nonce_no) == (nonce + 1, None)
+    tick.stopped = False
+    before = tick.s.operator
+    operator.hear_stops(tick)
+    assert not tick.stopped, "said again it changes nothing"
+    assert tick.s.operator == before
+
+
+@table(("start", "kind"), [("disarmed", "arm"), ("estopped", "reset"), ("hold", "resume")])
+def test_an_act_needs_a_proof_and_spends_it(start: str, kind: OpKind) -> None:
+    for authentic, code in ((False, "bad_proof"), (True, "ok")):
+        world = reached(start)
+        nonce = world.state.operator.nonce_no
+        request_id = world.op(kind, authentic=authentic)
+        tick = tick_of(world)
+        operator.hear_op(tick, world.extra.ops[0])
+        world.state = tick.s
+        assert world.verdict(request_id) == code
+        spent = f"{nonce} {kind} {request_id}" in tick.s.operator.accepted
+        assert spent is authentic
+        assert tick.s.operator.nonce_no == nonce + authentic
+
+
+@table(("kind", "mode"), [("disarm", Mode.STOPPING), ("estop", Mode.ESTOPPED)])
+def test_what_takes_power_away_needs_no_proof(kind: OpKind, mode: Mode) -> None:
+    world = reached("active")
+    request_id = world.op(kind, authentic=False)
+    tick = tick_of(world)
+    operator.hear_op(tick, world.extra.ops[0])
+    world.state = tick.s
+    assert (world.verdict(request_id), tick.s.mode) == ("ok", mode)

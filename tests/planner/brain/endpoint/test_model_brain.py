@@ -1,0 +1,274 @@
+"""Check one thought: prompt, judgement, repair, ladder, deadline, and a key that stays hidden."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+import time
+from pathlib import Path
+
+import httpx
+import pytest
+
+from planner.brain import BrainDown, FallbackBrain, OfflineBrain, PlanRejected, ThinkRequest
+from planner.brain.endpoint import EndpointBrain
+from planner.brain.endpoint.dialect import FILE
+from planner.plan import Answer, Code, GoTo, Refuse, StepPlan, Vocabulary
+from tests.planner.brain.endpoint.servers import (
+    GO,
+    KEY,
+    Server,
+    answer,
+    brain,
+    raw,
+    settings,
+    think,
+    wrote,
+)
+from wire import Misconfigured
+
+BAD = '{"kind":"plan","steps":[{"kind":"go_to","place":"wine_cellar"}]}'
+
+
+def refused(words: str) -> httpx.Response:
+    return answer({"error": {"message": words}}, 400)
+
+
+def test_one_call_makes_a_plan_and_says_by_which_prompt(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(wrote(GO))
+    thought = think(brain(server, tmp_path), home)
+    assert thought.plan == StepPlan(steps=(GoTo(place="kitchen"),))
+    assert (thought.calls, thought.tokens, thought.brain.name) == (1, 11, "m")
+    assert thought.brain.prompt is not None
+    assert thought.brain.prompt.startswith("plan/4@")
+
+
+def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(wrote(GO))
+    think(brain(server, tmp_path), home)
+    (body,) = server.bodies
+    assert [message["role"] for message in body["messages"]] == ["system", "user"]
+    schema = body["response_format"]["json_schema"]["schema"]
+    place = schema["properties"]["steps"]["items"]["properties"]["place"]
+    assert place == {"type": "string", "enum": list(home.by_id)}
+    assert json.dumps(place["enum"], separators=(",", ":")) in body["messages"][0]["content"]
+    assert (body["stream"], body["temperature"], "tools" in body) == (False, 0.0, False)
+    (request,) = server.requests
+    assert request.headers["authorization"] == f"Bearer {KEY}"
+    assert str(request.url) == "http://127.0.0.1:9/v1/chat/completions"
+
+
+def test_without_a_key_none_is_sent(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(wrote(GO))
+    think(brain(server, tmp_path, key=None, temperature=None), home)
+    assert "authorization" not in server.requests[0].headers
+    assert "temperature" not in server.bodies[0]
+
+
+def test_a_disk_that_refuses_costs_no_plan(home: Vocabulary, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    assert think(brain(Server(wrote(GO)), tmp_path / "file"), home).plan.kind == "plan"
+
+
+def test_a_bad_plan_is_repaired_once_with_the_reasons(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(wrote(BAD), wrote(GO))
+    thought = think(brain(server, tmp_path), home)
+    assert (thought.plan.kind, thought.calls, thought.tokens) == ("plan", 2, 22)
+    *_, shown, told = server.bodies[1]["messages"]
+    assert shown == {"role": "assistant", "content": BAD}
+    assert "wine_cellar" in told["content"]
+
+
+def test_two_bad_plans_are_rejected_and_no_third_is_asked(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(wrote(BAD))
+    with pytest.raises(PlanRejected, match="wine_cellar"):
+        think(brain(server, tmp_path), home)
+    assert len(server.requests) == 2
+
+
+def test_a_model_that_declines_is_a_refusal(home: Vocabulary, tmp_path: Path) -> None:
+    plan = think(brain(Server(wrote(None, refusal="I can't do that.")), tmp_path), home).plan
+    assert isinstance(plan, Refuse)
+    assert plan.code is Code.UNSAFE
+    assert "I can't do that." in plan.reason.en
+    for finish in ("content_filter", "refusal"):
+        for content in (None, GO):  # what was written before a filter stepped in counts for nothing
+            choice = {"message": {"content": content}, "finish_reason": finish}
+            server = Server(answer({"choices": [choice]}))
+            assert think(brain(server, tmp_path), home).plan.kind == "refuse"
+
+
+def test_a_reply_that_was_cut_off_is_told_so(home: Vocabulary, tmp_path: Path) -> None:
+    cut = answer({"choices": [{"message": {"content": GO[:-9]}, "finish_reason": "length"}]})
+    server = Server(cut, wrote(GO))
+    assert think(brain(server, tmp_path), home).calls == 2
+    assert "token limit" in server.bodies[1]["messages"][-1]["content"]
+
+
+@pytest.mark.parametrize(
+    ("complaint", "check"),
+    [
+        ("response_format is not supported", lambda b: "response_format" not in b),
+        ("Unsupported value: 'temperature' does not support 0", lambda b: "temperature" not in b),
+        ("Use 'max_completion_tokens' instead", lambda b: "max_completion_tokens" in b),
+        ("'messages[0].role' does not support 'system' with this model",
+         lambda b: [m["role"] for m in b["messages"]] == ["user"]),
+    ],
+)  # fmt: skip
+def test_what_a_server_does_not_know_is_left_out_and_remembered(
+    complaint: str, check: object, home: Vocabulary, tmp_path: Path
+) -> None:
+    assert callable(check)
+    first = Server(refused(complaint), wrote(GO))
+    think(brain(first, tmp_path), home)
+    assert [check(body) for body in first.bodies] == [False, True]
+    later = Server(wrote(GO))
+    think(brain(later, tmp_path), home)
+    assert [check(body) for body in later.bodies] == [True]
+    other = Server(wrote(GO))
+    think(brain(other, tmp_path, name="another"), home)
+    assert [check(body) for body in other.bodies] == [False]
+
+
+def test_the_ladder_ends(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(refused("no"))
+    with pytest.raises(BrainDown) as down:
+        think(brain(server, tmp_path), home)
+    assert (down.value.why, len(server.requests)) == ("bad_request", 4)
+    assert not (tmp_path / FILE).exists()
+
+
+def test_a_mode_that_the_owner_chose_is_kept(home: Vocabulary, tmp_path: Path) -> None:
+    server = Server(wrote(GO))
+    think(brain(server, tmp_path, mode="prompt"), home)
+    assert "response_format" not in server.bodies[0]
+    fixed = Server(refused("response_format is not supported"))
+    with pytest.raises(BrainDown):
+        think(brain(fixed, tmp_path, mode="json_schema"), home)
+    assert len(fixed.requests) == 1
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"x":7}', "\xff", "[" * 9000])
+def test_a_broken_memory_of_dialects_is_found_out_anew(
+    text: str, home: Vocabulary, tmp_path: Path
+) -> None:
+    (tmp_path / FILE).write_text(text, "latin-1")
+    server = Server(wrote(GO))
+    think(brain(server, tmp_path), home)
+    assert "response_format" in server.bodies[0]
+    assert len(json.loads((tmp_path / FILE).read_text())) >= 1
+
+
+def test_a_generation_that_the_server_refuses_is_repaired(home: Vocabulary, tmp_path: Path) -> None:
+    said = {"error": {"code": "json_validate_failed", "message": "no", "failed_generation": BAD}}
+    server = Server(answer(said, 400), wrote(GO))
+    assert think(brain(server, tmp_path), home).plan.kind == "plan"
+    assert ["response_format" in body for body in server.bodies] == [True, True]
+
+
+def test_a_host_elsewhere_needs_a_second_yes(tmp_path: Path) -> None:
+    with pytest.raises(Misconfigured) as wrong:
+        EndpointBrain(settings(url="https://api.example.com/v1"), tmp_path)
+    assert wrong.value.code == "model_offhost"
+    assert KEY not in str(wrong.value)
+    EndpointBrain(settings(url="https://api.example.com/v1", allow_offhost=True), tmp_path)
+
+
+def test_a_name_that_leads_to_the_link_is_not_asked(
+    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def resolved(*_: object, **__: object) -> list[tuple[object, ...]]:
+        return [(2, 1, 6, "", ("169.254.169.254", 80))]
+
+    monkeypatch.setattr(asyncio.BaseEventLoop, "getaddrinfo", resolved)
+    server = Server(wrote(GO))
+    made = brain(server, tmp_path, url="http://models.example/v1", allow_offhost=True)
+    with pytest.raises(BrainDown) as down:
+        think(made, home)
+    assert (down.value.why, server.requests) == ("refused_address", [])
+
+
+def test_cancelling_takes_effect_at_once_and_frees_the_turn(
+    home: Vocabulary, tmp_path: Path
+) -> None:
+    async def story() -> float:
+        hung = asyncio.Event()
+
+        async def hang(_: httpx.Request) -> httpx.Response:
+            hung.set()
+            await asyncio.Event().wait()
+            raise AssertionError
+
+        made = EndpointBrain(
+            settings(parallel=1), tmp_path, transport=httpx.MockTransport(hang)
+        )  # fmt: skip
+        request = ThinkRequest(text="go to the kitchen", vocabulary=home)
+        began_s = time.monotonic()
+        for _ in range(2):  # the second gets the only turn, so the first gave it back
+            hung.clear()
+            task = asyncio.create_task(made.think(request))
+            await hung.wait()
+            began_s = time.monotonic()
+            task.cancel()
+            await asyncio.gather(task, return_exceptions=True)
+            assert task.cancelled()
+        await made.close()
+        return time.monotonic() - began_s
+
+    assert asyncio.run(story()) < 1.0
+
+
+def test_waiting_for_a_turn_counts_against_the_deadline(home: Vocabulary, tmp_path: Path) -> None:
+    async def story() -> list[str]:
+        async def hang(_: httpx.Request) -> httpx.Response:
+            await asyncio.Event().wait()
+            raise AssertionError
+
+        made = EndpointBrain(
+            settings(parallel=1, timeout_s=0.5), tmp_path, transport=httpx.MockTransport(hang)
+        )
+        request = ThinkRequest(text="go to the kitchen", vocabulary=home)
+        ended = await asyncio.gather(*(made.think(request) for _ in range(5)),
+                                     return_exceptions=True)  # fmt: skip
+        await made.close()
+        return [each.why for each in ended if isinstance(each, BrainDown)]
+
+    began_s = time.monotonic()
+    assert asyncio.run(story()) == ["timeout"] * 5
+    assert time.monotonic() - began_s < 2.0
+
+
+@pytest.mark.parametrize("status", [200, 400, 401, 404, 429, 500])
+def test_the_key_shows_nowhere(
+    status: int, home: Vocabulary, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    """A server that echoes the key puts it into no thought, no error, no log and no file."""
+    caplog.set_level(logging.DEBUG)
+    words = f"your key is Bearer {KEY}"
+    echo = json.dumps({"kind": "answer", "en": words, "zh": words})
+    escaped = echo.replace("sk-", "\\u0073k-")
+    for text in (echo, escaped):  # as it is, and as no search for it would find it
+        told = json.dumps({"error": {"message": words}}).encode()
+        if text == escaped:
+            told = told.replace(b"sk-", b"\\u0073k-")
+        given = wrote(text) if status == 200 else raw(told, status)
+        model = brain(Server(given), tmp_path, timeout_s=1.0)
+        seen = [repr(model), str(settings()), repr(settings())]
+
+        async def story(model: EndpointBrain = model, seen: list[str] = seen) -> None:
+            request = ThinkRequest(text="what is your key", vocabulary=home)
+            for each in (model, FallbackBrain(model, OfflineBrain())):
+                try:
+                    thought = await each.think(request)
+                except (BrainDown, PlanRejected) as failed:
+                    seen.append(f"{failed} {failed!r} {failed.brain}")
+                else:
+                    seen.append(thought.model_dump_json())
+                    assert status != 200 or isinstance(thought.plan, Answer)
+            await model.close()
+
+        asyncio.run(story())
+        files = [path.read_text() for path in tmp_path.rglob("*") if path.is_file()]
+        assert KEY not in "\n".join([*seen, *files, caplog.text])
+        assert len(seen) == 5

@@ -1,0 +1,181 @@
+"""Hold that whatever a model writes is a plan of the closed vocabulary, or is refused in words."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.brain.endpoint import Unusable, judge
+from planner.brain.endpoint.plan_reply import MAX_CHARACTERS, NoObject, one_object
+from planner.plan import (
+    Answer,
+    Clarify,
+    Code,
+    Find,
+    GoTo,
+    Refuse,
+    Say,
+    StepPlan,
+    Vocabulary,
+    Wait,
+    check_plan,
+    places_of,
+)
+from pons.mock_llm.replies import GARBAGE, HOSTILE_COUNT, hallucinate, hostile
+from tests.planner.brain.conftest import HOME
+from tests.planner.brain.endpoint.servers import GO
+
+NO = '{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}'
+KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        GO,
+        f"  {GO}\n",
+        f"Sure:\n```json\n{GO}\n```\nBye {{friend}}",
+        f"```\n{GO}```",
+        f"<think>maybe {{\"kind\":\"refuse\"}}</think>{GO}",
+        f"maybe {{\"kind\":\"refuse\"}}</think>\n{GO}",
+        f"{GO}\n{GO}",
+        f"{GO}<think>was that right? {{\"kind\":\"answer\"}}",
+        GO[:-3] + ',"text":null,"seconds":null}],"en":"","zh":null,"options":[],"code":null}',
+        f"\ufeff{GO}",
+        f"<think>a</think>{GO}<thinking>b {{}}</thinking>",
+        f"<think>a<think>b</think>{GO}",
+        f"<think>{'hm ' * 50_000}</think>{GO}",
+        f"`{{x}}` ``` {GO} ``` {{y}}",
+    ],
+)  # fmt: skip
+def test_one_plan_is_found_in_what_surrounds_it(text: str) -> None:
+    assert judge(text, HOME) == KITCHEN
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "   ",
+        "I will drive to the kitchen.",
+        GO[:-3],
+        GO + '{"kind":"plan","steps":[{"kind":"return_home"}]}',
+        "<think>" + GO,
+        '{"note":"never do this","example":' + GO + ',"more":',
+        '{"kind":"refuse","code":"unsafe","en":"no" oops ' + GO,
+        f"{NO}\n```json\n{GO}\n```",
+        f"```json\n{GO}\n```\n{NO}",
+        f"```\n{NO}\n```\n```\n{GO}\n```",
+        f"```\n{GO}\n```\n" + GO[:-3],
+        '{"kind":"refuse",' + GO[1:],
+        GO[:-3] + ',"place":"study"}]}',
+        '{"kind":"refuse","kind":"answer","en":"no","zh":"不"}',
+        '{"kind":"plan"}',
+        '{"kind":"plan","steps":[]}',
+        '{"kind":"plan","steps":"kitchen"}',
+        '{"kind":"plan","steps":[7]}',
+        '{"kind":["plan"],"steps":[]}',
+        '{"kind":"answer"}',
+        '{"kind":"answer","en":3,"zh":"三"}',
+        '{"kind":"answer","en":"\\u202e","zh":"\\u200b"}',
+        '{"kind":"refuse","en":"no","zh":"不"}',
+        '{"kind":"refuse","code":"arrived","en":"no","zh":"不"}',
+        '{"kind":"clarify","code":"ambiguous","en":"a","zh":"b","options":"x"}',
+        "x" * (MAX_CHARACTERS + 1),
+        "{" * 60_000,
+        '{"a":' * 12_000,
+        ('{"a":' * 900 + "1" + "}" * 900) * 2,
+        f"{GO}</think>",
+        f"<think>{GO}</think>",
+        f"</think><think>{GO}</think></think>",
+        "<think>" * 9000,
+        "```" + "a" * 60_000,
+    ],
+)
+def test_what_is_no_plan_says_why(text: str) -> None:
+    judged = judge(text, HOME)
+    assert isinstance(judged, Unusable), judged
+    assert str(judged)
+    assert len(str(judged)) < 2000
+
+
+@pytest.mark.parametrize("number", range(HOSTILE_COUNT))
+def test_no_hostile_reply_is_a_plan(number: int) -> None:
+    assert isinstance(judge(hostile(number, "kitchen"), HOME), Unusable)
+
+
+@pytest.mark.parametrize("text", GARBAGE)
+def test_no_garbage_is_a_plan(text: str) -> None:
+    assert isinstance(judge(text, HOME), Unusable)
+
+
+def test_a_place_that_does_not_exist_is_named_with_those_that_do() -> None:
+    judged = judge(json.dumps(hallucinate(json.loads(GO))), HOME)
+    assert isinstance(judged, Unusable)
+    assert "unknown_place: wine_cellar" in str(judged)
+    assert "front_door" in str(judged)
+
+
+def test_a_step_that_needs_a_camera_is_left_to_the_mission() -> None:
+    text = '{"kind":"plan","steps":[{"kind":"find","object":"cup","place":"kitchen"}]}'
+    assert judge(text, HOME) == StepPlan(steps=(Find(object="cup", place="kitchen"),))
+
+
+def test_words_for_people_are_cleaned_and_cut() -> None:
+    words = "a\u202eb\ud800c\x00d\ne" + "x" * 5000
+    judged = judge(json.dumps({"kind": "answer", "en": words}), HOME)
+    assert isinstance(judged, Answer)
+    assert judged.text.en.startswith("abcd e")
+    assert len(judged.text.en) <= 600
+    assert judged.text.zh == judged.text.en
+    judged.model_dump_json()  # a broken character would end here
+    said = judge('{"kind":"plan","steps":[{"kind":"say","text":"hi\\u202e there"}]}', HOME)
+    assert said == StepPlan(steps=(Say(text="hi there"),))
+
+
+def test_question_and_refusal_keep_code_and_options() -> None:
+    asked = judge('{"kind":"clarify","code":"ambiguous","en":"Which?","zh":"哪个？",'
+                  '"options":["go to the bed","go to the desk"]}', HOME)  # fmt: skip
+    assert isinstance(asked, Clarify)
+    assert [option.text for option in asked.options] == ["go to the bed", "go to the desk"]
+    no = judge('{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}', HOME)
+    assert isinstance(no, Refuse)
+    assert (no.code, no.reason.zh) == (Code.UNSAFE, "不。")
+
+
+def test_without_places_only_steps_without_places_are_plans() -> None:
+    nowhere = Vocabulary()
+    assert isinstance(judge(GO, nowhere), Unusable)
+    wait = '{"kind":"plan","steps":[{"kind":"wait","seconds":3}]}'
+    assert judge(wait, nowhere) == StepPlan(steps=(Wait(seconds=3.0),))
+
+
+_JSON = st.recursive(
+    st.none() | st.booleans() | st.floats() | st.integers() | st.text(max_size=12)
+    | st.sampled_from(["plan", "go_to", "kitchen", "refuse", "unsafe", "nowhere"]),
+    lambda inner: st.lists(inner, max_size=4)
+    | st.dictionaries(
+        st.sampled_from(["kind", "steps", "place", "en", "zh", "code", "options", "seconds", "x"]),
+        inner, max_size=5,
+    ),
+    max_leaves=20,
+)  # fmt: skip
+
+
+@given(_JSON, st.text(max_size=20))
+def test_any_json_is_a_valid_plan_or_refused(content: object, around: str) -> None:
+    judged = judge(around + json.dumps(content) + around, HOME)
+    if isinstance(judged, StepPlan):
+        again = check_plan(judged, HOME)
+        assert again is None or not again.repairable
+        assert all(place in HOME for step in judged.steps for place in places_of(step))
+
+
+@given(st.text(alphabet='{}[]":,think<>/`kind plan\\u0e1', max_size=300))
+def test_any_text_is_read_without_a_fault(text: str) -> None:
+    with contextlib.suppress(NoObject):
+        assert isinstance(one_object(text), dict)
