@@ -14,7 +14,7 @@ from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
-from planner.mission import KnownPlaces, MissionJournal, Missions, Rules
+from planner.mission import JournalSync, KnownPlaces, MissionJournal, Missions, Rules
 from planner.navigation import RouteLimits, RouteWorker
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
@@ -98,7 +98,7 @@ class Planner:
             link=link,
             router=self._router,
             brain=self.brain,
-            journal=self._journal,
+            disk=JournalSync(self._journal),
         )
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 

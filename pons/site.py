@@ -193,14 +193,24 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
     path = folder / "places.yaml"
     before = path.read_bytes()
     entry = place_text(place_id, "room", names, room.pose, room.polygon)
-    path.write_bytes(before.rstrip(b"\n") + b"\n" + entry.encode())
+    _replace(path, before.rstrip(b"\n") + b"\n" + entry.encode())
     try:
         Site.load(folder)
     except SiteError:
-        path.write_bytes(before)
+        _replace(path, before)
         raise
     print(f"{room_id} is {names[0]} ({names[1]}) from the next start on")
     return EXIT_DONE
+
+
+def _replace(path: Path, data: bytes) -> None:
+    """Put data in a file's place: a planner that starts meanwhile reads the old or the new."""
+    beside = path.with_suffix(".new")
+    try:
+        beside.write_bytes(data)
+        beside.replace(path)
+    except OSError as error:
+        raise SiteError("site_unwritable", f"{path}: {error.strerror}") from error
 
 
 def _check(folder: Path, radius_m: float) -> int:

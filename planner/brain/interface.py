@@ -1,6 +1,6 @@
 """Own what a brain is: one question in, one thought out. Knows no model, no network, no grammar.
 
-A brain may be slow, wrong or gone; what it returns is judged by `planner.plan.validate_plan`.
+A brain may be slow, wrong or gone; what it returns is judged by `planner.plan.check_plan`.
 """
 
 from __future__ import annotations

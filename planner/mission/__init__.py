@@ -3,7 +3,7 @@
 ``Missions`` (built and started by the app factory; ``missions.link`` is the ``Link``)::
 
     missions = Missions(site=…, robot=…, link=Link(WireBus(session), robot), router=RouteWorker(…),
-                        brain=…, journal=MissionJournal.in_home(home))
+                        brain=…, disk=JournalSync(MissionJournal.in_home(home)))
     await missions.start(freeze=True) … await missions.close()
 
     await submit(text, *, language=None, confirm=False, replace=False, idempotency_key=None,
@@ -27,8 +27,8 @@ Events: {"type": "goal", "goal": …}, {"type": "status", "status": wire.Status 
 Errors (all ``MissionError`` with ``code`` and bilingual ``message``): unknown_goal 404, bad_state
 409, nothing_to_resume 409, queue_full 429, idempotency_conflict 409, journal_unavailable 503.
 
-The lockstep harness uses ``Engine`` instead: feed ``status``/``event``/``routed``/``journalled``,
-send ``Output.messages`` to the bridge, answer ``Output.effects``. ``advance`` and
+The lockstep harness runs this same door on a clock, a disk and an event loop of its own: it starts
+with ``rounds=False`` and calls ``missions.loop.hear()`` and ``tick()`` itself. ``advance`` and
 ``motion_request`` are pure.
 """
 
@@ -72,6 +72,7 @@ from planner.mission.events import (
     Tick,
 )
 from planner.mission.journal import MissionJournal
+from planner.mission.journal_sync import Disk, JournalSync
 from planner.mission.known_places import Kept, KnownPlaces, Lesson
 from planner.mission.loop import Clocks
 from planner.mission.reducer import advance, motion_request
@@ -88,6 +89,7 @@ __all__ = [
     "Changed",
     "Clocks",
     "Confirm",
+    "Disk",
     "DropBrain",
     "Effect",
     "Engine",
@@ -95,6 +97,7 @@ __all__ = [
     "IdempotencyConflict",
     "Journal",
     "JournalDown",
+    "JournalSync",
     "Journalled",
     "Kept",
     "KnownPlaces",

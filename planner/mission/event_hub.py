@@ -8,11 +8,21 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from typing import Any
+from typing import Any, Protocol
 
 MAX_WAITING = 256
 
 Message = tuple[int, dict[str, Any]]
+
+
+class HubListener(Protocol):
+    """Take events one by one, at once and without waiting."""
+
+    def offer(self, message: Message) -> None:
+        """Take the newest event."""
+
+    def close(self) -> None:
+        """Hear no more."""
 
 
 class Subscription:
@@ -62,17 +72,21 @@ class Hub:
 
     def __init__(self) -> None:
         self.seq = 0
-        self._listeners: set[Subscription] = set()
+        self._listeners: set[HubListener] = set()
 
     def subscribe(self) -> Subscription:
         """Listen from now on."""
         subscription = Subscription(self)
-        self._listeners.add(subscription)
+        self.join(subscription)
         return subscription
 
-    def forget(self, subscription: Subscription) -> None:
+    def join(self, listener: HubListener) -> None:
+        """Tell a listener from now on, the very moment that something is published."""
+        self._listeners.add(listener)
+
+    def forget(self, listener: HubListener) -> None:
         """Stop telling one listener."""
-        self._listeners.discard(subscription)
+        self._listeners.discard(listener)
 
     def publish(self, event: dict[str, Any]) -> None:
         """Tell everyone."""

@@ -2,7 +2,9 @@
 
 Reacts to each fact as it comes (a plan, a route, an entry on disk, a status) and sends what follows
 from it at once. Holds the loop for no longer than one reduction; brain and router run beside, the
-journal in its thread. All deciding is the reducer's.
+journal in its thread. All deciding is the reducer's. Time (:class:`Clocks`), disk and link are
+given to it, tasks are those of the running event loop: the lockstep harness runs this very loop on
+a clock, a disk and an event loop of its own, and turns the rounds itself.
 """
 
 from __future__ import annotations
@@ -10,15 +12,16 @@ from __future__ import annotations
 import asyncio
 import time
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from planner.bridge_client import Link, LinkError
 from planner.mission.accept import WaypointLatency
+from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import Progress, goal_of, progress_of
 from planner.mission.bridge_status import at_rest
-from planner.mission.detector_words import Wording
+from planner.mission.detector_words import Wording, warm_up
 from planner.mission.effects import (
     AskBrain,
     AskEyes,
@@ -32,17 +35,17 @@ from planner.mission.effects import (
     SayAloud,
 )
 from planner.mission.engine import Engine, Leg, Output
+from planner.mission.errors import MissionError
 from planner.mission.event_hub import Hub
-from planner.mission.events import Event, Journalled, Restarted, Sighted, Tick
+from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
-from planner.mission.journal import GoalKey, MissionJournal
-from planner.mission.journal_sync import JournalSync
+from planner.mission.journal import GoalKey
+from planner.mission.journal_sync import Disk
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
 from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import Answers, MissionTasks, Router, Think
-from planner.mission.warmup import warm_up
 from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints
 
@@ -66,20 +69,20 @@ class Clocks:
     monotonic: Callable[[], float] = time.monotonic
     wall: Callable[[], float] = time.time
     new_id: Callable[[], str] = lambda: uuid.uuid4().hex[:12]
+    poll_s: float = POLL_S
 
 
 class Loop:
     """Own what runs between ``start`` and ``close``."""
 
-    def __init__(self, engine: Engine, link: Link, journal: MissionJournal, clocks: Clocks) -> None:
+    def __init__(self, engine: Engine, link: Link, disk: Disk, clocks: Clocks) -> None:
         self.hub = Hub()
         self.accepted = WaypointLatency()
-        self._engine, self._link, self._journal, self._clocks = engine, link, journal, clocks
+        self._engine, self._link, self._disk, self._clocks = engine, link, disk, clocks
         self._collector = Collector()
         self._key_now: GoalKey | None = None
         self._helpers: MissionTasks | None = None
         self._wording: Wording | None = None
-        self._safe: JournalSync | None = None
         self._task: asyncio.Task[None] | None = None
         self._broken: BaseException | None = None
         self._ticked_s = self._told_s = float("-inf")
@@ -94,6 +97,12 @@ class Loop:
     def book(self) -> MissionState:
         """Return the book as it stands."""
         return self._engine.book
+
+    @property
+    def status_age_s(self) -> float:
+        """Return how old the newest status is [s]; inf before any came."""
+        heard = self._link.status
+        return heard.age_s if heard is not None else float("inf")
 
     @property
     def leg(self) -> Leg | None:
@@ -111,38 +120,47 @@ class Loop:
     @property
     def trouble(self) -> str | None:
         """Return why the journal can't be written, or None."""
-        return self._safe.trouble if self._safe is not None else "not started"
+        return self._disk.trouble
 
     def rule(self, rules: Rules) -> None:
         """Bound what goals may do by themselves, before anything starts."""
         self._engine.book = replace(self._engine.book, rules=rules)
 
     def see(self, eyes: Eyes, looker: Looker | None, camera: CameraConfig) -> None:
-        """Take the eyes, and the model that may be asked about their pictures, before any start."""
-        self._eyes, self._door = eyes, EyeDoor(eyes, looker)
+        """Take the eyes, and the model that may be asked about their pictures."""
+        self._eyes = eyes
+        self._door.see(eyes, looker)
+        self._wording = Wording(eyes.classes, self._spawn, self._seen_anew)
         eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
         eyes.listen(self._on_sight)
 
-    async def start(self, think: Think, router: Router, *, freeze: bool) -> tuple[GoalKey, ...]:
+    async def start(
+        self, think: Think, router: Router, *, freeze: bool, rounds: bool
+    ) -> tuple[GoalKey, ...]:
         """Take up the journal and begin; return the idempotency keys it kept.
+
+        Args:
+            think: understands sentences.
+            router: finds ways.
+            freeze: take the garbage collector over.
+            rounds: turn the rounds; else whoever owns the clock calls ``hear`` and ``tick``.
 
         Raises:
             Misconfigured: the journal holds what this version can't read.
         """
-        kept = await asyncio.to_thread(self._journal.load)
+        kept = await self._disk.open(self._on_safe)
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
-        self._safe = JournalSync(self._journal, self._on_safe)
         answers = Answers(
             self.event, self._on_routed, self._link.obstacles, self.event, self._break
         )
         self._helpers = MissionTasks(think, router, answers, self._door)
-        self._wording = Wording(self.book.eyes.classes, self._helpers.spawn, self._seen_anew)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         self.event(Restarted(kept.missions, kept.queue, offset_s))
         if freeze:
             self._collector.freeze(self._clocks.monotonic())
-        self._task = asyncio.get_running_loop().create_task(self._pump(), name="missions")
+        if rounds:
+            self._task = asyncio.get_running_loop().create_task(self._pump(), name="missions")
         return kept.keys
 
     async def close(self) -> None:
@@ -152,8 +170,7 @@ class Loop:
             await asyncio.gather(self._task, return_exceptions=True)
         if self._helpers is not None:
             await self._helpers.close()
-        if self._safe is not None:
-            await self._safe.close()
+        await self._disk.close()
         self.hub.close()
         self._collector.thaw()
 
@@ -169,8 +186,14 @@ class Loop:
         Raises:
             JournalDown: it was not within 3 s.
         """
-        if self._safe is not None:
-            await self._safe.wait(self.book.written)
+        await self._disk.wait(self.book.written)
+
+    def obey(self, command: Command) -> MissionError | None:
+        """Obey a command at once, or return why it can't be obeyed."""
+        error = refusal(self.book, command)
+        if error is None:
+            self.event(command)
+        return error
 
     def keep_act(self, goal_id: str, act: OpRequest | None) -> None:
         """Keep a person's ``op/resume`` for a goal until its plan is accepted, or the goal ends."""
@@ -179,8 +202,12 @@ class Loop:
 
     def clear_hold(self, act: OpRequest | None) -> None:
         """Bring a person's ``op/resume`` to the bridge, beside everything else."""
-        if act is not None and self._helpers is not None:
-            self._helpers.spawn(self._resume(act))
+        if act is not None:
+            self._spawn(self._resume(act))
+
+    def _spawn(self, work: Coroutine[Any, Any, None]) -> None:
+        if self._helpers is not None:
+            self._helpers.spawn(work)
 
     async def _resume(self, act: OpRequest) -> None:
         try:
@@ -191,24 +218,35 @@ class Loop:
         self.hub.publish({"type": "act", "accepted": answer.accepted, "code": answer.code})
 
     async def _pump(self) -> None:
-        while self._broken is None:
-            self._once()
-            await asyncio.sleep(POLL_S)
-        raise self._broken
+        while True:
+            self.hear()
+            now_s = self._clocks.monotonic()
+            if now_s - self._ticked_s >= TICK_S:
+                self._ticked_s = now_s
+                self.tick()
+            await asyncio.sleep(self._clocks.poll_s)
 
-    def _once(self) -> None:
-        """Do one round: hear, reduce, say."""
+    def hear(self) -> None:
+        """Take what the bridge said since the last round, and answer it.
+
+        Raises:
+            BaseException: what broke beside the loop; nothing may go on after it.
+        """
+        if self._broken is not None:
+            raise self._broken
         status, now_s = self._link.poll(), self._clocks.monotonic()
         if status is not None:
             self._carry(self._engine.status(status, now_s))
             self._tell_status(status, now_s)
-        if now_s - self._ticked_s >= TICK_S:
-            self._ticked_s = now_s
-            self.event(Tick())
-            for event in self._link.events():
-                self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
-            newest = self.book.status
-            self._collector.maybe(now_s, standing=newest is None or at_rest(newest))
+
+    def tick(self) -> None:
+        """Let the missions look at the clock, and do what is to be done now and then."""
+        self.event(Tick())
+        for event in self._link.events():
+            self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
+        newest = self.book.status
+        standing = newest is None or at_rest(newest)
+        self._collector.maybe(self._clocks.monotonic(), standing=standing)
 
     def _tell_status(self, status: Status, now_s: float) -> None:
         news = (status.mode, status.epoch, status.held, status.owner)
@@ -280,8 +318,8 @@ class Loop:
 
     def _do(self, effect: Effect) -> None:
         match effect:
-            case Journal() if self._safe is not None:
-                self._safe.write(effect, self._key_now)
+            case Journal():
+                self._disk.write(effect, self._key_now)
                 self._key_now = None
             case AskBrain() | AskRoute() | AskEyes() | KeepPicture() | DropBrain():
                 if self._helpers is not None:

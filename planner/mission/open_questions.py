@@ -12,9 +12,8 @@ from planner.language.catalogue import join, list_names, message, say
 from planner.language.stop import is_stop
 from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
-from planner.mission.motion_on_yes import DO_THAT, first_deed, upon_yes
 from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
-from planner.mission.scene import scene_of
+from planner.mission.scene import DO_THAT, first_deed, scene_of, upon_yes
 from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, declined
 from planner.mission.state import Mission

@@ -43,9 +43,14 @@ class EyeDoor:
     def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
         """Ask these eyes, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
-        self._pictures: dict[str, asyncio.Future[Picture | None]] = {}
+        self._pictures: dict[str, Picture | asyncio.Task[Picture | None]] = {}
+        """By goal; a task where the picture is still to come."""
         self._views: dict[str, dict[int, tuple[Shown, tuple[Detection, ...]]]] = {}
         """By goal, and by the number of the direction."""
+
+    def see(self, eyes: Eyes, looker: Looker | None) -> None:
+        """Ask these eyes from now on, and this model about their pictures."""
+        self._eyes, self._looker = eyes, looker
 
     def note(self, goal_id: str) -> None:
         """Keep the newest picture: a plan for this goal is asked for now.
@@ -54,15 +59,13 @@ class EyeDoor:
         """
         if self._eyes is None:
             return
-        loop, newest = asyncio.get_running_loop(), self._eyes.picture
         self._pictures.pop(goal_id, None)
-        if newest is None:
-            self._pictures[goal_id] = loop.create_task(self._eyes.fresh())
-        else:
-            self._pictures[goal_id] = loop.create_future()
-            self._pictures[goal_id].set_result(newest)
+        newest = self._eyes.picture
+        self._pictures[goal_id] = newest or asyncio.ensure_future(self._eyes.fresh())
         if len(self._pictures) > KEPT:
-            self._pictures.pop(next(iter(self._pictures))).cancel()
+            oldest = self._pictures.pop(next(iter(self._pictures)))
+            if isinstance(oldest, asyncio.Task):
+                oldest.cancel()
 
     def keep(self, keep: KeepPicture) -> None:
         """Keep the picture of one direction, if it is the one that is meant and still there."""
@@ -86,7 +89,7 @@ class EyeDoor:
             return Answer(failure="camera_silent")
         if ask.x is not None and ask.y is not None:
             noted = self._pictures.get(ask.id)
-            meant = None if noted is None else await asyncio.shield(noted)
+            meant = await asyncio.shield(noted) if isinstance(noted, asyncio.Task) else noted
             if meant is None:  # planned by a planner that is gone, or before any picture came
                 return Answer(failure="point_no_pose")
             return await _point(eyes, meant, ask.x, ask.y)

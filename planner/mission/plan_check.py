@@ -1,18 +1,20 @@
-"""Be the last gate before a plan is carried out: first plans, new ones under way, resumed by a yes.
+"""Judge steps before any of them is carried out, with all that the missions know at that moment.
 
-It trusts no brain and no validation before it, and knows what those do not: the detector's classes
-as they are now, and whether a model can point. Eyes that fail later end their own step
-(``planner.mission.skills.act_of``).
+Asked for first plans and for new ones under way; trusts no brain and no judgement before it.
+``planner.plan.check_plan`` judges; told to it here are the places and the means as they are now,
+the detector's classes, and whether a model can point.
 """
 
 from __future__ import annotations
+
+from functools import partial
 
 from planner.language.catalogue import message, say
 from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import meant, picks_out
 from planner.mission.skills.object_query import unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
-from planner.mission.state import Mission, MissionState, SiteView
+from planner.mission.state import Mission, MissionState
 from planner.plan import (
     NEEDS_DETECTOR,
     Bilingual,
@@ -20,6 +22,7 @@ from planner.plan import (
     Language,
     Outcome,
     StepRecord,
+    check_plan,
     same,
 )
 
@@ -32,41 +35,33 @@ def unwalkable(
     book: MissionState, mission: Mission, steps: tuple[StepRecord, ...]
 ) -> Outcome | None:
     """Return why these steps can't all be carried out, or None. Nothing has moved yet."""
-    if not steps:
-        return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=NO_STEPS))
-    for step in steps:
-        code = book.means.lacks(step.kind) if step.kind in SKILLS else Code.NO_CAPABILITY
-        if code is not None:
-            return Outcome(code=code, message=message(code, part=same(step.kind)))
-    return _unknown_place(book.facts, steps) or _unknown_thing(book, mission.language, steps)
-
-
-def _unknown_place(facts: SiteView, steps: tuple[StepRecord, ...]) -> Outcome | None:
-    named = (p for s in steps for p in ((s.place,) if s.place else s.places))
-    unknown = next((p for p in named if p not in facts.targets), None)
-    if unknown is None:
+    rejection = check_plan(
+        steps,
+        book.facts.targets,
+        book.means.runnable & SKILLS.keys(),
+        book.means.blind,
+        partial(_unknown_object, book, mission.language),
+    )
+    if rejection is None:
         return None
-    known = same(", ".join(sorted(facts.targets)))
-    said = message(Code.UNKNOWN_PLACE, name=unknown, near="", known=known)
-    return Outcome(code=Code.UNKNOWN_PLACE, message=said)
+    first = rejection.first
+    match first.code:
+        case Code.BAD_PLAN:
+            said = message(first.code, why=first.what if steps else NO_STEPS)
+        case Code.UNKNOWN_PLACE:
+            known = same(", ".join(sorted(book.facts.targets)))
+            said = message(first.code, name=first.what, near="", known=known)
+        case _:
+            said = first.said or message(first.code, part=same(first.what))
+    return Outcome(code=first.code, message=said)
 
 
-def _unknown_thing(
-    book: MissionState, language: Language, steps: tuple[StepRecord, ...]
-) -> Outcome | None:
+def _unknown_object(book: MissionState, language: Language, step: StepRecord) -> Bilingual | None:
     """Return why a thing can't be looked for: the detector does not know it, nor can a model tell.
 
     A vision model can point at anything, but only at what is in the picture: enough to go there. It
     answers any question about a picture.
     """
-    for step in steps:
-        said = _unknown_in(book, language, step)
-        if said is not None:
-            return Outcome(code=Code.OBJECT_UNKNOWN, message=said)
-    return None
-
-
-def _unknown_in(book: MissionState, language: Language, step: StepRecord) -> Bilingual | None:
     eyes = book.eyes
     if eyes.model and step.kind in ("go_to_object", "look"):
         return None

@@ -1,21 +1,71 @@
-"""Have a brain understand a sentence, judge what it says, and return an event. Trusts no brain."""
+"""Have a brain understand a sentence, judge what it says, and return an event. Trusts no brain.
+
+What a brain writes meanwhile is told to those who listen: often enough to read along, and no
+oftener. It is for showing and for routing ahead, moves nothing and is written down nowhere.
+"""
 
 from __future__ import annotations
 
 import logging
+import time
+from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
 from planner.brain.interface import Brain, ThinkRequest
+from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
 from planner.language.object_names import synonyms
 from planner.language.place_lists import rejection_outcome
-from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
-from planner.plan import BARE, Code, Language, Means, Outcome, Rejection, Vocabulary, validate_plan
+from planner.plan import BARE, Code, Language, Means, Outcome, Step, Vocabulary, check_plan
+
+TELL_S = 0.1
+"""Between two tellings of one goal; the first comes at once."""
+
+
+class Hearing:
+    """Hand drafts on as events ``{"type": "thinking", "goal", "text", "steps"}``."""
+
+    def __init__(
+        self,
+        publish: Callable[[dict[str, Any]], None],
+        expect: Callable[[tuple[Step, ...]], None],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Say who is told.
+
+        Args:
+            publish: tells the listeners.
+            expect: takes the steps as soon as there are new ones, to search ahead.
+            clock: monotonic [s].
+        """
+        self._publish, self._expect, self._clock = publish, expect, clock
+
+    def of(self, goal: str) -> Hear:
+        """Return the listener of one thought about a goal."""
+        told_s, steps = float("-inf"), 0
+
+        def hear(draft: Draft, /) -> None:
+            nonlocal told_s, steps
+            if len(draft.steps) != steps:
+                steps = len(draft.steps)
+                self._expect(draft.steps)
+            if self._clock() - told_s >= TELL_S:
+                told_s = self._clock()
+                self._publish(_event(goal, draft))
+
+        return hear
+
+
+def _event(goal: str, draft: Draft) -> dict[str, Any]:
+    steps = [step.model_dump(mode="json", exclude_none=True) for step in draft.steps]
+    return {"type": "thinking", "goal": goal, "text": draft.text, "steps": steps}
+
 
 log = logging.getLogger(__name__)
 
@@ -59,10 +109,10 @@ def thinker(
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             said = _outcome(Code.MODEL_UNAVAILABLE)
             return Planned(ask.id, None, said, error.brain or brain.tag)
-        judged = validate_plan(thought.plan, vocabulary, means.runnable, means.blind)
-        if isinstance(judged, Rejection):
-            return Planned(ask.id, None, rejection_outcome(judged, vocabulary), thought.brain)
-        return Planned(ask.id, judged, None, thought.brain)
+        rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
+        if rejection is not None:
+            return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
+        return Planned(ask.id, thought.plan, None, thought.brain)
 
     return think
 

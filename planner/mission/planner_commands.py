@@ -27,8 +27,8 @@ from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
-from planner.mission.goal_reference import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.known_places import Lesson
+from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, where
 from planner.plan import Answer, Bilingual, Code, Refuse
 from planner.site import PlaceRefused
@@ -36,10 +36,10 @@ from planner.site import PlaceRefused
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from planner.mission.errors import MissionError
     from planner.mission.events import Command
     from planner.mission.known_places import KnownPlaces
-    from planner.mission.state import Mission, MissionState
+    from planner.mission.loop import Loop
+    from planner.mission.state import Mission
     from planner.mission.tasks import Think
 
 SPOKEN_BY = "sentence"
@@ -52,25 +52,20 @@ class PlannerCommands:
         self,
         think: Think,
         memory: KnownPlaces,
-        book: Callable[[], MissionState],
-        command: Callable[[Command], MissionError | None],
-        age_s: Callable[[], float],
+        loop: Loop,
     ) -> None:
         """Take what it needs of the missions.
 
         Args:
             think: how the brain thinks about all other sentences.
             memory: the places.
-            book: where everything stands now.
-            command: obeys a command, or says why it can't be obeyed.
-            age_s: how old the newest status is.
+            loop: where everything stands now, and who obeys commands.
         """
-        self._brain, self._memory, self._book = think, memory, book
-        self._command, self._age_s = command, age_s
+        self._brain, self._memory, self._loop = think, memory, loop
 
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
-        mission = self._book().missions.get(ask.id)
+        mission = self._loop.book.missions.get(ask.id)
         intent = (
             parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
         )
@@ -82,46 +77,47 @@ class PlannerCommands:
 
     async def carry_out(self, intent: Intent, mission: Mission) -> Answer | Refuse:
         """Do it and say how it went."""
+        book = self._loop.book
         match intent:
             case Remember(name):
                 return await self._remember(name)
             case Forget(name):
                 return await self._forget(name)
             case Pause():
-                return self._each("pause", events.Pause, goal_to_pause(self._book(), mission.id))
+                return self._each("pause", events.Pause, goal_to_pause(book, mission.id))
             case Cancel():
                 own = mission.id if mission.replies else None
-                found = goal_to_end(self._book(), mission.id)
+                found = goal_to_end(book, mission.id)
                 return self._each("cancel", events.Cancel, found or own)
             case Resume():
-                return self._each("resume", events.Resume, goal_to_resume(self._book(), mission.id))
+                return self._each("resume", events.Resume, goal_to_resume(book, mission.id))
             case Doing():
-                return Answer(text=doing(self._book(), self._age_s(), mission.id))
+                return Answer(text=doing(book, self._loop.status_age_s, mission.id))
             case Slower() | Faster():
                 return self._change_speed(slower=isinstance(intent, Slower))
             case Where() | Replace():
-                return Answer(text=where(self._book(), self._age_s()))
+                return Answer(text=where(book, self._loop.status_age_s))
 
     def _each(self, what: str, make: Callable[[str], Command], goal_id: str | None) -> Answer:
         """Give a command about a goal and say what became of it."""
         done, nothing = _SAID[what]
         if goal_id is None:
             return Answer(text=nothing)
-        text = self._book().missions[goal_id].text[:60]
-        error = self._command(make(goal_id))
+        text = self._loop.book.missions[goal_id].text[:60]
+        error = self._loop.obey(make(goal_id))
         if error is not None:
             return Answer(text=error.message)
         return Answer(text=say("commands.done", done=done, text=text))
 
     def _change_speed(self, *, slower: bool) -> Answer:
         """Change the speed cap of the running goal and say what it is now."""
-        running = self._book().running
+        running = self._loop.book.running
         if running is None:
             return Answer(text=_NOTHING_RUNS)
-        error = self._command(events.ChangeSpeed(running, slower=slower))
+        error = self._loop.obey(events.ChangeSpeed(running, slower=slower))
         if error is not None:
             return Answer(text=error.message)
-        mission = self._book().missions[running]
+        mission = self._loop.book.missions[running]
         share, text = f"{100.0 * mission.speed_share:.0f} %", mission.text[:60]
         return Answer(text=say("commands.speed_cap", share=share, text=text))
 

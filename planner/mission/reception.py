@@ -1,34 +1,69 @@
 """Receive a person's sentence: decide once, before any brain, what it is to the missions.
 
-Pure. The one door for text, voice, page, command line and the lockstep harness: whoever feeds the
-missions asks :func:`receive` and does what it says, a stop first of all.
+The one door for text, voice, page, command line and the lockstep harness: whoever feeds the
+missions asks :func:`receive` and does what it says, a stop first of all. Pure; only
+:class:`Repeats`, which it reads, is changed by whoever took a request in. Here is also found the
+goal that a person means who names none: to answer, to end, to pause, to go on with it.
+
+Laws: an order to stop is never refused, is never a repetition and takes no room. The same key and
+request are the same goal, however full it has become; the same key with another request is refused.
+At most ``MAX_OPEN`` goals are open, but for what is said to the planner itself.
 """
 
 from __future__ import annotations
 
+import hashlib
+import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from planner.language.commands import Cancel as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import Resume as GoOn
+from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
 from planner.mission.answer_timeouts import has_room
-from planner.mission.answered_question import meant
 from planner.mission.bridge_status import at_rest
+from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
-from planner.mission.goal_reference import goal_to_end
-from planner.mission.open_questions import takes_yes
+from planner.mission.journal import MAX_KEYS, GoalKey
+from planner.mission.open_questions import WAITS, asks_freely, takes_yes
+from planner.mission.state import MissionState
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
-    from planner.language.utterance import Utterance
+    from collections.abc import Iterable
+
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
-    from planner.mission.state import MissionState
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""
+
+
+class Repeats:
+    """Remember the newest keys of requests and the goals they made, as many as the journal does."""
+
+    def __init__(self, kept: Iterable[GoalKey] = ()) -> None:
+        """Begin with what the journal kept, oldest first."""
+        self._keys = {each.key: each for each in kept}
+
+    def find(self, key: str | None) -> GoalKey | None:
+        """Return the request that came with a key before, or None; without a key none is known."""
+        return self._keys.get(key) if key is not None else None
+
+    def remember(self, request: GoalKey | None) -> None:
+        """Remember a request that was taken in; one without a key is never known again."""
+        if request is None:
+            return
+        if len(self._keys) >= MAX_KEYS:
+            self._keys.pop(next(iter(self._keys)))
+        self._keys[request.key] = request
+
+    def forget(self, request: GoalKey | None) -> None:
+        """Let a request come anew: it was not taken."""
+        if request is not None:
+            self._keys.pop(request.key, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +75,23 @@ class Reception:
     """The bridge is told to stop before anything else."""
     takes_back: str | None = None
     """The goal that it ends."""
-    crowded: bool = False
-    """It would be a new goal, and too many are open."""
+    refused: MissionError | None = None
+    """Why it is not taken in: QueueFull or IdempotencyConflict."""
+    repeats: str | None = None
+    """The goal that this very request made before: it is shown, and nothing is done."""
+    request: GoalKey | None = None
+    """What is remembered with the goal, where the request has a key."""
 
 
 def receive(
-    book: MissionState, said: Utterance, given: Submitted, now_s: float, *, answers: bool = True
+    book: MissionState,
+    said: Utterance,
+    given: Submitted,
+    now_s: float,
+    *,
+    answers: bool = True,
+    key: str | None = None,
+    repeats: Repeats | None = None,
 ) -> Reception:
     """Return what is to be done with a sentence that came now.
 
@@ -55,15 +101,23 @@ def receive(
         given: the goal that it would be, without marks.
         now_s: on the clock of the book.
         answers: it may answer a question.
+        key: the Idempotency-Key of the request.
+        repeats: the requests that came before.
     """
     if said.orders_stop:
         return Reception(replace(given, stop=True), stops=True)
     intent, full = said.intent, not has_room(book)
     may_answer = answers and not (given.confirm or given.replace)
-    asking = meant(book, said) if may_answer else ()
+    asking = goals_answered_by(book, said) if may_answer else ()
     if said.may_mean_stop and not asking and is_active(book, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
+    body = _body_of(given)
+    before = repeats.find(key) if repeats is not None else None
+    if before is not None and before.body != body:
+        return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
+    if before is not None:
+        return Reception(given, repeats=before.goal)
     replaces = isinstance(intent, Replace)
     first = isinstance(intent, Replace) and intent.now
     local = bool(asking) or (intent is not None and not replaces)
@@ -75,8 +129,20 @@ def receive(
         asking=asking,
         local=local,
     )
+    if full and not local:
+        return Reception(
+            marked, refused=QueueFull(sum(not m.ended for m in book.missions.values()))
+        )
+    request = GoalKey(key, body, given.id) if key is not None else None
     takes_back = goal_to_end(book) if first else None
-    return Reception(marked, takes_back=takes_back, crowded=full and not local)
+    return Reception(marked, takes_back=takes_back, request=request)
+
+
+def _body_of(given: Submitted) -> str:
+    """Return the fingerprint of a request, as it came."""
+    asked = [given.text, given.language.value, given.confirm, given.replace]
+    fields = json.dumps(asked, ensure_ascii=True)
+    return hashlib.sha256(fields.encode()).hexdigest()[:32]
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,3 +204,63 @@ def is_active(book: MissionState, now_s: float) -> bool:
     if status is None:
         return False  # no bridge was ever heard, so nothing of ours can move
     return not now_s - book.status_s <= OLD_STATUS_S or not at_rest(status)
+
+
+def goals_answered_by(book: MissionState, said: Utterance) -> tuple[str, ...]:
+    """Return the goals whose question a sentence may answer; one alone is beyond doubt.
+
+    None unless it is a plain yes or no and one of them takes it. A question that takes neither (a
+    brain's about the order, which offers no or several orders) counts where it is no older than the
+    newest of these: it may be meant, too.
+    """
+    if said.consent is None:
+        return ()
+    intent = said.intent
+    if not (intent is None or (isinstance(intent, GoOn) and goal_to_resume(book) is None)):
+        return ()  # "go on" is a yes where there is nothing else to go on with
+    waiting = [m for m in book.missions.values() if m.state in WAITS]
+    taking = {m.id: m.updated_unix_s for m in waiting if takes_yes(m)}
+    if not taking:  # "Do you mean the kitchen?" of a model: it reads the word itself
+        alone = len(waiting) == 1 and intent is None
+        return tuple(m.id for m in waiting if alone and asks_freely(m))
+    newest_unix_s = max(taking.values())
+    return tuple(m.id for m in waiting if m.id in taking or m.updated_unix_s >= newest_unix_s)
+
+
+_OPEN = (
+    GoalState.PLANNING,
+    GoalState.NEEDS_CLARIFICATION,
+    GoalState.AWAITING_CONFIRMATION,
+    GoalState.PAUSED,
+    GoalState.QUEUED,
+)
+
+
+def goal_to_end(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that a person means by "that": the running one, else the newest open one."""
+    if book.running is not None:
+        return book.running
+    others = [m for m in book.missions.values() if not m.ended and m.id != asking]
+    for state in _OPEN:
+        found = [m for m in others if m.state is state]
+        if found:
+            return max(found, key=lambda m: m.order).id
+    return None
+
+
+def goal_to_pause(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that a person wants paused."""
+    if book.running is not None:
+        return book.running
+    thinking = [
+        m for m in book.missions.values() if m.state is GoalState.PLANNING and m.id != asking
+    ]
+    return max(thinking, key=lambda m: m.order).id if thinking else None
+
+
+def goal_to_resume(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that was paused last, else the first that is kept waiting."""
+    paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
+    if paused:
+        return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
+    return next((i for i in book.queue if book.missions[i].held), None)

@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import hypot
+from typing import Protocol
 
 from planner.mission.bridge_status import standing
 from planner.mission.state import MissionState
@@ -25,6 +26,13 @@ SAME_M = 0.1
 """How far the pose may have wandered, standing, since the search began; a horizon may begin 0.3 m
 from the robot."""
 KEPT_S = 30.0
+
+
+class StateHolder(Protocol):
+    """Hold where everything stands, as the mission loop does."""
+
+    @property
+    def book(self) -> MissionState: ...
 
 
 @dataclass(slots=True)
@@ -40,10 +48,10 @@ class RouteAhead:
     def __init__(
         self,
         router: Router,
-        book: Callable[[], MissionState],
+        missions: StateHolder,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._router, self._book, self._clock = router, book, clock
+        self._router, self._missions, self._clock = router, missions, clock
         self._search: _Search | None = None
         self.used = 0
         """Routes that were there before they were asked for."""
@@ -81,7 +89,7 @@ class RouteAhead:
             await asyncio.gather(search.task, return_exceptions=True)
 
     def _request(self, step: Step) -> RouteRequest | None:
-        book = self._book()
+        book = self._missions.book
         status = book.status
         if status is None or status.base_in_map is None or not standing(status):
             return None

@@ -17,14 +17,11 @@ from planner.bridge_client import Identity, Link, StopResult
 from planner.language.utterance import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import goal_of
-from planner.mission.draft_events import Hearing
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import (
     JournalDown,
-    MissionError,
     NothingToResume,
-    QueueFull,
     UnknownGoal,
 )
 from planner.mission.events import (
@@ -40,14 +37,19 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
-from planner.mission.goal_reference import goal_to_resume
-from planner.mission.idempotency import Repeats, body_of
-from planner.mission.journal import MissionJournal
+from planner.mission.journal_sync import Disk
 from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
-from planner.mission.plan_request import thinker
+from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
-from planner.mission.reception import awaits_answer, hears_stop, receive, receive_answer
+from planner.mission.reception import (
+    Repeats,
+    awaits_answer,
+    goal_to_resume,
+    hears_stop,
+    receive,
+    receive_answer,
+)
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import Router
@@ -59,6 +61,7 @@ from wire import OpRequest, RobotDescription
 if TYPE_CHECKING:
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
+    from planner.mission.journal import GoalKey
 
 
 class Missions:
@@ -72,7 +75,7 @@ class Missions:
         link: Link,
         router: Router,
         brain: Brain,
-        journal: MissionJournal,
+        disk: Disk,
         planner_id: str | None = None,
         clocks: Clocks | None = None,
     ) -> None:
@@ -84,38 +87,40 @@ class Missions:
         identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(MissionState(self.memory.facts), identity)
         self._clocks, self._robot = clocks or Clocks(), robot
-        self._loop, self.planner_id = Loop(engine, link, journal, self._clocks), planner_id
-        self._brain, self._router = brain, RouteAhead(router, lambda: self._book)
-        self._hearing = Hearing(self._loop.hub.publish, self._router.expect)
-        self._think = PlannerCommands(
-            self._ask_brain, self.memory, lambda: self._book, self._obey, self._age_s
-        ).think
+        self.loop, self.planner_id = Loop(engine, link, disk, self._clocks), planner_id
+        clock = self._clocks.monotonic
+        self._brain, self._router = brain, RouteAhead(router, self.loop, clock)
+        self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
+        self._think = PlannerCommands(self._ask_brain, self.memory, self.loop).think
         self._repeats = Repeats()
-        self.memory.listen(lambda: self._loop.event(Known(self.memory.facts)))
+        self.memory.listen(self._on_places)
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
-        """See with these eyes, and ask this model about their pictures. Before any start."""
-        self._loop.see(eyes, looker, self._robot.camera)
+        """See with these eyes, and ask this model about their pictures."""
+        self.loop.see(eyes, looker, self._robot.camera)
 
     # Life ---------------------------------------------------------------------------------------
 
-    async def start(self, *, freeze: bool = False, rules: Rules | None = None) -> None:
+    async def start(
+        self, *, freeze: bool = False, rules: Rules | None = None, rounds: bool = True
+    ) -> None:
         """Take up the journal and begin to listen to the bridge. Nothing of before goes on.
 
         Args:
             freeze: take the garbage collector over, which concerns the whole process.
             rules: how far a goal may go by itself.
+            rounds: turn the rounds of ``loop``; else whoever owns the clock turns them.
 
         Raises:
             Misconfigured: the journal holds what this version can't read.
         """
-        self._loop.rule(rules or Rules())
-        kept = await self._loop.start(self._think, self._router, freeze=freeze)
+        self.loop.rule(rules or Rules())
+        kept = await self.loop.start(self._think, self._router, freeze=freeze, rounds=rounds)
         self._repeats = Repeats(kept)
 
     async def close(self) -> None:
         """End everything; a running goal comes back paused in the next process."""
-        await self._loop.close()
+        await self.loop.close()
         await self._router.close()
 
     # Goals --------------------------------------------------------------------------------------
@@ -154,42 +159,44 @@ class Missions:
         said, goal_id = parse(text), self._clocks.new_id()
         spoken = language or said.language
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
-        heard = receive(self._book, said, given, self._clocks.monotonic(), answers=answers)
+        heard = receive(
+            self.loop.book, said, given, self._clocks.monotonic(),
+            answers=answers, key=idempotency_key, repeats=self._repeats,
+        )  # fmt: skip
+        if heard.refused is not None:
+            raise heard.refused
         if heard.stops:
             return await self._stop_goal(heard.given, source)
-        body = body_of(text, spoken, confirm, replace)
-        if (known := self._repeats.goal_of(idempotency_key, body)) is not None:
-            return self.goal(known)
-        if heard.crowded:
-            raise QueueFull(sum(not m.ended for m in self._book.missions.values()))
-        key = self._repeats.remember(idempotency_key, body, goal_id)
+        if heard.repeats is not None:
+            return self.goal(heard.repeats)
+        self._repeats.remember(heard.request)
         if heard.given.resumes:
-            self._loop.clear_hold(act)
+            self.loop.clear_hold(act)
         else:
             for behind in (goal_id, *heard.given.asking):
-                self._loop.keep_act(behind, act)
-        self._loop.accepted.note(goal_id, self._clocks.monotonic())
-        self._loop.event(heard.given, key)
+                self.loop.keep_act(behind, act)
+        self.loop.accepted.note(goal_id, self._clocks.monotonic())
+        self.loop.event(heard.given, heard.request)
         if heard.takes_back is not None:
-            self._loop.event(Cancel(heard.takes_back))
-        await self._written(goal_id, idempotency_key)
+            self.loop.event(Cancel(heard.takes_back))
+        await self._written(goal_id, heard.request)
         return self.goal(goal_id)
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, whatever else they may mean."""
-        return hears_stop(self._book, parse(text), self._clocks.monotonic())
+        return hears_stop(self.loop.book, parse(text), self._clocks.monotonic())
 
     def awaits_answer(self) -> bool:
         """Return whether a question waits for a yes or no."""
-        return awaits_answer(self._book)
+        return awaits_answer(self.loop.book)
 
-    async def _written(self, goal_id: str, idempotency_key: str | None) -> None:
+    async def _written(self, goal_id: str, request: GoalKey | None) -> None:
         """Wait until a goal is written down; what can't be is taken back."""
         try:
-            await self._loop.settled()
+            await self.loop.settled()
         except JournalDown:
-            self._loop.event(Cancel(goal_id))
-            self._repeats.forget(idempotency_key)
+            self.loop.event(Cancel(goal_id))
+            self._repeats.forget(request)
             raise
 
     async def cancel(self, goal_id: str) -> Goal:
@@ -221,13 +228,13 @@ class Missions:
         Raises:
             UnknownGoal, BadState: as named.
         """
-        heard = receive_answer(self._book, parse(text), goal_id, self._clocks.monotonic())
+        heard = receive_answer(self.loop.book, parse(text), goal_id, self._clocks.monotonic())
         if heard.refused is not None:
             raise heard.refused
         if heard.stops:
             await self.stop("answer")
             if heard.command is not None:
-                self._obey(heard.command)
+                self.loop.obey(heard.command)
             return self.goal(goal_id)
         if heard.command is not None:
             await self._command(heard.command, act if isinstance(heard.command, Reply) else None)
@@ -243,7 +250,7 @@ class Missions:
         """Stop now: horizon, brains and queue at once, and the bridge until it echoes, or 2 s."""
         saying = asyncio.ensure_future(self.link.stop(source))
         await asyncio.sleep(0)  # the first stop is on the wire before anything is written
-        self._loop.event(Stopped(source))
+        self.loop.event(Stopped(source))
         return await saying
 
     # What is told --------------------------------------------------------------------------------
@@ -251,17 +258,17 @@ class Missions:
     @property
     def failed(self) -> BaseException | None:
         """Return what ended the mission loop, if something did: the process should end then."""
-        return self._loop.failed
+        return self.loop.failed
 
     @property
     def journal_trouble(self) -> str | None:
         """Return why the journal can't be written, or None."""
-        return self._loop.trouble
+        return self.loop.trouble
 
     @property
     def first_waypoint_s(self) -> tuple[float, ...]:
         """Return the newest times from a goal's acceptance to its first waypoint [s]."""
-        return tuple(self._loop.accepted.seconds)
+        return tuple(self.loop.accepted.seconds)
 
     def goal(self, goal_id: str) -> Goal:
         """Return a goal.
@@ -269,75 +276,63 @@ class Missions:
         Raises:
             UnknownGoal: there is none of that id at hand.
         """
-        mission = self._book.missions.get(goal_id)
+        mission = self.loop.book.missions.get(goal_id)
         if mission is None:
-            raise UnknownGoal(goal_id, tuple(self._book.missions))
-        return goal_of(self._book, mission)
+            raise UnknownGoal(goal_id, tuple(self.loop.book.missions))
+        return goal_of(self.loop.book, mission)
 
     def goals(self, limit: int = 50) -> tuple[Goal, ...]:
         """Return goals: first all that are open, then those that ended, each newest first."""
-        by_age = sorted(self._book.missions.values(), key=lambda m: (m.ended, -m.order))
-        return tuple(goal_of(self._book, mission) for mission in by_age[: max(0, limit)])
+        by_age = sorted(self.loop.book.missions.values(), key=lambda m: (m.ended, -m.order))
+        return tuple(goal_of(self.loop.book, mission) for mission in by_age[: max(0, limit)])
 
     def path(self) -> Leg | None:
         """Return the leg that is driven now, with its whole path."""
-        return self._loop.leg
+        return self.loop.leg
 
     def subscribe(self) -> Subscription:
         """Iterate over (seq, event) from now on; take a ``snapshot`` after, and drop older seqs."""
-        return self._loop.hub.subscribe()
+        return self.loop.hub.subscribe()
 
     def snapshot(self) -> dict[str, Any]:
         """Return where everything stands, with the seq of the newest event it contains."""
-        status = self._book.status
+        status = self.loop.book.status
         return {
-            "seq": self._loop.hub.seq,
+            "seq": self.loop.hub.seq,
             "planner_id": self.planner_id,
-            "running": self._book.running,
-            "queue": list(self._book.queue),
+            "running": self.loop.book.running,
+            "queue": list(self.loop.book.queue),
             "goals": [goal.model_dump(mode="json") for goal in self.goals()],
             "status": status.model_dump(mode="json") if status is not None else None,
         }
 
     # Inside -------------------------------------------------------------------------------------
 
-    @property
-    def _book(self) -> MissionState:
-        return self._loop.book
-
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
-        self._loop.event(dataclasses.replace(given, echoed=result.echoed))
+        self.loop.event(dataclasses.replace(given, echoed=result.echoed))
         return self.goal(given.id)
 
     def _newest_paused(self) -> str:
-        if (goal_id := goal_to_resume(self._book)) is None:
+        if (goal_id := goal_to_resume(self.loop.book)) is None:
             raise NothingToResume
         return goal_id
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        eyes = (self._hearing, self._book.means, self._book.eyes.classes)
+        eyes = (self._hearing, self.loop.book.means, self.loop.book.eyes.classes)
         return await thinker(self._brain, self.memory.vocabulary, *eyes)(ask)
 
-    def _age_s(self) -> float:
-        heard = self.link.status
-        return heard.age_s if heard is not None else float("inf")
-
-    def _obey(self, command: Command) -> MissionError | None:
-        """Obey a command at once, or say why it can't be obeyed."""
-        error = refusal(self._book, command)
-        if error is None:
-            self._loop.event(command)
-        return error
+    def _on_places(self) -> None:
+        self.loop.event(Known(self.memory.facts))
 
     async def _command(self, command: Command, act: OpRequest | None = None) -> Goal:
-        error = refusal(self._book, command)
+        error = refusal(self.loop.book, command)
         if error is not None:
             raise error
         if isinstance(command, Resume):
-            self._loop.clear_hold(act)
+            self.loop.clear_hold(act)
         else:
-            self._loop.keep_act(command.id, act)
-        self._loop.event(command)
-        await self._loop.settled()
+            self.loop.keep_act(command.id, act)
+        self.loop.event(command)
+        await self.loop.settled()
         return self.goal(command.id)

@@ -18,8 +18,14 @@ from planner.mission.bridge_status import (
     shows,
     standing,
 )
-from planner.mission.legs import abandon_route, ask_route, detour_if_due
-from planner.mission.motion_progress import forget_beginnings, hand_steers, settle_amounts
+from planner.mission.legs import (
+    abandon_route,
+    ask_route,
+    detour_if_due,
+    forget_beginnings,
+    hand_steers,
+    settle_amounts,
+)
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import end_gaze_if_due, on_standing, stand_while_blind
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold

@@ -19,8 +19,7 @@ from planner.mission.activity import (
 )
 from planner.mission.bridge_status import cannot_move, standing
 from planner.mission.effects import AskEyes, SayAloud
-from planner.mission.legs import RETRY_S, abandon_route, ask_route
-from planner.mission.motion_progress import measure_from, settle_amounts
+from planner.mission.legs import RETRY_S, abandon_route, ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import (
     ended_outcome,
     moves,

@@ -1,7 +1,7 @@
 """Say what may be planned: the closed vocabulary of plans, steps, outcomes, places and goals."""
 
 from planner.plan.base import Bilingual, Frozen, Language, same
-from planner.plan.capabilities import BARE, NEEDS_DETECTOR, Means
+from planner.plan.check import BARE, NEEDS_DETECTOR, Means, Reason, Rejection, check_plan, lacking
 from planner.plan.goal import (
     ENDED,
     BrainTag,
@@ -42,7 +42,6 @@ from planner.plan.steps import (
     Wait,
     places_of,
 )
-from planner.plan.validate import Reason, Rejection, lacking, validate_plan
 from planner.plan.vocabulary import Entry, PlaceId, Vocabulary
 
 __all__ = [
@@ -98,10 +97,10 @@ __all__ = [
     "Turn",
     "Vocabulary",
     "Wait",
+    "check_plan",
     "fault",
     "lacking",
     "places_of",
     "plan_record",
     "same",
-    "validate_plan",
 ]

@@ -1,6 +1,6 @@
 """Own the four things a brain may answer: a plan, an answer, a question, or an honest no.
 
-Only `StepPlan` can lead to motion, and only after `validate_plan`.
+Only `StepPlan` can lead to motion, and only after `check_plan`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ MAX_STEPS = 20
 
 
 class StepPlan(Frozen):
-    """Do these steps in this order. Emptiness and the cap are judged by `validate_plan`."""
+    """Do these steps in this order. Emptiness and the cap are judged by `check_plan`."""
 
     kind: Literal["plan"] = "plan"
     steps: tuple[Step, ...]

@@ -14,7 +14,7 @@ from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequ
 from planner.language.catalogue import message
 from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
-from planner.plan import EVERY_KIND, Code, Refuse, Rejection, StepPlan, validate_plan
+from planner.plan import EVERY_KIND, Code, Refuse, StepPlan, check_plan
 from pons.evals.cases import Case, Suite
 from pons.evals.matchers import Made
 from pons.evals.motion import moves, wrong_motions
@@ -112,13 +112,13 @@ def judge(
     case: Case, made: Made, world: EvalWorld, seconds: float = 0.0, calls: int = 0, tokens: int = 0
 ) -> SentenceVerdict:
     """Return the verdict over one outcome."""
-    checked = validate_plan(made, world.vocabulary, EVERY_KIND)
-    if isinstance(checked, Rejection):  # what validation refuses never moves
-        fault = f"no valid plan: {rejection_outcome(checked, world.vocabulary).message.en}"
+    rejection = check_plan(made, world.vocabulary, EVERY_KIND)
+    if rejection is not None:  # what is rejected never moves
+        fault = f"no valid plan: {rejection_outcome(rejection, world.vocabulary).message.en}"
         return SentenceVerdict(case, made, fault, (), seconds, calls, tokens)
-    wrong = _wrong(case, checked, world)
-    fault = _fault(case, checked, world)
-    return SentenceVerdict(case, checked, fault, wrong, seconds, calls, tokens)
+    wrong = _wrong(case, made, world)
+    fault = _fault(case, made, world)
+    return SentenceVerdict(case, made, fault, wrong, seconds, calls, tokens)
 
 
 def _fault(case: Case, made: Made, world: EvalWorld) -> str:

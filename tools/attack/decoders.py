@@ -244,16 +244,16 @@ def _offline(_folder: Path) -> Reader:
     from datetime import UTC, datetime
 
     from planner.language.grammar import Context, plan
-    from planner.plan import PLAN, Rejection, validate_plan
+    from planner.plan import PLAN, check_plan
 
     vocabulary = _vocabulary()
     context = Context(room="kitchen", now=datetime(2026, 1, 1, 12, tzinfo=UTC))
 
     def read(data: bytes) -> object:
         made = plan(data.decode("utf-8", "replace"), vocabulary, context)
-        judged = validate_plan(PLAN.validate_python(made), vocabulary)
-        if isinstance(judged, Rejection) and judged.repairable:
-            raise Unsound(f"a plan that does not hold: {judged}")
+        rejection = check_plan(PLAN.validate_python(made), vocabulary)
+        if rejection is not None and rejection.repairable:
+            raise Unsound(f"a plan that does not hold: {rejection}")
         return made
 
     return Reader(read)

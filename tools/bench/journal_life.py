@@ -27,7 +27,7 @@ import sqlalchemy as sa
 
 from planner.brain import ScriptedBrain, ThinkRequest, Thought
 from planner.bridge_client import Link
-from planner.mission import BadState, Clocks, MissionJournal, Missions
+from planner.mission import BadState, Clocks, JournalSync, MissionJournal, Missions
 from planner.mission.event_hub import Hub
 from planner.navigation import RoutePoint, RouteRequest, RouteResult
 from planner.plan import ENDED, Ask, GoalState, Move, Say, StepPlan, Turn
@@ -152,7 +152,7 @@ async def _live(folder: Path, life: int, body: MinimalBody, diary: Diary) -> Non
         link=Link(bridge, robot, clock=bridge.now_s),
         router=StraightFlight(),
         brain=ByText(["-"]),
-        journal=MissionJournal.in_home(folder),
+        disk=JournalSync(MissionJournal.in_home(folder)),
         planner_id=f"planner-{life}",
         clocks=Clocks(bridge.now_s, time.time, lambda: f"g{life}-{next(numbers)}"),
     )

@@ -6,22 +6,24 @@ the one on disk does.
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from planner.mission.skills import Answer
 from planner.perception.frame_update import Scenery, saw
-from planner.perception.interfaces import Picture, PointRefused
+from planner.perception.interfaces import Picture, PointRefused, Spot
 from planner.perception.object_tracker import Remembered, aged
 from planner.perception.pixel_to_map import point_on_map
 from planner.perception.pose_buffer import Poses
 from planner.perception.projection import View
 from planner.perception.snapshot import Look, Sight
+from tools.lockstep.latencies import TICK_S
 from tools.lockstep.truth_detector import NAMES, Finder, header_of
 from wire import Image, Localization, Odometry
 
 if TYPE_CHECKING:
-    from planner.mission.effects import AskEyes
+    from collections.abc import Callable
+
     from planner.perception.snapshot import Detection
     from sim import SimRobot
     from tools.lockstep.scene import Scene
@@ -48,28 +50,60 @@ class PerceptionProcess:
         self._poses = Poses(scene.site.map_id)
         self._memory = Remembered()
         self._taken: list[Taken] = []
-        self._newest: Picture | None = None
+        self.picture: Picture | None = None
+        self.looked: Picture | None = None
         self._seq = 0
         self.classes = NAMES
         self.blind: str | None = None
         """Why nothing is seen; a test sets it."""
         self._told_blind: str | None = None
         self.look: Look | None = None
+        self._told: Callable[[Sight], None] | None = None
 
     @property
     def sight(self) -> Sight:
         """Return what is known by eye now."""
         return Sight(self.look, self._memory.things, self.blind)
 
-    def hear(self, odometry: Odometry | None, localization: Localization | None) -> None:
-        """Take what says how the robot moves and where it is."""
-        if odometry is not None:
-            self._poses.odometry(odometry)
-        if localization is not None:
-            self._poses.localization(localization)
+    def odometry(self, odometry: Odometry) -> None:
+        """Take how the robot moves."""
+        self._poses.odometry(odometry)
 
-    def turn(self, sim: SimRobot, tick: int, now_s: float) -> Sight | None:
-        """Take a picture where one is due, finish one that was; return a new sight, if there is."""
+    def localization(self, localization: Localization) -> None:
+        """Take where the robot is."""
+        self._poses.localization(localization)
+
+    def listen(self, told: Callable[[Sight], None]) -> None:
+        """Tell one planner what is seen; those before it are gone."""
+        self._told = told
+
+    def attend(self, who: str, wanted: bool) -> None:
+        """Look at the full rate always."""
+
+    async def fresh(self) -> Picture | None:
+        """Return the newest picture."""
+        return self.picture
+
+    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+        """Return what lies at a point of a picture, by the floor alone.
+
+        Raises:
+            PointRefused: nothing there can be driven up to.
+        """
+        await asyncio.sleep(TICK_S)
+        stance = self._poses.at(picture.taken_s)
+        if stance is None:
+            raise PointRefused("point_no_pose")
+        view = View(picture.color.header, self._scenery.camera, stance)
+        return point_on_map(view, self._scene.site, x, y, None)
+
+    def turn(self, sim: SimRobot, tick: int, now_s: float) -> None:
+        """Take a picture where one is due, finish one that was; tell of a new sight."""
+        sight = self._see(sim, tick, now_s)
+        if sight is not None and self._told is not None:
+            self._told(sight)
+
+    def _see(self, sim: SimRobot, tick: int, now_s: float) -> Sight | None:
         if self.blind is not None:
             self._taken.clear()
             changed, self._told_blind = self.blind != self._told_blind, self.blind
@@ -84,22 +118,8 @@ class PerceptionProcess:
         self._memory, self.look = saw(
             self._scenery, aged(self._memory, now_s), taken.picture, taken.detections, stance
         )
+        self.looked = taken.picture
         return self.sight
-
-    def answer(self, ask: AskEyes) -> Answer:
-        """Say what a pixel of the newest picture shows, by the floor alone; no model answers."""
-        picture, look = self._newest, self.look
-        if ask.x is None or ask.y is None:
-            return Answer(failure="no_vision_model")
-        stance = self._poses.at(picture.taken_s) if picture is not None else None
-        if picture is None or look is None or stance is None:
-            return Answer(failure="point_no_pose")
-        view = View(picture.color.header, self._scenery.camera, stance)
-        try:
-            spot = point_on_map(view, self._scene.site, ask.x, ask.y, None)
-        except PointRefused as refused:
-            return Answer(failure=refused.code)
-        return Answer(at=(spot.x_m, spot.y_m, spot.z_m))
 
     def look_with(self, finder: Finder) -> None:
         """See with another finder from now on."""
@@ -110,5 +130,5 @@ class PerceptionProcess:
         header = header_of(self._scenery.camera, self._seq, now_s)
         picture = Picture(Image(header=header, data=b"\0"), None, now_s)
         found = self._finder.find(sim, header)
-        self._newest = picture
+        self.picture = picture
         self._taken.append(Taken(tick + LATE_TICKS, picture, found))

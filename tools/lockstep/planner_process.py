@@ -1,54 +1,43 @@
-"""Be the planner's process, one turn per tick: its real engine, bus, brain and router.
+"""Be the planner's process, one turn per tick: its real shell, on a simulated clock.
 
-What takes time there (brain, route, disk) answers here a fixed number of ticks later. The journal
-is a notebook that outlives this object, so that a kill loses what was not yet written and no more.
+``planner.mission.Missions`` runs here as it does on a robot. Given to it are what a process has of
+its surroundings: the bus, an event loop on ticks (``tick_loop``), brain and router that answer a
+fixed number of ticks later, and a disk that outlives this object, so that a kill loses what was not
+yet written and no more.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from heapq import heappop, heappush
+import asyncio
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
-from planner.bridge_client import Identity, WireBus
-from planner.bridge_client.scan_to_map import points_in_map
+from planner.bridge_client import Link, LinkError, StopResult, WireBus
 from planner.language.utterance import parse
-from planner.mission.allowed_commands import refusal
-from planner.mission.effects import (
-    AskBrain,
-    AskEyes,
-    AskRoute,
-    ClearHold,
-    DropBrain,
-    Journal,
-    SayAloud,
-)
-from planner.mission.engine import Engine, Output
-from planner.mission.events import Cancel, Event, Restarted, Sighted, Stopped, Submitted, Tick, Told
-from planner.mission.known_places import KnownPlaces
-from planner.mission.plan_request import thinker
-from planner.mission.planner_commands import PlannerCommands
-from planner.mission.reception import receive
-from planner.mission.site_view import facts_of
-from planner.mission.skills import Answer, Eyesight, Way
-from planner.mission.state import Mission, MissionState
-from planner.navigation import RouteFailure, RouteRequest
-from tools.lockstep.request_retry import Request, RequestRetry
-from tools.lockstep.run_coroutine import at_once
-from wire import VIRTUAL_KEY, OpKind, Scan, Status, Stop, signed_request
+from planner.mission import Clocks, Missions
+from planner.mission.journal import GoalKey, JournalContents
+from tools.lockstep.latencies import TICK_S
+from tools.lockstep.tick_loop import TickLoop
+from wire import VIRTUAL_KEY, OpKind, OpRequest, signed_request
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Coroutine
+    from typing import Any
 
-    from planner.brain import Brain
-    from planner.mission.errors import MissionError
-    from planner.mission.events import Command
-    from planner.perception.snapshot import Sight
-    from planner.plan import Language
+    from planner.brain import Brain, ThinkRequest, Thought
+    from planner.brain.image_questions import Looker
+    from planner.brain.streamed_draft import Hear
+    from planner.mission.effects import Journal
+    from planner.mission.event_hub import Message
+    from planner.mission.state import Mission, MissionState
+    from planner.navigation import RouteRequest, RouteResult
+    from planner.plan import BrainTag, Language
+    from sim import SimRobot
     from tools.lockstep.bus import Port
     from tools.lockstep.eyes import PerceptionProcess
     from tools.lockstep.latencies import Pace
     from tools.lockstep.scene import Scene
+    from wire import Answer, Status
     from wire.session import Session
 
 WALL_OFFSET_S = 1_700_000_000.0
@@ -57,19 +46,100 @@ WALL_OFFSET_S = 1_700_000_000.0
 
 @dataclass(slots=True)
 class Notebook:
-    """Be the disk: what was written survives the planner."""
+    """Hold what is on disk: what was written survives the planner."""
 
     missions: dict[str, Mission] = field(default_factory=dict)
     queue: tuple[str, ...] = ()
+    keys: dict[str, GoalKey] = field(default_factory=dict)
 
-    def write(self, entry: Journal) -> None:
-        """Write one entry."""
-        self.missions.update({mission.id: mission for mission in entry.missions})
-        self.queue = entry.queue
+
+@dataclass(slots=True)
+class NotebookDisk:
+    """Be one planner's disk: an entry is on it a fixed time after it was handed over."""
+
+    notebook: Notebook
+    delay_s: float
+    safe: int = 0
+    on_safe: Callable[[int], None] | None = None
+    trouble: str | None = None
+
+    async def open(self, on_safe: Callable[[int], None]) -> JournalContents:
+        """Return what the planners before have written."""
+        self.on_safe, book = on_safe, self.notebook
+        return JournalContents(tuple(book.missions.values()), book.queue, tuple(book.keys.values()))
+
+    def write(self, entry: Journal, key: GoalKey | None = None) -> None:
+        """Have an entry written."""
+        asyncio.get_running_loop().call_later(self.delay_s, self._write_down, entry, key)
+
+    async def wait(self, entry: int) -> None:
+        """Wait until an entry is written."""
+        while self.safe < entry:  # noqa: ASYNC110  # a tick is the finest time that there is
+            await asyncio.sleep(TICK_S)
+
+    async def close(self) -> None:
+        """Nothing is open."""
+
+    def _write_down(self, entry: Journal, key: GoalKey | None) -> None:
+        self.notebook.missions.update({mission.id: mission for mission in entry.missions})
+        self.notebook.queue = entry.queue
+        if key is not None:
+            self.notebook.keys[key.key] = key
+        self.safe = entry.entry
+        if self.on_safe is not None:
+            self.on_safe(entry.entry)
+
+
+@dataclass(slots=True)
+class PacedBrain:
+    """Answer as a brain does, a fixed time later."""
+
+    brain: Brain
+    delay_s: float
+
+    @property
+    def tag(self) -> BrainTag:
+        """Return the brain's own."""
+        return self.brain.tag
+
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+        """Return the brain's thought; raises what it raises."""
+        brain = self.brain
+        await asyncio.sleep(self.delay_s)
+        return await brain.think(request, hear)
+
+
+@dataclass(slots=True)
+class PacedRouter:
+    """Find ways in this process, a fixed time later."""
+
+    scene: Scene
+    delay_s: float
+
+    async def route(self, request: RouteRequest) -> RouteResult:
+        """Find the way, or raise ``RouteFailure``."""
+        await asyncio.sleep(self.delay_s)
+        return self.scene.router.route(request, asyncio.get_running_loop().time)
+
+
+@dataclass(slots=True)
+class Request:
+    """Follow one request to the bridge to its verdict."""
+
+    task: asyncio.Task[Any]
+
+    @property
+    def answer(self) -> Answer | StopResult | None:
+        """Return the verdict; None where there is none yet, or will be none."""
+        if not self.task.done():
+            return None
+        verdict: Answer | StopResult | None = self.task.result()
+        silent = isinstance(verdict, StopResult) and not verdict.echoed
+        return None if silent else verdict
 
 
 class PlannerProcess:
-    """Connect the mission engine to the bus."""
+    """Compose the planner's shell, and turn it."""
 
     def __init__(
         self,
@@ -79,46 +149,60 @@ class PlannerProcess:
         pace: Pace,
         notebook: Notebook,
         planner_id: str,
+        new_goal_id: Callable[[], str],
         now_s: float,
     ) -> None:
         self.planner_id = planner_id
-        self._eyes: PerceptionProcess | None = None
         self.said: list[str] = []
-        self._scene, self._port, self._pace = scene, port, pace
-        self._memory, self._now_s = KnownPlaces(scene.site), now_s
-        self._notebook = notebook
-        self.think_with(brain)
-        self._bus = WireBus(cast("Session", port))
-        self._insistence = RequestRetry(pace)
-        self._later: list[tuple[int, int, Callable[[float], Output]]] = []
+        self._port, self._pace = port, pace
         self._count = 0
-        self._status: Status | None = None
-        self._scan: Scan | None = None
-        robot, site = scene.robot, scene.site
-        identity = Identity(planner_id, robot.hash, scene.fence_hash, site.map_id)
-        self.engine = Engine(MissionState(facts_of(site)), identity)
-        kept = tuple(notebook.missions.values())
-        self._do(self.engine.event(Restarted(kept, notebook.queue, WALL_OFFSET_S), now_s))
+        self._eyes: PerceptionProcess | None = None
+        self._tasks = TickLoop(now_s)  # type: ignore[abstract]  # what needs threads or sockets
+        self._brain = PacedBrain(brain, pace.brain * TICK_S)
+        self._link = Link(
+            WireBus(cast("Session", port)),
+            scene.robot,
+            clock=self._tasks.time,
+            new_id=self._new_id,
+        )
+        self.missions = Missions(
+            site=scene.site,
+            robot=scene.robot,
+            link=self._link,
+            router=PacedRouter(scene, pace.route * TICK_S),
+            brain=self._brain,
+            disk=NotebookDisk(notebook, pace.journal * TICK_S),
+            planner_id=planner_id,
+            clocks=Clocks(self._tasks.time, self._wall_s, new_goal_id),
+        )
+        self.missions.loop.hub.join(self)
+        self.run(now_s, self.missions.start(rounds=False))
+
+    @property
+    def book(self) -> MissionState:
+        """Return where everything stands."""
+        return self.missions.loop.book
 
     @property
     def status(self) -> Status | None:
         """Return the newest status that this planner has."""
-        return self._status
+        return self._link.status.value if self._link.status else None
 
     @property
     def waits(self) -> bool:
         """Tell whether a route, a plan, the disk or an answer is still to come."""
-        return bool(self._later) or self._insistence.asks
+        return self._tasks.busy
 
     def think_with(self, brain: Brain) -> None:
         """Let this brain turn sentences into plans."""
-        self._brain = brain
+        self._brain.brain = brain
 
-    def see_with(self, eyes: PerceptionProcess) -> None:
-        """Use these eyes from now on."""
+    def see_with(self, eyes: PerceptionProcess, looker: Looker | None = None) -> None:
+        """Use these eyes from now on, and this model to ask about their pictures."""
+        if self._eyes is not eyes:
+            self._link.tell(eyes)
         self._eyes = eyes
-        eyesight = Eyesight(self._scene.robot.camera, eyes.classes)
-        self.engine.book = replace(self.engine.book, eyes=eyesight, sight=eyes.sight)
+        self._tasks.do(self._tasks.time(), lambda: self.missions.see(eyes, looker))
 
     def leave(self) -> None:
         """Be gone, as after SIGKILL."""
@@ -126,146 +210,88 @@ class PlannerProcess:
 
     def turn(self, now_s: float) -> None:
         """Hear, judge, answer, and carry out what is due."""
-        self._now_s, tick = now_s, self._port.bus.tick
-        self._scan = self._bus.scan() or self._scan
-        status = self._bus.status()
-        if status is not None:
-            self._status = status
-            self._insistence.hear(status)
-            self._do(self.engine.status(status, now_s))
-        if self._eyes is not None:
-            self._eyes.hear(self._bus.odometry(), self._bus.localization())
-        while self._later and self._later[0][0] <= tick:
-            self._do(heappop(self._later)[2](now_s))
-        if tick % self._pace.planner_tick_period == 0:
-            self._do(self.engine.event(Tick(), now_s))
-        self._insistence.tick(tick)
+        loop, tasks = self.missions.loop, self._tasks
+        tasks.do(now_s, loop.hear)
+        tasks.do(now_s, tasks.fire)
+        if self._port.bus.tick % self._pace.planner_tick_period == 0:
+            tasks.do(now_s, loop.tick)
 
-    def sighted(self, sight: Sight, now_s: float) -> None:
-        """Take what the eyes say."""
-        classes = self._eyes.classes if self._eyes is not None else ()
-        self._do(self.engine.event(Sighted(sight, classes), now_s))
+    def look(self, sim: SimRobot, now_s: float) -> None:
+        """Let the eyes take their turn, where there are some."""
+        eyes, tick = self._eyes, self._port.bus.tick
+        if eyes is not None:
+            self._tasks.do(now_s, lambda: eyes.turn(sim, tick, now_s))
 
-    def event(self, event: Event, now_s: float) -> None:
-        """Take a person's command."""
-        self._do(self.engine.event(event, now_s))
+    # What a person does -------------------------------------------------------------------------
 
-    def say(self, goal_id: str, text: str, language: Language | None, now_s: float) -> None:
-        """Take a sentence by the planner's own door: stop lane first, then missions."""
-        said = parse(text)
-        given = Submitted(goal_id, text, language or said.language)
-        heard = receive(self.engine.book, said, given, now_s)
-        if heard.stops:
-            self.order_stop("api", now_s)
-            self.event(heard.given, now_s)
-            return
-        if heard.given.resumes:
-            self.operate("resume")
-        self.event(heard.given, now_s)
-        if heard.takes_back is not None:
-            self.event(Cancel(heard.takes_back), now_s)
+    def run(self, now_s: float, work: Coroutine[Any, Any, Any]) -> Request:
+        """Start something, a command of ``missions``, and raise what it raises at once."""
+        task = self._tasks.do(now_s, lambda: self._tasks.create_task(work))
+        if task.done():
+            task.result()
+        return Request(task)
 
-    def order_stop(self, source: str, now_s: float) -> Request:
+    def say(self, text: str, language: Language | None, now_s: float) -> None:
+        """Take a sentence by the planner's own door; a person's act comes with it, as by the API.
+
+        Raises:
+            MissionError: it was refused.
+        """
+        act = self._act_behind(text)
+        self.run(now_s, self.missions.submit(text, language=language, act=act))
+
+    def answer(self, goal_id: str, text: str, now_s: float) -> None:
+        """Take the answer to a goal's question. Raises MissionError where it takes none."""
+        act = self._act_behind(text)
+        self.run(now_s, self.missions.answer(goal_id, text, act=act))
+
+    def stop(self, source: str, now_s: float) -> Request:
         """Stop through the API: the bridge and the missions both hear it."""
-        request = self.stop(source)
-        self.event(Stopped(source), now_s)
-        return request
+        return self.run(now_s, self.missions.stop(source))
 
-    def stop(self, source: str) -> Request:
-        """Say stop until it is echoed."""
-        message = Stop(id=self._new_id("stop"), source=source)
-        return self._insist("stop", message.id, lambda: self._bus.send(message))
+    def resume(self, goal_id: str, now_s: float) -> None:
+        """Go on with a goal; a hold of the bridge is cleared as the API's handler does."""
+        status = self.status
+        held = status is not None and status.held is not None
+        act = self._sign("resume") if held else None
+        self.run(now_s, self.missions.resume(goal_id, act=act))
 
-    def operate(self, kind: OpKind) -> Request | None:
+    def operate(self, kind: OpKind, now_s: float) -> Request | None:
         """Sign for a virtual drive and ask until answered; None before the first status."""
-        status = self._status
+        request = self._sign(kind)
+        return None if request is None else self.run(now_s, self._ask(kind, request))
+
+    # What the hub tells -------------------------------------------------------------------------
+
+    def offer(self, message: Message) -> None:
+        """Note what is said aloud."""
+        if message[1]["type"] == "say":
+            self.said.append(message[1]["text"])
+
+    def close(self) -> None:
+        """Nothing is kept open for the hub."""
+
+    # Inside -------------------------------------------------------------------------------------
+
+    async def _ask(self, kind: OpKind, request: OpRequest) -> Answer | None:
+        try:
+            return await self._link.operate(kind, request)
+        except LinkError:
+            return None
+
+    def _act_behind(self, text: str) -> OpRequest | None:
+        """Return the resume that comes with a sentence, where it may lead to motion."""
+        return None if parse(text).stays_put else self._sign("resume")
+
+    def _sign(self, kind: OpKind) -> OpRequest | None:
+        status = self.status
         if status is None:
             return None
-        request_id = self._new_id(kind)
-        request = signed_request(VIRTUAL_KEY, kind, status, "api", request_id)
-        return self._insist(kind, request_id, lambda: self._bus.ask(kind, request))
+        return signed_request(VIRTUAL_KEY, kind, status, "api", self._new_id())
 
-    def _insist(self, kind: str, request_id: str, say: Callable[[], None]) -> Request:
-        return self._insistence.ask(kind, request_id, say, self._port.bus.tick)
-
-    def _new_id(self, kind: str) -> str:
+    def _new_id(self) -> str:
         self._count += 1
-        return f"{self.planner_id}-{kind}-{self._count}"
+        return f"{self.planner_id}-{self._count}"
 
-    def _do(self, output: Output) -> None:
-        for message in output.messages:
-            self._bus.send(message)
-        for effect in output.effects:
-            match effect:
-                case AskBrain():
-                    self._in(self._pace.brain, self._thinking(effect))
-                case AskRoute():
-                    self._in(self._pace.route, self._routing(effect))
-                case AskEyes():
-                    self._in(self._pace.brain, self._telling(effect))
-                case Journal():
-                    self._in(self._pace.journal, self._writing(effect))
-                case ClearHold():
-                    self.operate("resume")
-                case SayAloud():
-                    self.said.append(effect.text)
-                case DropBrain():
-                    pass  # its answer comes and is ignored, as from a call that can't be recalled
-                case _:
-                    pass  # Changed: nobody listens here
-
-    def _in(self, delay: int, act: Callable[[float], Output]) -> None:
-        self._count += 1
-        heappush(self._later, (self._port.bus.tick + delay, self._count, act))
-
-    def _thinking(self, ask: AskBrain) -> Callable[[float], Output]:
-        book = self.engine.book
-        brain = thinker(self._brain, self._scene.vocabulary, None, book.means, book.eyes.classes)
-        local = PlannerCommands(
-            brain, self._memory, lambda: self.engine.book, self._obey, self._age_s
-        )
-        event = at_once(local.think(ask))
-        return lambda now_s: self.engine.event(event, now_s)
-
-    def _obey(self, command: Command) -> MissionError | None:
-        """Obey a command that a sentence gave, or say why it can't be obeyed."""
-        error = refusal(self.engine.book, command)
-        if error is None:
-            self.event(command, self._now_s)
-        return error
-
-    def _age_s(self) -> float:
-        return self._now_s - self.engine.book.status_s
-
-    def _telling(self, ask: AskEyes) -> Callable[[float], Output]:
-        answer = Answer(failure="camera_silent") if self._eyes is None else self._eyes.answer(ask)
-        event = Told(ask.id, ask.ticket, answer)
-        return lambda now_s: self.engine.event(event, now_s)
-
-    def _writing(self, entry: Journal) -> Callable[[float], Output]:
-        def act(now_s: float) -> Output:
-            self._notebook.write(entry)
-            return self.engine.journalled(entry, now_s)
-
-        return act
-
-    def _routing(self, ask: AskRoute) -> Callable[[float], Output]:
-        obstacles = self._seen_points() if ask.obstacles else ()
-
-        def act(now_s: float) -> Output:
-            try:
-                found = self._scene.router.route(
-                    RouteRequest(ask.start, ask.goal, obstacles, ask.way is Way.STRAIGHT),
-                    lambda: now_s,
-                )
-            except RouteFailure as failure:
-                return self.engine.routed(ask, None, failure.code, now_s)
-            return self.engine.routed(ask, found.points, None, now_s)
-
-        return act
-
-    def _seen_points(self) -> tuple[tuple[float, float], ...]:
-        status, scan = self._status, self._scan
-        if status is None or scan is None or status.base_in_map is None:
-            return ()
-        return points_in_map(scan, self._scene.robot.lidar, status.base_in_map)
+    def _wall_s(self) -> float:
+        return self._tasks.time() + WALL_OFFSET_S

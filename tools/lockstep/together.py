@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from planner.mission.events import Cancel, Pause, Reply, Resume
 from tools.lockstep.eyes import PerceptionProcess
 from tools.lockstep.goal_handle import GoalHandle
 from tools.lockstep.truth_detector import TruthFinder
@@ -13,9 +12,10 @@ from wire import Mode
 
 if TYPE_CHECKING:
     from planner.brain import Brain
+    from planner.brain.image_questions import Looker
     from planner.plan import Language
     from tools.lockstep.disturbance import Disturbance
-    from tools.lockstep.request_retry import Request
+    from tools.lockstep.planner_process import Request
     from tools.lockstep.truth_detector import Finder
     from wire import OpKind, Pose2
 
@@ -36,7 +36,6 @@ class Together(World):
             TooLong: it did not become ready.
         """
         super().__init__(**parts)
-        self._goals = 0
         if ready:
             self.make_ready()
 
@@ -44,14 +43,12 @@ class Together(World):
 
     def say(self, text: str, language: Language | None = None) -> GoalHandle:
         """Give a goal in words."""
-        self._goals += 1
-        goal = self.goal(f"goal-{self._goals}")
-        self.planner.say(goal.id, text, language, self.now_s)
-        return goal
+        self.planner.say(text, language, self.now_s)
+        return self.goal(f"goal-{self._goals}")
 
     def goal(self, goal_id: str) -> GoalHandle:
         """Follow a goal that was given before: in a copy of a world, its own."""
-        return GoalHandle(goal_id, lambda: self.planner.engine.book)
+        return GoalHandle(goal_id, lambda: self.planner.book)
 
     def think_with(self, brain: Brain) -> None:
         """Let another brain turn sentences into plans from now on."""
@@ -60,25 +57,23 @@ class Together(World):
 
     def stop(self, source: str = "cli") -> Request:
         """Order a stop through the API."""
-        return self.planner.order_stop(source, self.now_s)
+        return self.planner.stop(source, self.now_s)
 
     def cancel(self, goal: GoalHandle) -> None:
         """End a goal."""
-        self.planner.event(Cancel(goal.id), self.now_s)
+        self.planner.run(self.now_s, self.planner.missions.cancel(goal.id))
 
     def pause(self, goal: GoalHandle) -> None:
         """Keep a goal's place, standing."""
-        self.planner.event(Pause(goal.id), self.now_s)
+        self.planner.run(self.now_s, self.planner.missions.pause(goal.id))
 
     def resume(self, goal: GoalHandle) -> None:
         """Go on with a goal; clears the bridge's hold as the API's handler does."""
-        if self.status.held is not None:
-            self.planner.operate("resume")
-        self.planner.event(Resume(goal.id), self.now_s)
+        self.planner.resume(goal.id, self.now_s)
 
     def answer(self, goal: GoalHandle, text: str) -> None:
         """Answer a goal's question."""
-        self.planner.event(Reply(goal.id, text), self.now_s)
+        self.planner.answer(goal.id, text, self.now_s)
 
     def operate(self, kind: OpKind, limit_s: float = 5.0) -> Request:
         """Make an operator's request and run until the bridge answered.
@@ -87,7 +82,7 @@ class Together(World):
             TooLong: it did not.
         """
         self.run_until(lambda _: self.planner.status is not None, limit_s)
-        request = self.planner.operate(kind)
+        request = self.planner.operate(kind, self.now_s)
         if request is None:
             raise TooLong("no status to sign for")
         self.run_until(lambda _: request.answer is not None, limit_s)
@@ -112,12 +107,20 @@ class Together(World):
                 raise TooLong(f"not armed; {self.describe()}")
         self.run_until(lambda w: w.status.mode is Mode.HOLD, limit_s)
 
-    def open_eyes(self, finder: Finder | None = None) -> PerceptionProcess:
-        """Let the planner see from now on, by the simulator's truth or by another finder."""
+    def open_eyes(
+        self, finder: Finder | None = None, looker: Looker | None = None
+    ) -> PerceptionProcess:
+        """Let the planner see from now on, by the simulator's truth or by another finder.
+
+        Args:
+            finder: finds things in pictures.
+            looker: a vision model that is asked about pictures; only where eyes open first.
+        """
         if self.eyes is None:
             camera, seed = self.scene.robot.camera, self.seed
             self.eyes = PerceptionProcess(self.scene, finder or TruthFinder(camera, seed))
-            self.planner.see_with(self.eyes)
+            self.looker = looker
+            self.planner.see_with(self.eyes, looker)
         elif finder is not None:
             self.eyes.look_with(finder)
         return self.eyes

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from planner.brain import Brain
+    from planner.brain.image_questions import Looker
     from tools.lockstep.eyes import PerceptionProcess
     from wire import DriveCommand, Pose2, Status, Twist2
 
@@ -82,9 +83,11 @@ class World:
         self._brain: Brain = brain or OfflineBrain()
         self._planner: PlannerProcess | None = None
         self._planners = 0
+        self._goals = 0
         self._frozen = False
         self._localizing = True
         self.eyes: PerceptionProcess | None = None
+        self.looker: Looker | None = None
         self._hooked = 0
         self._hooks: list[tuple[int, int, Callable[[Any], None]]] = []
         self.start_planner()
@@ -100,10 +103,15 @@ class World:
             self.pace,
             self.notebook,
             f"planner-{self._planners}",
+            self._new_goal_id,
             self.now_s,
         )
         if self.eyes is not None:
-            self._planner.see_with(self.eyes)
+            self._planner.see_with(self.eyes, self.looker)
+
+    def _new_goal_id(self) -> str:
+        self._goals += 1
+        return f"goal-{self._goals}"
 
     @property
     def planner(self) -> PlannerProcess:
@@ -145,13 +153,7 @@ class World:
         self.bridge.turn(now_s)
         if self._planner is not None and not self._frozen:
             self._planner.turn(now_s)
-            self._look(self._planner, now_s)
-
-    def _look(self, planner: PlannerProcess, now_s: float) -> None:
-        """Let the eyes take their turn, where there are some."""
-        sight = self.eyes.turn(self.sim, self.bus.tick, now_s) if self.eyes is not None else None
-        if sight is not None:
-            planner.sighted(sight, now_s)
+            self._planner.look(self.sim, now_s)
 
     def run(self, seconds: float) -> None:
         """Let simulated time pass [s]."""
@@ -232,7 +234,7 @@ class World:
         rows = [f"{row.row}:{row.action.value} ({row.evidence})" for row in status.rows]
         goals = [
             f"{goal.id} {goal.state.value} {goal.reason or ''}".strip()
-            for goal in (self.planner.engine.book.missions.values() if self._planner else ())
+            for goal in (self.planner.book.missions.values() if self._planner else ())
         ]
         pose = f"({self.truth.x_m:.2f}, {self.truth.y_m:.2f}, {self.truth.yaw_rad:.2f})"
         return (

@@ -28,12 +28,11 @@ from planner.plan import (
     Answer,
     Clarify,
     Refuse,
-    Rejection,
     Step,
     StepPlan,
     Vocabulary,
+    check_plan,
     places_of,
-    validate_plan,
 )
 
 MAX_CHARACTERS = 64_000
@@ -180,10 +179,10 @@ def judge(
         plan = PLAN.validate_python(shaped)
     except ValidationError as wrong:
         return Unusable(tuple(map(_told, wrong.errors(include_url=False)[:MAX_REASONS])))
-    judged = validate_plan(plan, vocabulary, runnable)
-    if isinstance(judged, Rejection) and judged.repairable:
+    rejection = check_plan(plan, vocabulary, runnable)
+    if rejection is not None and rejection.repairable:
         known = ", ".join(list(vocabulary.by_id)[:40]) or "none"
-        told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in judged.reasons]
+        told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in rejection.reasons]
         return Unusable((*told[:MAX_REASONS], f"known places: {known}"))
     return plan
 

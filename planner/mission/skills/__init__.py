@@ -25,19 +25,16 @@ from planner.mission.skills.actions import (
     Way,
 )
 from planner.mission.skills.ask import ask
-from planner.mission.skills.come_back import come_back
 from planner.mission.skills.count import count
 from planner.mission.skills.decide import decide
+from planner.mission.skills.drive_to_place import come_back, go_to, patrol, return_home
 from planner.mission.skills.find import find
 from planner.mission.skills.follow import follow
-from planner.mission.skills.go_to import go_to
 from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.go_to_point import go_to_point
 from planner.mission.skills.look import look
 from planner.mission.skills.move import move, no_room
-from planner.mission.skills.patrol import patrol
 from planner.mission.skills.perception import NO_EYES, Answer, Eyesight, Wanted
-from planner.mission.skills.return_home import return_home
 from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import NOTHING, Notes
 from planner.mission.skills.turn import turn

@@ -1,7 +1,7 @@
 """Ask a person a question and wait for the answer, standing.
 
 Law: the robot is free for others meanwhile, and who waits behind this goal is kept waiting. Where
-something moves upon the answer before anybody reads it (mission/motion_on_yes.py), only a plain yes
+something moves upon the answer before anybody reads it (mission/scene.py), only a plain yes
 goes on. A plain no ends the goal where the robot stands. What is neither is thought about once by a
 brain that can, and every new way needs a yes of its own; else it is asked once more, and what is
 then neither is a no. Any other answer is an observation for a later ``decide`` and never becomes a

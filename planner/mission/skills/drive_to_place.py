@@ -1,6 +1,12 @@
-"""Drive to places of the site: ``go_to``, ``return_home`` and ``come_back`` share this.
+"""Drive to places of the site: ``go_to``, ``return_home``, ``come_back`` and ``patrol``.
 
 Law: a place that is gone is not driven to, however recently it was there.
+
+Precondition: the place (for ``patrol`` each, when its turn comes) exists now; for ``come_back`` the
+pose at which the goal was accepted was known, and is on this map. Verdict: the bridge reached the
+leg, the robot stands, and for a room its pose lies inside the outline; a patrol that was paused or
+crashed goes on with the place that was next. Budget: one leg, of a patrol one a place; metres and
+seconds are the bridge's grant.
 """
 
 from __future__ import annotations
@@ -8,7 +14,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
-from planner.mission.skills.actions import Drive, Fail, Scene
+from planner.mission.skills.actions import Drive, Fail, Finish, Scene, SkillAction
 from planner.plan import Code, same
 
 if TYPE_CHECKING:
@@ -28,3 +34,30 @@ def place_gone(facts: SiteView, place: str) -> Fail:
     known = same(", ".join(sorted(facts.targets)))
     said = message(Code.UNKNOWN_PLACE, name=place, near="", known=known)
     return Fail(Code.UNKNOWN_PLACE, "place_gone", said)
+
+
+def go_to(scene: Scene) -> SkillAction:
+    """Return the leg to the place, or that it was reached."""
+    return Finish() if scene.part > 0 else drive_to(scene, scene.step.place or "")
+
+
+def return_home(scene: Scene) -> SkillAction:
+    """Return the leg home, or that it was reached."""
+    return Finish() if scene.part > 0 else drive_to(scene, scene.facts.home)
+
+
+def come_back(scene: Scene) -> SkillAction:
+    """Return the leg back, or that it was reached."""
+    if scene.part > 0:
+        return Finish()
+    if scene.accepted is None:
+        return Fail(Code.NO_ROUTE, "no_route")
+    return Drive(scene.accepted, heading=True)
+
+
+def patrol(scene: Scene) -> SkillAction:
+    """Return the leg to the next place, or that all were visited."""
+    places = scene.step.places
+    if scene.part >= len(places):
+        return Finish({"visited": scene.part})
+    return drive_to(scene, places[scene.part])

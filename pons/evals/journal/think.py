@@ -13,7 +13,7 @@ from pathlib import Path
 from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.mission.site_view import vocabulary_of
-from planner.plan import Rejection, StepPlan, plan_record, validate_plan
+from planner.plan import StepPlan, check_plan, plan_record
 from planner.settings import GoalLimits, ModelSettings, Settings
 from planner.site import Site
 from pons.evals.journal.compare import Difference, difference, plan_line
@@ -122,9 +122,9 @@ async def _think_again(
     record = plan_record(plan)
     relation = difference(decision.plan, record)
     again = SecondThought(decision, relation.value, plan_line(record))
-    judged = validate_plan(plan, vocabulary)
-    if isinstance(judged, Rejection):
-        return replace(again, refused=judged.first.code.value)
+    rejection = check_plan(plan, vocabulary)
+    if rejection is not None:
+        return replace(again, refused=rejection.first.code.value)
     moves = isinstance(plan, StepPlan) and any(step.kind in MOTION for step in plan.steps)
     if relation is Difference.DIFFERS and isinstance(plan, StepPlan) and moves:
         return replace(again, plan=plan)

@@ -8,16 +8,15 @@ from contextlib import asynccontextmanager
 from itertools import count
 from pathlib import Path
 from typing import Any
-from unittest.mock import patch
 
 from planner.brain.image_questions import Looker
 from planner.brain.scripted import Reply, ScriptedBrain
 from planner.bridge_client import Link
 from planner.mission import (
     Clocks,
+    JournalSync,
     MissionJournal,
     Missions,
-    loop,
 )
 from planner.mission.known_places import KnownPlaces
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
@@ -98,21 +97,20 @@ async def planner(
         link=Link(bridge, robot, clock=bridge.now_s),
         router=router or StraightRouter(),
         brain=brain,
-        journal=MissionJournal.in_home(home),
+        disk=JournalSync(MissionJournal.in_home(home)),
         planner_id=f"planner-{prefix}",
-        clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}"),
+        clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}", POLL_S),
     )
     if eyes is not None:
         missions.see(eyes, looker)
-    with patch.object(loop, "POLL_S", POLL_S):
-        await missions.start()
-        together = Together(missions, bridge, brain)
-        try:
-            await together.until(lambda: bridge.owner == missions.planner_id)
-            yield together
-            assert missions.failed is None
-        finally:
-            await missions.close()
+    await missions.start()
+    together = Together(missions, bridge, brain)
+    try:
+        await together.until(lambda: bridge.owner == missions.planner_id)
+        yield together
+        assert missions.failed is None
+    finally:
+        await missions.close()
 
 
 def run(work: Coroutine[Any, Any, None]) -> None:

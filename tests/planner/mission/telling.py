@@ -6,6 +6,7 @@ the missions' own door: it is shown what that hands out, and answers by it as it
 
 from __future__ import annotations
 
+import asyncio
 import re
 from dataclasses import dataclass, field, replace
 from math import atan2, hypot
@@ -32,7 +33,6 @@ from planner.plan import (
     StepState,
 )
 from tests.planner.mission.lockstep import Together
-from tools.lockstep.run_coroutine import at_once
 from wire import CameraConfig, Image, ImageHeader, Pose2, wrap
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ class Telling(Together):
             case AskEyes():
                 if self.forgets:
                     self.crash()
-                self.event(at_once(self.door.ask(effect)))
+                self.event(asyncio.run(self.door.ask(effect)))
             case _:
                 super().answer(effect)
 

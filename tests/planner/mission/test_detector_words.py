@@ -77,7 +77,7 @@ def test_a_detector_of_ones_own_is_read_without_a_pattern_made_on_the_loop(
 
     async def story() -> None:
         async with planner(tmp_path, site, bridge=bridge, eyes=eyes) as world:
-            book = world.missions._loop
+            book = world.missions.loop
             looking = asyncio.create_task(eyes.look_on())
             eyes.known = OWN
             await world.until(lambda: book.book.eyes.classes == OWN)

@@ -18,7 +18,7 @@ from planner.mission.api_view import goal_of
 from planner.mission.effects import Journal
 from planner.mission.events import Planned, Reply, Restarted, Resume
 from planner.mission.goal_lifecycle import MAP_CHANGED
-from planner.mission.journal_thread import JournalWriter, PendingEntry
+from planner.mission.journal_sync import JournalWriter, PendingEntry
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
     Bilingual,

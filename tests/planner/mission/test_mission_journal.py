@@ -30,7 +30,7 @@ from planner.mission.journal import (
     _keys,
     _upsert_of,
 )
-from planner.mission.journal_thread import JournalWriter, PendingEntry
+from planner.mission.journal_sync import JournalWriter, PendingEntry
 from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import Code, GoalState, Language, Outcome, StepState
 from wire import Misconfigured, Unwritable

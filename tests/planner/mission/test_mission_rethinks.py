@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from planner.language.catalogue import message
-from planner.mission.confirmation import ROAMS
 from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply, Resume, Stopped
+from planner.mission.replan import ROAMS
 from planner.mission.skills import Eyesight
 from planner.plan import (
     Answer,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import random
+from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -11,10 +13,20 @@ from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
 from planner.language.identification import language_of
 from planner.language.utterance import parse
+from planner.mission import reception
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
+from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
-from planner.mission.reception import AnswerReception, is_active, receive, receive_answer
+from planner.mission.journal import GoalKey
+from planner.mission.reception import (
+    AnswerReception,
+    Reception,
+    Repeats,
+    is_active,
+    receive,
+    receive_answer,
+)
 from planner.mission.reducer import advance
 from planner.mission.state import MAX_OPEN, Mission, MissionState
 from planner.plan import Code, GoalState, Language, Outcome, Vocabulary
@@ -197,7 +209,8 @@ def test_with_all_places_taken_a_doubtful_stop_still_stops() -> None:
     heard = receive(world.book, parse("careful, brake"), given("x"), world.now_s)
     assert heard.stops
     assert heard.given.stop
-    assert receive(world.book, parse("go to the hall"), given("x"), world.now_s).crowded
+    heard = receive(world.book, parse("go to the hall"), given("x"), world.now_s)
+    assert isinstance(heard.refused, QueueFull)
 
 
 @pytest.mark.parametrize("held", [True, False])
@@ -252,3 +265,80 @@ def test_a_goal_that_asks_nothing_takes_no_answer() -> None:
     assert heard.refused is not None
     assert heard.refused.code == "bad_state"
     assert heard.command is None
+
+
+GO = "go to the kitchen"
+FULL = MissionState(
+    FACTS,
+    missions={
+        f"g{i}": Mission(id=f"g{i}", order=i, text="x", language=Language.EN,
+                         state=GoalState.QUEUED, created_unix_s=0.0, updated_unix_s=0.0)
+        for i in range(MAX_OPEN)
+    },
+)  # fmt: skip
+
+
+def received(book: MissionState, order: Submitted, key: str | None, repeats: Repeats) -> Reception:
+    return receive(book, parse(order.text), order, 0.0, key=key, repeats=repeats)
+
+
+def before(order: Submitted, key: str = "k") -> Repeats:
+    """Return the memory of one request that was taken in."""
+    repeats = Repeats()
+    repeats.remember(received(MissionState(FACTS), order, key, repeats).request)
+    return repeats
+
+
+@pytest.mark.parametrize("book", [MissionState(FACTS), FULL], ids=["room", "full"])
+def test_the_same_key_and_request_are_the_same_goal_however_full_it_is(book: MissionState) -> None:
+    heard = received(book, given(GO, "g-2"), "k", before(given(GO, "g-1")))
+    assert (heard.repeats, heard.refused, heard.request) == ("g-1", None, None)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"text": f"{GO} "}, {"language": Language.ZH}, {"confirm": True}, {"replace": True}]
+)
+def test_the_same_key_with_another_request_is_refused(changes: dict[str, Any]) -> None:
+    other = replace(given(GO, "g-2"), **changes)
+    heard = received(FULL, other, "k", before(given(GO, "g-1")))
+    assert isinstance(heard.refused, IdempotencyConflict)
+
+
+@pytest.mark.parametrize("key", [None, "other"])
+def test_without_that_key_a_request_is_another_and_needs_room(key: str | None) -> None:
+    repeats = before(given(GO, "g-1"))
+    heard = received(MissionState(FACTS), given(GO, "g-2"), key, repeats)
+    assert (heard.repeats, heard.refused) == (None, None)
+    assert (heard.request is None) == (key is None)
+    assert isinstance(received(FULL, given(GO, "g-2"), key, repeats).refused, QueueFull)
+
+
+@pytest.mark.parametrize("text", ["stop", "停", "emergency brake"])
+def test_a_stop_is_no_repetition_is_never_refused_and_needs_no_room(text: str) -> None:
+    running = replace(FULL, running="g0")
+    heard = received(running, given(text, "g-2"), "k", before(given(GO, "g-1")))
+    assert heard.stops
+    assert (heard.refused, heard.repeats, heard.request) == (None, None, None)
+
+
+def test_what_is_said_to_the_planner_itself_needs_no_room() -> None:
+    assert received(FULL, given("where are you", "g-2"), None, Repeats()).refused is None
+
+
+def test_a_request_that_was_not_taken_may_come_anew_and_the_oldest_are_forgotten_first(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(reception, "MAX_KEYS", 2)
+    known = Repeats([GoalKey("a", "body", "g0")])
+    for key in ("b", "c"):
+        known.remember(GoalKey(key, "body", key))
+    known.remember(None)
+    assert [known.find(key) is not None for key in ("a", "b", "c", None)] == [
+        False,
+        True,
+        True,
+        False,
+    ]
+    known.forget(GoalKey("c", "body", "c"))
+    known.forget(None)
+    assert known.find("c") is None

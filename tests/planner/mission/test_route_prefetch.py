@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from planner.brain.streamed_draft import Draft
-from planner.mission.draft_events import TELL_S, Hearing
 from planner.mission.event_hub import Subscription
+from planner.mission.plan_request import TELL_S, Hearing
 from planner.mission.route_prefetch import KEPT_S, RouteAhead
 from planner.mission.state import MissionState
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
@@ -56,6 +56,13 @@ class Clock:
         return self.now_s
 
 
+@dataclass(frozen=True)
+class Standstill:
+    """Hold one state of the missions."""
+
+    book: MissionState
+
+
 async def asked_after(
     search: Search,
     steps: tuple[Step, ...],
@@ -65,7 +72,7 @@ async def asked_after(
 ) -> int:
     """Expect, then ask; return how many routes were there already."""
     clock = Clock()
-    ahead = RouteAhead(search, lambda: book, clock)
+    ahead = RouteAhead(search, Standstill(book), clock)
     ahead.expect(steps)
     await asyncio.sleep(0)
     clock.now_s = late_s

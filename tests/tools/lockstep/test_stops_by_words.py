@@ -60,6 +60,6 @@ def test_slow_down_halves_the_cap_of_what_runs(off: Driving) -> None:
     world.run(2.0)
     assert said.state is GoalState.SUCCEEDED
     assert goal.state is GoalState.RUNNING
-    waypoints = world.planner.engine.book.missions[goal.id].speed_share
+    waypoints = world.planner.book.missions[goal.id].speed_share
     assert waypoints == 0.5
     assert abs(world.status.measured.v_mps) <= 0.5 * 0.5 + 0.02 < before_mps

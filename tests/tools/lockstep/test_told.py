@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
 
+from planner.brain.image_questions import Asked, Described, NotThere
 from planner.brain.scripted import ScriptedBrain
-from planner.mission.skills.perception import Answer as EyeAnswer
-from planner.plan import Bilingual, Code, GoTo, Look, Say, Step, StepPlan
+from planner.plan import Bilingual, BrainTag, Code, GoTo, Look, Say, Step, StepPlan
 from tools.lockstep import Together
-from tools.lockstep.eyes import PerceptionProcess
 from tools.lockstep.homes import stocked
-from tools.lockstep.truth_detector import TruthFinder
 from wire import Pose2
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from planner.mission.effects import AskEyes
 
 ARMCHAIR = Bilingual(en="No: only an armchair at a bare wall.", zh="没有，只有墙边的扶手椅。")
 ANNA: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
@@ -29,25 +24,26 @@ KITCHEN, BY_THE_DOOR = Pose2(1.5, 1.9, 0.0), Pose2(1.5, 4.0, -1.57)
 pytestmark = pytest.mark.timeout(120)
 
 
-class Denying(PerceptionProcess):
-    """See with a model that is shown whatever was kept and sees nobody in it."""
+class Denying:
+    """Be a vision model that is shown whatever was kept and sees nobody in it."""
 
+    tag = BrainTag(name="denying", version="1")
     shown: tuple[str, ...] = ()
 
-    def answer(self, ask: AskEyes) -> EyeAnswer:
-        self.shown = tuple(name.en for name in ask.views)
-        return EyeAnswer(text=ARMCHAIR, seen=False, shown=len(ask.views))
+    async def describe(self, asked: Asked) -> Described:
+        self.shown = tuple(view.direction.en for view in asked.views)
+        return Described(ARMCHAIR, seen=False, brain=self.tag)
+
+    async def point(self, asked: Asked) -> NotThere:
+        return NotThere(self.tag)
 
 
 def seeing(home: Path, start: Pose2, *steps: Step) -> tuple[Together, Denying]:
     """Return a world that sees, and whose brain says this plan."""
     brain = ScriptedBrain([StepPlan(steps=steps)] * 4)
-    world = Together(site=home, seed=3, start=start, brain=brain)
-    world.eyes = eyes = Denying(world.scene, TruthFinder(world.scene.robot.camera, 3))
-    world.planner.see_with(eyes)
-    book = world.planner.engine.book
-    world.planner.engine.book = replace(book, eyes=replace(book.eyes, model=True))
-    return world, eyes
+    world, model = Together(site=home, seed=3, start=start, brain=brain), Denying()
+    world.open_eyes(looker=model)
+    return world, model
 
 
 @pytest.mark.parametrize("question", ["客厅里有人吗？", "is there anybody in the living room?"])
@@ -55,7 +51,7 @@ def test_somebody_who_was_seen_is_told_whatever_a_model_denies(
     tmp_path: Path, repository: Path, question: str
 ) -> None:
     home = stocked(tmp_path, repository / "sites" / "two_room", {}, ANNA)
-    world, eyes = seeing(home, KITCHEN, Look(question=question, place="living_room"))
+    world, model = seeing(home, KITCHEN, Look(question=question, place="living_room"))
     goal = world.say(question)
     world.run_until(lambda _: goal.ended, limit_s=120.0)
     outcome = goal.record.outcome
@@ -66,14 +62,14 @@ def test_somebody_who_was_seen_is_told_whatever_a_model_denies(
         f"{ARMCHAIR.en}"
     )
     assert outcome.message.zh.startswith("有，在客厅看到 1 个人。视觉模型（看的是各个方向的画面）")
-    assert len(set(eyes.shown)) == 6, "the robot has turned all round"
+    assert len(set(model.shown)) == 6, "the robot has turned all round"
 
 
 def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
     tmp_path: Path, repository: Path
 ) -> None:
     home = stocked(tmp_path, repository / "sites" / "two_room", {}, {"anna": {"at": [2.2, 2.3]}})
-    world, eyes = seeing(home, BY_THE_DOOR)
+    world, model = seeing(home, BY_THE_DOOR)
     world.place_obstacle(1.5, 3.0)
     look = StepPlan(steps=(Look(question="is anybody there?", place="kitchen"),))
     dinner = StepPlan(steps=(Say(text="dinner is ready"),))
@@ -92,4 +88,4 @@ def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
     assert errand.en == "The way to kitchen is blocked. Instead: Said: “dinner is ready”."
     assert "Arrived" not in errand.en
     assert looked.en == "I found no way to kitchen."
-    assert eyes.shown == ()
+    assert model.shown == ()

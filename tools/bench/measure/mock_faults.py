@@ -18,10 +18,9 @@ import httpx
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
 from planner.mission import AskBrain, MissionState, Planned, Submitted, advance
-from planner.mission.draft_events import Hearing
-from planner.mission.plan_request import thinker
+from planner.mission.plan_request import Hearing, thinker
 from planner.mission.site_view import facts_of, vocabulary_of
-from planner.plan import DRIVES, Language, Rejection, StepPlan, Vocabulary, validate_plan
+from planner.plan import DRIVES, Language, StepPlan, Vocabulary, check_plan
 from planner.settings import ModelSettings
 from planner.site import Site
 from pons.mock_llm import FAULTS, READABLE
@@ -139,7 +138,7 @@ class _Trial:
         else:
             self.counts["model" if by_model else "offline"] += 1
             drives = any(step.kind in DRIVES for step in plan.steps)
-            wrong = validate_plan(plan, self._vocabulary) is not plan
+            wrong = check_plan(plan, self._vocabulary) is not None
             if drives and (wrong or (by_model and self._fault not in READABLE)):
                 self.counts["invalid"] += 1
         if self._moves(planned, text, language) and not isinstance(plan, StepPlan):
@@ -153,6 +152,5 @@ class _Trial:
 
     def _expect(self, steps: tuple[Step, ...]) -> None:
         """Take what would be routed ahead: none of it may be outside of the closed world."""
-        judged = validate_plan(StepPlan(steps=steps), self._vocabulary) if steps else None
-        if isinstance(judged, Rejection):
+        if steps and check_plan(StepPlan(steps=steps), self._vocabulary) is not None:
             self.counts["invalid"] += 1

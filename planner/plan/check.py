@@ -1,0 +1,152 @@
+"""Judge a plan: its length, its places, the kinds of its steps, and the things that it names.
+
+The one judge of plans, asked three times with what is known there. A model's answer is judged for
+its repair (``planner.brain.endpoint.reply_validation``) and any brain's once more
+(``planner.mission.plan_request``), both without a detector's classes. The missions, which trust no
+brain, judge it before any of it is carried out (``planner.mission.plan_check``), with those
+classes. Every reason is collected, so that a model can be asked to write the plan better. A camera
+that fails later is no fault of a plan: it ends its own step (``planner.mission.skills.act_of``).
+
+Which steps may be planned follows from what a robot has: eyes or none, and somebody who knows what
+they see (:class:`Means`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterator
+
+from planner.plan.base import Bilingual, Frozen
+from planner.plan.goal import StepRecord, plan_record
+from planner.plan.outcome_codes import Code
+from planner.plan.responses import MAX_STEPS, Answer, Clarify, Plan, Refuse, StepPlan
+from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step, places_of
+
+NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
+POINTS = frozenset({"go_to_point"})
+"""Runnable with any camera, but of use only to who sees the picture that it points at."""
+
+
+class Means(Frozen):
+    """Say what a robot has beyond wheels and a voice."""
+
+    camera: bool = False
+    detector: bool = False  # recognises what the camera shows
+    model: bool = False  # a vision model may be asked about a picture
+
+    @property
+    def runnable(self) -> frozenset[str]:
+        """Return the kinds of steps that this robot can do."""
+        if not self.camera:
+            return RUNNABLE
+        look = {"look"} if self.detector or self.model else set()
+        return RUNNABLE | POINTS | look | (NEEDS_DETECTOR if self.detector else frozenset())
+
+    @property
+    def offered(self) -> frozenset[str]:
+        """Return the kinds that a brain may plan with: it sees no picture to point at."""
+        return self.runnable - POINTS
+
+    @property
+    def blind(self) -> Code:
+        """Return what is said of a step that needs eyes and can't be done."""
+        return Code.NO_DETECTOR if self.camera else Code.NO_CAMERA
+
+    def lacks(self, kind: str) -> Code | None:
+        """Return what is missing for a kind of step, or None where nothing is."""
+        if kind in self.runnable:
+            return None
+        return self.blind if kind in NEEDS_CAMERA else Code.NO_CAPABILITY
+
+
+BARE = Means()
+"""A robot that only drives and talks."""
+
+
+class Reason(Frozen):
+    """Name one fault of a plan; `repairable` where the model could write it better."""
+
+    code: Code
+    step: int | None  # index into the plan's steps; None where the plan as a whole is meant
+    what: str
+    repairable: bool
+    said: Bilingual | None = None  # in words for a person, where the code alone does not say it
+
+
+class Rejection(Frozen):
+    """Refuse a plan, with every reason found; ``planner.language.plan_rejections`` tells it."""
+
+    reasons: tuple[Reason, ...]
+
+    @property
+    def first(self) -> Reason:
+        """Return what a person must hear first: what no repair can mend."""
+        return next((reason for reason in self.reasons if not reason.repairable), self.reasons[0])
+
+    @property
+    def repairable(self) -> bool:
+        """Tell whether handing the reasons back to the model could help."""
+        return all(reason.repairable for reason in self.reasons)
+
+
+def check_plan(
+    plan: Plan | tuple[StepRecord, ...],
+    places: Container[str],
+    runnable: frozenset[str] = RUNNABLE,
+    blind: Code = Code.NO_CAMERA,
+    unknown_object: Callable[[StepRecord], Bilingual | None] | None = None,
+) -> Rejection | None:
+    """Return every reason against carrying out a plan, or None where there is none.
+
+    Args:
+        plan: as a brain wrote it, or its steps as the missions keep them. What has no steps passes:
+            an answer, a question, a refusal.
+        places: the ids that exist.
+        runnable: the kinds of steps that this robot can do now.
+        blind: the code of a step that needs eyes and can't be run.
+        unknown_object: says why nothing here can recognise what a step names, in words for a
+            person; None where nobody can tell, as on the brain's side.
+
+    Bounds of numbers hold from birth (the models refuse them), so they are not looked at again.
+    """
+    if isinstance(plan, Answer | Clarify | Refuse):
+        return None
+    steps = plan.steps if isinstance(plan, StepPlan) else plan
+    reasons = (*_faults(steps, places, runnable, blind), *_unknown(plan, unknown_object))
+    return Rejection(reasons=reasons) if reasons else None
+
+
+def _faults(
+    steps: tuple[Step | StepRecord, ...],
+    places: Container[str],
+    runnable: frozenset[str],
+    blind: Code,
+) -> Iterator[Reason]:
+    count = len(steps)
+    if not 1 <= count <= MAX_STEPS:
+        what = f"{count} steps; expected 1 to {MAX_STEPS}"
+        yield Reason(code=Code.BAD_PLAN, step=None, what=what, repairable=True)
+    for index, step in enumerate(steps):
+        for place in places_of(step):
+            if place not in places:
+                yield Reason(code=Code.UNKNOWN_PLACE, step=index, what=place, repairable=True)
+        if step.kind not in runnable:
+            yield Reason(code=lacking(step, blind), step=index, what=step.kind, repairable=False)
+
+
+def _unknown(
+    plan: StepPlan | tuple[StepRecord, ...],
+    unknown_object: Callable[[StepRecord], Bilingual | None] | None,
+) -> Iterator[Reason]:
+    if unknown_object is None:
+        return
+    steps = plan_record(plan).steps if isinstance(plan, StepPlan) else plan
+    for index, step in enumerate(steps):
+        said, what = unknown_object(step), step.object or step.text or ""
+        if said is not None:
+            code = Code.OBJECT_UNKNOWN
+            yield Reason(code=code, step=index, what=what, repairable=True, said=said)
+
+
+def lacking(step: Step | StepRecord, blind: Code = Code.NO_CAMERA) -> Code:
+    """Name what the robot lacks for a step that it can't run; ``blind``: what its eyes lack."""
+    return blind if step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY
