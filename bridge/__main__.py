@@ -38,7 +38,7 @@ from bridge.realtime import (
 )
 from bridge.recording.recorder import Recorder
 from bridge.warmup import warm_up
-from wire import Misconfigured, RobotDescription, load_robot
+from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
 from wire.site_map import read_map_id
@@ -59,7 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = _options(arguments)
     try:
         return _serve(options)
-    except Misconfigured as error:
+    except ConfigError as error:
         print(f"bridge: {error}", file=sys.stderr)
         return error.exit_status
 

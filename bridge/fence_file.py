@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from pydantic import ValidationError
 
 from bridge.core.geometry.fence import FenceGrid, Zone, build_fence
-from wire.errors import Misconfigured
+from wire.errors import ConfigError
 from wire.fence import FenceFile, flaw
 from wire.fingerprint import fingerprint
 from wire.plain_file import read_plain_file
@@ -24,12 +24,12 @@ def load_fence(path: Path) -> tuple[FenceGrid, str]:
     """Read fence.json; return the fence and the hash that hello must match.
 
     Raises:
-        Misconfigured: the file is missing, or wrong as for :func:`parse_fence`.
+        ConfigError: the file is missing, or wrong as for :func:`parse_fence`.
     """
     try:
         data = read_plain_file(path, MOST_BYTES)
     except OSError as error:
-        raise Misconfigured("fence_missing", f"{path}: {error.strerror}") from None
+        raise ConfigError("fence_missing", f"{path}: {error.strerror}") from None
     return parse_fence(data, str(path)), fingerprint(data)
 
 
@@ -37,7 +37,7 @@ def parse_fence(data: bytes, name: str = NAME) -> FenceGrid:
     """Make a fence of the file's bytes.
 
     Raises:
-        Misconfigured: malformed, with an outline without area or one that crosses itself, or with
+        ConfigError: malformed, with an outline without area or one that crosses itself, or with
             keep-outs that leave nothing.
     """
     record = read_record(data, name)
@@ -47,7 +47,7 @@ def parse_fence(data: bytes, name: str = NAME) -> FenceGrid:
         text = (
             f"{len(record.keep_outs)} keep_outs cover all that is allowed: the robot may be nowhere"
         )
-        raise Misconfigured("fence_empty", f"{name}: {text}")
+        raise ConfigError("fence_empty", f"{name}: {text}")
     return fence
 
 
@@ -55,13 +55,13 @@ def read_record(data: bytes, name: str = NAME) -> FenceFile:
     """Parse the bytes of fence.json and check its outlines.
 
     Raises:
-        Misconfigured: malformed, or with an outline without area or one that crosses itself.
+        ConfigError: malformed, or with an outline without area or one that crosses itself.
     """
     try:
         record = FenceFile.model_validate_json(data, strict=False)
     except ValidationError as error:
-        raise Misconfigured("fence_invalid", f"{name}: {explain(error)}") from None
+        raise ConfigError("fence_invalid", f"{name}: {explain(error)}") from None
     wrong = flaw(record)
     if wrong is not None:
-        raise Misconfigured(wrong[0], f"{name}: {wrong[1]}")
+        raise ConfigError(wrong[0], f"{name}: {wrong[1]}")
     return record

@@ -20,7 +20,7 @@ from bridge.core.inbox import FenceDone
 from bridge.core.state_orders import PendingFence
 from bridge.fence_file import NAME, read_record
 from bridge.files import replace_file
-from wire.errors import Misconfigured
+from wire.errors import ConfigError
 from wire.fence import MAX_CORNERS
 from wire.fingerprint import fingerprint
 
@@ -99,7 +99,7 @@ def put_in_force(ground: Ground, asked: PendingFence) -> FenceDone:
     data = asked.text.encode()
     try:
         check(ground, data, asked.robot_in_map.x_m, asked.robot_in_map.y_m)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         return FenceDone(asked.id, wrong.code, wrong.detail[:400])
     new_hash = fingerprint(data)
     path = ground.site / NAME
@@ -120,21 +120,21 @@ def check(ground: Ground, data: bytes, x_m: float, y_m: float) -> None:
     """Refuse a fence that must not come into force here and now.
 
     Raises:
-        Misconfigured: malformed, crossing itself, too many corners, of another map, the one in
+        ConfigError: malformed, crossing itself, too many corners, of another map, the one in
             force, or the robot is outside.
     """
     record = read_record(data, "the fence sent")
     corners = sum(len(outline) for outline in record.outlines)
     if not corners <= MAX_CORNERS:
-        raise Misconfigured("fence_too_large", f"{corners} corners, at most {MAX_CORNERS}")
+        raise ConfigError("fence_too_large", f"{corners} corners, at most {MAX_CORNERS}")
     if record.map_id != ground.map_id:
         text = f"it is drawn on map {record.map_id}, here is {ground.map_id}"
-        raise Misconfigured("fence_of_another_map", text)
+        raise ConfigError("fence_of_another_map", text)
     if fingerprint(data) == ground.fence_hash:
-        raise Misconfigured("fence_unchanged", f"{ground.fence_hash} is in force already")
+        raise ConfigError("fence_unchanged", f"{ground.fence_hash} is in force already")
     if not permits(record.allowed, record.keep_outs, x_m, y_m):
         text = f"the robot stands at ({x_m:.2f}, {y_m:.2f}), which it does not allow"
-        raise Misconfigured("fence_excludes_robot", text)
+        raise ConfigError("fence_excludes_robot", text)
 
 
 def _audit(ground: Ground, asked: PendingFence, new_hash: str) -> None:

@@ -11,7 +11,7 @@ import os
 import stat
 from typing import TYPE_CHECKING
 
-from wire import VIRTUAL_KEY, Misconfigured
+from wire import VIRTUAL_KEY, ConfigError
 from wire.operator_hmac import MIN_KEY_BYTES
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def load_operator_key(home: Path, *, virtual: bool) -> bytes:
     """Return the published key for a virtual drive, else that of ``$PONS_HOME/operator.key``.
 
     Raises:
-        Misconfigured: metal moves and the key is missing, short, readable by others, another
+        ConfigError: metal moves and the key is missing, short, readable by others, another
             user's, or no regular file.
     """
     if virtual:
@@ -34,12 +34,12 @@ def load_operator_key(home: Path, *, virtual: bool) -> bytes:
     try:
         key = _read(path)
     except OSError as error:
-        raise Misconfigured(
+        raise ConfigError(
             "operator_key_missing", f"{path}: {error.strerror}; `pons key new` makes one"
         ) from None
     if not len(key) >= MIN_KEY_BYTES:
         text = f"{path} holds {len(key)} bytes, expected at least {MIN_KEY_BYTES}"
-        raise Misconfigured("operator_key_short", text)
+        raise ConfigError("operator_key_short", text)
     return key
 
 
@@ -47,12 +47,12 @@ def _read(path: Path) -> bytes:
     """Read a plain file, neither following a link nor waiting for a pipe.
 
     Raises:
-        Misconfigured: it is not ours alone.
+        ConfigError: it is not ours alone.
         OSError: it can't be opened or read.
     """
     if path.is_symlink():
         text = f"{path} is a link to {path.readlink()}, expected a regular file"
-        raise Misconfigured("operator_key_linked", text)
+        raise ConfigError("operator_key_linked", text)
     opened = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
         found = os.fstat(opened)
@@ -65,17 +65,17 @@ def _read(path: Path) -> bytes:
 def _hold_ours(path: Path, found: os.stat_result) -> None:
     if not stat.S_ISREG(found.st_mode):
         text = f"{path} is a {_kind(found.st_mode)}, expected a regular file"
-        raise Misconfigured("operator_key_no_file", text)
+        raise ConfigError("operator_key_no_file", text)
     if found.st_uid not in (0, os.geteuid()):
         text = (
             f"{path} belongs to user {found.st_uid}, expected {os.geteuid()} (this user) or root: "
             "another could have put it there; act as the user to whom it belongs"
         )
-        raise Misconfigured("operator_key_not_yours", text)
+        raise ConfigError("operator_key_not_yours", text)
     mode = stat.S_IMODE(found.st_mode)
     if mode & 0o077:
         text = f"{path} has mode {mode:04o}, expected 0600: others can read what arms the robot"
-        raise Misconfigured("operator_key_exposed", text)
+        raise ConfigError("operator_key_exposed", text)
 
 
 def _kind(mode: int) -> str:

@@ -19,7 +19,7 @@ from pathlib import Path
 from localization.node import LocalizationNode, LocalizerNode, run_periodically
 from localization.standin import StandIn
 from processes.priority import set_fifo
-from wire import Misconfigured, RobotDescription, load_robot
+from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
 from wire.site_map import read_map_id
@@ -96,7 +96,7 @@ def main(arguments: list[str] | None = None) -> int:
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     try:
         _serve(_options(arguments))
-    except Misconfigured as error:
+    except ConfigError as error:
         print(f"localization: {error}", file=sys.stderr)
         return error.exit_status
     return 0

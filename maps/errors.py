@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from wire.errors import Misconfigured
+from wire.errors import ConfigError
 
 REASONS = MappingProxyType(
     {
@@ -42,7 +42,7 @@ REASONS = MappingProxyType(
 """Every code, with its sentence in Chinese; the English sentence carries the particulars."""
 
 
-class SiteError(Misconfigured):
+class SiteError(ConfigError):
     """Report a site that must not be used. Ours or the owner's to mend: refuse to start."""
 
     def __init__(self, code: str, message: str) -> None:

@@ -19,7 +19,7 @@ from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
 from planner.app import Planner, Where, application
 from processes.priority import add_nice
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -28,7 +28,7 @@ NICE = -10
 """Nine times the weight of others. The loop needs little, but soon: beside sixteen busy processes
 it waited for a processor for 25 to 65 % of the time, and the bridge called it late (docs/adr/0026).
 A real-time rank is not for a loop that may hang; a share keeps nobody else from running."""
-REFUSED = Misconfigured.exit_status
+REFUSED = ConfigError.exit_status
 MIN_TOKEN_CHARACTERS = 16
 
 
@@ -41,7 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
         authority = tls.authority(given.tls_ca)
         access = _access(given.host, speaks_tls=secure is not None)
         planner = Planner(Where(given.home, given.robot, given.site))
-    except Misconfigured as wrong:  # a SiteError is one
+    except ConfigError as wrong:  # a SiteError is one
         print(f"planner: {wrong}", file=sys.stderr)
         return wrong.exit_status
     server = uvicorn.Server(
@@ -98,7 +98,7 @@ def _access(host: str, *, speaks_tls: bool) -> Access:
     """Read who may ask from the owner's environment.
 
     Raises:
-        Misconfigured: reachable from outside without a token, or with a short one.
+        ConfigError: reachable from outside without a token, or with a short one.
     """
     # Taken out, so that no worker process inherits them.
     operator = os.environ.pop("PONS_OPERATOR_TOKEN", "")
@@ -110,10 +110,10 @@ def _access(host: str, *, speaks_tls: bool) -> Access:
                 f"{name} has {given} characters that are no blanks, expected at least "
                 f"{MIN_TOKEN_CHARACTERS} and no blank at either end"
             )
-            raise Misconfigured("token_too_short", detail)
+            raise ConfigError("token_too_short", detail)
     if not is_loopback(host) and not operator:
         detail = f"{host} can be reached from outside; set PONS_OPERATOR_TOKEN, or bind 127.0.0.1"
-        raise Misconfigured("token_needed", detail)
+        raise ConfigError("token_needed", detail)
     named = {host} if host not in ("0.0.0.0", "::") else set()
     return Access(
         bind_host=host,

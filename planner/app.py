@@ -58,7 +58,7 @@ class Planner:
         """Load everything and take the planner's place in the home folder.
 
         Raises:
-            Misconfigured, SiteError: robot.toml, settings.toml or the site is wrong, or a planner
+            ConfigError, SiteError: robot.toml, settings.toml or the site is wrong, or a planner
                 runs here.
         """
         self.settings = load_settings(where.home, os.environ)

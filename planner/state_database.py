@@ -19,7 +19,7 @@ from contextlib import closing, contextmanager, suppress
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -92,7 +92,7 @@ class StateDatabase:
 
         Raises:
             StateUnavailable: it can't be read.
-            Misconfigured: ``state_version``.
+            ConfigError: ``state_version``.
         """
         with self._lock, self._translate_errors():
             connection = self._open(make=False)
@@ -111,7 +111,7 @@ class StateDatabase:
 
         Raises:
             StateUnavailable: it can't be written.
-            Misconfigured: ``state_version``.
+            ConfigError: ``state_version``.
         """
         with self._lock, self._translate_errors():
             connection = self._open(make=True)
@@ -193,7 +193,7 @@ class StateDatabase:
         Only for the planner, of which a home has one: other programs spend here and rename nothing.
 
         Raises:
-            Misconfigured: ``state_version``.
+            ConfigError: ``state_version``.
         """
         try:
             rows = self.read("PRAGMA quick_check(1)")
@@ -259,7 +259,7 @@ class StateDatabase:
                     connection.execute(f"PRAGMA user_version={VERSION}")
                 elif found != VERSION:
                     told = f"{self.path} has schema {found}, expected {VERSION}"
-                    raise Misconfigured("state_version", told)
+                    raise ConfigError("state_version", told)
 
     def _read_only(self, query: str, values: tuple[object, ...]) -> list[tuple[Any, ...]]:
         """Read in a folder that can't be written, where WAL's own files can't be made."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import uvloop
 
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -43,14 +43,14 @@ def context(certificate: Path | None, key: Path | None) -> ssl.SSLContext | None
     """Return what serves this certificate; None where none is given.
 
     Raises:
-        Misconfigured: half of the pair, an unreadable file, a key that others may read or that asks
+        ConfigError: half of the pair, an unreadable file, a key that others may read or that asks
             for a passphrase, or a key of another certificate.
     """
     if certificate is None and key is None:
         return None
     if certificate is None or key is None:
         given, missing = ("--tls-cert", "--tls-key") if key is None else ("--tls-key", "--tls-cert")
-        raise Misconfigured("tls_incomplete", f"{given} without {missing}; TLS needs both")
+        raise ConfigError("tls_incomplete", f"{given} without {missing}; TLS needs both")
     for path in (certificate, key):
         _check_readable(path)
     _check_private(key)
@@ -63,9 +63,9 @@ def context(certificate: Path | None, key: Path | None) -> ssl.SSLContext | None
     except ssl.SSLError as error:
         if error.reason == "KEY_VALUES_MISMATCH":
             detail = f"{key} is not the key of the certificate in {certificate}"
-            raise Misconfigured("tls_mismatch", detail) from None
+            raise ConfigError("tls_mismatch", detail) from None
         detail = f"{certificate} and {key}: {error.reason or 'no PEM'}; expected PEM files"
-        raise Misconfigured("tls_malformed", detail) from None
+        raise ConfigError("tls_malformed", detail) from None
     return made
 
 
@@ -73,7 +73,7 @@ def authority(path: Path | None) -> bytes:
     """Return the certificate of the authority, which devices fetch to trust it; empty for none.
 
     Raises:
-        Misconfigured: unreadable, or no certificate; a file with a private key is never given out.
+        ConfigError: unreadable, or no certificate; a file with a private key is never given out.
     """
     if path is None:
         return b""
@@ -81,7 +81,7 @@ def authority(path: Path | None) -> bytes:
     data = path.read_bytes()
     if b"PRIVATE KEY" in data or b"-----BEGIN CERTIFICATE-----" not in data:
         detail = f"{path}: expected one certificate in PEM and nothing secret beside it"
-        raise Misconfigured("tls_malformed", detail)
+        raise ConfigError("tls_malformed", detail)
     return data
 
 
@@ -101,16 +101,16 @@ def _check_readable(path: Path) -> None:
         with path.open("rb") as file:
             file.read(1)
     except OSError as error:
-        raise Misconfigured("tls_unreadable", f"{path}: {error.strerror}") from None
+        raise ConfigError("tls_unreadable", f"{path}: {error.strerror}") from None
 
 
 def _check_private(key: Path) -> None:
     mode = key.stat().st_mode
     if mode & stat.S_IRWXO:
         detail = f"{key} has mode {stat.S_IMODE(mode):04o}: all may use it; chmod 600 {key}"
-        raise Misconfigured("tls_key_open", detail)
+        raise ConfigError("tls_key_open", detail)
 
 
 def _refuse_passphrase() -> str:
     """Answer what OpenSSL would else ask a terminal, where a service has none."""
-    raise Misconfigured("tls_key_encrypted", "--tls-key asks for a passphrase; give it without one")
+    raise ConfigError("tls_key_encrypted", "--tls-key asks for a passphrase; give it without one")

@@ -9,7 +9,7 @@ from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
-from pons.settings import BadSetting, Settings, load, port_of, site_of
+from pons.settings import BadSetting, LaunchSettings, load, port_of, site_of
 from pons_assets import IS_INSTALLED, needs_checkout
 
 EXIT_USAGE = 2
@@ -212,7 +212,7 @@ def main(arguments: list[str] | None = None) -> int:
         return EXIT_USAGE
 
 
-def _dispatch(settings: Settings, said: argparse.Namespace) -> int:
+def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if said.word == "up":
         from pons import up
 
@@ -256,7 +256,7 @@ _TOOLS = _BARE_TOOLS | {
 }  # fmt: skip
 
 
-def _tool(settings: Settings, said: argparse.Namespace) -> int:
+def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """Run what looks at the robot, or works on it, without the planner."""
     if said.word == "doctor":
         from pons import doctor

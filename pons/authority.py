@@ -19,7 +19,7 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
 from pons.private_file import own_folder, read, write
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -90,7 +90,7 @@ def issue(
     each host that was asked for. Of the hosts that were found, it takes those that it may sign for.
 
     Raises:
-        Misconfigured: files that others could have read or changed, a damaged or lost authority,
+        ConfigError: files that others could have read or changed, a damaged or lost authority,
             a name that it may not sign for, or a clock before its beginning.
     """
     folder = home / FOLDER
@@ -104,7 +104,7 @@ def issue(
         made.append(authority_file.name)
     if not authority.not_valid_before_utc <= now:
         detail = f"it is {now:%Y-%m-%d} here, and {authority_file} begins later; set the clock"
-        raise Misconfigured("clock_before_authority", detail)
+        raise ConfigError("clock_before_authority", detail)
     names = _permitted_names(authority, must, {_name(host) for host in found})
     planner_file = folder / "planner.pem"
     certificate = _read_certificate(planner_file)
@@ -231,7 +231,7 @@ def _name(host: str) -> Name:
         return x509.DNSName(host.lower())
     except ValueError:
         detail = f"{host!r} is no name for a certificate; expected ASCII, as in xn--…"
-        raise Misconfigured("tls_bad_name", detail) from None
+        raise ConfigError("tls_bad_name", detail) from None
 
 
 def _text(name: Name) -> str:
@@ -269,7 +269,7 @@ def _permitted_names(authority: x509.Certificate, must: set[Name], may: set[Name
                 "certificate with --tls-cert, or move the folder tls away: every device must then "
                 "trust anew"
             )
-            raise Misconfigured("tls_name_outside", detail)
+            raise ConfigError("tls_name_outside", detail)
     return sorted(must | {name for name in may if _is_permitted(name, subtrees)}, key=_text)
 
 
@@ -284,14 +284,14 @@ def _read_certificate(file: Path) -> x509.Certificate | None:
         return x509.load_pem_x509_certificate(data)
     except ValueError:
         detail = f"{file} holds no certificate; move it away, and a new one is made"
-        raise Misconfigured("tls_malformed", detail) from None
+        raise ConfigError("tls_malformed", detail) from None
 
 
 def _read_key(file: Path, authority: x509.Certificate) -> ec.EllipticCurvePrivateKey:
     data = read(file)
     if data is None:
         detail = f"{file} is gone, so nothing can be signed; bring it back, or move tls away"
-        raise Misconfigured("authority_key_missing", detail)
+        raise ConfigError("authority_key_missing", detail)
     try:
         key = serialization.load_pem_private_key(data, None)
     except (TypeError, ValueError):
@@ -301,7 +301,7 @@ def _read_key(file: Path, authority: x509.Certificate) -> ec.EllipticCurvePrivat
         or key.public_key() != authority.public_key()
     ):
         detail = f"{file} is not the key of ca.crt; bring the right one back, or move tls away"
-        raise Misconfigured("authority_key_wrong", detail)
+        raise ConfigError("authority_key_wrong", detail)
     return key
 
 

@@ -10,28 +10,28 @@ import sys
 from typing import TYPE_CHECKING
 
 from bridge.braking_file import load_learnt, path_of
-from wire import Misconfigured, load_robot
+from wire import ConfigError, load_robot
 from wire.keys import Party
 from wire.sockets import Claim
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_DONE, EXIT_REFUSED, EXIT_MISCONFIGURED = 0, 3, 2
 
 
-def run(settings: Settings, *, forget: bool) -> int:
+def run(settings: LaunchSettings, *, forget: bool) -> int:
     """Print what counts, or forget what was learnt; 0 done, 2 robot.toml is wrong, 3 refused."""
     try:
         robot = load_robot(settings.robot)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_MISCONFIGURED
     path = path_of(settings.home, robot)
     if forget:
         try:
             claim = Claim(settings.home, Party.BRIDGE)
-        except Misconfigured as wrong:
+        except ConfigError as wrong:
             print(f"{wrong}; end `pons up` first", file=sys.stderr)
             return EXIT_REFUSED
         path.unlink(missing_ok=True)

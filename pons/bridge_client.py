@@ -32,7 +32,7 @@ from wire.sockets import Endpoints, connect_refusal, misplaced_listener, unreach
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 PERIOD_S = 0.05
 LIMIT_S = 2.0
@@ -44,7 +44,7 @@ class NoBridge(Exception):
     """No bridge answered, or not the one that was meant."""
 
 
-def stop_direct(settings: Settings, request_id: str) -> Answer:
+def stop_direct(settings: LaunchSettings, request_id: str) -> Answer:
     """Send ``cmd/stop`` at 20 Hz until the bridge echoes it.
 
     Raises:
@@ -58,7 +58,7 @@ def stop_direct(settings: Settings, request_id: str) -> Answer:
         return answer
 
 
-def out_of_reach(settings: Settings) -> str | None:
+def out_of_reach(settings: LaunchSettings) -> str | None:
     """Say why this user can't ask the bridge of this home; None where it can, or one has died here.
 
     The robot may be elsewhere, or this user have no right to the bridge's socket. A socket that
@@ -71,13 +71,13 @@ def out_of_reach(settings: Settings) -> str | None:
     return f"{path}: {error.strerror or error}"
 
 
-def ask_direct(settings: Settings, kind: OpKind) -> Answer:
+def ask_direct(settings: LaunchSettings, kind: OpKind) -> Answer:
     """Make an operator's request, with a proof where it needs one.
 
     Raises:
         NoBridge: no bridge answered, or another process in its place, or only that of another
             robot where a proof is needed.
-        Misconfigured: robot.toml or the operator's key can't be used, where a proof is needed.
+        ConfigError: robot.toml or the operator's key can't be used, where a proof is needed.
     """
     request_id = f"cli-{secrets.token_hex(6)}"
     if kind not in NEEDS_PROOF:
@@ -97,12 +97,12 @@ def ask_direct(settings: Settings, kind: OpKind) -> Answer:
         return _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
 
 
-def fence_direct(settings: Settings, text: str) -> Answer:
+def fence_direct(settings: LaunchSettings, text: str) -> Answer:
     """Ask the bridge itself to put a fence in force, with a proof that binds this text.
 
     Raises:
         NoBridge: no bridge answered, or only that of another robot.
-        Misconfigured: robot.toml or the operator's key can't be used.
+        ConfigError: robot.toml or the operator's key can't be used.
     """
     robot_id = load_robot(settings.robot).id
     request_id = f"cli-{secrets.token_hex(6)}"
@@ -116,7 +116,7 @@ def fence_direct(settings: Settings, text: str) -> Answer:
         return _until_answered(settings, lambda: mouth.put(request), ears, request_id, "fence")
 
 
-def _believe(settings: Settings) -> None:
+def _believe(settings: LaunchSettings) -> None:
     """Hold that the bridge's own user listens where it should.
 
     Raises:
@@ -131,7 +131,7 @@ def _op(session: Session, kind: OpKind) -> Publisher[OpRequest]:
     return next(session.publisher(key) for key in OPS if key.path == f"op/{kind}")
 
 
-def _first_status(settings: Settings, ears: Subscriber[Status], robot_id: str) -> Status:
+def _first_status(settings: LaunchSettings, ears: Subscriber[Status], robot_id: str) -> Status:
     """Wait for the word of one robot; name those that answer in its place."""
     end_s = time.monotonic() + LIMIT_S
     others: set[str] = set()
@@ -151,7 +151,7 @@ def _first_status(settings: Settings, ears: Subscriber[Status], robot_id: str) -
     raise _silence(settings)
 
 
-def _silence(settings: Settings) -> NoBridge:
+def _silence(settings: LaunchSettings) -> NoBridge:
     """Say that nothing was heard, and what keeps this user from the socket, if anything does."""
     why = unreachable(settings.home, BRIDGE_DOOR)
     hint = "is `pons up` running?" if why is None else f"{why}; is `pons up` running, as this user?"
@@ -159,7 +159,7 @@ def _silence(settings: Settings) -> NoBridge:
 
 
 def _until_answered(
-    settings: Settings,
+    settings: LaunchSettings,
     say: Callable[[], None],
     ears: Subscriber[Status],
     request_id: str,

@@ -14,20 +14,20 @@ from planner.perception.failure import SKIPS
 from planner.perception.process_client import DEFAULT_MODEL
 from planner.settings import load_settings
 from pons.settings import BadSetting
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     import argparse
 
     from planner.perception import About, Detection, LookResult
     from planner.perception.detect import Detector
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 REFUSED = 1
 MAX_FILE_BYTES = 50_000_000
 
 
-def run(settings: Settings, said: argparse.Namespace) -> int:
+def run(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """Look at each picture; 1 where the model or a picture was refused."""
     if said.out is not None and len(said.images) > 1:
         raise BadSetting("one_picture: --out takes one IMAGE")
@@ -36,7 +36,7 @@ def run(settings: Settings, said: argparse.Namespace) -> int:
     except VisionFailure as failure:
         _print_failure(failure, as_json=said.json)
         return REFUSED
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         raise BadSetting(str(wrong)) from None
     looks = {path: detector.look(_read(path)) for path in said.images}
     if said.json:
@@ -49,7 +49,7 @@ def run(settings: Settings, said: argparse.Namespace) -> int:
     return REFUSED if any(look.skipped for look in looks.values()) else 0
 
 
-def _detector(settings: Settings, said: argparse.Namespace) -> Detector:
+def _detector(settings: LaunchSettings, said: argparse.Namespace) -> Detector:
     """Return the detector that the words, else the owner's settings, else Pons itself names."""
     from planner.perception.detect import Detector, Wanted
 

@@ -17,14 +17,14 @@ from wire.keys import SIM_CONTROL, SIM_TRUTH, Party
 from wire.session import open_session
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
     from wire.session import Publisher, Subscriber
 
 PERIOD_S, LIMIT_S = 0.05, 2.0
 EXIT_DONE, EXIT_NO_SIMULATOR, EXIT_UNKNOWN = 0, 1, 2
 
 
-def run(settings: Settings, names: list[str], *, seconds: float | None) -> int:
+def run(settings: LaunchSettings, names: list[str], *, seconds: float | None) -> int:
     """Let exactly these faults stand; without any, mend everything.
 
     Args:

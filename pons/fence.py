@@ -18,12 +18,12 @@ from planner.site.fence import load_fence
 from planner.site.places import load_places
 from pons.bridge_client import NoBridge, fence_direct
 from pons.http import PlannerDown, PlannerProblem, call
-from wire import FenceFile, Misconfigured, fingerprint
+from wire import ConfigError, FenceFile, fingerprint
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PROPOSALS = "/v1/fence/proposals"
@@ -33,7 +33,7 @@ class NotSaid(Exception):
     """The order lacks something, or names what is not there."""
 
 
-def run(settings: Settings, act: str, what: str | None) -> int:
+def run(settings: LaunchSettings, act: str, what: str | None) -> int:
     """Do one of show, propose, accept, reject; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
     try:
         if act == "show":
@@ -47,12 +47,12 @@ def run(settings: Settings, act: str, what: str | None) -> int:
     except (PlannerProblem, SiteError) as refused:
         print(f"refused: {refused}", file=sys.stderr)
         return EXIT_REFUSED
-    except (PlannerDown, NoBridge, Misconfigured) as trouble:
+    except (PlannerDown, NoBridge, ConfigError) as trouble:
         print(f"{trouble} Is `pons up` running?", file=sys.stderr)
         return EXIT_DOWN
 
 
-def _show(settings: Settings, proposal_id: str | None) -> int:
+def _show(settings: LaunchSettings, proposal_id: str | None) -> int:
     if proposal_id is not None:
         item = _review(settings, proposal_id)
         print(item["text"], end="")
@@ -70,7 +70,7 @@ def _show(settings: Settings, proposal_id: str | None) -> int:
     return EXIT_DONE
 
 
-def _propose(settings: Settings, name: str) -> int:
+def _propose(settings: LaunchSettings, name: str) -> int:
     try:
         with open(name, encoding="utf-8") as file:  # noqa: PTH123  # a name, not one of our paths
             fence = json.load(file)
@@ -85,7 +85,7 @@ def _propose(settings: Settings, name: str) -> int:
     return EXIT_DONE
 
 
-def _accept(settings: Settings, proposal_id: str) -> int:
+def _accept(settings: LaunchSettings, proposal_id: str) -> int:
     item = _review(settings, proposal_id)
     answer = fence_direct(settings, item["text"])
     if not answer.accepted:
@@ -94,13 +94,13 @@ def _accept(settings: Settings, proposal_id: str) -> int:
     return EXIT_DONE
 
 
-def _reject(settings: Settings, proposal_id: str) -> int:
+def _reject(settings: LaunchSettings, proposal_id: str) -> int:
     call(settings, "POST", f"{PROPOSALS}/{proposal_id}/reject", {"source": "cli"})
     print(f"rejected {proposal_id}")
     return EXIT_DONE
 
 
-def _review(settings: Settings, proposal_id: str) -> dict[str, Any]:
+def _review(settings: LaunchSettings, proposal_id: str) -> dict[str, Any]:
     """Fetch a proposal, hold its text to its name, and say what it would change.
 
     Raises:

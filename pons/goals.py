@@ -24,7 +24,7 @@ from pons.terminal_text import (
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 POLL_S = 0.2
 LOST_LIMIT_S = 15.0
@@ -39,7 +39,7 @@ EXIT_WAITING = 5
 EXIT_UNREACHED = 6
 
 
-def say(settings: Settings, text: str, *, wait: bool, replace: bool = False) -> int:
+def say(settings: LaunchSettings, text: str, *, wait: bool, replace: bool = False) -> int:
     """Give the goal; follow it to its end unless told not to.
 
     An order to stop goes both ways of `pons stop`, so that no planner is needed for it; so does a
@@ -64,7 +64,7 @@ def say(settings: Settings, text: str, *, wait: bool, replace: bool = False) -> 
     return _follow(settings, goal["id"], language_of(text)) if wait else 0
 
 
-def say_wav(settings: Settings, path: Path, *, wait: bool, replace: bool = False) -> int:
+def say_wav(settings: LaunchSettings, path: Path, *, wait: bool, replace: bool = False) -> int:
     """Give a goal by a recording; tell what was heard and follow it."""
     try:
         with path.open("rb") as file:
@@ -92,7 +92,7 @@ def language_of(text: str) -> str:
     return "zh" if is_chinese(text) else "en"
 
 
-def act(settings: Settings, verb: str, goal_id: str | None) -> int:
+def act(settings: LaunchSettings, verb: str, goal_id: str | None) -> int:
     """Cancel, pause or resume a goal: the named one, else the one that it must mean.
 
     Without a planner there is no goal, but another brain, which a person may let go on.
@@ -127,7 +127,7 @@ _MEANT = {
 }
 
 
-def _meant_goal(settings: Settings, verb: str) -> str | None:
+def _meant_goal(settings: LaunchSettings, verb: str) -> str | None:
     goals = _goals(settings)
     for state in _MEANT[verb]:
         for goal in sorted(goals, key=lambda goal: str(goal["created"]), reverse=True):
@@ -136,7 +136,7 @@ def _meant_goal(settings: Settings, verb: str) -> str | None:
     return None
 
 
-def answer(settings: Settings, words: list[str], *, wait: bool) -> int:
+def answer(settings: LaunchSettings, words: list[str], *, wait: bool) -> int:
     """Answer the goal that asks, or that is named first, and follow it; a stop stops at once."""
     if is_stop(" ".join(words)) or is_stop(" ".join(words[1:])):
         return stop.run(settings)
@@ -157,7 +157,7 @@ def answer(settings: Settings, words: list[str], *, wait: bool) -> int:
     return _follow(settings, goal["id"], language_of(text)) if wait else 0
 
 
-def confirm(settings: Settings, goal_id: str | None, *, wait: bool) -> int:
+def confirm(settings: LaunchSettings, goal_id: str | None, *, wait: bool) -> int:
     """Say yes to the plan that waits for it, or that is named, and follow it."""
     try:
         goals = _goals(settings) if goal_id is None else []
@@ -171,7 +171,7 @@ def confirm(settings: Settings, goal_id: str | None, *, wait: bool) -> int:
     return _follow(settings, goal["id"], language_of(str(goal["text"]))) if wait else 0
 
 
-def _goals(settings: Settings) -> list[dict[str, Any]]:
+def _goals(settings: LaunchSettings) -> list[dict[str, Any]]:
     goals: list[dict[str, Any]] = call(settings, "GET", "/v1/goals")["goals"]
     return goals
 
@@ -194,7 +194,7 @@ def _asking(goals: list[dict[str, Any]], states: tuple[str, ...]) -> dict[str, A
     return None
 
 
-def _follow(settings: Settings, goal_id: str, language: str) -> int:
+def _follow(settings: LaunchSettings, goal_id: str, language: str) -> int:
     """Print each change until the goal ends or needs a person."""
     shown: list[str] = []
     heard_s = time.monotonic()

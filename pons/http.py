@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 AUTHORITY = Path("tls") / "ca.crt"
 MAX_REPLY_BYTES = 4_000_000
@@ -37,7 +37,7 @@ class PlannerProblem(Exception):
 
 
 def call(
-    settings: Settings,
+    settings: LaunchSettings,
     method: str,
     path: str,
     body: dict[str, Any] | None = None,
@@ -73,7 +73,7 @@ def call(
     return _judge(status, raw)
 
 
-def _connection(settings: Settings, timeout_s: float) -> http.client.HTTPConnection:
+def _connection(settings: LaunchSettings, timeout_s: float) -> http.client.HTTPConnection:
     """Return the connection, not yet open; over TLS, judged by this robot's own authority.
 
     Raises:

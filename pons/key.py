@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 from bridge.operator_key import FILE
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 KEY_BYTES = 32
 """Of chance, written in hexadecimal: nobody guesses it, and a person can type it into the page."""
 EXIT_DONE, EXIT_REFUSED = 0, 3
 
 
-def run(settings: Settings) -> int:
+def run(settings: LaunchSettings) -> int:
     """Write $PONS_HOME/operator.key for this user alone; 0 made, 3 refused."""
     path = settings.home / FILE
     try:

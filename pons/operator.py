@@ -13,18 +13,18 @@ from pons.http import PlannerDown, PlannerProblem, call
 from pons.terminal_text import goal_line, robot_lines
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
     from wire import OpKind
 
 
-def ask(settings: Settings, kind: OpKind) -> int:
+def ask(settings: LaunchSettings, kind: OpKind) -> int:
     """Make the request at the bridge itself and print its verdict."""
     from pons.bridge_client import NoBridge, ask_direct
-    from wire import Misconfigured
+    from wire import ConfigError
 
     try:
         answer = ask_direct(settings, kind)
-    except (NoBridge, Misconfigured) as trouble:
+    except (NoBridge, ConfigError) as trouble:
         print(str(trouble), file=sys.stderr)
         return 6
     except Exception as trouble:  # noqa: BLE001  # who wants the torque off reads one line, no traceback
@@ -37,7 +37,7 @@ def ask(settings: Settings, kind: OpKind) -> int:
     return 3
 
 
-def status(settings: Settings, *, as_json: bool) -> int:
+def status(settings: LaunchSettings, *, as_json: bool) -> int:
     """Show the robot and its goals."""
     try:
         robot = call(settings, "GET", "/v1/robot")

@@ -13,7 +13,7 @@ from urllib.parse import quote
 from pons.http import PlannerDown, PlannerProblem, call
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PATH = "/v1/places"
@@ -21,7 +21,7 @@ _KEPT = ("id", "name", "pose", "map_id", "by", "taught")
 """What places.json holds of each."""
 
 
-def run(settings: Settings, act: str, name: str | None, *, chinese: str | None = None) -> int:
+def run(settings: LaunchSettings, act: str, name: str | None, *, chinese: str | None = None) -> int:
     """Do one of the acts; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
     if act in ("remember", "forget") and name is None and (chinese is None or act == "forget"):
         print(f"no_name: say which place to {act}", file=sys.stderr)
@@ -45,7 +45,7 @@ def run(settings: Settings, act: str, name: str | None, *, chinese: str | None =
     return EXIT_DONE
 
 
-def _list(settings: Settings) -> None:
+def _list(settings: LaunchSettings) -> None:
     known = call(settings, "GET", PATH)
     own = [place for place in known["places"] if place["id"] not in _ids(known["taught"])]
     for place in own:
@@ -57,21 +57,21 @@ def _list(settings: Settings) -> None:
     print(f"{here} of {known['most']} taught on this map")
 
 
-def _export(settings: Settings) -> None:
+def _export(settings: LaunchSettings) -> None:
     """Print what was taught as places.json, which a planner takes in at its start."""
     taught = call(settings, "GET", PATH)["taught"]
     places = [{name: place[name] for name in _KEPT} for place in taught]
     print(json.dumps({"version": 1, "places": places}, ensure_ascii=False, indent=1))
 
 
-def _remember(settings: Settings, name: str | None, chinese: str | None) -> None:
+def _remember(settings: LaunchSettings, name: str | None, chinese: str | None) -> None:
     given = {"en": name, "zh": chinese}
     names = {language: said for language, said in given.items() if said is not None}
     place = call(settings, "POST", PATH, {"name": names, "source": "cli"})
     print(f"remembered {place['id']}: {_names(place)}  {_origin(place)}")
 
 
-def _forget(settings: Settings, name: str) -> None:
+def _forget(settings: LaunchSettings, name: str) -> None:
     place = call(settings, "DELETE", f"{PATH}/{quote(name, safe='')}")
     print(f"forgotten {place['id']}: {_names(place)}")
 

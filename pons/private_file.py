@@ -6,7 +6,7 @@ import os
 import stat
 from typing import TYPE_CHECKING
 
-from wire import Misconfigured, Unwritable
+from wire import ConfigError, Unwritable
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -18,7 +18,7 @@ def own_folder(folder: Path) -> None:
     """Make a folder for its owner alone, unless it is there.
 
     Raises:
-        Misconfigured: it can't be made, or is a link, somebody else's, or open to others.
+        ConfigError: it can't be made, or is a link, somebody else's, or open to others.
     """
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -28,27 +28,27 @@ def own_folder(folder: Path) -> None:
     private = stat.S_ISDIR(found.st_mode) and not found.st_mode & 0o077
     if not (private and found.st_uid == os.geteuid()):
         detail = f"{folder} must be a folder of yours alone (mode 0700); others could change it"
-        raise Misconfigured("tls_folder_open", detail)
+        raise ConfigError("tls_folder_open", detail)
 
 
 def read(file: Path) -> bytes | None:
     """Return a file of our own; None where there is none.
 
     Raises:
-        Misconfigured: somebody else's, a link, or one that others may write, or read if secret.
+        ConfigError: somebody else's, a link, or one that others may write, or read if secret.
     """
     try:
         descriptor = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_CLOEXEC)
     except FileNotFoundError:
         return None
     except OSError as error:
-        raise Misconfigured("tls_unreadable", f"{file}: {error.strerror}") from None
+        raise ConfigError("tls_unreadable", f"{file}: {error.strerror}") from None
     with os.fdopen(descriptor, "rb") as opened:
         found = os.fstat(descriptor)
         closed = 0o022 if file.suffix == ".crt" else 0o077
         if not (found.st_uid == os.geteuid() and not found.st_mode & closed):
             detail = f"{file} is not yours alone (mode {stat.S_IMODE(found.st_mode):04o})"
-            raise Misconfigured("tls_key_open", f"{detail}; if others had it, move it away")
+            raise ConfigError("tls_key_open", f"{detail}; if others had it, move it away")
         return opened.read(MAX_BYTES)
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_SAME, EXIT_DIFFERS, EXIT_BAD = 0, 1, 2
 
@@ -38,7 +38,7 @@ def run(files: Sequence[str]) -> int:
     return EXIT_DIFFERS if report.differing else EXIT_SAME
 
 
-def with_model(settings: Settings, said: argparse.Namespace) -> int:
+def with_model(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """Think recorded sentences again with the model that was named."""
     from pons.evals.journal import command
 

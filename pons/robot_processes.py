@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from types import TracebackType
 
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 PATIENCE_S = 4.0
 """A process that has not ended by itself so long after SIGTERM is killed."""
@@ -37,7 +37,7 @@ class RobotProcesses:
 
     def __init__(
         self,
-        settings: Settings,
+        settings: LaunchSettings,
         names: Sequence[str],
         *,
         modules: Mapping[str, str] = MappingProxyType({}),
@@ -113,13 +113,13 @@ class RobotProcesses:
         return "\n".join(f"{c.name}: {c.last_words(lines)}" for c in self.children.values())
 
 
-def common_arguments(settings: Settings) -> list[str]:
+def common_arguments(settings: LaunchSettings) -> list[str]:
     """Return the command line that every process of a robot takes."""
     words = ["--home", str(settings.home), "--robot", str(settings.robot)]
     return [*words, "--site", str(settings.site)]
 
 
-def address_arguments(settings: Settings) -> list[str]:
+def address_arguments(settings: LaunchSettings) -> list[str]:
     """Return where the planner listens, as its command line says it."""
     return ["--host", settings.host, "--port", str(settings.port)]
 

@@ -21,7 +21,7 @@ _HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
 
 
 @dataclass(frozen=True, slots=True)
-class Settings:
+class LaunchSettings:
     """Say where state, robot and site are, and where the planner answers."""
 
     home: Path
@@ -52,7 +52,7 @@ class BadSetting(Exception):
     """A setting cannot be used; nothing was started."""
 
 
-def load(*, forgiving: bool = False) -> Settings:
+def load(*, forgiving: bool = False) -> LaunchSettings:
     """Read PONS_HOME, _ROBOT, _SITE, _HOST, _PORT, _METAL, _TLS and _CA.
 
     Args:
@@ -63,7 +63,7 @@ def load(*, forgiving: bool = False) -> Settings:
     """
     given = os.environ
     home = Path(given.get("PONS_HOME", ".pons")).absolute()
-    return Settings(
+    return LaunchSettings(
         home=home,
         robot=Path(given.get("PONS_ROBOT", ROBOT_FILE)).absolute(),
         site=site_of(given.get("PONS_SITE", str(DEFAULT_SITE)), home),

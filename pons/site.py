@@ -17,12 +17,12 @@ from maps.map_file import load_picture
 from maps.masks import SpeedScale, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text, read_proposals
 from pons.settings import site_of
-from wire import Misconfigured, Pose2, load_robot
+from wire import ConfigError, Pose2, load_robot
 
 if TYPE_CHECKING:
     from maps.map_file import LoadedMap
     from maps.masks import MaskAreas
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
     from wire import RobotDescription
 
 EXIT_DONE, EXIT_FOUND, EXIT_USAGE, EXIT_REFUSED = 0, 1, 2, 3
@@ -64,7 +64,7 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def run(settings: Settings, words: list[str]) -> int:
+def run(settings: LaunchSettings, words: list[str]) -> int:
     """Do one act; 0 done, 1 check found something, 2 bad order, 3 refused."""
     said = parser().parse_args(words)
     try:
@@ -80,13 +80,13 @@ def run(settings: Settings, words: list[str]) -> int:
         if said.act == "rooms":
             return _rooms(folder)
         return _name_room(folder, said.room, said.english, said.zh or said.english)
-    except Misconfigured as refused:
+    except ConfigError as refused:
         zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
         print(f"refused: {refused}{zh}", file=sys.stderr)
         return EXIT_REFUSED
 
 
-def _import(settings: Settings, said: argparse.Namespace) -> int:
+def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if _NAME.fullmatch(said.name) is None:
         text = f"got {said.name!r}; expected a small letter, then letters, digits or _"
         raise SiteError("site_name_malformed", text)
@@ -146,11 +146,11 @@ def _pose(given: list[float]) -> Pose2:
     return Pose2(given[0], given[1], radians(given[2]))
 
 
-def _radius_m(settings: Settings) -> float:
+def _radius_m(settings: LaunchSettings) -> float:
     return load_robot(settings.robot).base.radius_m
 
 
-def _list(settings: Settings) -> int:
+def _list(settings: LaunchSettings) -> int:
     from pons_assets import SITES
 
     for parent in (settings.home / "sites", SITES):

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from pons.http import PlannerDown, PlannerProblem, call
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 HTTP_HEAD_START_S = 0.15
 HTTP_TIMEOUT_S = 2.5
@@ -29,7 +29,7 @@ SAID_BY_PLANNER = (
 )
 
 
-def run(settings: Settings) -> int:
+def run(settings: LaunchSettings) -> int:
     """Stop; say how; return 0 only when the bridge has confirmed, as far as it can be asked."""
     by_http = _Attempt(settings)
     by_http.start()
@@ -57,7 +57,7 @@ def run(settings: Settings) -> int:
     return 1
 
 
-def _out_of_reach(settings: Settings) -> str | None:
+def _out_of_reach(settings: LaunchSettings) -> str | None:
     """Say why the bridge itself can't be asked from here; None where it can."""
     try:
         from pons.bridge_client import out_of_reach
@@ -67,7 +67,7 @@ def _out_of_reach(settings: Settings) -> str | None:
         return in_a_line(trouble)
 
 
-def _straight_to_the_bridge(settings: Settings) -> str | None:
+def _straight_to_the_bridge(settings: LaunchSettings) -> str | None:
     """Say the stop over the wire; return in one line why it is not confirmed, None where it is."""
     try:
         from pons.bridge_client import stop_direct
@@ -87,7 +87,7 @@ def in_a_line(trouble: Exception) -> str:
 class _Attempt(threading.Thread):
     """Ask the planner, beside the main thread."""
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: LaunchSettings) -> None:
         super().__init__(daemon=True)
         self._settings = settings
         self.confirmed = False

@@ -16,7 +16,7 @@ from typing import IO
 
 from processes.backoff import Backoff
 from processes.parent_death import child_command
-from wire.errors import Misconfigured
+from wire.errors import ConfigError
 
 FIRST_PAUSE_S = 0.5
 LONGEST_PAUSE_S = 10.0
@@ -29,7 +29,7 @@ BEHIND = {"sim.camera": 5}
 """Modules whose sessions stand so many steps of nice behind others: a late picture is only late."""
 STEADY_S = 30.0
 """A child that lived so long starts with the shortest pause again."""
-REFUSED_TO_START = Misconfigured.exit_status
+REFUSED_TO_START = ConfigError.exit_status
 """Every process of ours says so for a wrong setting: a restart would meet the same one."""
 
 

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 
 from pons.authority import IssuedCertificate, issue
 from pons.settings import allowed_hosts
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 REFUSED = 2
 ANYWHERE = frozenset({"0.0.0.0", "::", ""})
@@ -26,11 +26,11 @@ _ADDRESS_OF_INTERFACE = 0x8915  # Linux's SIOCGIFADDR
 _INET6 = Path("/proc/net/if_inet6")
 
 
-def run(settings: Settings) -> int:
+def run(settings: LaunchSettings) -> int:
     """Be ``pons tls``: make or renew what is due, and say what devices must trust."""
     try:
         issued = prepare(settings)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         print(f"pons tls: {wrong}", file=sys.stderr)
         return REFUSED
     for line in issued.trust_lines():
@@ -38,11 +38,11 @@ def run(settings: Settings) -> int:
     return 0
 
 
-def prepare(settings: Settings) -> IssuedCertificate:
+def prepare(settings: LaunchSettings) -> IssuedCertificate:
     """Return this robot's certificate, made or renewed where it must be.
 
     Raises:
-        Misconfigured: see ``issue``.
+        ConfigError: see ``issue``.
     """
     machine = socket.gethostname().partition(".")[0].lower() or "localhost"
     asked = {settings.host, *allowed_hosts()} - ANYWHERE

@@ -26,7 +26,7 @@ from pons.robot_processes import PATIENCE_S, address_arguments, common_arguments
 from pons.settings import allowed_hosts
 from pons.supervisor import REFUSED_TO_START, Child
 from pons_assets import ROOT
-from wire import Misconfigured, RobotDescription, load_robot
+from wire import ConfigError, RobotDescription, load_robot
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from pons.authority import IssuedCertificate
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 POLL_S = 0.05
 READY_LIMIT_S = 60.0
@@ -55,7 +55,7 @@ class Supervisor:
 
     def __init__(
         self,
-        settings: Settings,
+        settings: LaunchSettings,
         robot: RobotDescription,
         *,
         planner: bool,
@@ -175,7 +175,7 @@ def brain_example(home: Path, root: Path = ROOT) -> str:
     return "pons conformance --connect   (examples/external_brain.py of a checkout drives it)"
 
 
-def arm_direct(settings: Settings) -> bool:
+def arm_direct(settings: LaunchSettings) -> bool:
     """Arm at the bridge itself; tell whether it is armed."""
     from pons.bridge_client import NoBridge, ask_direct
 
@@ -186,7 +186,7 @@ def arm_direct(settings: Settings) -> bool:
 
 
 def children(
-    settings: Settings,
+    settings: LaunchSettings,
     robot: RobotDescription,
     *,
     planner: bool = True,
@@ -225,7 +225,7 @@ def say(text: str) -> None:
     print(f"pons: {text}", flush=True)
 
 
-def check(settings: Settings) -> RobotDescription:
+def check(settings: LaunchSettings) -> RobotDescription:
     """Look for what would fail later and less clearly.
 
     Raises:
@@ -233,7 +233,7 @@ def check(settings: Settings) -> RobotDescription:
     """
     try:
         robot = load_robot(settings.robot)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         raise CannotStart(str(wrong)) from None
     if not (settings.site / "map.yaml").is_file():
         known = sorted(path.parent.name for path in settings.site.parent.glob("*/map.yaml"))
@@ -254,7 +254,7 @@ def check(settings: Settings) -> RobotDescription:
     return robot
 
 
-def _check_port(settings: Settings) -> None:
+def _check_port(settings: LaunchSettings) -> None:
     with contextlib.closing(socket.socket()) as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
@@ -266,7 +266,7 @@ def _check_port(settings: Settings) -> None:
             ) from None
 
 
-def run(settings: Settings, *, planner: bool = True) -> int:
+def run(settings: LaunchSettings, *, planner: bool = True) -> int:
     """Be ``pons up``; without a planner the robot waits for another brain."""
     os.umask(PRIVATE)  # of the children too
     try:
@@ -276,12 +276,12 @@ def run(settings: Settings, *, planner: bool = True) -> int:
                 _check_port(settings)
             issued = _certify(settings) if planner and settings.tls else None
             return _supervise(settings, robot, planner=planner, issued=issued)
-    except (CannotStart, HomeTaken, HomeUnwritable, Misconfigured) as why:
+    except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:
         print(f"pons up: {why}", file=sys.stderr)
         return REFUSED_TO_START
 
 
-def _certify(settings: Settings) -> IssuedCertificate:
+def _certify(settings: LaunchSettings) -> IssuedCertificate:
     """Return this robot's certificate; the library that makes it is loaded for this alone."""
     from pons.tls import prepare
 
@@ -289,7 +289,11 @@ def _certify(settings: Settings) -> IssuedCertificate:
 
 
 def _supervise(
-    settings: Settings, robot: RobotDescription, *, planner: bool, issued: IssuedCertificate | None
+    settings: LaunchSettings,
+    robot: RobotDescription,
+    *,
+    planner: bool,
+    issued: IssuedCertificate | None,
 ) -> int:
     supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bridge.stop_report import StopReport
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_TOLD, EXIT_NO_STOP, EXIT_BAD = 0, 1, 2
 _SHOWN = 8
@@ -51,7 +51,7 @@ _CUT = (
 )
 
 
-def run(settings: Settings) -> int:
+def run(settings: LaunchSettings) -> int:
     """Explain; 0 told, 1 no recording shows a stop, 2 a recording can't be read."""
     folder = settings.home / "recordings"
     try:

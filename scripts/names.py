@@ -93,7 +93,7 @@ def read_known(text: str) -> Counter[str]:
     return Counter({what: int(count) for what, count in lines})
 
 
-def tracked(root: Path = ROOT) -> dict[str, str]:
+def read_tracked(root: Path = ROOT) -> dict[str, str]:
     """Return the Python sources that git tracks; a test is named by what it says."""
     listed = subprocess.run(
         ["git", "ls-files", "-z", "*.py"], cwd=root, capture_output=True, text=True, check=True
@@ -104,7 +104,7 @@ def tracked(root: Path = ROOT) -> dict[str, str]:
 
 def main(arguments: list[str]) -> int:
     """Print what is new, and with ``--write`` shrink the list; 1 where something is new."""
-    found = findings(tracked())
+    found = findings(read_tracked())
     here, known = counts(found), read_known(KNOWN.read_text("utf-8"))
     for what in sorted(here - known):
         print(f"new: {what}: {', '.join(found[what])}")

@@ -20,7 +20,7 @@ from sim.node import SimNode
 from sim.robot import SimRobot
 from sim.site import check_fresh
 from sim.true_parameters import load_metal
-from wire import Misconfigured, Pose2, RobotDescription, load_robot
+from wire import ConfigError, Pose2, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
 
@@ -79,7 +79,7 @@ def main(arguments: list[str] | None = None) -> int:
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     try:
         _serve(_options(arguments))
-    except Misconfigured as error:
+    except ConfigError as error:
         print(f"sim: {error}", file=sys.stderr)
         return error.exit_status
     return 0

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from sim.site.classes import SPARE_OBSTACLES
 from sim.site.objects import pose_of
-from wire import Misconfigured, Pose2, SimThing
+from wire import ConfigError, Pose2, SimThing
 
 if TYPE_CHECKING:
     from sim.site import Home
@@ -42,7 +42,7 @@ class Things:
         """Put a thing down somewhere, or take it away.
 
         Raises:
-            Misconfigured: ``obstacle_unknown``; the text lists what there is.
+            ConfigError: ``obstacle_unknown``; the text lists what there is.
         """
         self._check(name)
         self._now[name] = pose
@@ -55,4 +55,4 @@ class Things:
     def _check(self, name: str) -> None:
         if name not in self.declared:
             known = ", ".join(self.declared)
-            raise Misconfigured("obstacle_unknown", f"no thing {name!r}; there are: {known}")
+            raise ConfigError("obstacle_unknown", f"no thing {name!r}; there are: {known}")

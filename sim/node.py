@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from sim.hardware import PERIODS
 from sim.rate import RealTimeFactor, SimPacer
-from wire import Misconfigured, keys
+from wire import ConfigError, keys
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -76,7 +76,7 @@ class SimNode:
     def _obey(self, control: SimControl) -> None:
         try:
             self._robot.control(control)
-        except Misconfigured as refusal:  # a test's mistake must not end the robot
+        except ConfigError as refusal:  # a test's mistake must not end the robot
             log.warning("sim/control refused: %s", refusal)
 
     def _say(self, report: Report) -> None:

@@ -55,7 +55,7 @@ class SimRobot:
         """Build the home of ``site_dir`` and stand the robot at its dock, or at ``start``.
 
         Raises:
-            Misconfigured: the site's home.yaml is refused.
+            ConfigError: the site's home.yaml is refused.
         """
         self.robot = robot or RobotDescription()
         self.home: Home = load_home(site_dir)
@@ -163,7 +163,7 @@ class SimRobot:
         """Stand a spare obstacle (a person or a crate) in the home.
 
         Raises:
-            Misconfigured: ``obstacle_unknown``; sim.OBSTACLES lists them.
+            ConfigError: ``obstacle_unknown``; sim.OBSTACLES lists them.
         """
         self.place_thing(name, Pose2(x_m, y_m, yaw_rad))
 
@@ -177,7 +177,7 @@ class SimRobot:
         People and what stood on the floor stay solid; a small thing is for the camera alone.
 
         Raises:
-            Misconfigured: ``obstacle_unknown``.
+            ConfigError: ``obstacle_unknown``.
         """
         self.things.move(name, pose)
         if name not in self._world.carried:
@@ -191,7 +191,7 @@ class SimRobot:
         """Carry out a test's request over the wire; the same id again is the same request.
 
         Raises:
-            Misconfigured: ``obstacle_unknown``; what stood before it in the wish is done.
+            ConfigError: ``obstacle_unknown``; what stood before it in the wish is done.
         """
         if control.id == self._last_control:
             return

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from pydantic import TypeAdapter, ValidationError
 
 from sim.hardware import Hardware
-from wire import Misconfigured
+from wire import ConfigError
 from wire.robot import explain
 
 if TYPE_CHECKING:
@@ -30,24 +30,24 @@ def load_metal(path: Path) -> Hardware:
     """Return the hardware that a file describes; the rest keeps its defaults.
 
     Raises:
-        Misconfigured: it is missing, no TOML, or has an unknown key or an impossible value.
+        ConfigError: it is missing, no TOML, or has an unknown key or an impossible value.
     """
     try:
         told = tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
-        raise Misconfigured("metal_missing", f"{path}: {error.strerror}") from None
+        raise ConfigError("metal_missing", f"{path}: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Misconfigured("metal_syntax", f"{path}: {error}") from None
+        raise ConfigError("metal_syntax", f"{path}: {error}") from None
     unknown = sorted(told.keys() - set(KNOWN))
     if unknown:
         text = f"{path}: unknown key {', '.join(map(repr, unknown))}, known: {', '.join(KNOWN)}"
-        raise Misconfigured("metal_invalid", text)
+        raise ConfigError("metal_invalid", text)
     try:
         return _FILE.validate_json(json.dumps(told))  # strict, but for a dataclass of a mapping
     except TypeError as error:
-        raise Misconfigured("metal_invalid", f"{path}: {error}") from None
+        raise ConfigError("metal_invalid", f"{path}: {error}") from None
     except ValidationError as error:
-        raise Misconfigured("metal_invalid", f"{path}: {explain(error)}") from None
+        raise ConfigError("metal_invalid", f"{path}: {explain(error)}") from None
 
 
 def true_base(believed: Base, hardware: Hardware) -> Base:

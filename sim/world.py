@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.mjcf import OBSTACLES, PARKED_Z_M, SETTLE_STEPS, quaternion, world_mjcf
-from wire import Misconfigured, Pose2, Twist2
+from wire import ConfigError, Pose2, Twist2
 from wire.geometry import MAX_SPEED_MPS, MAX_TURN_RADPS
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ class PhysicsWorld:
     def _move(self, name: str, at: tuple[float, float, float], yaw_rad: float) -> None:
         if name not in self.carried:
             known = ", ".join(self.carried)
-            raise Misconfigured("obstacle_unknown", f"no obstacle {name!r}; there are: {known}")
+            raise ConfigError("obstacle_unknown", f"no obstacle {name!r}; there are: {known}")
         slot = int(self._model.body(name).mocapid[0])
         self._data.mocap_pos[slot] = at
         self._data.mocap_quat[slot] = quaternion(yaw_rad)

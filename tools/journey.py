@@ -19,7 +19,7 @@ from pathlib import Path
 from types import FrameType
 
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 
 ROOT = Path(__file__).resolve().parents[1]
 SENTENCE = "go to the kitchen"
@@ -73,14 +73,14 @@ def planner_files(sentence: str = SENTENCE, site: str = "home") -> Counter[str]:
     Raises:
         TooLong: no wheel turned within ``LIMIT_S`` simulated seconds.
     """
-    world = Together(site=site)
+    world = LockstepWorld(site=site)
     with Tracer(("planner",)).tracing() as calls:
         world.say(sentence)
         world.run_until(turns_a_wheel, LIMIT_S)
     return calls
 
 
-def turns_a_wheel(world: Together) -> bool:
+def turns_a_wheel(world: LockstepWorld) -> bool:
     """Return whether the newest wheel command is not zero."""
     command = world.commands[-1] if world.commands else None
     return command is not None and bool(command.left_radps or command.right_radps)
@@ -103,7 +103,7 @@ def bridge_files(sentence: str = SENTENCE, site: str = "home") -> Counter[str]:
         scans[0] = inbox.scan is not None
         return step(config, state, inbox, now_s)
 
-    world = Together(site=site, step=step_and_note)
+    world = LockstepWorld(site=site, step=step_and_note)
     world.say(sentence)
     world.run_until(turns_a_wheel, LIMIT_S)
     world.run(UNDER_WAY_S)

@@ -22,7 +22,7 @@ from wire.commands import (
     Waypoint,
     Waypoints,
 )
-from wire.errors import Misconfigured, Rejected, Unwritable
+from wire.errors import ConfigError, Rejected, Unwritable
 from wire.fence import FenceFile
 from wire.fingerprint import fingerprint, map_id
 from wire.geometry import (
@@ -89,6 +89,7 @@ __all__ = [
     "Answer",
     "BrakingReport",
     "CameraConfig",
+    "ConfigError",
     "DriveCommand",
     "DriveReport",
     "DriveState",
@@ -108,7 +109,6 @@ __all__ = [
     "LegReport",
     "LimitsInForce",
     "Localization",
-    "Misconfigured",
     "Mode",
     "Odometry",
     "OpKind",

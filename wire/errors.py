@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
-class Misconfigured(Exception):
+class ConfigError(Exception):
     """Refuse to start: ours or the owner's fault, never a silent default."""
 
     exit_status = 2
@@ -17,7 +17,7 @@ class Misconfigured(Exception):
         self.detail = detail
 
 
-class Unwritable(Misconfigured):
+class Unwritable(ConfigError):
     """Refuse to start on a disk that is full, locked or read-only: it may be mended by itself."""
 
     exit_status = 1

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from wire.base import Record
-from wire.errors import Misconfigured
+from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
@@ -263,22 +263,22 @@ def load_robot(path: Path) -> RobotDescription:
     """Read robot.toml.
 
     Raises:
-        Misconfigured: the file is missing, is not TOML, has an unknown key or an unsafe value;
+        ConfigError: the file is missing, is not TOML, has an unknown key or an unsafe value;
             the message names every such key, what came and what is allowed.
     """
     try:
         text = read_plain_file(path, MOST_BYTES).decode("utf-8")
         return RobotDescription.model_validate(tomllib.loads(text), strict=True)
     except OSError as error:
-        raise Misconfigured("robot_toml_missing", f"{path}: {error.strerror}") from None
+        raise ConfigError("robot_toml_missing", f"{path}: {error.strerror}") from None
     except ValidationError as error:
-        raise Misconfigured(
+        raise ConfigError(
             "robot_toml_invalid", f"{path}: {explain(error, RobotDescription)}"
         ) from None
     except ValueError as error:  # no TOML, no UTF-8, or a number of thousands of digits
-        raise Misconfigured("robot_toml_syntax", f"{path}: {error}") from None
+        raise ConfigError("robot_toml_syntax", f"{path}: {error}") from None
     except RecursionError:
-        raise Misconfigured("robot_toml_syntax", f"{path}: nested too deeply") from None
+        raise ConfigError("robot_toml_syntax", f"{path}: nested too deeply") from None
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str:

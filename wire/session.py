@@ -20,7 +20,7 @@ import zenoh
 from wire.base import Record
 from wire.codec import Image, decode, encode, image
 from wire.doors import access_control, doors_of
-from wire.errors import Misconfigured, Unwritable
+from wire.errors import ConfigError, Unwritable
 from wire.keys import ANY_ROBOT, IMAGE, Key, Party
 from wire.sockets import Claim, Endpoints, admit
 
@@ -228,7 +228,7 @@ class Session:
             ValueError: no door of this process carries it.
         """
         links = [link for door, link in self._links.items() if door.outward(self._party, key.path)]
-        return self._some(key, links)
+        return self._require_links(key, links)
 
     def links_inward(self, key: Key[M]) -> list[zenoh.Session]:
         """Return the zenoh sessions on which this process is told a key.
@@ -237,7 +237,7 @@ class Session:
             ValueError: no door of this process carries it.
         """
         links = [link for door, link in self._links.items() if door.inward(self._party, key.path)]
-        return self._some(key, links)
+        return self._require_links(key, links)
 
     def peers(self) -> int:
         """Return how many connections to other processes there are now, at all doors together."""
@@ -267,7 +267,7 @@ class Session:
             return Subscriber(links[0], key, robot_id)
         return Subscribers(links, key, robot_id)
 
-    def _some(self, key: Key[M], links: list[zenoh.Session]) -> list[zenoh.Session]:
+    def _require_links(self, key: Key[M], links: list[zenoh.Session]) -> list[zenoh.Session]:
         if not links:
             names = ", ".join(door.name for door in self._links)
             raise ValueError(f"{key.path} passes none of the {self._party} doors: {names}")
@@ -286,7 +286,7 @@ def open_session(
         endpoints: where doors are, if not all in ``home``.
 
     Raises:
-        Misconfigured: the same process already runs there, a socket path is too long, or others
+        ConfigError: the same process already runs there, a socket path is too long, or others
             could replace its sockets.
         Unwritable: the folders of ``home`` can't be written at present.
     """
@@ -314,7 +314,7 @@ def _open(party: Party, door: Door, where: Endpoints, claim: Claim | None) -> ze
     try:
         session = zenoh.open(_config(locator, door, listens=listens))
     except zenoh.ZError as error:
-        wrong = Unwritable if ours else Misconfigured  # ours lies free: only the disk refuses it
+        wrong = Unwritable if ours else ConfigError  # ours lies free: only the disk refuses it
         raise wrong("socket_in_use", f"{door.name}: {error}") from None
     if ours:
         admit(path)

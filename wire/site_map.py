@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from wire.errors import Misconfigured
+from wire.errors import ConfigError
 from wire.fingerprint import map_id
 from wire.plain_file import read_plain_file
 
@@ -42,22 +42,22 @@ def read_map_id(site_dir: Path) -> str:
     """Return the fingerprint of the site's map.yaml and its image.
 
     Raises:
-        Misconfigured: ``map_missing``, ``map_image_missing`` or ``map_image_outside``, naming the
+        ConfigError: ``map_missing``, ``map_image_missing`` or ``map_image_outside``, naming the
             file.
     """
     path = site_dir / "map.yaml"
     try:
         text = read_plain_file(path, MOST_MAP_BYTES)
     except OSError as error:
-        raise Misconfigured("map_missing", f"{path}: {error.strerror}") from None
+        raise ConfigError("map_missing", f"{path}: {error.strerror}") from None
     name = image_name(text)
     if name is None:
-        raise Misconfigured("map_image_missing", f"{path}: no line 'image: FILE'")
+        raise ConfigError("map_image_missing", f"{path}: no line 'image: FILE'")
     try:
         image = image_in(site_dir, name)
     except ValueError as error:
-        raise Misconfigured("map_image_outside", f"{path}: image {name!r}: {error}") from None
+        raise ConfigError("map_image_outside", f"{path}: image {name!r}: {error}") from None
     try:
         return map_id(text, read_plain_file(image, MOST_IMAGE_BYTES))
     except OSError as error:
-        raise Misconfigured("map_image_missing", f"{image}: {error.strerror}") from None
+        raise ConfigError("map_image_missing", f"{image}: {error.strerror}") from None

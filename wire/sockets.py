@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wire.errors import Misconfigured, Unwritable
+from wire.errors import ConfigError, Unwritable
 
 if TYPE_CHECKING:
     from wire.doors import Door
@@ -42,14 +42,14 @@ class Endpoints:
         """Return the zenoh locator of a door.
 
         Raises:
-            Misconfigured: the socket's path is longer than the kernel takes.
+            ConfigError: the socket's path is longer than the kernel takes.
         """
         if door in self.tcp:
             return f"tcp/{self.tcp[door]}"
         path = self.socket(door)
         length = len(os.fsencode(path))
         if not length <= MAX_SOCKET_PATH:
-            raise Misconfigured(
+            raise ConfigError(
                 "socket_path_too_long",
                 f"{path} has {length} bytes, at most {MAX_SOCKET_PATH}; set PONS_HOME to a "
                 "shorter folder",
@@ -68,7 +68,7 @@ class Claim:
         """Take the lock.
 
         Raises:
-            Misconfigured: another live process holds it, and nothing of its is touched; or others
+            ConfigError: another live process holds it, and nothing of its is touched; or others
                 may write the folder.
             Unwritable: the folder can't be written.
         """
@@ -87,7 +87,7 @@ class Claim:
             self._file.seek(0)
             holder = self._file.read().strip() or "unknown"
             self._file.close()
-            raise Misconfigured(
+            raise ConfigError(
                 "already_running",
                 f"a {party.value} with pid {holder} already serves {self._run}; stop it, or set "
                 "PONS_HOME to another folder",
@@ -109,7 +109,7 @@ class Claim:
         """Make the folder of a socket and remove what a dead listener left; ours is the lock.
 
         Raises:
-            Misconfigured: others may write the folder.
+            ConfigError: others may write the folder.
             Unwritable: the folder can't be written.
         """
         _own(path.parent)
@@ -215,7 +215,7 @@ def _own(folder: Path) -> None:
     """Make a folder for this user alone; an existing one must be nobody else's to write.
 
     Raises:
-        Misconfigured: ``socket_folder_exposed``.
+        ConfigError: ``socket_folder_exposed``.
         Unwritable: ``home_unwritable``.
     """
     try:
@@ -227,7 +227,7 @@ def _own(folder: Path) -> None:
     except OSError as error:
         raise Unwritable("home_unwritable", f"{folder}: {error.strerror}") from None
     if not ours and (found.st_uid != 0 or _open_to_others(found.st_mode)):
-        raise Misconfigured(
+        raise ConfigError(
             "socket_folder_exposed",
             f"{folder} belongs to user {found.st_uid}, mode {stat.S_IMODE(found.st_mode):04o}; "
             "others could replace a socket there, so it must be this user's or root's and "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, Protocol
 
-from wire import DriveCommand, DriveState, Misconfigured, Rejected
+from wire import ConfigError, DriveCommand, DriveState, Rejected
 
 Braking = Literal["brake", "coast"]
 """What the wheels do without torque: short or brake, or roll on. Decides what CUT0 is worth; who
@@ -36,10 +36,10 @@ def require_brakes(drive: Drive) -> Drive:
     kept at standstill until a person acts, which this bridge does not do.
 
     Raises:
-        Misconfigured: ``drive_coasts``.
+        ConfigError: ``drive_coasts``.
     """
     if drive.braking != "brake":
-        raise Misconfigured(
+        raise ConfigError(
             "drive_coasts",
             f"drive {drive.kind!r} declares braking {drive.braking!r}; expected 'brake': a stop "
             "takes the torque away, and wheels that roll on then would not stand. Short the motors "

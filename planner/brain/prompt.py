@@ -68,7 +68,7 @@ class Prompt:
         """Read a template.
 
         Raises:
-            Misconfigured: ``prompt_missing``; ``prompt_malformed``: no version line, or blanks that
+            ConfigError: ``prompt_missing``; ``prompt_malformed``: no version line, or blanks that
                 nobody fills.
         """
         read = Template.load(path, _BLANKS)

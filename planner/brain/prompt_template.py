@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner.brain.schema import Message
-from wire import Misconfigured
+from wire import ConfigError
 
 SHOWN = 2000
 """Characters of a bad reply that are shown to the model again."""
@@ -32,20 +32,20 @@ class Template:
         """Read a template.
 
         Raises:
-            Misconfigured: ``prompt_missing``; ``prompt_malformed``: no version line, or blanks that
+            ConfigError: ``prompt_missing``; ``prompt_malformed``: no version line, or blanks that
                 nobody fills.
         """
         try:
             text = path.read_text("utf-8")
         except (OSError, UnicodeDecodeError) as error:
-            raise Misconfigured("prompt_missing", f"{path}: {type(error).__name__}") from None
+            raise ConfigError("prompt_missing", f"{path}: {type(error).__name__}") from None
         found = _VERSION.match(text)
         if found is None:
-            raise Misconfigured("prompt_malformed", f"{path} must begin with 'version: N'")
+            raise ConfigError("prompt_malformed", f"{path} must begin with 'version: N'")
         here = set(_BLANK.findall(text))
         if here != blanks:
             wrong = ", ".join(sorted(here ^ blanks))
-            raise Misconfigured("prompt_malformed", f"{path}: unknown or missing blanks: {wrong}")
+            raise ConfigError("prompt_malformed", f"{path}: unknown or missing blanks: {wrong}")
         digest = hashlib.sha256(text.encode()).hexdigest()[:12]
         return cls(path.stem, int(found[1]), text[found.end() :], digest)
 

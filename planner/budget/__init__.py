@@ -22,7 +22,7 @@ def purse_of(settings: Settings, home: Path, database: StateDatabase | None = No
     """Return the purse of a home as the owner has set it; without a database, with one of its own.
 
     Raises:
-        Misconfigured: ``budget_unreadable``.
+        ConfigError: ``budget_unreadable``.
     """
     model = settings.model
     return Purse(

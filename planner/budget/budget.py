@@ -55,7 +55,7 @@ class Purse:
             clocks: other clocks than the system's.
 
         Raises:
-            Misconfigured: ``budget_unreadable``.
+            ConfigError: ``budget_unreadable``.
         """
         self._budget, self._ledger, self._model = budget, ledger, model
         self._most_reply = most_reply

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner.budget.totals import Overrun, Spent
 from planner.state_database import StateDatabase, StateUnavailable
-from wire import Misconfigured, Unwritable
+from wire import ConfigError, Unwritable
 
 if TYPE_CHECKING:
     import sqlite3
@@ -95,7 +95,7 @@ class Ledger:
             owned: nobody else has this database, so it is closed with the ledger.
 
         Raises:
-            Misconfigured: ``budget_unreadable``, ``state_version``.
+            ConfigError: ``budget_unreadable``, ``state_version``.
         """
         self._database, self._old_folder, self._owned = database, old_folder, owned
         self._days: dict[date, Spent] = {}
@@ -123,7 +123,7 @@ class Ledger:
         """Read what the goals of the last days have spent, and throw very old days away.
 
         Raises:
-            Misconfigured: ``budget_unreadable``.
+            ConfigError: ``budget_unreadable``.
         """
         begin = (today - timedelta(days=LOOK_BACK_DAYS)).isoformat()
         goals = f"SELECT goal, {_SUMS} FROM spent WHERE {_IS_DAY} AND day >= ? AND goal != ''"
@@ -304,10 +304,10 @@ class Ledger:
                 goal, change = _read_line(line)
                 _add(connection, day.isoformat(), goal[:MAX_ID], change)
 
-    def _unreadable(self, error: OSError) -> Misconfigured:
+    def _unreadable(self, error: OSError) -> ConfigError:
         """Return what refuses the start; a disk that may be mended by itself is tried again."""
         passing = isinstance(error, StateUnavailable) and not error.spoilt
-        wrong = Unwritable if passing else Misconfigured
+        wrong = Unwritable if passing else ConfigError
         where = self._database.path if isinstance(error, StateUnavailable) else self._old_folder
         return wrong("budget_unreadable", f"{where}: {error.strerror}")
 

@@ -20,7 +20,7 @@ from sqlalchemy.dialects import postgresql, sqlite
 from planner.mission.effects import Journal
 from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import ENDED
-from wire import Misconfigured, Unwritable
+from wire import ConfigError, Unwritable
 
 log = logging.getLogger(__name__)
 
@@ -91,7 +91,7 @@ class MissionJournal:
         """Open or make the database.
 
         Raises:
-            Misconfigured: it is no database, or another version wrote it.
+            ConfigError: it is no database, or another version wrote it.
             Unwritable: it can't be opened or written at present.
         """
         self._engine = sa.create_engine(url)
@@ -107,7 +107,7 @@ class MissionJournal:
             self._check_schema()
         except sa.exc.SQLAlchemyError as error:
             # Operational: what the database's surroundings refuse, a damaged file is none of them.
-            wrong = Unwritable if isinstance(error, sa.exc.OperationalError) else Misconfigured
+            wrong = Unwritable if isinstance(error, sa.exc.OperationalError) else ConfigError
             detail = f"{url}: {error.__class__.__name__}: {str(error).splitlines()[0]}"
             raise wrong("journal_unavailable", detail) from None
 
@@ -137,7 +137,7 @@ class MissionJournal:
         """Read what a new process needs: all open missions, the newest ended ones, the keys.
 
         Raises:
-            Misconfigured: a record is not one of ours.
+            ConfigError: a record is not one of ours.
         """
         with self._engine.connect() as connection:
             newest = sa.select(_missions).order_by(_missions.c.order.desc())
@@ -198,7 +198,7 @@ class MissionJournal:
         try:
             return Mission.model_validate_json(record)
         except ValidationError as error:
-            raise Misconfigured("journal_malformed", str(error).splitlines()[0]) from None
+            raise ConfigError("journal_malformed", str(error).splitlines()[0]) from None
 
     def _check_schema(self) -> None:
         with self._engine.begin() as connection:
@@ -208,7 +208,7 @@ class MissionJournal:
             if found is None:
                 connection.execute(sa.insert(_facts).values(name="schema", value=SCHEMA))
             elif found != SCHEMA:
-                raise Misconfigured(
+                raise ConfigError(
                     "journal_version", f"the journal has schema {found}, expected {SCHEMA}"
                 )
 

@@ -114,7 +114,7 @@ class Disk(Protocol):
         """Return what was kept, and call ``on_safe`` from now on with each entry that is on disk.
 
         Raises:
-            Misconfigured: a record is not one of ours.
+            ConfigError: a record is not one of ours.
         """
 
     def write(self, entry: Journal, key: GoalKey | None = None) -> None:

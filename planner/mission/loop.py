@@ -147,7 +147,7 @@ class Loop:
             rounds: turn the rounds; else whoever owns the clock calls ``hear`` and ``tick``.
 
         Raises:
-            Misconfigured: the journal holds what this version can't read.
+            ConfigError: the journal holds what this version can't read.
         """
         kept = await self._disk.open(self._on_safe)
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)

@@ -112,7 +112,7 @@ class Missions:
             rounds: turn the rounds of ``loop``; else whoever owns the clock turns them.
 
         Raises:
-            Misconfigured: the journal holds what this version can't read.
+            ConfigError: the journal holds what this version can't read.
         """
         self.loop.rule(rules or Rules())
         kept = await self.loop.start(self._think, self._router, freeze=freeze, rounds=rounds)

@@ -21,7 +21,7 @@ from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
 from planner.settings.presets import known_as
 from planner.settings.vision import VisionSettings, with_environment
-from wire import Misconfigured
+from wire import ConfigError
 
 log = logging.getLogger(__name__)
 
@@ -49,7 +49,7 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
     """Read settings.toml of a home folder, then what the environment puts in its place.
 
     Raises:
-        Misconfigured: ``settings_unreadable``, ``settings_malformed``, ``model_incomplete``,
+        ConfigError: ``settings_unreadable``, ``settings_malformed``, ``model_incomplete``,
             ``model_key``, ``budget_contradictory``.
     """
     tables = _tables(home / FILE)
@@ -57,7 +57,7 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
         log.warning("settings_exposed: %s", sentence)
     model = tables.pop("model", None)
     if model is not None and not isinstance(model, dict):
-        raise Misconfigured("settings_malformed", f"{FILE}: [model] must be a table")
+        raise ConfigError("settings_malformed", f"{FILE}: [model] must be a table")
     chosen = _with_environment(_with_key(model, home, environment), environment)
     vision = with_environment(tables.pop("vision", {}), home, environment)
     settings = _checked({**tables, "model": chosen, "vision": vision})
@@ -69,7 +69,7 @@ def exposed(home: Path) -> list[str]:
     """Say what of the settings others may change, or read though it is a key; mostly nothing.
 
     Raises:
-        Misconfigured: ``settings_unreadable``, ``settings_malformed``.
+        ConfigError: ``settings_unreadable``, ``settings_malformed``.
     """
     model = _tables(home / FILE).get("model")
     table = model if isinstance(model, dict) else {}
@@ -96,7 +96,7 @@ def place_of(home: Path, environment: Mapping[str, str]) -> str:
     """Return the URL that file and environment lead to, empty where to none; no key is read.
 
     Raises:
-        Misconfigured: ``settings_unreadable``, ``settings_malformed``.
+        ConfigError: ``settings_unreadable``, ``settings_malformed``.
     """
     model = _tables(home / FILE).get("model")
     table = {k: v for k, v in model.items() if k != "key"} if isinstance(model, dict) else {}
@@ -111,14 +111,14 @@ def _tables(path: Path) -> dict[str, Any]:
         with path.open("rb") as file:
             raw = file.read(MAX_BYTES + 1)
     except OSError as error:
-        raise Misconfigured("settings_unreadable", f"{path}: {error.strerror}") from None
+        raise ConfigError("settings_unreadable", f"{path}: {error.strerror}") from None
     if len(raw) > MAX_BYTES:
-        raise Misconfigured("settings_malformed", f"{path} is over {MAX_BYTES} bytes")
+        raise ConfigError("settings_malformed", f"{path} is over {MAX_BYTES} bytes")
     try:
         return tomllib.loads(raw.decode())
     except (ValueError, RecursionError):  # of a number of thousands of digits, too
         # The parser's own words may quote the line that holds a key.
-        raise Misconfigured("settings_malformed", f"{path} is no TOML in UTF-8") from None
+        raise ConfigError("settings_malformed", f"{path} is no TOML in UTF-8") from None
 
 
 def _with_key(
@@ -129,13 +129,13 @@ def _with_key(
         return None
     given = [name for name in _KEY_SOURCES if name in model]
     if len(given) > 1:
-        raise Misconfigured("model_key", f"{FILE}: give one of {', '.join(given)}, not all")
+        raise ConfigError("model_key", f"{FILE}: give one of {', '.join(given)}, not all")
     rest = {name: value for name, value in model.items() if name not in _KEY_SOURCES}
     if not given:
         return rest
     source, value = given[0], model[given[0]]
     if not isinstance(value, str) or not value:
-        raise Misconfigured("model_key", f"{FILE}: {source} must be a text that is not empty")
+        raise ConfigError("model_key", f"{FILE}: {source} must be a text that is not empty")
     key = {"key": lambda: value, "key_env": lambda: environment.get(value, "")}.get(
         source, lambda: _key_in(home / value)
     )()
@@ -147,16 +147,16 @@ def _key_in(path: Path) -> str:
         with path.open("rb") as file:
             return file.read(MAX_KEY_BYTES).decode("ascii", "replace")
     except OSError as error:
-        raise Misconfigured("model_key", f"key_file {path}: {error.strerror}") from None
+        raise ConfigError("model_key", f"key_file {path}: {error.strerror}") from None
 
 
 def _clean_key(key: str, where: str) -> str:
     """Return a key that can stand in a header. Its text is never part of an error."""
     key = key.strip()
     if not key:
-        raise Misconfigured("model_key", f"{where} leads to no key")
+        raise ConfigError("model_key", f"{where} leads to no key")
     if not (key.isascii() and key.isprintable() and " " not in key):
-        raise Misconfigured("model_key", f"{where}: a key is one word of plain ASCII")
+        raise ConfigError("model_key", f"{where}: a key is one word of plain ASCII")
     return key
 
 
@@ -169,7 +169,7 @@ def _with_environment(
     if model is None and not (url or preset):
         if name or key:
             detail = "PONS_MODEL or PONS_MODEL_KEY is set, but no PONS_MODEL_URL and no [model]"
-            raise Misconfigured("model_incomplete", detail)
+            raise ConfigError("model_incomplete", detail)
         return None
     chosen = _at_another_place(dict(model or {}), preset, url)
     if name:
@@ -179,7 +179,7 @@ def _with_environment(
     for yes in ("allow_offhost", "allow_pictures_offhost"):
         said = environment.get(variable := f"PONS_MODEL_{yes.upper()}", "").lower()
         if said and said not in _YES:
-            raise Misconfigured("settings_malformed", f"{variable} is {said!r}; expected 1 or 0")
+            raise ConfigError("settings_malformed", f"{variable} is {said!r}; expected 1 or 0")
         if said:
             chosen[yes] = _YES[said]
     return chosen
@@ -227,11 +227,11 @@ def _checked(tables: dict[str, Any]) -> Settings:
     except ValidationError as wrong:
         problems = [_told(error["loc"], error["type"], error["msg"]) for error in wrong.errors()]
         code = "model_incomplete" if all("missing" in p for p in problems) else "settings_malformed"
-        raise Misconfigured(code, f"{FILE}: {'; '.join(problems)}") from None
+        raise ConfigError(code, f"{FILE}: {'; '.join(problems)}") from None
     most = settings.model.max_tokens if settings.model is not None else None
     wrong_budget = contradiction(settings.budget, most)
     if wrong_budget is not None:
-        raise Misconfigured("budget_contradictory", f"{FILE}: {wrong_budget}")
+        raise ConfigError("budget_contradictory", f"{FILE}: {wrong_budget}")
     return settings
 
 
@@ -241,7 +241,7 @@ def _need_key(model: ModelSettings | None) -> None:
     if model is None or known is None or not known.key_name or model.key is not None:
         return
     if same_place(model.url, known.url):
-        raise Misconfigured(
+        raise ConfigError(
             "model_key",
             f"{model.preset} wants a key: put key_file, or key_env = {known.key_name!r}, into "
             f"[model] of {FILE}, or set PONS_MODEL_KEY",

@@ -16,7 +16,7 @@ from pons.calibrate.reference import MEASURED
 from pons.calibrate.robot_toml import difference, edit_values, replace
 from pons.calibrate.session import CalibrationRig
 from pons_assets import IS_INSTALLED, ROBOT_FILE
-from wire import Misconfigured, load_robot
+from wire import ConfigError, load_robot
 from wire.keys import Party
 from wire.session import open_session
 
@@ -25,14 +25,14 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from pons.calibrate.findings import CalibrationFinding
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_DONE, EXIT_REFUSED, EXIT_INTERRUPTED = 0, 3, 130
 PUMP_S = 0.004
 
 
 def run(
-    settings: Settings,
+    settings: LaunchSettings,
     *,
     reference: str | None,
     measured_m: list[float] | None,
@@ -54,7 +54,7 @@ def run(
     except CalibrationRefusal as refused:
         print("\n".join(refused.lines()), file=sys.stderr)
         return EXIT_REFUSED
-    except (Misconfigured, OSError) as trouble:
+    except (ConfigError, OSError) as trouble:
         print(f"{trouble}\nnothing was written", file=sys.stderr)
         return EXIT_REFUSED
     except KeyboardInterrupt:
@@ -67,7 +67,7 @@ def _interrupt(_number: int, _frame: FrameType | None) -> None:
 
 
 def _measure(
-    settings: Settings, plan: CalibrationPlan, typed: list[float], when: str
+    settings: LaunchSettings, plan: CalibrationPlan, typed: list[float], when: str
 ) -> list[CalibrationFinding]:
     robot = load_robot(settings.robot)
     metres = _metres(typed)
@@ -97,7 +97,7 @@ def _metres(typed: list[float]) -> Iterator[float]:
 
 
 def _write(
-    settings: Settings, before: str, found: list[CalibrationFinding], stamp: str, *, yes: bool
+    settings: LaunchSettings, before: str, found: list[CalibrationFinding], stamp: str, *, yes: bool
 ) -> int:
     """Show the difference, ask, write."""
     for one in found:
@@ -112,7 +112,7 @@ def _write(
     return EXIT_DONE
 
 
-def _ask_to_write(settings: Settings) -> bool:
+def _ask_to_write(settings: LaunchSettings) -> bool:
     if not sys.stdin.isatty():
         return False
     return input(f"write {settings.robot}? [y/N] ").strip().lower() in {"y", "yes", "是"}

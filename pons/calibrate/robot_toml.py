@@ -98,7 +98,7 @@ def replace(path: Path, before: str, after: str, stamp: str) -> Path:
 
     Raises:
         CalibrationRefused: ``robot_toml_shape``: the file changed meanwhile.
-        Misconfigured: the new file would be refused.
+        ConfigError: the new file would be refused.
         OSError: it cannot be written.
     """
     if path.read_text("utf-8") != before:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 
-def main(settings: Settings, arguments: list[str]) -> int:
+def main(settings: LaunchSettings, arguments: list[str]) -> int:
     """Be ``pons conformance``."""
     from pons.conformance import command  # late: its helpers need no map, and must load quickly
 

@@ -24,7 +24,7 @@ from pons.conformance.site_track import find_track
 from pons.conformance.system_under_test import OURS, SystemUnderTest
 from pons.machine import commit, machine, today
 from pons_assets import SITES
-from wire import Misconfigured, load_robot
+from wire import ConfigError, load_robot
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from pons.conformance.fault import Fault
     from pons.conformance.runner import MatrixRow
     from pons.conformance.track import TestTrack
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_HELD, EXIT_BROKEN, EXIT_UNTESTED, EXIT_INTERRUPTED = 0, 1, 2, 130
 KINDS = {name: kind for kind, name in NAMES.items()}
@@ -63,7 +63,7 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def main(settings: Settings, arguments: list[str]) -> int:
+def main(settings: LaunchSettings, arguments: list[str]) -> int:
     """Run the kit; print; return the exit status."""
     said = parser().parse_args(arguments)
     if said.list:
@@ -79,7 +79,7 @@ def main(settings: Settings, arguments: list[str]) -> int:
         track = find_track(settings.site, load_robot(settings.robot).base.radius_m)
         rig = SystemUnderTest(settings, track, module=said.bridge, join=said.connect)
         lines = run(rig, track, faults, said.seed)
-    except (CannotTest, Misconfigured, OSError) as why:
+    except (CannotTest, ConfigError, OSError) as why:
         print(f"pons conformance: {why}", file=sys.stderr)
         return EXIT_UNTESTED
     except KeyboardInterrupt:

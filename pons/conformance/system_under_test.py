@@ -20,7 +20,7 @@ from pons.conformance.record import DriveRecord
 from pons.conformance.watch import BridgeWatch
 from pons.robot_processes import BODY, RobotProcesses
 from processes.parent_death import child_command
-from wire import VIRTUAL_KEY, Misconfigured, Mode, OpRequest, encode, load_robot, signed_request
+from wire import VIRTUAL_KEY, ConfigError, Mode, OpRequest, encode, load_robot, signed_request
 from wire.doors import BRIDGE_DOOR
 from wire.keys import Party
 from wire.session import open_session
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from pons.conformance.track import TestTrack
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
     from wire import OpKind, Status
 
 START_S = 40.0
@@ -44,7 +44,7 @@ class SystemUnderTest:
     """Be an Adapter for every bridge that speaks this wire."""
 
     def __init__(
-        self, settings: Settings, track: TestTrack, *, module: str = OURS, join: bool = False
+        self, settings: LaunchSettings, track: TestTrack, *, module: str = OURS, join: bool = False
     ) -> None:
         """Describe it; entering the context starts or joins it.
 
@@ -71,7 +71,7 @@ class SystemUnderTest:
                 self._watch = stack.enter_context(BridgeWatch(self._home, self._robot.id))
                 party = open_session(Party.PLANNER, self._robot.id, self._home)
                 self._mouth = Mouth(stack.enter_context(party))
-            except Misconfigured as wrong:
+            except ConfigError as wrong:
                 raise CannotTest(str(wrong)) from None
             self.record = self._watch.record
             self._await(HEARD_S if self._join else START_S)

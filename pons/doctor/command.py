@@ -13,7 +13,7 @@ from pons.doctor import jitter as late
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT = {HealthVerdict.OK: 0, HealthVerdict.WARN: 1, HealthVerdict.FAIL: 2}
 """0: all is well; 1: something works less well; 2: something must be mended first."""
@@ -24,7 +24,7 @@ NO_CYCLICTEST = (
 MARKS = {HealthVerdict.OK: "ok  ", HealthVerdict.WARN: "warn", HealthVerdict.FAIL: "FAIL"}
 
 
-def run(settings: Settings, *, as_json: bool = False, jitter: bool = False) -> int:
+def run(settings: LaunchSettings, *, as_json: bool = False, jitter: bool = False) -> int:
     """Be ``pons doctor``."""
     found = findings(settings)
     _, robot = path_checks.robot(settings.robot)
@@ -43,7 +43,7 @@ def run(settings: Settings, *, as_json: bool = False, jitter: bool = False) -> i
     return max(EXIT[one.verdict] for one in found)
 
 
-def findings(settings: Settings) -> list[HealthFinding]:
+def findings(settings: LaunchSettings) -> list[HealthFinding]:
     """Return what every check finds, the machine first."""
     described, robot = path_checks.robot(settings.robot)
     sited, site = path_checks.site(settings.site)

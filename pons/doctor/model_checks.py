@@ -10,7 +10,7 @@ from planner.brain.endpoint.address import Address, refused_among
 from planner.settings import load_settings
 from planner.site import Site
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
-from wire import Misconfigured
+from wire import ConfigError
 
 CONNECT_S = 3.0
 _FIX_MODEL = BilingualWords(
@@ -26,7 +26,7 @@ def model(home: Path) -> HealthFinding:
         if chosen is None:
             return ok("model", "none is set: the offline brain plans", "未设置模型：由离线大脑规划")
         address = Address.parse(chosen.url)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         fix = BilingualWords(
             "mend settings.toml or PONS_MODEL_URL", "请修正 settings.toml 或 PONS_MODEL_URL"
         )

@@ -14,7 +14,7 @@ from planner.settings import exposed
 from planner.site import Site, SiteError
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.up import MIN_FREE_BYTES
-from wire import Misconfigured, RobotDescription, load_robot
+from wire import ConfigError, RobotDescription, load_robot
 from wire.doors import DOORS
 from wire.sockets import MAX_SOCKET_PATH, Endpoints, is_listening
 
@@ -26,7 +26,7 @@ def robot(path: Path) -> tuple[HealthFinding, RobotDescription]:
     """Read robot.toml; what can't be read counts as the default robot for the other checks."""
     try:
         described = load_robot(path)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         fix = BilingualWords(
             "mend the file; `pons up` refuses it as it is", "请修正该文件，否则无法启动"
         )
@@ -76,7 +76,7 @@ def secrets(path: Path, *, virtual: bool) -> HealthFinding:
     try:
         load_operator_key(path, virtual=virtual)
         found = exposed(path)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         fix = BilingualWords(
             "mend or remove that file; as the bridge's user, `pons key new` makes operator.key",
             "请修正或删除该文件；以 bridge 的用户执行 `pons key new` 可生成 operator.key",

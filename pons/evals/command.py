@@ -17,10 +17,10 @@ from pons.evals.matchers import BadMatcher
 from pons.evals.report import as_json, content, has_passed, table
 from pons.evals.score import SentenceVerdict, score_each
 from pons.evals.suites import DATA, HOME_SITE, load, suite_names
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
 
@@ -35,7 +35,7 @@ class SuiteScore:
     """Sentences not asked: the budget was up."""
 
 
-def main(settings: Settings, words: list[str]) -> int:
+def main(settings: LaunchSettings, words: list[str]) -> int:
     """Score a brain on a suite: 0 the goal is reached, 1 it is not, 2 nothing could be asked."""
     parser = _parser()
     said = parser.parse_args(words)
@@ -51,7 +51,7 @@ def main(settings: Settings, words: list[str]) -> int:
     except (MissingSuite, BadMatcher, SiteError) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
         return REFUSED
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         print(f"pons eval: {wrong.code}: {wrong}", file=sys.stderr)
         return REFUSED
     if not any(one.verdicts for one in scored) and any(one.left for one in scored):
@@ -91,14 +91,14 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _quick(settings: Settings, said: argparse.Namespace) -> int:
+def _quick(settings: LaunchSettings, said: argparse.Namespace) -> int:
     from pons.evals import quick
 
     word = said.model or ""
     return quick.run(settings, word, as_json=said.json, yes=said.yes, called="pons eval --quick")
 
 
-def _journal(settings: Settings, said: argparse.Namespace) -> int:
+def _journal(settings: LaunchSettings, said: argparse.Namespace) -> int:
     from pons.evals.journal import command
 
     options = command.JournalOptions(max(0, said.most), max(0, said.drives), said.json, said.yes)
@@ -107,7 +107,7 @@ def _journal(settings: Settings, said: argparse.Namespace) -> int:
 
 
 async def _score_suites(
-    settings: Settings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
+    settings: LaunchSettings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
 ) -> tuple[str, list[SuiteScore]]:
     if model is None:
         return await _score_each(suites, OfflineBrain())
@@ -120,7 +120,7 @@ async def _score_suites(
     count = sum(len(suite.cases) for suite in suites)
     if not address.local and not yes:
         detail = f"{count} sentences would be sent to {address.host}; if that is meant, say --yes"
-        raise Misconfigured("model_offhost", detail)
+        raise ConfigError("model_offhost", detail)
     ledger = Ledger.in_home(settings.home)
     purse = Purse(owner.budget, ledger, model=whom.name, most_reply=whom.max_tokens)
     brain = EndpointBrain(

@@ -28,7 +28,7 @@ from planner.settings import (
     place_of,
     same_place,
 )
-from wire import Misconfigured
+from wire import ConfigError
 
 log = logging.getLogger(__name__)
 
@@ -57,7 +57,7 @@ def choose_model(
         environment: as ``load_settings`` reads it.
 
     Raises:
-        Misconfigured: ``model_not_set``: nothing says which; and all of ``load_settings``.
+        ConfigError: ``model_not_set``: nothing says which; and all of ``load_settings``.
     """
     name, url = split_word(word)
     elsewhere = _is_elsewhere(url, home, environment)
@@ -76,15 +76,15 @@ def choose_model(
             )
     try:
         settings = load_settings(home, named)
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         if wrong.code != "model_incomplete":
             raise
         detail = f"which model, and where? give {HOW}, or set [model] in settings.toml: {wrong}"
-        raise Misconfigured("model_not_set", detail) from None
+        raise ConfigError("model_not_set", detail) from None
     model = settings.model
     if model is None:
         detail = f"no model is set; give {HOW}, or set [model] in settings.toml"
-        raise Misconfigured("model_not_set", detail)
+        raise ConfigError("model_not_set", detail)
     if url:  # what the owner's model costs says nothing about another
         budget = settings.budget.model_copy(update={"price": None})
         settings = settings.model_copy(update={"budget": budget})
@@ -136,7 +136,7 @@ def open_purse(
         limits: of the one goal that the examination is.
 
     Raises:
-        Misconfigured: the budget can't be read.
+        ConfigError: the budget can't be read.
     """
     budget = BudgetSettings(goal=limits, day=settings.budget.day, price=settings.budget.price)
     purse = Purse(budget, Ledger.in_home(home), model=model.name, most_reply=model.max_tokens)

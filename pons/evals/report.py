@@ -63,7 +63,9 @@ def table(name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int 
     rows += ["", f"seconds a sentence: p50 {p50 / 1e3:.4f}, p99 {p99 / 1e3:.4f}"]
     faults = [verdict for verdict in verdicts if not verdict.right]
     rows += ["", "not right:"] if faults else []
-    rows += [f"  {v.case.group}: {v.case.text}\n    {v.kind_and_code}; {v.why}" for v in faults]
+    rows += [
+        f"  {v.case.group}: {v.case.text}\n    {v.kind_and_code}; {v.explanation}" for v in faults
+    ]
     return "\n".join(rows)
 
 
@@ -131,7 +133,7 @@ def _failure(verdict: SentenceVerdict) -> dict[str, Any]:
         "text": verdict.case.text,
         "group": verdict.case.group,
         "made": verdict.made.model_dump(mode="json"),
-        "why": verdict.why,
+        "why": verdict.explanation,
         "wrong_motions": list(verdict.wrong),
     }
 

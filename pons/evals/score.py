@@ -39,7 +39,7 @@ class SentenceVerdict:
         return not self.fault and not self.wrong
 
     @property
-    def why(self) -> str:
+    def explanation(self) -> str:
         """Say what is wrong, in one line."""
         return "; ".join((*([self.fault] if self.fault else []), *self.wrong))
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from sim.camera.camera import SimCamera
 from sim.camera.node import CameraNode
 from sim.site import load_home
-from wire import Misconfigured, RobotDescription, load_robot
+from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
 
@@ -45,7 +45,7 @@ def _serve(options: argparse.Namespace) -> None:
         os.nice(NICE)
     robot = load_robot(options.robot) if options.robot else RobotDescription()
     if robot.camera.kind != "sim":
-        raise Misconfigured(
+        raise ConfigError(
             "camera_not_simulated", f"camera.kind is {robot.camera.kind!r}; this one draws 'sim'"
         )
     camera = SimCamera(load_home(options.site), robot.camera, seed=options.seed)
@@ -64,7 +64,7 @@ def main(arguments: list[str] | None = None) -> int:
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     try:
         _serve(_options(arguments))
-    except Misconfigured as error:
+    except ConfigError as error:
         print(f"camera: {error}", file=sys.stderr)
         return error.exit_status
     return 0

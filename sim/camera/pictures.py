@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import cv2
 import numpy as np
 
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,5 +38,5 @@ def depth_png(frame: Frame) -> bytes:
 def _encode(kind: str, picture: NDArray[Any], options: list[int]) -> bytes:
     done, data = cv2.imencode(kind, picture, options)
     if not done:
-        raise Misconfigured("no_codec", f"this OpenCV cannot write {kind}")
+        raise ConfigError("no_codec", f"this OpenCV cannot write {kind}")
     return bytes(data)

@@ -96,7 +96,7 @@ def _furniture(home: Home, look: Appearance, item_id: str, item: Furniture) -> I
         along, across = shape.x1 - shape.x0, shape.y1 - shape.y0
         turned = abs(abs(front) - radians(90)) < 0.1
         size = (across, along, item.height_m) if turned else (along, across, item.height_m)
-    draw = _how(item_id, class_id, round_=isinstance(shape, Disc))
+    draw = _choose_draw(item_id, class_id, round_=isinstance(shape, Disc))
     colours = coat(look, item_id, _wears(class_id, size), item.color)
     return Instance(item_id, class_id, tuple(draw(size, colours)), pose)
 
@@ -105,7 +105,7 @@ def _wears(class_id: str, size: Size) -> str:
     return "armchair" if class_id == "chair" and size[0] > 0.5 else class_id
 
 
-def _how(item_id: str, class_id: str, *, round_: bool) -> Draw:
+def _choose_draw(item_id: str, class_id: str, *, round_: bool) -> Draw:
     if class_id == "tv":
         return tv
     if class_id == "table" and round_:

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from sim.site import stale, write
-from wire import Misconfigured
+from wire import ConfigError
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -22,7 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     try:
         changed = {folder: (stale if options.check else write)(folder) for folder in folders}
-    except Misconfigured as error:
+    except ConfigError as error:
         print(error, file=sys.stderr)
         return 2
     for folder, names in changed.items():

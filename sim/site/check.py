@@ -17,7 +17,7 @@ from sim.site.outline import allowed_rects, area_m2, edge_distance_m, trace
 from sim.site.plan import door_edge, furniture, rect, room_rects, solids, walls
 from sim.site.raster import draw, mark_inside, mark_near, reachable
 from sim.site.shapes import EPS_M, Rect, Solid
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from sim.site.spec import Home, HomePlace, PoseDeg, Room
@@ -36,13 +36,13 @@ def check(home: Home, where: str) -> None:
     """Judge a whole home, cheap things first.
 
     Raises:
-        Misconfigured: with the first finding's code; all findings of that stage stand in the text.
+        ConfigError: with the first finding's code; all findings of that stage stand in the text.
     """
     for stage in (_names, _plan, check_things, _places, _reach):
         findings = list(stage(home))
         if findings:
             text = "; ".join(detail for _, detail in findings)
-            raise Misconfigured(findings[0][0], f"{where}: {text}")
+            raise ConfigError(findings[0][0], f"{where}: {text}")
 
 
 def spots(home: Home) -> dict[str, PoseDeg]:

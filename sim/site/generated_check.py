@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from sim.site.files import site_files
 from sim.site.load import is_declared, load_home
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,11 +29,11 @@ def check_fresh(site_dir: Path) -> None:
     """Refuse a home whose map, places or fence differ from its declaration.
 
     Raises:
-        Misconfigured: ``site_stale``, or what ``load_home`` raises.
+        ConfigError: ``site_stale``, or what ``load_home`` raises.
     """
     names = stale(site_dir)
     if names:
-        raise Misconfigured(
+        raise ConfigError(
             "site_stale",
             f"{site_dir}: {', '.join(names)} do not follow from home.yaml; "
             "run `python -m sim.site` to write them anew",

@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from sim.site.check import check
 from sim.site.mapped import MAP_FILE, mapped_home
 from sim.site.spec import Home
-from wire import Misconfigured
+from wire import ConfigError
 from wire.plain_file import read_plain_file
 from wire.robot import explain
 
@@ -71,16 +71,16 @@ def parse_home(text: str, where: str) -> Home:
     The same text gives the same home: where many robots drive, each asks for it (0.1 s).
 
     Raises:
-        Misconfigured: ``home_syntax``, ``home_invalid`` or one of check.py's codes.
+        ConfigError: ``home_syntax``, ``home_invalid`` or one of check.py's codes.
     """
     try:
         raw = yaml.load(text, Loader=_OnceLoader)
     except UNREADABLE as error:
-        raise Misconfigured("home_syntax", f"{where}: {' '.join(str(error).split())}") from None
+        raise ConfigError("home_syntax", f"{where}: {' '.join(str(error).split())}") from None
     try:
         home = Home.model_validate(raw)
     except ValidationError as error:
-        raise Misconfigured("home_invalid", f"{where}: {explain(error)}") from None
+        raise ConfigError("home_invalid", f"{where}: {explain(error)}") from None
     check(home, where)
     return home
 
@@ -94,7 +94,7 @@ def load_home(site_dir: Path) -> Home:
     """Read ``<site_dir>/home.yaml`` and check it; without one, make the home of the site's map.
 
     Raises:
-        Misconfigured: ``home_missing``, ``home_site_mismatch`` (the folder has another name than
+        ConfigError: ``home_missing``, ``home_site_mismatch`` (the folder has another name than
             the spec says) or what ``parse_home`` and ``mapped_home`` raise.
     """
     path = site_dir / SPEC_FILE
@@ -103,10 +103,10 @@ def load_home(site_dir: Path) -> Home:
     try:
         text = read_plain_file(path, MOST_BYTES).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise Misconfigured("home_missing", f"{path}: {error}") from None
+        raise ConfigError("home_missing", f"{path}: {error}") from None
     home = parse_home(text, str(path))
     if home.site != site_dir.resolve().name:
-        raise Misconfigured(
+        raise ConfigError(
             "home_site_mismatch",
             f"{path}: site is {home.site!r} but its folder is {site_dir.resolve().name!r}",
         )

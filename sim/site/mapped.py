@@ -17,7 +17,7 @@ from maps import OCCUPIED, load_map
 from maps.cell_array import cell_array
 from maps.yaml_records import Record, parse_yaml, read_bytes
 from sim.site.spec import Furniture, Home, HomePlace, HomeWall, Name, Room
-from wire import Misconfigured
+from wire import ConfigError
 from wire.geometry import Pose2
 
 if TYPE_CHECKING:
@@ -55,22 +55,22 @@ def mapped_home(site_dir: Path) -> Home:
 
     Raises:
         SiteError: map or places can't be read.
-        Misconfigured: ``map_too_ragged``, ``map_far`` or ``dock_unknown``.
+        ConfigError: ``map_too_ragged``, ``map_far`` or ``dock_unknown``.
     """
     grid = load_map(site_dir / MAP_FILE).grid
     path = site_dir / PLACES_FILE
     spots = parse_yaml(read_bytes(path), _Spots, path)
     dock = next((spot.pose for spot in spots.places if spot.id == spots.home), None)
     if dock is None:
-        raise Misconfigured("dock_unknown", f"{path}: home {spots.home!r} is no place of it")
+        raise ConfigError("dock_unknown", f"{path}: home {spots.home!r} is no place of it")
     boxes = wall_boxes(grid)
     if len(boxes) > MOST_BOXES:
         text = f"{site_dir}: its walls make {len(boxes)} boxes; at most {MOST_BOXES} are simulated"
-        raise Misconfigured("map_too_ragged", text)
+        raise ConfigError("map_too_ragged", text)
     around = _around(grid)
     if max(map(abs, around)) > _BOUNDS_M:
         text = f"{site_dir}: it reaches to {max(map(abs, around)):.0f} m; at most {_BOUNDS_M:g}"
-        raise Misconfigured("map_far", text)
+        raise ConfigError("map_far", text)
     wall = HomeWall()
     at = (dock.x_m, dock.y_m, degrees(dock.yaw_rad))
     return Home(

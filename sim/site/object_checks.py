@@ -31,7 +31,7 @@ def check_things(home: Home) -> Iterator[Finding]:
     for object_id, item in home.objects.items():
         title = f"object {object_id!r} at {list(item.at)}"
         if item.class_id == "door":
-            yield from _hung(home, title, item)
+            yield from _check_hung(home, title, item)
         elif isinstance(item.on, str):
             yield from _check_support(home, title, item)
         else:
@@ -68,7 +68,7 @@ def _contains(outer: Shape, inner: Shape) -> bool:
     return all(outer.distance(*corner) <= EPS_M for corner in corners)
 
 
-def _hung(home: Home, title: str, item: Object) -> Iterator[Finding]:
+def _check_hung(home: Home, title: str, item: Object) -> Iterator[Finding]:
     """Check that one wall holds a door in its whole breadth."""
     for wall in walls(home):
         area = wall.shape.bounds

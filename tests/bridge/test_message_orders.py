@@ -16,7 +16,7 @@ from bridge.link import BridgeLink
 from tests.bridge.core.fake_planner import MAP_ID, PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
-from tools.lockstep import Bus
+from tools.lockstep import LockstepBus
 from wire import (
     VIRTUAL_KEY,
     Grant,
@@ -93,7 +93,7 @@ class Door:
 
     def __init__(self, world: World) -> None:
         self.world = world
-        self.bus = Bus(1, {})
+        self.bus = LockstepBus(1, {})
         self.link = BridgeLink(cast("Session", self.bus.port(Party.BRIDGE)), "r1", VIRTUAL_KEY)
         others = self.bus.port(Party.PLANNER)
         self.publishers = {

@@ -11,7 +11,7 @@ import pytest
 
 from planner.__main__ import _access
 from processes import priority
-from wire import Misconfigured
+from wire import ConfigError
 
 
 def test_it_takes_its_share_before_it_opens_anything(
@@ -38,7 +38,7 @@ def test_a_token_has_sixteen_characters_that_are_no_blanks(
 ) -> None:
     monkeypatch.setenv("PONS_OPERATOR_TOKEN", "a good and long token")
     monkeypatch.setenv(name, token)
-    with pytest.raises(Misconfigured, match="token_too_short"):
+    with pytest.raises(ConfigError, match="token_too_short"):
         _access("127.0.0.1", speaks_tls=False)
 
 

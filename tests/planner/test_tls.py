@@ -14,7 +14,7 @@ from cryptography.hazmat.primitives import serialization
 from planner import tls
 from planner.__main__ import REFUSED, main
 from pons.authority import issue
-from wire import Misconfigured
+from wire import ConfigError
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_a_key_that_all_may_read_is_refused(pems: Path, tmp_path: Path) -> None:
     key = tmp_path / "open.pem"
     key.write_bytes((pems / "one.pem").read_bytes())
     key.chmod(0o604)
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         tls.context(key, key)
     assert refused.value.code == "tls_key_open"
     key.chmod(0o640)  # a group of its own, as distributions have it
@@ -78,7 +78,7 @@ def test_without_a_pair_there_is_no_tls() -> None:
 
 def test_a_private_key_is_never_given_out_as_the_authority(pems: Path) -> None:
     for name in ("one.pem", "noise.pem"):
-        with pytest.raises(Misconfigured) as refused:
+        with pytest.raises(ConfigError) as refused:
             tls.authority(pems / name)
         assert refused.value.code == "tls_malformed"
     public = pems / "one" / "tls" / "ca.crt"

@@ -15,7 +15,7 @@ import pytest
 from planner.plan import GoalState
 from pons import goals
 from pons.__main__ import main, parser
-from pons.settings import Settings, load
+from pons.settings import LaunchSettings, load
 from pons.terminal_text import how_to_answer
 from tests.planner.api.serving import served as real_planner
 
@@ -47,7 +47,7 @@ class Planner:
 
 
 @pytest.fixture
-def served() -> Iterator[tuple[Planner, Settings]]:
+def served() -> Iterator[tuple[Planner, LaunchSettings]]:
     planner = Planner()
 
     class Handler(BaseHTTPRequestHandler):
@@ -88,7 +88,7 @@ WAITS = ("needs_clarification", "awaiting_confirmation")
     [(["yes"], "yes"), (["g2", "好的"], "好的"), (["to", "the", "kitchen"], "to the kitchen")],
 )
 def test_the_one_goal_that_waits_is_answered_and_followed(
-    served: tuple[Planner, Settings], state: str, words: list[str], text: str
+    served: tuple[Planner, LaunchSettings], state: str, words: list[str], text: str
 ) -> None:
     planner, settings = served
     planner.goals = [goal("g3", "running"), goal("g2", state), goal("g1", "succeeded")]
@@ -97,7 +97,7 @@ def test_the_one_goal_that_waits_is_answered_and_followed(
 
 
 def test_of_several_none_is_answered_and_each_is_listed_with_its_question(
-    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str]
+    served: tuple[Planner, LaunchSettings], capsys: pytest.CaptureFixture[str]
 ) -> None:
     planner, settings = served
     chinese = goal("g1", WAITS[0], "去厨房", outcome=ASKED)
@@ -114,7 +114,7 @@ def test_of_several_none_is_answered_and_each_is_listed_with_its_question(
 
 @pytest.mark.parametrize("verb", ["answer", "confirm"])
 def test_where_nothing_waits_that_is_told(
-    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str], verb: str
+    served: tuple[Planner, LaunchSettings], capsys: pytest.CaptureFixture[str], verb: str
 ) -> None:
     planner, settings = served
     planner.goals = [goal("g1", "running")]
@@ -130,7 +130,7 @@ def test_where_nothing_waits_that_is_told(
 
 @pytest.mark.parametrize("named", [None, "g2"])
 def test_a_plan_is_confirmed_though_a_question_waits_beside_it(
-    served: tuple[Planner, Settings], named: str | None
+    served: tuple[Planner, LaunchSettings], named: str | None
 ) -> None:
     planner, settings = served
     planner.goals = [goal("g1", WAITS[0]), goal("g2", WAITS[1])]
@@ -139,7 +139,7 @@ def test_a_plan_is_confirmed_though_a_question_waits_beside_it(
 
 
 def test_an_id_alone_answers_nothing(
-    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str]
+    served: tuple[Planner, LaunchSettings], capsys: pytest.CaptureFixture[str]
 ) -> None:
     planner, settings = served
     planner.goals = [goal("g2", WAITS[0])]
@@ -172,7 +172,7 @@ def test_a_goal_that_waits_says_how_to_answer_it(state: str, language: str) -> N
 
 
 def test_a_goal_that_ends_in_a_question_prints_how_to_answer(
-    served: tuple[Planner, Settings], capsys: pytest.CaptureFixture[str]
+    served: tuple[Planner, LaunchSettings], capsys: pytest.CaptureFixture[str]
 ) -> None:
     planner, settings = served
     planner.goals, planner.done = [goal("g1", WAITS[0], outcome=ASKED)], WAITS[0]

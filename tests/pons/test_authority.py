@@ -14,7 +14,7 @@ import pytest
 from cryptography import x509
 
 from pons.authority import AUTHORITY_LIFE, CERTIFICATE_LIFE, RENEW_BEFORE, IssuedCertificate, issue
-from wire import Misconfigured
+from wire import ConfigError
 
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
 FOUND = ("localhost", "127.0.0.1", "::1", "carrier", "carrier.local", "192.168.1.7", "fd00::2")
@@ -27,7 +27,7 @@ def issued(
 
 
 def refused(home: Path, *asked: str, now: datetime = NOW) -> str:
-    with pytest.raises(Misconfigured) as why:
+    with pytest.raises(ConfigError) as why:
         issued(home, *asked, now=now)
     return why.value.code
 

@@ -9,7 +9,7 @@ import pytest
 from bridge.braking_file import path_of, write_learnt
 from bridge.core.state_motion import Learnt
 from pons import braking
-from pons.settings import Settings
+from pons.settings import LaunchSettings
 from pons.terminal_text import braking_line, robot_lines
 from tests.wire.examples import STATUS
 from wire import load_robot
@@ -18,12 +18,12 @@ from wire.sockets import Claim
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> Settings:
+def settings(tmp_path: Path) -> LaunchSettings:
     (tmp_path / "robot.toml").write_text('id = "r7"\n')
-    return Settings(tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 1)
+    return LaunchSettings(tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 1)
 
 
-def keep(settings: Settings) -> Path:
+def keep(settings: LaunchSettings) -> Path:
     robot = load_robot(settings.robot)
     path = path_of(settings.home, robot)
     write_learnt(path, robot, Learnt(lag_more_s=0.04, decel_share=0.8, stops=3))
@@ -31,7 +31,7 @@ def keep(settings: Settings) -> Path:
 
 
 def test_it_shows_both_what_is_configured_and_what_counts(
-    settings: Settings, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert braking.run(settings, forget=False) == 0
     assert "no stop has been judged" in capsys.readouterr().out
@@ -43,7 +43,7 @@ def test_it_shows_both_what_is_configured_and_what_counts(
 
 
 def test_it_forgets_only_while_no_bridge_runs(
-    settings: Settings, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = keep(settings)
     bridge = Claim(settings.home, Party.BRIDGE)
@@ -56,7 +56,7 @@ def test_it_forgets_only_while_no_bridge_runs(
 
 
 def test_a_wrong_robot_toml_is_named(
-    settings: Settings, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:
     settings.robot.write_text("max_sped = 1\n")
     assert braking.run(settings, forget=False) == 2
@@ -64,7 +64,7 @@ def test_a_wrong_robot_toml_is_named(
 
 
 def test_an_unreadable_file_is_shown(
-    settings: Settings, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:
     keep(settings).write_text("nonsense")
     assert braking.run(settings, forget=False) == 0

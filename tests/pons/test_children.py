@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pons.settings import CHECKOUT, Settings
+from pons.settings import CHECKOUT, LaunchSettings
 from pons.supervisor import REFUSED_TO_START
 from pons.up import brain_example, children
 from wire import RobotDescription
@@ -23,7 +23,7 @@ ROBOT = ["sim", "localization", "bridge", "planner"]
 def test_the_simulated_camera_waits_until_the_rest_is_ready(
     tmp_path: Path, kind: str, expected: list[str]
 ) -> None:
-    settings = Settings(tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420)
+    settings = LaunchSettings(tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420)
     robot = RobotDescription.model_validate({"camera": {"kind": kind}})
     found = children(settings, robot)
     assert [child.name for child in found] == expected
@@ -40,7 +40,7 @@ def test_no_child_calls_a_home_that_cannot_be_written_a_wrong_setting(
     home = tmp_path / "home"
     home.write_text("a file where a folder should be")
     site = CHECKOUT / "sites" / "two_room"
-    settings = Settings(home, CHECKOUT / "robot.toml", site, "127.0.0.1", free_port)
+    settings = LaunchSettings(home, CHECKOUT / "robot.toml", site, "127.0.0.1", free_port)
     (child,) = (one for one in children(settings, RobotDescription()) if one.name == name)
     done = subprocess.run(
         [sys.executable, "-m", *child.arguments],

@@ -11,7 +11,7 @@ import pytest
 from pons import fence
 from pons.bridge_client import NoBridge
 from pons.http import PlannerDown, PlannerProblem
-from pons.settings import CHECKOUT, Settings
+from pons.settings import CHECKOUT, LaunchSettings
 from wire import Answer, FenceFile, fingerprint
 from wire.fence import fence_text
 
@@ -40,7 +40,7 @@ class Planner:
                      "diff": LYING}  # fmt: skip
         self.trouble: Exception | None = None
 
-    def call(self, _: Settings, method: str, path: str, body: Any = None) -> Any:
+    def call(self, _: LaunchSettings, method: str, path: str, body: Any = None) -> Any:
         self.calls.append((method, path, body))
         if self.trouble is not None:
             raise self.trouble
@@ -62,7 +62,7 @@ def planner(monkeypatch: pytest.MonkeyPatch) -> Planner:
 def offered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     sent: list[str] = []
 
-    def offer(_: Settings, text: str) -> Answer:
+    def offer(_: LaunchSettings, text: str) -> Answer:
         sent.append(text)
         return Answer(id="x", kind="fence", accepted=True, code="ok", detail="a -> b")
 
@@ -71,14 +71,14 @@ def offered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> Settings:
-    return Settings(tmp_path, CHECKOUT / "robot.toml", SITE, "127.0.0.1", 1)
+def settings(tmp_path: Path) -> LaunchSettings:
+    return LaunchSettings(tmp_path, CHECKOUT / "robot.toml", SITE, "127.0.0.1", 1)
 
 
 def test_accepting_signs_the_text_read_and_shows_what_it_changes(
     planner: Planner,
     offered: list[str],
-    settings: Settings,
+    settings: LaunchSettings,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert fence.run(settings, "accept", NAME) == 0
@@ -93,7 +93,7 @@ def test_accepting_signs_the_text_read_and_shows_what_it_changes(
 def test_a_planner_that_changed_the_text_after_review_is_found_out(
     planner: Planner,
     offered: list[str],
-    settings: Settings,
+    settings: LaunchSettings,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     planner.item["text"] = TEXT.replace("0.4", "0.3")
@@ -103,7 +103,7 @@ def test_a_planner_that_changed_the_text_after_review_is_found_out(
 
 
 def test_a_text_that_is_no_fence_is_not_signed(
-    planner: Planner, offered: list[str], settings: Settings
+    planner: Planner, offered: list[str], settings: LaunchSettings
 ) -> None:
     planner.item["text"] = "{}"
     assert fence.run(settings, "accept", fingerprint(b"{}")) == 3
@@ -112,7 +112,7 @@ def test_a_text_that_is_no_fence_is_not_signed(
 
 def test_the_bridge_s_refusal_is_shown(
     planner: Planner,
-    settings: Settings,
+    settings: LaunchSettings,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -123,7 +123,7 @@ def test_the_bridge_s_refusal_is_shown(
     assert "not_disarmed: mode is HOLD" in capsys.readouterr().err
 
 
-def test_a_file_is_proposed(planner: Planner, settings: Settings, tmp_path: Path) -> None:
+def test_a_file_is_proposed(planner: Planner, settings: LaunchSettings, tmp_path: Path) -> None:
     file = tmp_path / "new.json"
     file.write_text(json.dumps(CHANGED))
     assert fence.run(settings, "propose", str(file)) == 0
@@ -141,7 +141,7 @@ def test_a_file_is_proposed(planner: Planner, settings: Settings, tmp_path: Path
 )
 def test_a_file_that_is_no_fence_is_named(
     planner: Planner,
-    settings: Settings,
+    settings: LaunchSettings,
     tmp_path: Path,
     write: Callable[[Path], object],
     code: str,
@@ -155,7 +155,7 @@ def test_a_file_that_is_no_fence_is_named(
 
 
 def test_showing_lists_what_waits_and_one_proposal_s_text(
-    planner: Planner, settings: Settings, capsys: pytest.CaptureFixture[str]
+    planner: Planner, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert fence.run(settings, "show", None) == 0
     shown = capsys.readouterr().out
@@ -166,14 +166,14 @@ def test_showing_lists_what_waits_and_one_proposal_s_text(
     assert planner.calls[-1][1].endswith(NAME)
 
 
-def test_rejecting_is_the_planner_s_business(planner: Planner, settings: Settings) -> None:
+def test_rejecting_is_the_planner_s_business(planner: Planner, settings: LaunchSettings) -> None:
     assert fence.run(settings, "reject", NAME) == 0
     assert planner.calls == [("POST", f"/v1/fence/proposals/{NAME}/reject", {"source": "cli"})]
 
 
 @pytest.mark.parametrize("act", ["propose", "accept", "reject"])
 def test_an_order_without_its_object_is_said(
-    planner: Planner, settings: Settings, act: str
+    planner: Planner, settings: LaunchSettings, act: str
 ) -> None:
     assert fence.run(settings, act, None) == 2
     assert planner.calls == []
@@ -185,7 +185,7 @@ def test_an_order_without_its_object_is_said(
      (NoBridge("no_bridge: none."), 6)],
 )  # fmt: skip
 def test_who_does_not_answer_is_said(
-    planner: Planner, settings: Settings, trouble: Exception, status: int
+    planner: Planner, settings: LaunchSettings, trouble: Exception, status: int
 ) -> None:
     planner.trouble = trouble
     assert fence.run(settings, "accept", NAME) == status

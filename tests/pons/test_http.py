@@ -15,7 +15,7 @@ import pytest
 from planner.tls import MARK
 from pons.authority import issue
 from pons.http import AUTHORITY, PlannerDown, call
-from pons.settings import PLANNER_MARK, BadSetting, Settings, load
+from pons.settings import PLANNER_MARK, BadSetting, LaunchSettings, load
 
 
 class Answers(http.server.BaseHTTPRequestHandler):
@@ -40,7 +40,7 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def planner(home: Path) -> Iterator[Settings]:
+def planner(home: Path) -> Iterator[LaunchSettings]:
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
     context.load_cert_chain(home / "tls" / "planner.pem")
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Answers)
@@ -48,24 +48,26 @@ def planner(home: Path) -> Iterator[Settings]:
     server.socket = context.wrap_socket(server.socket, server_side=True)
     thread = threading.Thread(target=server.serve_forever, args=(0.01,))
     thread.start()
-    yield Settings(home, home, home, "127.0.0.1", server.server_address[1], tls=True)
+    yield LaunchSettings(home, home, home, "127.0.0.1", server.server_address[1], tls=True)
     server.shutdown()
     thread.join()
     server.server_close()
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "0.0.0.0"])
-def test_the_homes_own_authority_is_trusted(planner: Settings, host: str) -> None:
+def test_the_homes_own_authority_is_trusted(planner: LaunchSettings, host: str) -> None:
     assert call(replace(planner, host=host), "GET", "/") == {"secure": True}
 
 
-def test_a_copy_of_the_authority_serves_elsewhere(planner: Settings, tmp_path: Path) -> None:
+def test_a_copy_of_the_authority_serves_elsewhere(planner: LaunchSettings, tmp_path: Path) -> None:
     copy = tmp_path / "ca.crt"
     copy.write_bytes((planner.home / AUTHORITY).read_bytes())
     assert call(replace(planner, home=tmp_path, authority=copy), "GET", "/") == {"secure": True}
 
 
-def test_an_authority_that_is_not_known_is_not_trusted(planner: Settings, tmp_path: Path) -> None:
+def test_an_authority_that_is_not_known_is_not_trusted(
+    planner: LaunchSettings, tmp_path: Path
+) -> None:
     with pytest.raises(PlannerDown, match=r"not trusted.*PONS_CA"):
         call(replace(planner, home=tmp_path), "GET", "/")
     issue(tmp_path, "carrier", (), ("localhost",), datetime.now(UTC))
@@ -73,14 +75,14 @@ def test_an_authority_that_is_not_known_is_not_trusted(planner: Settings, tmp_pa
         call(replace(planner, home=tmp_path), "GET", "/")
 
 
-def test_a_file_that_is_no_authority_is_named(planner: Settings, tmp_path: Path) -> None:
+def test_a_file_that_is_no_authority_is_named(planner: LaunchSettings, tmp_path: Path) -> None:
     for wrong in (tmp_path / "gone.crt", tmp_path / "noise.crt"):
         (tmp_path / "noise.crt").write_text("noise")
         with pytest.raises(PlannerDown, match=wrong.name):
             call(replace(planner, authority=wrong), "GET", "/")
 
 
-def test_nothing_is_said_in_clear_to_a_planner_that_speaks_tls(planner: Settings) -> None:
+def test_nothing_is_said_in_clear_to_a_planner_that_speaks_tls(planner: LaunchSettings) -> None:
     with pytest.raises(PlannerDown):
         call(replace(planner, tls=False), "GET", "/")
 
@@ -108,4 +110,4 @@ def test_settings_follow_the_environment_and_then_the_planner(
 def test_a_planner_that_listens_everywhere_is_asked_here(
     tmp_path: Path, host: str, url: str
 ) -> None:
-    assert Settings(tmp_path, tmp_path, tmp_path, host, 1).url == url
+    assert LaunchSettings(tmp_path, tmp_path, tmp_path, host, 1).url == url

@@ -10,7 +10,7 @@ import pytest
 from planner.site.taught_places import TaughtFile
 from pons import places
 from pons.http import PlannerDown, PlannerProblem
-from pons.settings import Settings, load
+from pons.settings import LaunchSettings, load
 
 CORNER: dict[str, Any] = {
     "id": "corner",
@@ -42,7 +42,7 @@ class Planner:
         self.answer = answer
         self.asked: list[tuple[Any, ...]] = []
 
-    def __call__(self, _: Settings, *asked: Any) -> Any:
+    def __call__(self, _: LaunchSettings, *asked: Any) -> Any:
         self.asked.append(asked)
         if isinstance(self.answer, Exception):
             raise self.answer

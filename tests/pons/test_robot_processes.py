@@ -8,7 +8,7 @@ import psutil
 import pytest
 
 from pons.robot_processes import BODY, ProcessGone, RobotProcesses
-from pons.settings import CHECKOUT, Settings
+from pons.settings import CHECKOUT, LaunchSettings
 from tests.e2e.polling import until
 
 IDLE = "import sys, time\nprint(*sys.argv[1:], flush=True)\ntime.sleep(600)\n"
@@ -21,7 +21,7 @@ def described(home: Path, port: int) -> RobotProcesses:
     site = CHECKOUT / "sites" / "two_room"
     names = (*BODY, "planner")
     found = RobotProcesses(
-        Settings(home, CHECKOUT / "robot.toml", site, "127.0.0.1", port),
+        LaunchSettings(home, CHECKOUT / "robot.toml", site, "127.0.0.1", port),
         names,
         modules=dict.fromkeys(names, "idle"),
         arguments={"sim": ("--start", "1")},

@@ -9,14 +9,14 @@ import pytest
 
 from planner.site import Site
 from pons import site
-from pons.settings import Settings, site_of
+from pons.settings import LaunchSettings, site_of
 from pons_assets import ROBOT_FILE
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> Settings:
+def settings(tmp_path: Path) -> LaunchSettings:
     """Return a home of its own."""
-    return Settings(
+    return LaunchSettings(
         home=tmp_path / "home", robot=ROBOT_FILE, site=tmp_path, host="127.0.0.1", port=1
     )
 
@@ -32,7 +32,7 @@ def plan(tmp_path: Path, repository: Path) -> Path:
 
 
 def test_unknown_floor_needs_a_persons_word(
-    settings: Settings, plan: Path, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert site.run(settings, ["import", str(plan), "mine"]) == 3
     said = capsys.readouterr().err
@@ -44,7 +44,7 @@ def test_unknown_floor_needs_a_persons_word(
 
 
 def test_a_proposed_room_gets_a_name_and_is_a_place(
-    settings: Settings, plan: Path, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
     before = Site.load(site_of("mine", settings.home)).map_id
@@ -76,7 +76,7 @@ def test_a_proposed_room_gets_a_name_and_is_a_place(
     ],
 )
 def test_what_cannot_be_is_refused_by_name(
-    settings: Settings,
+    settings: LaunchSettings,
     plan: Path,
     capsys: pytest.CaptureFixture[str],
     words: list[str],
@@ -89,13 +89,13 @@ def test_what_cannot_be_is_refused_by_name(
     assert code in capsys.readouterr().err
 
 
-def test_our_own_sites_are_well(settings: Settings) -> None:
+def test_our_own_sites_are_well(settings: LaunchSettings) -> None:
     assert site.run(settings, ["check", "home"]) == 0
     assert site.run(settings, ["check", "two_room"]) == 0
     assert site.run(settings, ["list"]) == 0
 
 
-def test_a_site_is_found_by_path_then_at_home_then_among_ours(settings: Settings) -> None:
+def test_a_site_is_found_by_path_then_at_home_then_among_ours(settings: LaunchSettings) -> None:
     own = settings.home / "sites" / "two_room"
     assert site_of("two_room", settings.home).parent.name == "sites"
     assert site_of("two_room", settings.home) != own

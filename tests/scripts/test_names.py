@@ -16,7 +16,7 @@ def found_in(**sources: str) -> set[str]:
 
 def test_nothing_new_breaks_the_rules_and_the_list_holds_nothing_that_is_gone() -> None:
     try:
-        found = names.findings(names.tracked())
+        found = names.findings(names.read_tracked())
     except (FileNotFoundError, subprocess.CalledProcessError):
         pytest.skip("not a git checkout")
     here, known = names.counts(found), names.read_known(names.KNOWN.read_text("utf-8"))

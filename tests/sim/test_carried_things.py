@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from sim import SimRobot
-from wire import Misconfigured, Pose2, SimControl, SimThing
+from wire import ConfigError, Pose2, SimControl, SimThing
 
 BEFORE_RESIDENT = Pose2(0.5, 6.5, pi / 2)
 
@@ -59,6 +59,6 @@ def test_the_scene_tells_where_things_are_that_somebody_moved(robot: SimRobot) -
 
 @pytest.mark.parametrize("name", ["cat", "front_door", "sofa"])
 def test_what_nobody_can_carry_is_refused_with_what_there_is(robot: SimRobot, name: str) -> None:
-    with pytest.raises(Misconfigured, match=rf"obstacle_unknown: .*'{name}'.*person_0.*red_cup"):
+    with pytest.raises(ConfigError, match=rf"obstacle_unknown: .*'{name}'.*person_0.*red_cup"):
         robot.place_thing(name, None)
     assert robot.scene(0.0).things == ()

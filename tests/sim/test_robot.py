@@ -12,10 +12,10 @@ import pytest
 
 from sim import OBSTACLES, Hardware, Report, SimRobot
 from wire import (
+    ConfigError,
     DriveCommand,
     DriveState,
     Imu,
-    Misconfigured,
     Pose2,
     RobotDescription,
     Scan,
@@ -302,7 +302,7 @@ def test_a_deaf_drive_stops_by_itself(driver: Driver) -> None:
 
 
 def test_an_unknown_obstacle_is_refused_with_those_that_exist(driver: Driver) -> None:
-    with pytest.raises(Misconfigured, match=r"obstacle_unknown: .*'cat'.*person_0, person_1"):
+    with pytest.raises(ConfigError, match=r"obstacle_unknown: .*'cat'.*person_0, person_1"):
         driver.robot.place_obstacle(1.0, 1.0, name="cat")
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from sim.hardware import Hardware
 from sim.true_parameters import load_metal, true_base
-from wire import Misconfigured
+from wire import ConfigError
 from wire.robot import Base
 
 
@@ -37,13 +37,13 @@ def test_what_is_left_out_is_as_always(tmp_path: Path) -> None:
     ],
 )
 def test_what_cannot_be_is_refused(tmp_path: Path, text: str, code: str, said: str) -> None:
-    with pytest.raises(Misconfigured, match=said) as refused:
+    with pytest.raises(ConfigError, match=said) as refused:
         load_metal(written(tmp_path, text))
     assert refused.value.code == code
 
 
 def test_a_missing_file_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured, match="No such file"):
+    with pytest.raises(ConfigError, match="No such file"):
         load_metal(tmp_path / "none.toml")
 
 

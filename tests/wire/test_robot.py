@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from wire import Misconfigured, RobotDescription, load_robot
+from wire import ConfigError, RobotDescription, load_robot
 from wire.robot import DriveConfig
 
 
@@ -70,7 +70,7 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
 def test_what_is_unknown_or_unsafe_refuses(
     tmp_path: Path, text: str, code: str, named: str
 ) -> None:
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         load_robot(written(tmp_path, text))
     assert refused.value.code == code
     assert named in refused.value.detail
@@ -90,14 +90,14 @@ def test_what_just_fits_is_taken(tmp_path: Path, text: str) -> None:
 
 
 def test_every_fault_is_named_at_once(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         load_robot(written(tmp_path, "a = 1\nb = 2\n[limits]\nmax_speed_mps = -1.0"))
     for name in ("'a'", "'b'", "limits.max_speed_mps"):
         assert name in refused.value.detail
 
 
 def test_a_missing_file_is_said(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         load_robot(tmp_path / "robot.toml")
     assert refused.value.code == "robot_toml_missing"
 
@@ -105,7 +105,7 @@ def test_a_missing_file_is_said(tmp_path: Path) -> None:
 def test_bytes_that_are_no_text_are_said(tmp_path: Path) -> None:
     path = tmp_path / "robot.toml"
     path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         load_robot(path)
     assert refused.value.code == "robot_toml_syntax"
 

@@ -15,7 +15,7 @@ import pytest
 import zenoh
 
 from tests.wire.examples import EXAMPLES
-from wire import Image, ImageHeader, Misconfigured, Rejected, Scan, Status, Stop, encode
+from wire import ConfigError, Image, ImageHeader, Rejected, Scan, Status, Stop, encode
 from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, CAMERA_COLOR, HEARTBEAT, KEYS, SCAN, STATUS, STOP, Key, Party
 from wire.session import Publisher, Subscriber, open_session
@@ -51,7 +51,7 @@ def test_publishing_to_nobody_is_no_error(tmp_path: Path) -> None:
 
 def test_a_second_process_of_a_kind_is_refused(tmp_path: Path) -> None:
     with open_session(Party.BRIDGE, "r1", tmp_path):
-        with pytest.raises(Misconfigured) as refused:
+        with pytest.raises(ConfigError) as refused:
             open_session(Party.BRIDGE, "r1", tmp_path)
         assert refused.value.code == "already_running"
     open_session(Party.BRIDGE, "r1", tmp_path).close()
@@ -277,7 +277,7 @@ def test_what_zenoh_refuses_is_named_and_the_claim_let_go(
 
     with monkeypatch.context() as patch:
         patch.setattr(zenoh, "open", refuse)
-        with pytest.raises(Misconfigured) as refused:
+        with pytest.raises(ConfigError) as refused:
             open_session(Party.BRIDGE, "r1", tmp_path)
     assert refused.value.code == "socket_in_use"
     open_session(Party.BRIDGE, "r1", tmp_path).close()
@@ -287,7 +287,7 @@ def test_a_path_too_long_lets_the_claim_go(tmp_path: Path) -> None:
     far = tmp_path / ("x" * 120)
     far.mkdir()
     for _ in range(2):
-        with pytest.raises(Misconfigured) as refused:
+        with pytest.raises(ConfigError) as refused:
             open_session(Party.BRIDGE, "r1", far)
         assert refused.value.code != "already_running"
 

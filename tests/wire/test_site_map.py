@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from wire import Misconfigured, map_id
+from wire import ConfigError, map_id
 from wire.site_map import read_map_id
 
 
@@ -28,13 +28,13 @@ def test_quotes_and_comments_are_no_part_of_the_name(tmp_path: Path, line: str) 
 
 
 def test_what_is_missing_is_named(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured, match=r"map_missing: .*map\.yaml"):
+    with pytest.raises(ConfigError, match=r"map_missing: .*map\.yaml"):
         read_map_id(tmp_path)
     (tmp_path / "map.yaml").write_bytes(b"resolution: 0.05\n")
-    with pytest.raises(Misconfigured, match="no line 'image: FILE'"):
+    with pytest.raises(ConfigError, match="no line 'image: FILE'"):
         read_map_id(tmp_path)
     (tmp_path / "map.yaml").write_bytes(b"image: gone.pgm\n")
-    with pytest.raises(Misconfigured, match=r"map_image_missing: .*gone\.pgm"):
+    with pytest.raises(ConfigError, match=r"map_image_missing: .*gone\.pgm"):
         read_map_id(tmp_path)
 
 
@@ -45,7 +45,7 @@ def test_an_image_outside_the_sites_folder_is_refused(tmp_path: Path, name: str)
     (tmp_path / "outside.pgm").write_bytes(b"secret")
     (site / "link.pgm").symlink_to(tmp_path / "outside.pgm")
     (site / "map.yaml").write_text(f"image: {name}\n")
-    with pytest.raises(Misconfigured, match=r"map_image_outside: .*map\.yaml: image"):
+    with pytest.raises(ConfigError, match=r"map_image_outside: .*map\.yaml: image"):
         read_map_id(site)
 
 
@@ -53,16 +53,16 @@ def test_an_image_outside_the_sites_folder_is_refused(tmp_path: Path, name: str)
 def test_what_is_no_file_or_too_large_is_refused_at_once(tmp_path: Path) -> None:
     (tmp_path / "map.yaml").write_bytes(b"image: map.pgm\n")
     os.mkfifo(tmp_path / "map.pgm")
-    with pytest.raises(Misconfigured, match=r"map_image_missing: .*not a regular file"):
+    with pytest.raises(ConfigError, match=r"map_image_missing: .*not a regular file"):
         read_map_id(tmp_path)
     (tmp_path / "map.pgm").unlink()
     with (tmp_path / "map.pgm").open("wb") as file:
         file.truncate(2 << 30)
-    with pytest.raises(Misconfigured, match=r"map_image_missing: .*more than 80000000 bytes"):
+    with pytest.raises(ConfigError, match=r"map_image_missing: .*more than 80000000 bytes"):
         read_map_id(tmp_path)
     with (tmp_path / "map.yaml").open("wb") as file:
         file.truncate(2 << 30)
-    with pytest.raises(Misconfigured, match=r"map_missing: .*more than 100000 bytes"):
+    with pytest.raises(ConfigError, match=r"map_missing: .*more than 100000 bytes"):
         read_map_id(tmp_path)
 
 

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from wire import Misconfigured, Unwritable
+from wire import ConfigError, Unwritable
 from wire.doors import BRIDGE_DOOR, DRIVE_DOOR, SENSES_DOOR
 from wire.keys import Party
 from wire.session import open_session
@@ -44,7 +44,7 @@ time.sleep(60)
 
 def test_a_path_too_long_is_refused_before_anything_is_opened() -> None:
     home = Path("/" + "x" * MAX_SOCKET_PATH)
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         Endpoints(home).locator(BRIDGE_DOOR)
     assert refused.value.code == "socket_path_too_long"
     assert "PONS_HOME" in refused.value.detail
@@ -63,7 +63,7 @@ def test_tcp_takes_the_place_of_the_socket() -> None:
 
 def test_a_second_claim_names_the_first(tmp_path: Path) -> None:
     first = Claim(tmp_path, Party.BRIDGE)
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         Claim(tmp_path, Party.BRIDGE)
     assert refused.value.code == "already_running"
     assert str(os.getpid()) in refused.value.detail
@@ -104,7 +104,7 @@ def test_what_lies_in_a_sockets_way_and_cannot_be_removed_is_named(tmp_path: Pat
 
 def test_only_what_may_pass_ends_a_process_so_that_it_is_started_again() -> None:
     """2 is what ``RestartPreventExitStatus`` says in each unit of deploy/systemd."""
-    assert Misconfigured("robot_toml_invalid", "a wrong key").exit_status == 2
+    assert ConfigError("robot_toml_invalid", "a wrong key").exit_status == 2
     assert Unwritable("home_unwritable", "read-only at present").exit_status == 1
 
 
@@ -120,7 +120,7 @@ def test_a_killed_holder_leaves_no_lock(tmp_path: Path) -> None:
     )
     assert holder.stdout is not None
     assert holder.stdout.readline() == "held\n"
-    with pytest.raises(Misconfigured):
+    with pytest.raises(ConfigError):
         Claim(tmp_path, Party.BRIDGE)
     holder.kill()
     holder.wait()
@@ -196,7 +196,7 @@ def test_a_folder_in_which_others_could_replace_a_socket_is_refused(
         if not exposed:
             stack.callback(Claim(home, Party.BRIDGE).close)
             return
-        with pytest.raises(Misconfigured) as refused:
+        with pytest.raises(ConfigError) as refused:
             Claim(home, Party.BRIDGE)
     assert refused.value.code == "socket_folder_exposed"
     assert str(folder) in refused.value.detail

@@ -165,7 +165,7 @@ def _fence(folder: Path) -> Reader:
     from bridge.fence_file import parse_fence
     from planner.site import SiteError
     from planner.site.fence import load_fence
-    from wire import Misconfigured
+    from wire import ConfigError
 
     path = folder / "input"
 
@@ -174,7 +174,7 @@ def _fence(folder: Path) -> Reader:
         ours = theirs = None
         try:
             ours = parse_fence(data)
-        except Misconfigured as refusal:
+        except ConfigError as refusal:
             theirs = refusal
         load_fence(path)
         return ours or theirs
@@ -185,7 +185,7 @@ def _fence(folder: Path) -> Reader:
 def _toml(folder: Path) -> Reader:
     """Read bytes as robot.toml and as settings.toml; both refuse by the same class."""
     from planner.settings import FILE, load_settings
-    from wire import Misconfigured, load_robot
+    from wire import ConfigError, load_robot
 
     path = folder / FILE
 
@@ -194,13 +194,13 @@ def _toml(folder: Path) -> Reader:
         robot = None
         try:
             robot = load_robot(path)
-        except Misconfigured as refusal:
+        except ConfigError as refusal:
             if not refusal.code:
                 raise Unsound("a refusal without a code") from None
         load_settings(folder, {})
         return robot
 
-    return Reader(read, (Misconfigured,))
+    return Reader(read, (ConfigError,))
 
 
 def _yaml(folder: Path) -> Reader:

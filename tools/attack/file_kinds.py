@@ -74,7 +74,7 @@ def _map() -> Loaded:
 
     from maps.map_file import load_map
     from planner.site import SiteError
-    from wire import Misconfigured
+    from wire import ConfigError
     from wire.site_map import read_map_id
 
     cv2.setNumThreads(1)
@@ -82,7 +82,7 @@ def _map() -> Loaded:
     def read(folder: Path) -> object:
         try:
             name = read_map_id(folder)
-        except Misconfigured:
+        except ConfigError:
             name = ""
         return load_map(folder / "map.yaml"), name
 
@@ -98,9 +98,9 @@ def _places() -> Loaded:
 
 def _home() -> Loaded:
     from sim.site.load import load_home
-    from wire import Misconfigured
+    from wire import ConfigError
 
-    return load_home, (Misconfigured,)
+    return load_home, (ConfigError,)
 
 
 def _fence() -> Loaded:
@@ -108,13 +108,13 @@ def _fence() -> Loaded:
     from bridge.fence_file import load_fence as of_bridge
     from planner.site import SiteError
     from planner.site.fence import load_fence as of_planner
-    from wire import Misconfigured
+    from wire import ConfigError
 
     def read(folder: Path) -> object:
         path = folder / "fence.json"
         try:
             ours = of_bridge(path)
-        except Misconfigured:
+        except ConfigError:
             ours = None
         return ours, of_planner(path)
 
@@ -122,16 +122,16 @@ def _fence() -> Loaded:
 
 
 def _robot() -> Loaded:
-    from wire import Misconfigured, load_robot
+    from wire import ConfigError, load_robot
 
-    return lambda folder: load_robot(folder / "robot.toml"), (Misconfigured,)
+    return lambda folder: load_robot(folder / "robot.toml"), (ConfigError,)
 
 
 def _settings() -> Loaded:
     from planner.settings import load_settings
-    from wire import Misconfigured
+    from wire import ConfigError
 
-    return lambda folder: load_settings(folder, {}), (Misconfigured,)
+    return lambda folder: load_settings(folder, {}), (ConfigError,)
 
 
 def _load_kept_files() -> Loaded:

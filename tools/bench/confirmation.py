@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from contextlib import AbstractContextManager
 
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
     Stop = Callable[[], float | None]
     """Says stop; returns seconds until it was confirmed, None where it was not."""
@@ -38,19 +38,19 @@ HTTP, CLI, PAGE = "HTTP", "CLI", "page's socket"
 
 
 @contextmanager
-def by_http(settings: Settings) -> Iterator[Stop]:
+def by_http(settings: LaunchSettings) -> Iterator[Stop]:
     """Yield a stop by ``POST /v1/stop`` on a new connection."""
     yield lambda: stopped_by_http(settings)
 
 
 @contextmanager
-def by_shell(settings: Settings) -> Iterator[Stop]:
+def by_shell(settings: LaunchSettings) -> Iterator[Stop]:
     """Yield a stop by a new ``pons stop``."""
     yield lambda: stopped_by_shell(settings)
 
 
 @contextmanager
-def by_page(settings: Settings) -> Iterator[Stop]:
+def by_page(settings: LaunchSettings) -> Iterator[Stop]:
     """Open a page's socket and yield a stop over it. Raises Missed where it does not open."""
     url = f"ws://{settings.host}:{settings.port}/v1/events"
     try:
@@ -81,14 +81,14 @@ def by_page(settings: Settings) -> Iterator[Stop]:
         yield confirm
 
 
-WAYS: dict[str, Callable[[Settings], AbstractContextManager[Stop]]] = {
+WAYS: dict[str, Callable[[LaunchSettings], AbstractContextManager[Stop]]] = {
     HTTP: by_http,
     CLI: by_shell,
     PAGE: by_page,
 }
 
 
-def stopped_by_http(settings: Settings, source: str = "bench") -> float | None:
+def stopped_by_http(settings: LaunchSettings, source: str = "bench") -> float | None:
     """Stop over HTTP; return seconds until the answer that it is confirmed."""
     began_s = time.monotonic()
     try:
@@ -99,7 +99,7 @@ def stopped_by_http(settings: Settings, source: str = "bench") -> float | None:
 
 
 def stopped_by_shell(
-    settings: Settings, user: int | None = None, groups: Sequence[int] = ()
+    settings: LaunchSettings, user: int | None = None, groups: Sequence[int] = ()
 ) -> float | None:
     """Run ``pons stop``; return seconds from its start until it says that it is confirmed.
 

@@ -16,7 +16,7 @@ from pons.http import PlannerDown, PlannerProblem
 from tools.bench.parallel import take_in_parallel
 from tools.bench.report import ReportRow
 from tools.bench.store import Store
-from wire import Misconfigured
+from wire import ConfigError
 
 
 class Measure(Protocol):
@@ -35,7 +35,7 @@ class MeasurementFailure(Exception):
     """An event that a measurement waited for did not come in time."""
 
 
-TROUBLE = (MeasurementFailure, Misconfigured, PlannerDown, PlannerProblem, OSError, SubprocessError)
+TROUBLE = (MeasurementFailure, ConfigError, PlannerDown, PlannerProblem, OSError, SubprocessError)
 """What a slice may end in without being a defect of the bench."""
 
 

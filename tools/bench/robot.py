@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.robot_processes import BODY, NOTHING, PATIENCE_S, ProcessGone, RobotProcesses, free_port
-from pons.settings import CHECKOUT, Settings
+from pons.settings import CHECKOUT, LaunchSettings
 from sim import PERIODS
 from tools.bench.context import MeasurementFailure, until
 from wire import VIRTUAL_KEY, Mode, OpKind, SimTruth, Status, load_robot, signed_request
@@ -61,7 +61,7 @@ class BenchRobot:
             limits: keys of robot.toml that are to have other values than the checkout's.
             before: of each process that is to be another user's, the words that make it so.
         """
-        self.settings = Settings(
+        self.settings = LaunchSettings(
             home,
             write_description(home, limits),
             CHECKOUT / "sites" / site,

@@ -13,7 +13,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from bridge.core import step
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -51,12 +51,12 @@ def main(index: int) -> int:
 
 def _drive(index: int) -> dict[str, Any]:
     timed = TimedStep(step)
-    world = Together(site="home", seed=index + 1, step=timed)
+    world = LockstepWorld(site="home", seed=index + 1, step=timed)
     gc.collect()
     gc.freeze()
     gc.disable()
     goal = world.say("go to the kitchen, then the bedroom" if index % 2 else "go to the sofa")
-    while not goal.ended and world.tick_count < MOST_TICKS:
+    while not goal.has_ended and world.tick_count < MOST_TICKS:
         world.tick()
     return {"scan_us": timed.scan_us, "other_us": timed.other_us}
 

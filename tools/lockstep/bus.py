@@ -25,7 +25,7 @@ PARSED_PER_DRAIN = 4
 """As in ``wire.session``: of a key's backlog only the newest are worth parsing."""
 
 
-class Bus:
+class LockstepBus:
     """Join all parts of one world."""
 
     def __init__(self, seed: int, latency: dict[frozenset[Party], tuple[int, int]]) -> None:
@@ -38,7 +38,7 @@ class Bus:
         self._latency = latency
         self._subscribers: dict[str, list[PortSubscriber[Record]]] = {}
         self._listeners: dict[tuple[Party, str], tuple[Listener, ...]] = {}
-        self._ways: dict[tuple[Party, Party], Way] = {}
+        self._ways: dict[tuple[Party, Party], MessagePath] = {}
         self._disturbances: list[Disturbance] = []
 
     def port(self, party: Party) -> Port:
@@ -82,11 +82,11 @@ class Bus:
             if subscriber.party is not sender
         )
 
-    def _way(self, sender: Party, receiver: Party) -> Way:
+    def _way(self, sender: Party, receiver: Party) -> MessagePath:
         way = self._ways.get((sender, receiver))
         if way is None:
             span = self._latency.get(frozenset({sender, receiver}), (0, 0))
-            way = Way(span, Random(f"{self._seed}:{sender}:{receiver}"))
+            way = MessagePath(span, Random(f"{self._seed}:{sender}:{receiver}"))
             self._ways[sender, receiver] = way
         return way
 
@@ -96,7 +96,7 @@ class Bus:
         return next(fitting, QUIET)
 
 
-class Way:
+class MessagePath:
     """Decide when each message from one party to another arrives; order is kept unless spoilt."""
 
     def __init__(self, span_ticks: tuple[int, int], chance: Random) -> None:
@@ -124,7 +124,7 @@ class Way:
 class Port:
     """Be one part's end of the bus, shaped like ``wire.session.Session``."""
 
-    def __init__(self, bus: Bus, party: Party) -> None:
+    def __init__(self, bus: LockstepBus, party: Party) -> None:
         self.bus = bus
         self.party = party
         self.open = True
@@ -209,4 +209,4 @@ class PortSubscriber(Generic[M]):
         return item
 
 
-Listener = tuple[PortSubscriber[Record], Way]
+Listener = tuple[PortSubscriber[Record], MessagePath]

@@ -9,14 +9,14 @@ from tools.lockstep.hostile import HostilePlanner
 from wire import Velocity, Waypoint
 
 if TYPE_CHECKING:
-    from tools.lockstep.together import Together
+    from tools.lockstep.together import LockstepWorld
     from wire import Pose2, Status
 
 
 class ConstantDrive(HostilePlanner):
     """Own the robot and keep asking for the same arc."""
 
-    def __init__(self, world: Together) -> None:
+    def __init__(self, world: LockstepWorld) -> None:
         super().__init__(world, 0)
         self.mood, self.until_s = "steady", float("inf")
         self.metres, self.by_hand = 60.0, False

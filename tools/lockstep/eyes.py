@@ -26,14 +26,14 @@ if TYPE_CHECKING:
 
     from planner.perception.snapshot import Detection
     from sim import SimRobot
-    from tools.lockstep.scene import Scene
+    from tools.lockstep.scene import LockstepScene
 
 PERIOD_TICKS, LATE_TICKS = 20, 12
 """5 Hz, and 0.12 s from the picture to the sight."""
 
 
 @dataclass(frozen=True, slots=True)
-class Taken:
+class PendingLook:
     """Hold one picture that is being thought upon."""
 
     due: int
@@ -44,12 +44,12 @@ class Taken:
 class PerceptionProcess:
     """See for one planner after the other."""
 
-    def __init__(self, scene: Scene, finder: Finder) -> None:
+    def __init__(self, scene: LockstepScene, finder: Finder) -> None:
         self._scene, self._finder = scene, finder
         self._scenery = Scenery(scene.site, scene.robot.camera)
         self._poses = Poses(scene.site.map_id)
         self._memory = Remembered()
-        self._taken: list[Taken] = []
+        self._taken: list[PendingLook] = []
         self.picture: Picture | None = None
         self.looked: Picture | None = None
         self._seq = 0
@@ -131,4 +131,4 @@ class PerceptionProcess:
         picture = Picture(Image(header=header, data=b"\0"), None, now_s)
         found = self._finder.find(sim, header)
         self.picture = picture
-        self._taken.append(Taken(tick + LATE_TICKS, picture, found))
+        self._taken.append(PendingLook(tick + LATE_TICKS, picture, found))

@@ -33,6 +33,6 @@ class GoalHandle:
         return self._book().missions[self.id].state
 
     @property
-    def ended(self) -> bool:
+    def has_ended(self) -> bool:
         """Tell whether nothing more happens to the goal by itself or by a person."""
         return self.state in ENDED

@@ -12,7 +12,7 @@ from random import Random
 from sim.site import Home
 from sim.site.files import site_files
 from sim.site.load import load_home, parse_home
-from wire import Misconfigured
+from wire import ConfigError
 
 HALL_M = 14.0
 TRIES = 200
@@ -22,33 +22,33 @@ def made_home(parent: Path, seed: int) -> Path:
     """Write a home of two to four rooms in a row into a folder of its own; return that.
 
     Raises:
-        Misconfigured: none of many drawn homes was allowed.
+        ConfigError: none of many drawn homes was allowed.
     """
     random = Random(f"home {seed}")
-    refused: Misconfigured | None = None
+    refused: ConfigError | None = None
     for _ in range(TRIES):
         try:
-            return _written(parent, _row(random, seed))
-        except Misconfigured as error:
+            return _write(parent, _row(random, seed))
+        except ConfigError as error:
             refused = error
-    raise refused or Misconfigured("no_home", "nothing was drawn")
+    raise refused or ConfigError("no_home", "nothing was drawn")
 
 
-def stocked(
+def stock_home(
     parent: Path, site: Path, objects: dict[str, object], people: dict[str, object] | None = None
 ) -> Path:
     """Write a site's home into a folder of its own, with these things and people in it.
 
     Raises:
-        Misconfigured: they can't be there.
+        ConfigError: they can't be there.
     """
     home = load_home(site).model_dump(mode="json", by_alias=True, exclude_none=True)
-    return _written(parent, {**home, "objects": objects, "people": people or {}})
+    return _write(parent, {**home, "objects": objects, "people": people or {}})
 
 
 def site_of(parent: Path, home: Home) -> Path:
     """Write a home that was drawn elsewhere into a folder of its own; return that."""
-    return _written(parent, home.model_dump(mode="json", by_alias=True, exclude_none=True))
+    return _write(parent, home.model_dump(mode="json", by_alias=True, exclude_none=True))
 
 
 def hall(parent: Path) -> Path:
@@ -57,7 +57,7 @@ def hall(parent: Path) -> Path:
     rooms: dict[str, object] = {
         "hall": _room("hall", (0.0, 0.0, HALL_M, HALL_M), (middle, middle, 0))
     }
-    return _written(parent, _home("hall", rooms, [], {}, (2.0, middle, 0)))
+    return _write(parent, _home("hall", rooms, [], {}, (2.0, middle, 0)))
 
 
 def _row(random: Random, seed: int) -> dict[str, object]:
@@ -113,7 +113,7 @@ def _home(
     }
 
 
-def _written(parent: Path, home: dict[str, object]) -> Path:
+def _write(parent: Path, home: dict[str, object]) -> Path:
     text = json.dumps(home, ensure_ascii=False, indent=1)  # which is YAML too
     files = site_files(parse_home(text, "a made home"))
     folder = parent / str(home["site"])

@@ -35,7 +35,7 @@ from wire import (
 from wire.keys import Party
 
 if TYPE_CHECKING:
-    from tools.lockstep.together import Together
+    from tools.lockstep.together import LockstepWorld
     from wire import Mode
     from wire.keys import Key
 
@@ -62,7 +62,7 @@ _ASKS: dict[str, tuple[tuple[OpKind, ...], float]] = {
 class HostilePlanner:
     """Say a tick's worth of harm."""
 
-    def __init__(self, world: Together, seed: int, kind: Kind = "planner") -> None:
+    def __init__(self, world: LockstepWorld, seed: int, kind: Kind = "planner") -> None:
         world.kill_planner()
         self._world = world
         self.kind: Kind = kind
@@ -257,7 +257,7 @@ class HostilePlanner:
 class Person:
     """Arm, reset and resume again and again, as a person who trusts the bridge."""
 
-    def __init__(self, world: Together) -> None:
+    def __init__(self, world: LockstepWorld) -> None:
         self._world = world
         port = world.bus.port(Party.OPERATOR)
         self._mouths = {

@@ -14,7 +14,7 @@ from tools.lockstep.latencies import TICK_S
 from wire import Mode, Pose2, Twist2
 
 if TYPE_CHECKING:
-    from tools.lockstep.together import Together
+    from tools.lockstep.together import LockstepWorld
 
 SPEED_SLACK_MPS = 0.03
 TURN_SLACK_RADPS = 0.12
@@ -31,7 +31,7 @@ MOVING = {Mode.ACTIVE, Mode.TELEOP}
 class Judge:
     """Watch one world, tick by tick."""
 
-    def __init__(self, world: Together) -> None:
+    def __init__(self, world: LockstepWorld) -> None:
         self._world = world
         self.broken: Counter[str] = Counter()
         self.metres = 0.0
@@ -56,7 +56,7 @@ class Judge:
         self._speed(twist)
         self._rates(mode, twist)
         self._fence(mode, here)
-        self._outside(mode, twist)
+        self._judge_outside(mode, twist)
         self._budget(mode, moved_m)
         if world.contacts > self._contacts:
             self.broken["clearance"] += world.contacts - self._contacts
@@ -102,7 +102,7 @@ class Judge:
         elif not self._by_hand:
             self.broken["fence"] += 1
 
-    def _outside(self, mode: Mode, twist: Twist2) -> None:
+    def _judge_outside(self, mode: Mode, twist: Twist2) -> None:
         """Judge motion where nobody may move it, once the ramp must be over."""
         now_s = self._world.now_s
         if mode in MOVING:
@@ -125,7 +125,7 @@ class Judge:
             self.broken["budget"] += 1
 
 
-def stop_m(world: Together) -> float:
+def stop_m(world: LockstepWorld) -> float:
     """Return the path of a stop from full speed, with lag [m]."""
     limits, drive = world.scene.robot.limits, world.scene.robot.drive
     v, d = limits.max_speed_mps, limits.max_decel_mps2

@@ -14,7 +14,7 @@ from sim.site.shapes import Disc, Rect, Solid
 Point = tuple[float, float, float]
 
 
-def hidden(eye: Point, point: Point, solids: Iterable[Solid]) -> bool:
+def is_hidden(eye: Point, point: Point, solids: Iterable[Solid]) -> bool:
     """Tell whether any solid stands in the line from the eye to a point."""
     return any(_crosses(eye, point, solid) for solid in solids)
 

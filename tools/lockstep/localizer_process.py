@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from localization.global_search import Candidate
     from localization.relocation import SearchRequest
     from tools.lockstep.bus import Port
-    from tools.lockstep.scene import Scene
+    from tools.lockstep.scene import LockstepScene
 
 SEARCH_S = 0.2
 """What a search of the home and its two pipes take on a busy machine."""
@@ -25,7 +25,7 @@ SEARCH_S = 0.2
 class LocalizerProcess:
     """Connect a localizer to the bus, in the stand-in's place."""
 
-    def __init__(self, scene: Scene, port: Port) -> None:
+    def __init__(self, scene: LockstepScene, port: Port) -> None:
         field = DistanceField.of_map(scene.site.grid)
         lidar = scene.robot.lidar
         self._lidar_m = (lidar.x_m, lidar.y_m)

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from tools.lockstep.bus import Port
     from tools.lockstep.eyes import PerceptionProcess
     from tools.lockstep.latencies import Pace
-    from tools.lockstep.scene import Scene
+    from tools.lockstep.scene import LockstepScene
     from wire import Answer, Status
     from wire.session import Session
 
@@ -113,7 +113,7 @@ class PacedBrain:
 class PacedRouter:
     """Find ways in this process, a fixed time later."""
 
-    scene: Scene
+    scene: LockstepScene
     delay_s: float
 
     async def route(self, request: RouteRequest) -> RouteResult:
@@ -143,7 +143,7 @@ class PlannerProcess:
 
     def __init__(
         self,
-        scene: Scene,
+        scene: LockstepScene,
         port: Port,
         brain: Brain,
         pace: Pace,

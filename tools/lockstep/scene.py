@@ -19,7 +19,7 @@ SITES = Path(__file__).resolve().parents[2] / "sites"
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class LockstepScene:
     """Hold one site as each part reads it from the same files."""
 
     folder: Path
@@ -32,11 +32,11 @@ class Scene:
 
 
 @lru_cache(maxsize=16)
-def scene(folder: Path, robot: RobotDescription) -> Scene:
+def scene(folder: Path, robot: RobotDescription) -> LockstepScene:
     """Return the scene of a site's folder; routes depend on nothing else, so it may be shared."""
     site = Site.load(folder)
     fence, fence_hash = load_fence(folder / "fence.json")
-    return Scene(
+    return LockstepScene(
         folder=folder,
         robot=robot,
         site=site,

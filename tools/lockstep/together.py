@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 READY_S = 20.0
 
 
-class Together(World):
+class LockstepWorld(World):
     """Be one world. ``world.say(…)`` gives a goal; ``world.run_until(…)`` lets time pass."""
 
     def __init__(self, *, ready: bool = True, **parts: Any) -> None:

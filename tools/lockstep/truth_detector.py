@@ -20,7 +20,7 @@ from sim.site.classes import CLASSES, COLORS, PERSON_HEIGHT_M, PERSON_RADIUS_M
 from sim.site.objects import furniture_class, ground_m, rest_m
 from sim.site.plan import furniture_shape
 from sim.site.shapes import Disc, Solid
-from tools.lockstep.line_of_sight import hidden
+from tools.lockstep.line_of_sight import is_hidden
 from wire import ImageHeader
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class Sharpness:
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class VisibleThing:
     """Hold one thing as it stands now."""
 
     id: str
@@ -85,15 +85,19 @@ class TruthFinder:
     def find(self, sim: SimRobot, header: ImageHeader) -> tuple[Detection, ...]:
         """Return what is found from where the robot truly is."""
         view = View(header, self._camera, Stance(sim.base_in_map))
-        things = shown(sim)
+        things = list_visible(sim)
         self._solids = self._solids or tuple(solids(sim.home))  # of one home: finding walls is slow
         blocks = (*self._solids, *_bodies(things))
-        found = [seen for thing in things if (seen := self._seen(view, thing, blocks)) is not None]
+        found = [
+            seen for thing in things if (seen := self._detect(view, thing, blocks)) is not None
+        ]
         if self._random.random() < self.sharpness.ghosts:
             found.append(self._ghost(header))
         return tuple(found)
 
-    def _seen(self, view: View, thing: Shown, blocks: tuple[Solid, ...]) -> Detection | None:
+    def _detect(
+        self, view: View, thing: VisibleThing, blocks: tuple[Solid, ...]
+    ) -> Detection | None:
         r, sharp, camera = self._random, self.sharpness, view.camera_in_map
         missed, color_wrong = r.random() < sharp.miss, r.random() < sharp.wrong_color
         noise = [r.gauss(0.0, 1.0) for _ in range(5)]
@@ -110,13 +114,13 @@ class TruthFinder:
         wide, high = (extent * focal / middle[2] for extent in (thing.breadth_m, upright_m))
         whole = (middle[0] - wide / 2, middle[1] - high / 2, middle[0] + wide / 2,
                  middle[1] + high / 2)  # fmt: skip
-        box = _clipped(whole, view.header)
+        box = _clip(whole, view.header)
         if box is None or min(wide, high) < sharp.smallest_px:
             return None
         eye = (camera.x_m, camera.y_m, self._camera.z_m)
         heights = (thing.low_m + share * thing.height_m for share in (0.35, 0.65, 0.95))
         others = [b for b in blocks if b.shape.distance(thing.x_m, thing.y_m) > 0.0]
-        clear = sum(not hidden(eye, (thing.x_m, thing.y_m, z_m), others) for z_m in heights)
+        clear = sum(not is_hidden(eye, (thing.x_m, thing.y_m, z_m), others) for z_m in heights)
         if clear < 2:
             return None
         color = thing.color if not color_wrong else r.choice(COLORS)
@@ -137,12 +141,12 @@ class TruthFinder:
         return Detection(r.choice(NAMES), 0.6, box, r.choice(COLORS), r.uniform(1.0, 4.0), 0.05)
 
 
-def shown(sim: SimRobot) -> tuple[Shown, ...]:
+def list_visible(sim: SimRobot) -> tuple[VisibleThing, ...]:
     """Return everything that a camera could see, where it is now."""
     return (*_furniture(sim.home), *_objects(sim), *_people(sim))
 
 
-def _furniture(home: Home) -> Iterator[Shown]:
+def _furniture(home: Home) -> Iterator[VisibleThing]:
     for item_id, item in home.furniture.items():
         label = furniture_class(item_id, item)
         if label == "none":
@@ -150,10 +154,10 @@ def _furniture(home: Home) -> Iterator[Shown]:
         box = furniture_shape(item).bounds
         sides = sorted((box.x1 - box.x0, box.y1 - box.y0))
         at = (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2, 0.0
-        yield Shown(item_id, label, item.color, *at, sides[1], sides[0], item.height_m)
+        yield VisibleThing(item_id, label, item.color, *at, sides[1], sides[0], item.height_m)
 
 
-def _objects(sim: SimRobot) -> Iterator[Shown]:
+def _objects(sim: SimRobot) -> Iterator[VisibleThing]:
     for name, item in sim.home.objects.items():
         pose = sim.things.pose_of(name) if item.class_id != "door" else None
         if pose is None:
@@ -162,10 +166,10 @@ def _objects(sim: SimRobot) -> Iterator[Shown]:
         low_m = ground_m(sim.home, pose.x_m, pose.y_m) if moved else rest_m(sim.home, item)
         sides = sorted(item.size_m[:2])
         at = pose.x_m, pose.y_m, low_m
-        yield Shown(name, item.class_id, item.color, *at, sides[1], sides[0], item.size_m[2])
+        yield VisibleThing(name, item.class_id, item.color, *at, sides[1], sides[0], item.size_m[2])
 
 
-def _people(sim: SimRobot) -> Iterator[Shown]:
+def _people(sim: SimRobot) -> Iterator[VisibleThing]:
     people = {who: one.color for who, one in sim.home.people.items()}
     people |= {name: None for name in sim.things.declared if name.startswith("person_")}
     breadth_m = 2 * PERSON_RADIUS_M
@@ -173,10 +177,10 @@ def _people(sim: SimRobot) -> Iterator[Shown]:
         pose = sim.things.pose_of(who)
         if pose is not None:
             at = pose.x_m, pose.y_m, 0.0
-            yield Shown(who, "person", color, *at, breadth_m, breadth_m, PERSON_HEIGHT_M)
+            yield VisibleThing(who, "person", color, *at, breadth_m, breadth_m, PERSON_HEIGHT_M)
 
 
-def _bodies(things: tuple[Shown, ...]) -> tuple[Solid, ...]:
+def _bodies(things: tuple[VisibleThing, ...]) -> tuple[Solid, ...]:
     """Return people and what stands high on the floor, as what hides."""
     return tuple(
         Solid(t.id, Disc(t.x_m, t.y_m, t.breadth_m / 2), t.height_m)
@@ -185,7 +189,7 @@ def _bodies(things: tuple[Shown, ...]) -> tuple[Solid, ...]:
     )
 
 
-def _clipped(
+def _clip(
     box: tuple[float, float, float, float], header: ImageHeader
 ) -> tuple[float, float, float, float] | None:
     """Return the part of a box that is in the picture, where that is more than half of it."""

@@ -14,7 +14,7 @@ from localization.standin import StandIn
 from planner.brain import OfflineBrain
 from sim import Hardware, SimRobot
 from tools.lockstep.bridge_process import BridgeProcess, Step
-from tools.lockstep.bus import Bus
+from tools.lockstep.bus import LockstepBus
 from tools.lockstep.latencies import TICK_S, Pace, ticks
 from tools.lockstep.localizer_process import LocalizerProcess
 from tools.lockstep.planner_process import Notebook, PlannerProcess
@@ -70,7 +70,7 @@ class World:
         self.pace, self.seed = pace or Pace(), seed
         self.scene = scene(folder_of(site), robot or RobotDescription())
         latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
-        self.bus = Bus(seed, latency)
+        self.bus = LockstepBus(seed, latency)
         self.sim = SimRobot(
             self.scene.folder, self.scene.robot, seed=seed, start=start, hardware=hardware
         )

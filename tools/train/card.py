@@ -62,7 +62,12 @@ def _read(path: Path) -> Facts:
 def card(facts: Facts) -> str:
     """Return the card."""
     return "\n".join(
-        [_card_text(facts), _how(facts["fit"], facts["export"]), _score(facts["judge"]), LIMITS]
+        [
+            _card_text(facts),
+            _write_how(facts["fit"], facts["export"]),
+            _score(facts["judge"]),
+            LIMITS,
+        ]
     )
 
 
@@ -87,7 +92,7 @@ Finds {len(CLASSES)} things of a home in pictures of {WIDTH_PX} x {HEIGHT_PX}:
 """
 
 
-def _how(fit: Facts, export: Facts) -> str:
+def _write_how(fit: Facts, export: Facts) -> str:
     return f"""## How it was made
 
 Homes are drawn by seed (`tools/train/homes.py`) and seen by the simulator's own camera in a

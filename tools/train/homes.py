@@ -13,7 +13,7 @@ from typing import Any, Literal
 from sim.site import Home, Rect, parse_home
 from tools.train.furnish import CLEAR_M, ROOMS, Floor, furnish
 from tools.train.scatter import color, door, on_floor, on_furniture, people
-from wire import Misconfigured
+from wire import ConfigError
 
 Kind = Literal["train", "unseen", "bare"]
 """``bare``: never shown either, and without anything of our classes."""
@@ -30,19 +30,19 @@ def drawn_home(kind: Kind, seed: int) -> Home:
     """Return the home of a seed.
 
     Raises:
-        Misconfigured: none of many drawn homes was allowed.
+        ConfigError: none of many drawn homes was allowed.
     """
     random = Random(f"{kind} home {seed}")
-    refused: Misconfigured | None = None
+    refused: ConfigError | None = None
     for _ in range(TRIES):
         home = _declare_home(
             random, seed, bare=kind == "bare" or random.random() < BARE_SHARE[kind]
         )
         try:
             return parse_home(json.dumps(home), f"a drawn home ({kind} {seed})")
-        except Misconfigured as error:
+        except ConfigError as error:
             refused = error
-    raise refused or Misconfigured("no_home", "nothing was drawn")
+    raise refused or ConfigError("no_home", "nothing was drawn")
 
 
 def _declare_home(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
@@ -59,7 +59,7 @@ def _declare_home(random: Random, seed: int, *, bare: bool) -> dict[str, Any]:
             folk += people(random, floor, random.choice((0, 0, 1, 1, 2)))
     if not bare:
         objects += on_furniture(random, furniture, random.randint(8, 30))
-        objects += _hung(random, rooms)
+        objects += _hang_doors(random, rooms)
     first = next(iter(rooms.values()))
     return {
         "version": 1,
@@ -107,7 +107,7 @@ def _plan(
     return rooms, doors, floors
 
 
-def _hung(random: Random, rooms: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+def _hang_doors(random: Random, rooms: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """Hang closed doors into the outer walls."""
     hung: list[dict[str, Any]] = []
     for room in rooms.values():

@@ -18,7 +18,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from planner.brain.errors import BrainDown
-from wire import Misconfigured
+from wire import ConfigError
 
 MAX_URL = 2000
 _METADATA_NAMES = frozenset(
@@ -60,7 +60,7 @@ class Address:
         """Return the address below a base URL.
 
         Raises:
-            Misconfigured: ``model_url``, with what is wrong; user names and passwords in it are
+            ConfigError: ``model_url``, with what is wrong; user names and passwords in it are
                 not repeated.
         """
         if not (0 < len(base) <= MAX_URL and base.isascii() and base.isprintable()):
@@ -143,8 +143,8 @@ def _path(path: str) -> str:
     return f"{path or '/v1'}/chat/completions"
 
 
-def _wrong(what: str) -> Misconfigured:
-    return Misconfigured("model_url", f"the model's URL {what}")
+def _wrong(what: str) -> ConfigError:
+    return ConfigError("model_url", f"the model's URL {what}")
 
 
 RESOLVED_FOR_S = 60.0

@@ -146,7 +146,7 @@ class EndpointLooker:
             lay_out: puts several pictures on one sheet; None: no sheet is sent.
 
         Raises:
-            Misconfigured: ``prompt_missing``, ``prompt_malformed``.
+            ConfigError: ``prompt_missing``, ``prompt_malformed``.
         """
         self._line, self._shrink, self._lay_out = line, shrink, lay_out
         self._prompts = LookPrompts()

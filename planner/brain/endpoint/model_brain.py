@@ -51,7 +51,7 @@ class EndpointBrain:
             meter: counts every call and may refuse it; None: nobody keeps a budget.
 
         Raises:
-            Misconfigured: ``model_url``, ``model_offhost``, ``prompt_missing``,
+            ConfigError: ``model_url``, ``model_offhost``, ``prompt_missing``,
                 ``prompt_malformed``.
         """
         self._line = Line(settings, home, transport, meter)
@@ -77,7 +77,7 @@ class EndpointBrain:
         """Return whoever asks the same model about pictures, over the same line.
 
         Raises:
-            Misconfigured: ``prompt_missing``, ``prompt_malformed``.
+            ConfigError: ``prompt_missing``, ``prompt_malformed``.
         """
         return EndpointLooker(self._line, shrink, lay_out)
 

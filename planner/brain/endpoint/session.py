@@ -33,7 +33,7 @@ from planner.brain.response_format import PLAN_FORM, Form
 from planner.brain.schema import Message
 from planner.brain.usage_meter import Meter, thinking_about
 from planner.settings import ModelSettings
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     import httpx
@@ -177,11 +177,11 @@ class Line:
         """Judge the address; nothing is asked yet.
 
         Raises:
-            Misconfigured: ``model_url``, ``model_offhost``.
+            ConfigError: ``model_url``, ``model_offhost``.
         """
         self.address = Address.parse(settings.url)
         if not self.address.local and not settings.allow_offhost:
-            raise Misconfigured(
+            raise ConfigError(
                 "model_offhost",
                 f"what people say would be sent to {self.address.host}; if that is meant, set "
                 "allow_offhost = true in [model], or PONS_MODEL_ALLOW_OFFHOST=1",

@@ -16,11 +16,11 @@ from pons.evals.journal.recorded import NoJournal, RecordedDecisions, read
 from pons.evals.journal.show import content, table
 from pons.evals.journal.think import SecondThought, most_calls, think_again
 from pons.evals.model_access import agree_on, choose_model
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from planner.settings import ModelSettings
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 EXIT_SAME, EXIT_DIFFERS, EXIT_BAD = 0, 1, 2
 MOST = 50
@@ -40,7 +40,7 @@ class JournalOptions:
 
 
 def run(
-    where: Settings,
+    where: LaunchSettings,
     files: list[str],
     word: str,
     options: JournalOptions,
@@ -72,7 +72,7 @@ def run(
             think_again(recorded.decisions, site, settings, model, where.home)
         )
         found = _drive_first(found, where, options.drives)
-    except (NoJournal, LockstepMissing, Misconfigured) as wrong:
+    except (NoJournal, LockstepMissing, ConfigError) as wrong:
         print(f"{called}: {wrong}", file=sys.stderr)
         return EXIT_BAD
     show = content if options.as_json else table
@@ -93,7 +93,9 @@ def require_lockstep() -> None:
         )
 
 
-def _drive_first(found: list[SecondThought], where: Settings, most: int) -> list[SecondThought]:
+def _drive_first(
+    found: list[SecondThought], where: LaunchSettings, most: int
+) -> list[SecondThought]:
     """Drive the first plans that differ and move."""
     if most <= 0:
         return found

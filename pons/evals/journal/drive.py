@@ -12,7 +12,7 @@ from pathlib import Path
 from planner.brain import ScriptedBrain
 from planner.plan import ENDED, GoalState, StepPlan
 from pons.evals.journal.think import DriveResult
-from tools.lockstep import Together, TooLong
+from tools.lockstep import LockstepWorld, TooLong
 from tools.lockstep.judge import Judge
 from wire import Pose2, load_robot
 
@@ -34,13 +34,15 @@ def drive(
         TooLong: the simulated robot did not become ready.
     """
     pose = Pose2(x_m=start[0], y_m=start[1], yaw_rad=start[2]) if start is not None else None
-    world = Together(site=site, robot=load_robot(robot), start=pose, brain=ScriptedBrain([plan]))
+    world = LockstepWorld(
+        site=site, robot=load_robot(robot), start=pose, brain=ScriptedBrain([plan])
+    )
     judge = Judge(world)
     goal = world.say("drive what was planned")
     held: Counter[str] = Counter()
     seen: set[str] = set()
 
-    def look(_: Together) -> bool:
+    def look(_: LockstepWorld) -> bool:
         judge.look()
         rows = {f"{row.row}:{row.action.value}" for row in world.status.rows}
         held.update(rows - seen)

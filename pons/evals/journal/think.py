@@ -75,7 +75,7 @@ async def think_again(
     """Return each sentence's second decision, and the bill.
 
     Raises:
-        Misconfigured: the model may not be asked, or the budget can't be read.
+        ConfigError: the model may not be asked, or the budget can't be read.
     """
     limits = GoalLimits(
         calls=most_calls(len(decisions)),

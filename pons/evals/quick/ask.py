@@ -85,7 +85,7 @@ async def examine(
         clock: seconds that only rise.
 
     Raises:
-        Misconfigured: the address may not be asked at all, or the budget can't be read.
+        ConfigError: the address may not be asked at all, or the budget can't be read.
     """
     limits = GoalLimits(
         calls=caps.calls,

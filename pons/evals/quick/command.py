@@ -13,7 +13,7 @@ from pons.evals.model_access import agree_on, choose_model
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
 from pons.evals.quick.grade import grade
 from pons.evals.quick.show import content, table
-from wire import Misconfigured
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from planner.settings import ModelSettings, Settings
@@ -25,7 +25,7 @@ REFUSED = 2
 
 
 def run(
-    where: places.Settings,
+    where: places.LaunchSettings,
     word: str,
     *,
     as_json: bool,
@@ -51,7 +51,7 @@ def run(
             return REFUSED
         site = where.site if where.site.is_dir() else None
         exam = asyncio.run(examine(settings, model, where.home, site, caps))
-    except Misconfigured as wrong:
+    except ConfigError as wrong:
         print(f"{called}: {wrong}", file=sys.stderr)
         return REFUSED
     found = grade(exam)

@@ -7,7 +7,7 @@ from typing import cast
 import pytest
 
 from bridge.drive import Drive, SimDrive, require_brakes
-from wire import Misconfigured
+from wire import ConfigError
 
 
 class Metal:
@@ -27,5 +27,5 @@ def test_wheels_that_brake_without_torque_are_taken() -> None:
 
 @pytest.mark.parametrize("declared", ["coast", "", "Brake", None])
 def test_wheels_that_may_roll_on_are_refused(declared: object) -> None:
-    with pytest.raises(Misconfigured, match=r"^drive_coasts: drive 'metal' .*expected 'brake'"):
+    with pytest.raises(ConfigError, match=r"^drive_coasts: drive 'metal' .*expected 'brake'"):
         require_brakes(cast("Drive", Metal(declared)))

@@ -11,7 +11,7 @@ import pytest
 from bridge.drive import Drive, SimDrive
 from tests.bridge.ground import until
 from tests.wire.examples import EXAMPLES
-from wire import DriveCommand, DriveState, Misconfigured
+from wire import ConfigError, DriveCommand, DriveState
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, Party
 from wire.session import Session, Subscriber, open_session
 
@@ -119,5 +119,5 @@ def test_an_unknown_kind_of_drive_is_refused_by_the_description(tmp_path: Path) 
 
     path = tmp_path / "robot.toml"
     path.write_text('[drive]\nkind = "warp"\n')
-    with pytest.raises(Misconfigured, match=r"drive\.kind: got 'warp'"):
+    with pytest.raises(ConfigError, match=r"drive\.kind: got 'warp'"):
         load_robot(path)

@@ -22,7 +22,7 @@ from mcap.stream_reader import StreamReader
 from bridge.core import initial
 from bridge.core import step as plain
 from tests.bridge.recorded import UNIX_S, Taken, stream_of, written
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from wire import Pose2, Scan, compose, wrap
 
 FOXGLOVE = {
@@ -36,7 +36,7 @@ OURS = {"boot", "state", "inbox", "command", "decision", "status", "odometry", "
 
 
 @pytest.fixture(scope="module")
-def drive() -> tuple[Together, list[Taken]]:
+def drive() -> tuple[LockstepWorld, list[Taken]]:
     """Drive a little on the two-room site, in lockstep, and keep what a recorder would be given."""
     ticks: list[Taken] = []
 
@@ -45,7 +45,7 @@ def drive() -> tuple[Together, list[Taken]]:
         ticks.append((state, inbox, now_s, decision))
         return decision
 
-    world = Together(step=kept)
+    world = LockstepWorld(step=kept)
     world.say("go to the kitchen")
     world.run(6.5)
     return world, ticks
@@ -53,7 +53,7 @@ def drive() -> tuple[Together, list[Taken]]:
 
 @pytest.fixture(scope="module")
 def recording(
-    drive: tuple[Together, list[Taken]], tmp_path_factory: pytest.TempPathFactory
+    drive: tuple[LockstepWorld, list[Taken]], tmp_path_factory: pytest.TempPathFactory
 ) -> Path:
     world, ticks = drive
     folder = tmp_path_factory.mktemp("box")
@@ -95,7 +95,9 @@ def test_channels_and_schemas_are_listed(recording: Path, messages: Read) -> Non
     assert summary.chunk_indexes
 
 
-def test_times_never_run_backwards_and_are_utc(messages: Read, drive: tuple[Together, Any]) -> None:
+def test_times_never_run_backwards_and_are_utc(
+    messages: Read, drive: tuple[LockstepWorld, Any]
+) -> None:
     times = [m.log_time for _, _, m in messages]
     assert times == sorted(times)
     first_s = drive[1][0][2]
@@ -104,7 +106,7 @@ def test_times_never_run_backwards_and_are_utc(messages: Read, drive: tuple[Toge
 
 
 def test_every_tick_is_there_with_what_it_said(
-    messages: Read, drive: tuple[Together, list[Taken]]
+    messages: Read, drive: tuple[LockstepWorld, list[Taken]]
 ) -> None:
     count = Counter(channel.topic for _, channel, _ in messages)
     ticks = drive[1]
@@ -127,7 +129,7 @@ def scan_class(schema: bytes) -> Any:
 
 
 def test_scans_are_the_robots_own_to_the_bit(
-    messages: Read, drive: tuple[Together, list[Taken]]
+    messages: Read, drive: tuple[LockstepWorld, list[Taken]]
 ) -> None:
     scans = [(s, m) for s, c, m in messages if c.topic == "/scan"]
     sent = [inbox.scan for _, inbox, *_ in drive[1] if inbox.scan is not None]
@@ -173,7 +175,7 @@ def plane(frame: dict[str, Any]) -> Pose2:
 
 
 def test_the_plan_and_the_log_can_be_read(
-    messages: Read, drive: tuple[Together, list[Taken]]
+    messages: Read, drive: tuple[LockstepWorld, list[Taken]]
 ) -> None:
     plans = said(messages, "/plan")
     horizons = [i.waypoints[-1] for _, i, *_ in drive[1] if i.waypoints]
@@ -186,7 +188,7 @@ def test_the_plan_and_the_log_can_be_read(
 
 
 def test_another_reader_streams_a_file_that_nobody_closed(
-    drive: tuple[Together, list[Taken]], tmp_path: Path
+    drive: tuple[LockstepWorld, list[Taken]], tmp_path: Path
 ) -> None:
     world, ticks = drive
     stream = stream_of(world.bridge.config, ticks[:300])
@@ -200,7 +202,7 @@ def test_another_reader_streams_a_file_that_nobody_closed(
 
 
 def test_the_state_that_begins_a_recording_is_the_robots(
-    messages: Read, drive: tuple[Together, list[Taken]]
+    messages: Read, drive: tuple[LockstepWorld, list[Taken]]
 ) -> None:
     world, ticks = drive
     (_, first), _ = said(messages, "/pons/state")

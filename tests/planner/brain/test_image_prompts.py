@@ -24,7 +24,7 @@ from planner.perception import Detection
 from planner.plan import Bilingual, Language
 from pons_assets import PROMPTS
 from tests.planner.brain.pictures import picture
-from wire import Misconfigured
+from wire import ConfigError
 
 HASHES = {"look": {1: "d4fa37a424b9", 2: "392d4d4d10bf"}, "point": {1: "ab2f5c3d3226"}}
 """A changed prompt needs a new version, so that a goal's record says what was asked."""
@@ -94,6 +94,6 @@ def test_the_schemas_are_plain() -> None:
 def test_a_malformed_prompt_refuses_to_start(text: str, tmp_path: Path) -> None:
     path = tmp_path / "look.md"
     path.write_text(text, "utf-8")
-    with pytest.raises(Misconfigured, match="prompt_malformed"):
+    with pytest.raises(ConfigError, match="prompt_malformed"):
         Template.load(path, frozenset({"schema"}))
     assert (PROMPTS / "look.md").is_file()

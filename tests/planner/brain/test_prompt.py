@@ -18,7 +18,7 @@ from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocab
 from planner.site import Site
 from pons_assets import PROMPTS
 from tests.conftest import ROOT
-from wire import Misconfigured
+from wire import ConfigError
 
 HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c", 3: "feca617e9515", 4: "b6c285b8b629"}
 """A changed prompt needs a new version, so that a goal's record says what was asked."""
@@ -180,11 +180,11 @@ def test_a_step_that_becomes_runnable_is_offered(home: Vocabulary) -> None:
 def test_a_malformed_prompt_refuses_to_start(text: str, code: str, tmp_path: Path) -> None:
     path = tmp_path / "plan.md"
     path.write_text(text, "utf-8")
-    with pytest.raises(Misconfigured) as wrong:
+    with pytest.raises(ConfigError) as wrong:
         Prompt.load(path)
     assert wrong.value.code == code
 
 
 def test_a_missing_prompt_refuses_to_start(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured, match="prompt_missing"):
+    with pytest.raises(ConfigError, match="prompt_missing"):
         Prompt.load(tmp_path / "none.md")

@@ -24,7 +24,7 @@ from planner.budget.totals import Spent, cost, overrun
 from planner.budget.utc_day import DAY_S, Days, utc_date
 from planner.settings import BudgetSettings, DayLimits, GoalLimits, Price
 from planner.state_database import FILE, StateDatabase
-from wire import Misconfigured, Unwritable
+from wire import ConfigError, Unwritable
 
 NOON = datetime(2026, 3, 10, 12, 0, tzinfo=UTC).timestamp()
 TODAY = date(2026, 3, 10)
@@ -316,7 +316,7 @@ def test_a_ledger_that_another_program_holds_keeps_the_loop_free(tmp_path: Path)
 
 def test_a_folder_that_cannot_be_read_refuses_to_start(tmp_path: Path) -> None:
     (tmp_path / FOLDER).write_text("no folder")
-    with pytest.raises(Misconfigured) as wrong:
+    with pytest.raises(ConfigError) as wrong:
         Ledger.in_home(tmp_path)
     assert wrong.value.code == "budget_unreadable"
     assert not isinstance(wrong.value, Unwritable), "no restart mends it"

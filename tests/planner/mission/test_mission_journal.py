@@ -33,7 +33,7 @@ from planner.mission.journal import (
 from planner.mission.journal_sync import JournalWriter, PendingEntry
 from planner.mission.state import MAX_ENDED, Mission
 from planner.plan import Code, GoalState, Language, Outcome, StepState
-from wire import Misconfigured, Unwritable
+from wire import ConfigError, Unwritable
 
 FORMER_ROW = r"""
 {"id": "g1", "order": 1, "text": "text g1", "language": "en", "state": "paused",
@@ -195,13 +195,13 @@ def test_a_journal_of_another_version_refuses_to_start(tmp_path: Path) -> None:
     with engine.begin() as connection:
         connection.execute(sa.text("update facts set value = '99' where name = 'schema'"))
     engine.dispose()
-    with pytest.raises(Misconfigured, match="schema 99, expected 1"):
+    with pytest.raises(ConfigError, match="schema 99, expected 1"):
         MissionJournal.in_home(tmp_path)
 
 
 def test_what_is_no_database_refuses_to_start(tmp_path: Path) -> None:
     (tmp_path / "missions.db").write_bytes(b"not a database at all, far from it" * 100)
-    with pytest.raises(Misconfigured, match="journal_unavailable") as wrong:
+    with pytest.raises(ConfigError, match="journal_unavailable") as wrong:
         MissionJournal.in_home(tmp_path)
     assert not isinstance(wrong.value, Unwritable), "no restart mends it"
 
@@ -236,7 +236,7 @@ def test_a_record_that_is_not_ours_is_named(tmp_path: Path) -> None:
     with engine.begin() as connection:
         connection.execute(sa.text("update missions set record = '{}'"))
     engine.dispose()
-    with pytest.raises(Misconfigured, match="journal_malformed"):
+    with pytest.raises(ConfigError, match="journal_malformed"):
         journal.load()
     journal.close()
 

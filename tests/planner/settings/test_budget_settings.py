@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from planner.settings import FILE, BudgetSettings, load_settings
-from wire import Misconfigured
+from wire import ConfigError
 
 LOCAL = '[model]\nurl = "http://127.0.0.1:11434/v1"\nname = "qwen3:8b"\n'
 WHOLE = """
@@ -59,7 +59,7 @@ def test_what_nobody_could_keep_refuses_to_start(
     text: str, code: str, told: str, tmp_path: Path
 ) -> None:
     (tmp_path / FILE).write_text(text)
-    with pytest.raises(Misconfigured) as wrong:
+    with pytest.raises(ConfigError) as wrong:
         load_settings(tmp_path, {})
     assert wrong.value.code == code
     assert told in str(wrong.value)

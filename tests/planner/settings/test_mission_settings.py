@@ -9,7 +9,7 @@ import pytest
 
 from planner.mission import Rules
 from planner.settings import MissionSettings, load_settings
-from wire import Misconfigured
+from wire import ConfigError
 
 
 def test_the_settings_are_the_rules_by_name_and_by_default() -> None:
@@ -32,7 +32,7 @@ def test_what_is_out_of_bounds_or_unknown_refuses_to_start(
 ) -> None:
     (tmp_path / "settings.toml").write_text(f"[mission]\n{text}\n", encoding="utf-8")
     if not taken:
-        with pytest.raises(Misconfigured):
+        with pytest.raises(ConfigError):
             load_settings(tmp_path, {})
         return
     settings = load_settings(tmp_path, {}).mission

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from planner.settings import FILE, Mode, ModelSettings, exposed, load_settings
-from wire import Misconfigured
+from wire import ConfigError
 
 KEY = "sk-secret-0123456789"
 LOCAL = '[model]\nurl = "http://127.0.0.1:11434/v1"\nname = "qwen3:8b"\n'
@@ -140,7 +140,7 @@ def test_a_key_stays_with_its_host(tmp_path: Path) -> None:
 def test_what_is_wrong_refuses_to_start(
     text: str, environment: dict[str, str], code: str, told: str, tmp_path: Path
 ) -> None:
-    with pytest.raises(Misconfigured) as wrong:
+    with pytest.raises(ConfigError) as wrong:
         model(tmp_path, text, **environment)
     assert wrong.value.code == code
     assert told in str(wrong.value)
@@ -156,7 +156,7 @@ def test_no_error_and_no_repr_shows_a_key(tmp_path: Path) -> None:
         f'{LOCAL}key = ["{KEY}"]\n',
         f'{LOCAL}timeout_s = "{KEY}"\n',
     ):
-        with pytest.raises(Misconfigured) as wrong:
+        with pytest.raises(ConfigError) as wrong:
             model(tmp_path, broken)
         shown.append(f"{wrong.value!r} {wrong.value} {wrong.value.__cause__}")
     assert KEY not in "\n".join(shown)

@@ -11,7 +11,7 @@ import pytest
 from planner.brain.endpoint import Address
 from planner.settings import FILE, OWN_FIELDS, PRESETS, Mode, PresetName, load_settings
 from tests.conftest import ROOT
-from wire import Misconfigured
+from wire import ConfigError
 
 KEY = "sk-secret-0123456789"
 DOCUMENTED = re.findall(
@@ -84,7 +84,7 @@ def test_a_preset_by_environment_leaves_the_key_of_the_file_behind(tmp_path: Pat
     ],
 )  # fmt: skip
 def test_what_is_wrong_refuses_to_start(lines: str, code: str, told: str, tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured) as wrong:
+    with pytest.raises(ConfigError) as wrong:
         load(tmp_path, f'[model]\nname = "m"\n{lines}\n', OPENAI_API_KEY=KEY)
     assert wrong.value.code == code
     assert told in str(wrong.value)

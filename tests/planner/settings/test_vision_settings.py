@@ -11,7 +11,7 @@ from planner.perception.detect.decoders import ALL
 from planner.perception.detect.providers import ORDER
 from planner.settings import FILE, VisionSettings, load_settings
 from planner.settings.vision import DecoderName, ProviderName
-from wire import Misconfigured
+from wire import ConfigError
 
 
 def vision(home: Path, text: str = "", **environment: str) -> VisionSettings:
@@ -56,7 +56,7 @@ def test_the_environment_wins_and_its_files_are_where_the_command_was_given(tmp_
 def test_what_is_wrong_refuses_to_start(
     text: str, environment: dict[str, str], told: str, tmp_path: Path
 ) -> None:
-    with pytest.raises(Misconfigured, match="settings_malformed") as caught:
+    with pytest.raises(ConfigError, match="settings_malformed") as caught:
         vision(tmp_path, text, **environment)
     assert told in caught.value.detail
 

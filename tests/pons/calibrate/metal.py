@@ -11,7 +11,7 @@ from pons.calibrate.findings import CalibrationFinding
 from pons.calibrate.procedure import CalibrationPlan, calibrate
 from sim import Hardware
 from tests.pons.calibrate.tape import Tape
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Pose2, RobotDescription
 from wire.keys import Party
@@ -41,8 +41,8 @@ def believed(**drive: float) -> RobotDescription:
 
 
 @cache
-def _ready(robot: RobotDescription, hardware: Hardware, start: Pose2 | None) -> Together:
-    return Together(robot=robot, hardware=hardware, start=start)
+def _ready(robot: RobotDescription, hardware: Hardware, start: Pose2 | None) -> LockstepWorld:
+    return LockstepWorld(robot=robot, hardware=hardware, start=start)
 
 
 @dataclass

@@ -16,7 +16,7 @@ from pons.calibrate.procedure import CalibrationPlan
 from pons.calibrate.reference import TRUTH, went_m
 from pons.calibrate.runs import straight
 from tests.pons.calibrate.metal import FACING, TRUE, Bench, gone_through
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from wire import Mode, Pose2, SimFault, distance
 
 TIGHT = Pose2(0.38, 1.8, 1.5708)
@@ -160,10 +160,10 @@ def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runs, "SLOW_S", 0.3)
 
 
-def under_way(bench: Bench, act: Callable[[Together], None]) -> None:
+def under_way(bench: Bench, act: Callable[[LockstepWorld], None]) -> None:
     """Do something as soon as the first run is fast."""
 
-    def later(world: Together) -> None:
+    def later(world: LockstepWorld) -> None:
         if world.status.mode is Mode.TELEOP and world.twist.v_mps > 0.2:
             act(world)
         else:
@@ -196,7 +196,7 @@ def test_a_stop_pressed_during_a_run_ends_it() -> None:
 def test_somebody_in_the_way_ends_it() -> None:
     bench = Bench(start=FACING)
 
-    def step_in(world: Together) -> None:
+    def step_in(world: LockstepWorld) -> None:
         here, ahead = world.truth, 1.0
         world.sim.place_obstacle(
             here.x_m + ahead * cos(here.yaw_rad), here.y_m + ahead * sin(here.yaw_rad)
@@ -211,7 +211,7 @@ def test_somebody_in_the_way_ends_it() -> None:
 def test_ctrl_c_during_a_run_leaves_it_standing() -> None:
     bench = Bench(start=FACING)
 
-    def interrupt(world: Together) -> None:
+    def interrupt(world: LockstepWorld) -> None:
         raise KeyboardInterrupt
 
     under_way(bench, interrupt)

@@ -10,7 +10,7 @@ import pytest
 from pons.calibrate.errors import CalibrationRefusal
 from pons.calibrate.findings import CalibrationFinding
 from pons.calibrate.robot_toml import difference, edit_values, replace
-from wire import Misconfigured, load_robot
+from wire import ConfigError, load_robot
 
 RADIUS = CalibrationFinding("base", "wheel_radius_m", 0.1, 0.0998, "calibrated now: 6 runs")
 DEAD = CalibrationFinding("drive", "dead_zone_radps", 0.05, 0.06, "calibrated now: likewise")
@@ -86,7 +86,7 @@ def test_a_file_that_would_be_refused_is_never_put_in_place(tmp_path: Path) -> N
     path = tmp_path / "robot.toml"
     before = "[base]\nwheel_radius_m = 0.1\n"
     path.write_text(before, "utf-8")
-    with pytest.raises(Misconfigured, match="wheel_radius_m"):
+    with pytest.raises(ConfigError, match="wheel_radius_m"):
         replace(path, before, "[base]\nwheel_radius_m = 7.0\n", "x")
     assert path.read_text("utf-8") == before
     assert [one.name for one in tmp_path.iterdir()] == ["robot.toml"]

@@ -18,24 +18,26 @@ from pons.__main__ import main
 from pons.doctor import command, host_checks, jitter, model_checks, path_checks
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict
 from pons.robot_processes import free_port
-from pons.settings import CHECKOUT, Settings
+from pons.settings import CHECKOUT, LaunchSettings
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
 
 
-def described(home: Path) -> Settings:
-    return Settings(home, CHECKOUT / "robot.toml", TWO_ROOM, "127.0.0.1", free_port())
+def described(home: Path) -> LaunchSettings:
+    return LaunchSettings(home, CHECKOUT / "robot.toml", TWO_ROOM, "127.0.0.1", free_port())
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> Settings:
+def settings(tmp_path: Path) -> LaunchSettings:
     return described(tmp_path / "h")
 
 
 @pytest.fixture(scope="module")
-def examined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Settings, list[HealthFinding]]:
+def examined(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> tuple[LaunchSettings, list[HealthFinding]]:
     """Run every check as it is, once: it takes processes and the recogniser's model."""
     settings = described(tmp_path_factory.mktemp("doctor") / "h")
     return settings, command.findings(settings)
@@ -58,7 +60,7 @@ def assert_says(found: HealthFinding, verdict: HealthVerdict, *parts: str) -> No
 
 
 def test_every_check_reports_once_and_nothing_is_made(
-    examined: tuple[Settings, list[HealthFinding]],
+    examined: tuple[LaunchSettings, list[HealthFinding]],
 ) -> None:
     settings, found = examined
     names = [one.name for one in found]
@@ -69,7 +71,7 @@ def test_every_check_reports_once_and_nothing_is_made(
 
 
 def test_the_worst_finding_is_the_exit_status(
-    settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = BilingualWords("a", "甲")
     for worst, status in ((HealthVerdict.OK, 0), (HealthVerdict.WARN, 1), (HealthVerdict.FAIL, 2)):
@@ -84,7 +86,7 @@ def test_the_worst_finding_is_the_exit_status(
 
 
 def test_a_fault_is_one_line_with_its_fix_in_each_language(
-    settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     found = HealthFinding(
         "port",
@@ -105,7 +107,7 @@ def test_a_fault_is_one_line_with_its_fix_in_each_language(
     "error", [PermissionError("denied"), subprocess.TimeoutExpired("x", 1), RuntimeError("odd")]
 )
 def test_a_check_that_is_cut_short_hides_no_other(
-    settings: Settings, monkeypatch: pytest.MonkeyPatch, error: Exception
+    settings: LaunchSettings, monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
     def broken() -> HealthFinding:
         raise error
@@ -126,7 +128,7 @@ def test_without_the_recogniser_it_says_what_to_do(monkeypatch: pytest.MonkeyPat
 
 
 def test_without_cyclictest_it_says_how_to_get_it(
-    settings: Settings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(shutil, "which", lambda _: None)
     monkeypatch.setattr(
@@ -149,7 +151,7 @@ def test_a_cyclictest_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_json_is_for_machines(
-    examined: tuple[Settings, list[HealthFinding]],
+    examined: tuple[LaunchSettings, list[HealthFinding]],
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -158,7 +158,7 @@ def test_motion_that_the_sentence_does_not_name(
 )  # fmt: skip
 def test_law(category: str, text: str, made: StepPlan, right: bool, wrong: bool) -> None:
     verdict = judge(Case(text, category, law=LAWS[category]), made, WORLD)
-    assert (verdict.right, bool(verdict.wrong)) == (right, wrong), verdict.why
+    assert (verdict.right, bool(verdict.wrong)) == (right, wrong), verdict.explanation
 
 
 def test_the_judge_reads_names_and_numbers_by_itself() -> None:

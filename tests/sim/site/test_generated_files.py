@@ -15,7 +15,7 @@ from sim.site.__main__ import main
 from sim.site.outline import area_m2, trace
 from sim.site.raster import FREE, OCCUPIED, RESOLUTION_M, UNKNOWN, draw
 from sim.site.shapes import Rect
-from wire import Misconfigured, map_id
+from wire import ConfigError, map_id
 
 SITES = ("home", "two_room")
 
@@ -40,7 +40,7 @@ def test_stale_files_are_named_refused_and_written(site_dir: Path, tmp_path: Pat
     (copy / "fence.json").unlink()
     (copy / "map.pgm").write_bytes(b"P5\n1 1\n255\n\0")
     assert stale(copy) == ["map.pgm", "fence.json"]
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         check_fresh(copy)
     assert refusal.value.code == "site_stale"
     assert write(copy) == ["map.pgm", "fence.json"]

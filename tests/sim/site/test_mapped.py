@@ -13,7 +13,7 @@ from maps.new_site import new_site
 from sim import SimRobot
 from sim.site import check_fresh, load_home
 from sim.site.mapped import wall_boxes
-from wire import Misconfigured
+from wire import ConfigError
 
 
 @pytest.fixture
@@ -57,11 +57,11 @@ def test_the_lidar_sees_the_maps_walls(mapped: Path, repository: Path) -> None:
 def test_a_site_without_its_dock_is_refused(mapped: Path) -> None:
     places = mapped / "places.yaml"
     places.write_text(places.read_text().replace("home: home", "home: nowhere"))
-    with pytest.raises(Misconfigured, match="dock_unknown"):
+    with pytest.raises(ConfigError, match="dock_unknown"):
         load_home(mapped)
 
 
 def test_a_declaration_is_never_passed_over(mapped: Path) -> None:
     (mapped / "home.yaml").symlink_to("gone.yaml")
-    with pytest.raises(Misconfigured, match="home_missing"):
+    with pytest.raises(ConfigError, match="home_missing"):
         load_home(mapped)

@@ -10,7 +10,7 @@ import pytest
 from sim.site import Home, parse_home, site_files
 from sim.site.classes import class_of
 from sim.site.objects import ground_m, rest_m, uprights
-from wire import Misconfigured
+from wire import ConfigError
 
 ROOM = {"name": {"en": "hall", "zh": "厅"}, "box": [0, 0, 5, 4], "pose": [2.5, 2.0, 0]}
 DOCK = {"name": {"en": "dock", "zh": "充电桩"}, "pose": [1.0, 2.0, 0]}
@@ -58,7 +58,7 @@ OBJECTS: list[tuple[str, dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("code", "objects"), OBJECTS)
 def test_an_object_that_cannot_be_there_is_refused(code: str, objects: dict[str, Any]) -> None:
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         home(objects)
     assert refusal.value.code == code
     assert "home.yaml" in refusal.value.detail
@@ -71,7 +71,7 @@ def test_an_object_that_cannot_be_there_is_refused(code: str, objects: dict[str,
     ("place_near_obstacle", [2.5, 2.3]),
 ])  # fmt: skip
 def test_a_person_needs_room(code: str, at: list[float]) -> None:
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         home(people={"ann": {"at": at}})
     assert refusal.value.code == code
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from sim.site import load_home, parse_home, stale
-from wire import Misconfigured
+from wire import ConfigError
 
 GOOD = """
 version: 1
@@ -77,20 +77,20 @@ def test_the_good_home_is_accepted() -> None:
 @pytest.mark.parametrize(("code", "old", "new"), REFUSALS)
 def test_a_bad_home_is_refused(code: str, old: str, new: str) -> None:
     assert old in GOOD
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         parse_home(GOOD.replace(old, new), "home.yaml")
     assert refusal.value.code == code
     assert "home.yaml" in refusal.value.detail
 
 
 def test_a_refusal_says_what_came_and_what_exists() -> None:
-    with pytest.raises(Misconfigured, match=r"'garage' is no place; places: dock"):
+    with pytest.raises(ConfigError, match=r"'garage' is no place; places: dock"):
         parse_home(GOOD.replace("dock: dock\n", "dock: garage\n"), "home.yaml")
 
 
 def test_all_findings_of_a_stage_are_told_at_once() -> None:
     text = GOOD.replace("zh: 右室", "zh: 左室").replace("dock: dock\n", "dock: garage\n")
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         parse_home(text, "home.yaml")
     assert "garage" in refusal.value.detail
     assert "左室" in refusal.value.detail
@@ -106,13 +106,13 @@ def test_all_findings_of_a_stage_are_told_at_once() -> None:
     ids=lambda text: text[:20],
 )
 def test_what_is_no_declaration_is_refused_and_nothing_else(text: str) -> None:
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         parse_home(text, "home.yaml")
     assert refusal.value.code in {"home_syntax", "home_invalid"}
 
 
 def test_a_missing_home_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         load_home(tmp_path)
     assert refusal.value.code == "home_missing"
 
@@ -121,6 +121,6 @@ def test_a_home_in_the_wrong_folder_is_refused(tmp_path: Path) -> None:
     folder = tmp_path / "elsewhere"
     folder.mkdir()
     (folder / "home.yaml").write_text(GOOD, "utf-8")
-    with pytest.raises(Misconfigured) as refusal:
+    with pytest.raises(ConfigError) as refusal:
         stale(folder)
     assert refusal.value.code == "home_site_mismatch"

@@ -7,21 +7,21 @@ from typing import Any
 
 import pytest
 
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from tools.lockstep.world_fork import fork_world
 
-Ready = Callable[..., Together]
+Ready = Callable[..., LockstepWorld]
 
 
 @pytest.fixture(scope="session")
 def ready() -> Ready:
     """Return a maker of worlds: each a copy of one that was made ready with these parts."""
-    made: dict[str, Together] = {}
+    made: dict[str, LockstepWorld] = {}
 
-    def copy(**parts: Any) -> Together:
+    def copy(**parts: Any) -> LockstepWorld:
         name = repr(sorted(parts.items()))
         if name not in made:
-            made[name] = Together(**parts)
+            made[name] = LockstepWorld(**parts)
         return fork_world(made[name])
 
     return copy

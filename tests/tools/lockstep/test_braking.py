@@ -9,7 +9,7 @@ from math import pi
 import pytest
 
 from sim import Hardware
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2, Velocity, keys
 from wire.keys import Party
@@ -30,7 +30,7 @@ WEAKER = Hardware(motor_torque_nm=0.68)
 class Driver:
     """Steer a lockstep world by hand."""
 
-    world: Together
+    world: LockstepWorld
     seq: int = 0
     epoch: str = ""
     mouth: object = field(init=False)
@@ -60,7 +60,7 @@ class Driver:
         )  # fmt: skip
 
 
-def at_the_wall(world: Together) -> float:
+def at_the_wall(world: LockstepWorld) -> float:
     """Drive at the wall by hand as fast as may be; return what is left before it [m]."""
     put_down(world, NEARER)
     driver = Driver(world)
@@ -73,12 +73,12 @@ def at_the_wall(world: Together) -> float:
     return left_m
 
 
-def put_down(world: Together, where: Pose2) -> None:
+def put_down(world: LockstepWorld, where: Pose2) -> None:
     world.teleport(where)
     world.run(0.3)
 
 
-def stopped_once(world: Together) -> None:
+def stopped_once(world: LockstepWorld) -> None:
     put_down(world, FROM)
     driver = Driver(world)
     driver.take_over()
@@ -87,11 +87,13 @@ def stopped_once(world: Together) -> None:
 
 
 @pytest.fixture(scope="module")
-def first_wall(ready: Callable[..., Together]) -> Callable[[Hardware], tuple[Together, float]]:
+def first_wall(
+    ready: Callable[..., LockstepWorld],
+) -> Callable[[Hardware], tuple[LockstepWorld, float]]:
     """Return a maker of worlds that have stopped at the wall once, and what was left there [m]."""
-    made: dict[Hardware, tuple[Together, float]] = {}
+    made: dict[Hardware, tuple[LockstepWorld, float]] = {}
 
-    def copy(hardware: Hardware) -> tuple[Together, float]:
+    def copy(hardware: Hardware) -> tuple[LockstepWorld, float]:
         if hardware not in made:
             world = ready(seed=1, hardware=hardware, start=FROM)
             made[hardware] = world, at_the_wall(world)
@@ -103,7 +105,7 @@ def first_wall(ready: Callable[..., Together]) -> Callable[[Hardware], tuple[Tog
 
 @pytest.mark.parametrize("hardware", [LATE, WEAK, WEAKER], ids=["late", "half", "weaker"])
 def test_the_first_wall_is_not_touched_and_later_ones_keep_the_margin(
-    first_wall: Callable[[Hardware], tuple[Together, float]], hardware: Hardware
+    first_wall: Callable[[Hardware], tuple[LockstepWorld, float]], hardware: Hardware
 ) -> None:
     world, first_m = first_wall(hardware)
     assert world.contacts == 0, "what the first stop lacks is covered by the margin"
@@ -115,7 +117,7 @@ def test_the_first_wall_is_not_touched_and_later_ones_keep_the_margin(
     assert world.status.braking.learnt
 
 
-def test_a_late_and_a_weak_robot_are_told_apart(ready: Callable[..., Together]) -> None:
+def test_a_late_and_a_weak_robot_are_told_apart(ready: Callable[..., LockstepWorld]) -> None:
     late = ready(seed=1, hardware=LATE, start=FROM)
     stopped_once(late)
     assert late.status.braking.lag_s > 0.1
@@ -126,7 +128,7 @@ def test_a_late_and_a_weak_robot_are_told_apart(ready: Callable[..., Together]) 
 
 
 def test_brakes_under_half_are_capped_so_that_stopping_is_no_fault(
-    first_wall: Callable[[Hardware], tuple[Together, float]],
+    first_wall: Callable[[Hardware], tuple[LockstepWorld, float]],
 ) -> None:
     # An ordinary ramp teaches it; a stop at 0.5 m/s would be found too slow.
     world, _ = first_wall(WEAKER)
@@ -136,7 +138,7 @@ def test_brakes_under_half_are_capped_so_that_stopping_is_no_fault(
     assert world.status.limits.by in {"weak_brakes", "obstacle"}
 
 
-def test_a_robot_as_robot_toml_says_learns_nothing(ready: Callable[..., Together]) -> None:
+def test_a_robot_as_robot_toml_says_learns_nothing(ready: Callable[..., LockstepWorld]) -> None:
     world = ready(seed=1, start=FROM)
     stopped_once(world)
     assert not world.status.braking.learnt

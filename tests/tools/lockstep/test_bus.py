@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tools.lockstep import Bus, Disturbance
+from tools.lockstep import Disturbance, LockstepBus
 from wire import Heartbeat, Rejected, Stop, keys
 from wire.keys import Party
 
@@ -15,7 +15,9 @@ def stop(count: int) -> Stop:
     return Stop(id=f"stop-{count}", source="test")
 
 
-def heard(bus: Bus, disturbance: Disturbance | None = None, sends: int = 40) -> list[list[str]]:
+def heard(
+    bus: LockstepBus, disturbance: Disturbance | None = None, sends: int = 40
+) -> list[list[str]]:
     """Send one stop a tick, and list what each tick brought."""
     ears = bus.port(Party.BRIDGE).subscriber(keys.STOP)
     mouth = bus.port(Party.PLANNER).publisher(keys.STOP)
@@ -36,7 +38,7 @@ def flat(ticks: list[list[str]]) -> list[str]:
 
 
 def test_each_message_arrives_once_and_in_order_within_the_latency() -> None:
-    ticks = heard(Bus(1, {PAIR: (1, 2)}))
+    ticks = heard(LockstepBus(1, {PAIR: (1, 2)}))
     assert flat(ticks) == [f"stop-{count}" for count in range(40)]
     for count in range(40):
         arrived = next(index for index, names in enumerate(ticks) if f"stop-{count}" in names)
@@ -44,36 +46,36 @@ def test_each_message_arrives_once_and_in_order_within_the_latency() -> None:
 
 
 def test_a_pair_without_latency_has_it_in_the_same_tick() -> None:
-    assert heard(Bus(1, {}))[0] == ["stop-0"]
+    assert heard(LockstepBus(1, {}))[0] == ["stop-0"]
 
 
 def test_the_same_seed_delays_alike_and_another_does_not() -> None:
-    first, again, other = (heard(Bus(seed, {PAIR: (1, 5)})) for seed in (1, 1, 2))
+    first, again, other = (heard(LockstepBus(seed, {PAIR: (1, 5)})) for seed in (1, 1, 2))
     assert first == again
     assert first != other
 
 
 def test_lost_messages_are_lost_and_doubled_ones_come_twice() -> None:
-    assert flat(heard(Bus(1, {}), Disturbance(drop=1.0))) == []
-    twice = flat(heard(Bus(1, {}), Disturbance(duplicate=1.0)))
+    assert flat(heard(LockstepBus(1, {}), Disturbance(drop=1.0))) == []
+    twice = flat(heard(LockstepBus(1, {}), Disturbance(duplicate=1.0)))
     assert twice == [f"stop-{count}" for count in range(40) for _ in range(2)]
 
 
 def test_a_delay_keeps_order_unless_overtaking_is_asked_for() -> None:
-    late = flat(heard(Bus(1, {}), Disturbance(delay_ticks=(0, 3))))
+    late = flat(heard(LockstepBus(1, {}), Disturbance(delay_ticks=(0, 3))))
     assert late == sorted(late, key=lambda name: int(name.split("-")[1]))
-    mixed = flat(heard(Bus(1, {}), Disturbance(delay_ticks=(0, 3), reorder=True)))
+    mixed = flat(heard(LockstepBus(1, {}), Disturbance(delay_ticks=(0, 3), reorder=True)))
     assert mixed != late
     assert sorted(mixed) == sorted(late)
 
 
 def test_a_disturbance_spoils_only_the_keys_and_the_sender_that_it_names() -> None:
-    assert len(flat(heard(Bus(1, {}), Disturbance(keys=("cmd/grant",), drop=1.0)))) == 40
-    assert len(flat(heard(Bus(1, {}), Disturbance(sender=Party.BRIDGE, drop=1.0)))) == 40
+    assert len(flat(heard(LockstepBus(1, {}), Disturbance(keys=("cmd/grant",), drop=1.0)))) == 40
+    assert len(flat(heard(LockstepBus(1, {}), Disturbance(sender=Party.BRIDGE, drop=1.0)))) == 40
 
 
 def test_a_ring_keeps_the_newest_and_only_four_are_parsed() -> None:
-    bus = Bus(1, {})
+    bus = LockstepBus(1, {})
     ears = bus.port(Party.BRIDGE).subscriber(keys.STOP)
     mouth = bus.port(Party.PLANNER).publisher(keys.STOP)
     for count in range(100):
@@ -86,7 +88,7 @@ def test_a_ring_keeps_the_newest_and_only_four_are_parsed() -> None:
 
 
 def test_a_part_that_left_says_and_hears_nothing_but_what_it_said_still_comes() -> None:
-    bus = Bus(1, {PAIR: (2, 2)})
+    bus = LockstepBus(1, {PAIR: (2, 2)})
     ears = bus.port(Party.BRIDGE).subscriber(keys.STOP)
     gone = bus.port(Party.PLANNER)
     mouth = gone.publisher(keys.STOP)
@@ -98,7 +100,7 @@ def test_a_part_that_left_says_and_hears_nothing_but_what_it_said_still_comes() 
 
 
 def test_what_is_no_message_is_refused_where_it_is_read() -> None:
-    bus = Bus(1, {})
+    bus = LockstepBus(1, {})
     ears = bus.port(Party.BRIDGE).subscriber(keys.HEARTBEAT)
     beat = Heartbeat.model_construct(planner_id="p", epoch="a-1", seen=-1, used=0)
     bus.port(Party.PLANNER).publisher(keys.HEARTBEAT).put(beat)

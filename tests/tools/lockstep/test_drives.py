@@ -9,7 +9,7 @@ from math import hypot
 import pytest
 
 from planner.plan import GoalState
-from tools.lockstep import TICK_S, Disturbance, GoalHandle, Together
+from tools.lockstep import TICK_S, Disturbance, GoalHandle, LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2
 from wire.keys import Party
@@ -24,7 +24,7 @@ HOLD2_TICKS = 31
 """BRAIN_LOST acts over 300 ms after the newest echoed status was sent: at the 31st tick at last."""
 
 
-def inside(world: Together, room_id: str) -> bool:
+def inside(world: LockstepWorld, room_id: str) -> bool:
     room = world.scene.site.place(room_id)
     assert room is not None
     return room.contains(world.truth.x_m, world.truth.y_m)
@@ -34,7 +34,7 @@ def stands(goal: GoalHandle, state: GoalState) -> bool:
     return goal.state is state
 
 
-def assert_within_limits(world: Together) -> None:
+def assert_within_limits(world: LockstepWorld) -> None:
     limits, base = world.scene.robot.limits, world.scene.robot.base
     sent = [command for command in world.commands if command is not None]
     fastest = max(max(abs(c.left_radps), abs(c.right_radps)) for c in sent)
@@ -48,21 +48,21 @@ def assert_within_limits(world: Together) -> None:
     assert all(a.seq < b.seq for a, b in pairwise(sent))
 
 
-def driving(world: Together) -> bool:
+def driving(world: LockstepWorld) -> bool:
     return world.status.mode is Mode.ACTIVE and abs(world.twist.v_mps) > 0.2
 
 
-Driving = Callable[[], tuple[Together, GoalHandle]]
+Driving = Callable[[], tuple[LockstepWorld, GoalHandle]]
 
 
 @pytest.fixture(scope="module")
-def off(ready: Callable[..., Together]) -> Driving:
+def off(ready: Callable[..., LockstepWorld]) -> Driving:
     """Return a maker of worlds on their way to the living room, each with its goal."""
     first = ready(seed=4, start=IN_KITCHEN)
     goal_id = first.say("go to the living room").id
     first.run_until(driving, LIMIT_S)
 
-    def copy() -> tuple[Together, GoalHandle]:
+    def copy() -> tuple[LockstepWorld, GoalHandle]:
         world = fork_world(first)
         return world, world.goal(goal_id)
 
@@ -75,13 +75,13 @@ def off(ready: Callable[..., Together]) -> Driving:
     ids=["good wire", "bad wire"],
 )
 def test_a_goal_in_either_language_ends_standing_in_the_room_and_a_bad_wire_costs_time_only(
-    ready: Callable[..., Together], text: str, wire: Disturbance | None
+    ready: Callable[..., LockstepWorld], text: str, wire: Disturbance | None
 ) -> None:
     world = ready(seed=2, start=BY_THE_DOOR)
     if wire is not None:
         world.disturb(wire)
     goal = world.say(text)
-    world.run_until(lambda _: goal.ended, LIMIT_S)
+    world.run_until(lambda _: goal.has_ended, LIMIT_S)
     assert stands(goal, GoalState.SUCCEEDED)
     assert inside(world, "living_room")
     assert world.standing
@@ -95,18 +95,18 @@ def test_a_goal_in_either_language_ends_standing_in_the_room_and_a_bad_wire_cost
 
 
 def test_several_steps_and_back_visit_each_place_and_end_where_it_began(
-    ready: Callable[..., Together],
+    ready: Callable[..., LockstepWorld],
 ) -> None:
     world = ready(seed=2, start=BY_THE_DOOR)
     began = world.truth
     visited: list[str] = []
     goal = world.say("go to the living room, then the kitchen, then come back")
 
-    def done(w: Together) -> bool:
+    def done(w: LockstepWorld) -> bool:
         room = w.room
         if room is not None and (not visited or visited[-1] != room):
             visited.append(room)
-        return goal.ended
+        return goal.has_ended
 
     world.run_until(done, 2 * LIMIT_S)
     assert stands(goal, GoalState.SUCCEEDED)
@@ -174,7 +174,7 @@ def test_a_short_freeze_goes_on_by_itself_and_obeys_nothing_from_before(off: Dri
     world.at(tick + 101, lambda w: w.thaw_planner())
     world.run(0.5)
     assert world.status.epoch != before
-    world.run_until(lambda _: goal.ended, LIMIT_S)
+    world.run_until(lambda _: goal.has_ended, LIMIT_S)
     assert stands(goal, GoalState.SUCCEEDED)
 
 
@@ -186,7 +186,7 @@ def test_what_is_put_in_the_way_is_not_touched(off: Driving) -> None:
     world.run(2.0)
     assert world.contacts == 0
     world.remove_obstacle()
-    world.run_until(lambda _: goal.ended, LIMIT_S)
+    world.run_until(lambda _: goal.has_ended, LIMIT_S)
     assert stands(goal, GoalState.SUCCEEDED)
     assert world.contacts == 0
 
@@ -195,14 +195,14 @@ def test_carrying_the_robot_away_stops_it_first(off: Driving) -> None:
     world, goal = off()
     world.teleport(Pose2(1.5, 1.9, 0.0))
     world.run_until(lambda w: any(row.row == "POSE_JUMP" for row in w.status.rows), 1.0)
-    world.run_until(lambda _: goal.ended, LIMIT_S)
+    world.run_until(lambda _: goal.has_ended, LIMIT_S)
     assert stands(goal, GoalState.SUCCEEDED)
     assert inside(world, "living_room")
     assert world.contacts == 0
 
 
 def drive(seed: int) -> list[tuple[float, float] | None]:
-    world = Together(seed=seed)
+    world = LockstepWorld(seed=seed)
     world.say("go to the living room")
     world.run(3.0)
     return [(c.left_radps, c.right_radps) if c is not None else None for c in world.commands]

@@ -10,8 +10,8 @@ import pytest
 
 from planner.brain import ScriptedBrain
 from planner.plan import Follow, GoalState, StepPlan
-from tools.lockstep import GoalHandle, Together
-from tools.lockstep.homes import stocked
+from tools.lockstep import GoalHandle, LockstepWorld
+from tools.lockstep.homes import stock_home
 from wire import Pose2
 
 BRAKING_M = 0.3
@@ -22,11 +22,13 @@ START = Pose2(1.5, 1.2, pi / 2)
 def lived_in(tmp_path_factory: pytest.TempPathFactory, repository: Path) -> Path:
     """Return the two rooms with a person in them."""
     people: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
-    return stocked(tmp_path_factory.mktemp("sites"), repository / "sites" / "two_room", {}, people)
+    return stock_home(
+        tmp_path_factory.mktemp("sites"), repository / "sites" / "two_room", {}, people
+    )
 
 
 @pytest.fixture
-def world(ready: Callable[..., Together], lived_in: Path) -> Together:
+def world(ready: Callable[..., LockstepWorld], lived_in: Path) -> LockstepWorld:
     """Return a world that sees, and whose brain says to follow."""
     world = ready(site=lived_in, seed=3, start=START)
     world.put("anna", Pose2(1.5, 2.6, 0.0))
@@ -35,11 +37,11 @@ def world(ready: Callable[..., Together], lived_in: Path) -> Together:
     return world
 
 
-def away_m(world: Together, y_m: float) -> float:
+def away_m(world: LockstepWorld, y_m: float) -> float:
     return hypot(world.truth.x_m - 1.5, world.truth.y_m - y_m)
 
 
-def walk_on(world: Together, from_m: float, to_m: float, seconds: float = 20.0) -> float:
+def walk_on(world: LockstepWorld, from_m: float, to_m: float, seconds: float = 20.0) -> float:
     """Let her walk at 0.4 m/s, then stand; return the least distance."""
     least_m, y_m = 9.0, from_m
     for _ in range(round(seconds / 0.01)):
@@ -51,14 +53,16 @@ def walk_on(world: Together, from_m: float, to_m: float, seconds: float = 20.0) 
 
 
 @pytest.mark.parametrize("driving", [False, True], ids=["standing", "driving"])
-def test_a_camera_that_falls_silent_ends_it_where_it_stands(world: Together, driving: bool) -> None:
+def test_a_camera_that_falls_silent_ends_it_where_it_stands(
+    world: LockstepWorld, driving: bool
+) -> None:
     world.run(1.5)
     goal, y_m = world.say("follow me"), 3.4
     walk_on(world, 2.6, y_m, 3.0 if driving else 9.0)
     assert (world.twist.v_mps > 0.1) is driving
     world.open_eyes().blind = "camera_silent"
     before_m, least_m, at_s = away_m(world, y_m), 9.0, world.now_s
-    while not goal.ended:
+    while not goal.has_ended:
         world.tick()
         least_m = min(least_m, away_m(world, y_m))
         assert world.now_s - at_s < 15.0
@@ -70,7 +74,9 @@ def test_a_camera_that_falls_silent_ends_it_where_it_stands(world: Together, dri
 
 
 @pytest.mark.parametrize("way", ["pause", "stop"])
-def test_one_that_is_stopped_or_paused_stands_while_she_walks_on(world: Together, way: str) -> None:
+def test_one_that_is_stopped_or_paused_stands_while_she_walks_on(
+    world: LockstepWorld, way: str
+) -> None:
     world.run(1.5)
     goal = world.say("follow me")
     walk_on(world, 2.6, 3.4, 3.0)
@@ -87,7 +93,7 @@ def test_one_that_is_stopped_or_paused_stands_while_she_walks_on(world: Together
     assert world.contacts == 0
 
 
-def _order(world: Together, goal: GoalHandle, way: str) -> None:
+def _order(world: LockstepWorld, goal: GoalHandle, way: str) -> None:
     if way == "stop":
         world.stop()
     else:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tools.bench.measure.hostile_planner import attack
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import hall
 from tools.lockstep.hostile import HostilePlanner, Person
 from tools.lockstep.judge import Judge
@@ -37,7 +37,7 @@ def test_a_hostile_external_brain_breaks_no_law_where_localization_falls_silent(
     site = hall(tmp_path)
     fence = json.loads((site / "fence.json").read_text("utf-8"))
     (site / "fence.json").write_text(json.dumps({**fence, "allowed": PENS}), "utf-8")
-    world = Together(site=site, seed=seed + 1)
+    world = LockstepWorld(site=site, seed=seed + 1)
     hostile, person, judge = HostilePlanner(world, seed, "external"), Person(world), Judge(world)
     hostile.metres = 60.0
     lost = 0

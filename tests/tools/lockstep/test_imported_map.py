@@ -9,25 +9,25 @@ import pytest
 
 from planner.plan import GoalState
 from pons import site
-from pons.settings import Settings, site_of
+from pons.settings import LaunchSettings, site_of
 from pons_assets import ROBOT_FILE
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 
 SHARED = Path(__file__).resolve().parents[4] / "shared" / "data" / "maps"
 LIMIT_S = 120.0
 
 
 def imported(tmp_path: Path, plan: Path, *words: str) -> Path:
-    settings = Settings(tmp_path / "home", ROBOT_FILE, tmp_path, "127.0.0.1", 1)
+    settings = LaunchSettings(tmp_path / "home", ROBOT_FILE, tmp_path, "127.0.0.1", 1)
     assert site.run(settings, ["import", str(plan), "mine", *words]) == 0
     assert site.run(settings, ["name", "mine", "room_1", "first hall", "--zh", "大厅"]) == 0
     return site_of("mine", settings.home)
 
 
 def drives_to_the_hall(folder: Path, text: str) -> None:
-    world = Together(site=folder, seed=2)
+    world = LockstepWorld(site=folder, seed=2)
     goal = world.say(text)
-    world.run_until(lambda _: goal.ended, LIMIT_S)
+    world.run_until(lambda _: goal.has_ended, LIMIT_S)
     assert goal.state is GoalState.SUCCEEDED
     hall = world.scene.site.place("first_hall")
     assert hall is not None

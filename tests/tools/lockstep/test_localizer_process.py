@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import hypot
 
 from localization.localizer import LocalizerState
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from wire import Pose2, RobotDescription, compose
 from wire.robot import LocalizationConfig
 
 
-def error_m(world: Together) -> float:
+def error_m(world: LockstepWorld) -> float:
     assert world.localizer is not None
     said = world.localizer.said
     assert said is not None
@@ -20,7 +20,7 @@ def error_m(world: Together) -> float:
 
 def test_it_finds_itself_at_start_and_again_when_carried() -> None:
     robot = RobotDescription(localization=LocalizationConfig(kind="scans"))
-    world = Together(site="two_room", seed=2, robot=robot)
+    world = LockstepWorld(site="two_room", seed=2, robot=robot)
     assert world.localizer is not None
     localizer = world.localizer.localizer
     assert error_m(world) < 0.05

@@ -22,8 +22,8 @@ from planner.plan import (
     StepPlan,
     StepRecord,
 )
-from tools.lockstep import GoalHandle, Together
-from tools.lockstep.homes import stocked
+from tools.lockstep import GoalHandle, LockstepWorld
+from tools.lockstep.homes import stock_home
 from wire import Pose2, wrap
 
 RED, BLUE, ON_SOFA = (2.6, 0.6), (2.6, 1.0), (1.2, 5.5)
@@ -34,7 +34,7 @@ OBJECTS: dict[str, object] = {
 }
 PEOPLE: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
 TO_THE_DOOR, BY_THE_COUNTER = Pose2(1.5, 4.0, -pi / 2), Pose2(1.5, 1.9, -0.9)
-World = Callable[..., Together]
+World = Callable[..., LockstepWorld]
 
 pytestmark = pytest.mark.timeout(180)
 """A search is a minute of simulated time: 6 s of a free core, ten times that on a busy one."""
@@ -43,16 +43,16 @@ pytestmark = pytest.mark.timeout(180)
 @pytest.fixture(scope="session")
 def home(tmp_path_factory: pytest.TempPathFactory, repository: Path) -> Path:
     """Return the two rooms with three cups and a person in them."""
-    return stocked(
+    return stock_home(
         tmp_path_factory.mktemp("sites"), repository / "sites" / "two_room", OBJECTS, PEOPLE
     )
 
 
 @pytest.fixture
-def world_with(ready: Callable[..., Together], home: Path) -> World:
+def world_with(ready: Callable[..., LockstepWorld], home: Path) -> World:
     """Return a maker of worlds that see, and whose brain says this plan."""
 
-    def made(*steps: Step, start: Pose2 = BY_THE_COUNTER, seed: int = 3) -> Together:
+    def made(*steps: Step, start: Pose2 = BY_THE_COUNTER, seed: int = 3) -> LockstepWorld:
         world = ready(site=home, seed=seed, start=start)
         world.open_eyes()
         world.think_with(ScriptedBrain([StepPlan(steps=steps)] * 4))
@@ -61,8 +61,8 @@ def world_with(ready: Callable[..., Together], home: Path) -> World:
     return made
 
 
-def done(world: Together, goal: GoalHandle, limit_s: float = 90.0) -> StepRecord:
-    world.run_until(lambda _: goal.ended, limit_s)
+def done(world: LockstepWorld, goal: GoalHandle, limit_s: float = 90.0) -> StepRecord:
+    world.run_until(lambda _: goal.has_ended, limit_s)
     plan = goal.record.plan
     assert plan is not None
     assert world.contacts == 0
@@ -76,7 +76,7 @@ def told(goal: GoalHandle) -> tuple[Code, str, str]:
     return outcome.code, outcome.message.en, outcome.message.zh
 
 
-def moved_m(world: Together, since: Pose2) -> float:
+def moved_m(world: LockstepWorld, since: Pose2) -> float:
     return hypot(world.truth.x_m - since.x_m, world.truth.y_m - since.y_m)
 
 

@@ -25,7 +25,7 @@ from planner.plan import (
     StepPlan,
     same,
 )
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 
 if TYPE_CHECKING:
     from planner.brain.streamed_draft import Hear
@@ -69,10 +69,10 @@ class Reading:
 def story(then: Plan, read: Bilingual) -> tuple[Goal, Obeying, list[str]]:
     """Give a goal in one world, and see it to its end."""
     brain = Obeying(then)
-    world = Together(site="two_room", seed=3, brain=brain)
+    world = LockstepWorld(site="two_room", seed=3, brain=brain)
     world.open_eyes(looker=Reading(read))
     goal = world.say("look what is there, and decide")
-    world.run_until(lambda _: goal.ended, limit_s=60.0)
+    world.run_until(lambda _: goal.has_ended, limit_s=60.0)
     return goal.record, brain, world.planner.said
 
 

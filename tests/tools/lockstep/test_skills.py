@@ -22,7 +22,7 @@ from planner.plan import (
     StepRecord,
     Turn,
 )
-from tools.lockstep import GoalHandle, Together
+from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Pose2
 
 IN_KITCHEN = Pose2(1.5, 2.0, 1.5)
@@ -31,14 +31,14 @@ BY_THE_DOOR = Pose2(1.5, 2.4, 1.5)
 BY_THE_DOCK = Pose2(1.4, 1.0, -2.6)
 
 
-World = Callable[..., Together]
+World = Callable[..., LockstepWorld]
 
 
 @pytest.fixture
-def world_with(ready: Callable[..., Together]) -> World:
+def world_with(ready: Callable[..., LockstepWorld]) -> World:
     """Return a maker of worlds whose brain says these plans, one after the other."""
 
-    def made(*plans: tuple[Step, ...], start: Pose2 = IN_KITCHEN) -> Together:
+    def made(*plans: tuple[Step, ...], start: Pose2 = IN_KITCHEN) -> LockstepWorld:
         world = ready(seed=2, start=start)
         world.think_with(ScriptedBrain([StepPlan(steps=steps) for steps in plans]))
         return world
@@ -46,8 +46,8 @@ def world_with(ready: Callable[..., Together]) -> World:
     return made
 
 
-def done(world: Together, goal: GoalHandle, limit_s: float = 60.0) -> tuple[StepRecord, ...]:
-    world.run_until(lambda _: goal.ended, limit_s)
+def done(world: LockstepWorld, goal: GoalHandle, limit_s: float = 60.0) -> tuple[StepRecord, ...]:
+    world.run_until(lambda _: goal.has_ended, limit_s)
     plan = goal.record.plan
     assert plan is not None
     assert world.contacts == 0
@@ -71,11 +71,11 @@ def test_it_turns_by_the_angle_that_was_asked_and_drives_nowhere(
     before, goal, way_rad = world.truth, world.say("turn"), 0.0
     newest = before
 
-    def watch(w: Together) -> bool:
+    def watch(w: LockstepWorld) -> bool:
         nonlocal newest, way_rad
         way_rad += radians(turned_deg(newest, w.truth))
         newest = w.truth
-        return goal.ended
+        return goal.has_ended
 
     world.run_until(watch, 30.0)
     (step,) = done(world, goal)
@@ -124,7 +124,7 @@ def test_a_patrol_visits_its_places_in_their_order(world_with: World) -> None:
     dock = world.scene.site.place("charging_dock")
     assert dock is not None
     world.run_until(lambda w: hypot(w.truth.x_m - dock.pose.x_m, w.truth.y_m - dock.pose.y_m) < 0.1)
-    assert not goal.ended
+    assert not goal.has_ended
     (step,) = done(world, goal)
     assert (goal.state, step.visited, world.room) == (GoalState.SUCCEEDED, 2, "kitchen")
 

@@ -9,8 +9,8 @@ import pytest
 from planner.brain.image_questions import Asked, Described, NotThere
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import Bilingual, BrainTag, Code, GoTo, Look, Say, Step, StepPlan
-from tools.lockstep import Together
-from tools.lockstep.homes import stocked
+from tools.lockstep import LockstepWorld
+from tools.lockstep.homes import stock_home
 from wire import Pose2
 
 if TYPE_CHECKING:
@@ -38,10 +38,10 @@ class Denying:
         return NotThere(self.tag)
 
 
-def seeing(home: Path, start: Pose2, *steps: Step) -> tuple[Together, Denying]:
+def seeing(home: Path, start: Pose2, *steps: Step) -> tuple[LockstepWorld, Denying]:
     """Return a world that sees, and whose brain says this plan."""
     brain = ScriptedBrain([StepPlan(steps=steps)] * 4)
-    world, model = Together(site=home, seed=3, start=start, brain=brain), Denying()
+    world, model = LockstepWorld(site=home, seed=3, start=start, brain=brain), Denying()
     world.open_eyes(looker=model)
     return world, model
 
@@ -50,10 +50,10 @@ def seeing(home: Path, start: Pose2, *steps: Step) -> tuple[Together, Denying]:
 def test_somebody_who_was_seen_is_told_whatever_a_model_denies(
     tmp_path: Path, repository: Path, question: str
 ) -> None:
-    home = stocked(tmp_path, repository / "sites" / "two_room", {}, ANNA)
+    home = stock_home(tmp_path, repository / "sites" / "two_room", {}, ANNA)
     world, model = seeing(home, KITCHEN, Look(question=question, place="living_room"))
     goal = world.say(question)
-    world.run_until(lambda _: goal.ended, limit_s=120.0)
+    world.run_until(lambda _: goal.has_ended, limit_s=120.0)
     outcome = goal.record.outcome
     assert outcome is not None
     assert outcome.code is Code.SEEN
@@ -68,7 +68,7 @@ def test_somebody_who_was_seen_is_told_whatever_a_model_denies(
 def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
     tmp_path: Path, repository: Path
 ) -> None:
-    home = stocked(tmp_path, repository / "sites" / "two_room", {}, {"anna": {"at": [2.2, 2.3]}})
+    home = stock_home(tmp_path, repository / "sites" / "two_room", {}, {"anna": {"at": [2.2, 2.3]}})
     world, model = seeing(home, BY_THE_DOOR)
     world.place_obstacle(1.5, 3.0)
     look = StepPlan(steps=(Look(question="is anybody there?", place="kitchen"),))

@@ -6,20 +6,20 @@ from collections.abc import Callable
 
 import pytest
 
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, SimFault
 
 Wheels = list[tuple[float, float] | None]
 
 
-def turned(world: Together, seconds: float) -> Wheels:
+def turned(world: LockstepWorld, seconds: float) -> Wheels:
     world.run(seconds)
     return [(c.left_radps, c.right_radps) if c is not None else None for c in world.commands]
 
 
 def test_a_copy_goes_on_to_the_bit_whatever_breaks_in_another() -> None:
-    world = Together(seed=5)
+    world = LockstepWorld(seed=5)
     world.say("go to the living room")
     world.run_until(lambda w: w.status.mode is Mode.ACTIVE and w.twist.v_mps > 0.2, 20.0)
     same, broken = fork_world(world), fork_world(world)
@@ -32,7 +32,7 @@ def test_a_copy_goes_on_to_the_bit_whatever_breaks_in_another() -> None:
 
 
 def test_a_world_is_not_copied_while_its_planner_waits(
-    ready: Callable[..., Together],
+    ready: Callable[..., LockstepWorld],
 ) -> None:
     world = ready(seed=5)
     world.say("go to the living room")

@@ -21,7 +21,7 @@ import psutil
 
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.robot_processes import free_port
-from pons.settings import CHECKOUT, Settings
+from pons.settings import CHECKOUT, LaunchSettings
 from processes.parent_death import child_command, module_in
 from tools.bench.chaos.draw import PROCESSES
 from tools.bench.context import MeasurementFailure, line, until
@@ -50,7 +50,7 @@ class House:
             log: what ``pons up`` prints; beside the home, whose disk is going to be full.
             mounts: put a disk of its own below the home.
         """
-        self.settings = Settings(
+        self.settings = LaunchSettings(
             home, CHECKOUT / "robot.toml", CHECKOUT / "sites" / "home", "127.0.0.1", free_port()
         )
         self.mounts, self._log = mounts, log

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from pons.settings import Settings
+    from pons.settings import LaunchSettings
 
 KEEP = 20_000
 PERIOD_S = 0.01
@@ -40,7 +40,7 @@ BridgeState = tuple[float, str, tuple[str, ...]]
 class Witness:
     """Hear one robot."""
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: LaunchSettings) -> None:
         """Describe it; entering the context begins to listen."""
         self._settings = settings
         self._ending = threading.Event()

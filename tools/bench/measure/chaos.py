@@ -155,7 +155,7 @@ def rows(played: list[dict[str, Any]], lives: list[dict[str, Any]], shared: str)
             "motion after a confirmed stop",
             _count(confirmed, "stop_broken"),
             len(confirmed),
-            f"moving when it was confirmed: {moving}; {_which(confirmed, 'stop_broken')}",
+            f"moving when it was confirmed: {moving}; {_name_episodes(confirmed, 'stop_broken')}",
         ),
         ReportRow(
             "stops never confirmed",
@@ -170,10 +170,13 @@ def rows(played: list[dict[str, Any]], lives: list[dict[str, Any]], shared: str)
             "doubled speech",
             _count(played, "said_twice"),
             len(speaking),
-            f"heard {sum(one['said'] for one in speaking)}; {_which(played, 'said_twice')}",
+            f"heard {sum(one['said'] for one in speaking)}; {_name_episodes(played, 'said_twice')}",
         ),
         _zero(
-            "unrecovered", _count(played, "unrecovered"), len(played), _which(played, "unrecovered")
+            "unrecovered",
+            _count(played, "unrecovered"),
+            len(played),
+            _name_episodes(played, "unrecovered"),
         ),
         row_of("fault over -> ready", "s", "", ready),
         *_kinds(played),
@@ -194,7 +197,7 @@ def _count(played: list[dict[str, Any]], name: str) -> int:
     return sum(bool(one[name]) for one in played)
 
 
-def _which(played: list[dict[str, Any]], name: str) -> str:
+def _name_episodes(played: list[dict[str, Any]], name: str) -> str:
     """Name the episodes with something to tell under a name, by their faults."""
     bad = [f"#{one['number']} {_faults(one)}" for one in played if one[name]]
     return "; ".join(bad)[:600]

@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import TICK_S, Together
+from tools.lockstep import TICK_S, LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2, SimFault
 
@@ -65,15 +65,15 @@ def trial(
 
 
 @lru_cache(maxsize=SEEDS)
-def _cruising(seed: int) -> Together:
+def _cruising(seed: int) -> LockstepWorld:
     """Drive off; every fault of this seed breaks the same drive."""
-    world = Together(seed=seed, start=START)
+    world = LockstepWorld(seed=seed, start=START)
     world.say("go to the living room")
     world.run_until(lambda w: w.status.mode is Mode.ACTIVE and w.twist.v_mps > CRUISE_MPS, 30.0)
     return world
 
 
-def _first_notice(world: Together, rows: dict[str, None]) -> str:
+def _first_notice(world: LockstepWorld, rows: dict[str, None]) -> str:
     """Name what the bridge noticed: its first row, or a gate that shut the way."""
     if rows:
         return next(iter(rows))

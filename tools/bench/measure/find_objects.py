@@ -25,7 +25,7 @@ from sim.site.plan import furniture_shape
 from tools.bench.detector_run import Counting, DrawnFinder
 from tools.bench.object_visibility import in_sight
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import Together, TooLong
+from tools.lockstep import LockstepWorld, TooLong
 from tools.lockstep.homes import site_of
 from tools.lockstep.truth_detector import TruthFinder
 from tools.train.homes import drawn_home
@@ -141,7 +141,7 @@ def _shows(home: Home, names: Sequence[str]) -> bool:
 
 def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path) -> SearchResult:
     label, color = wanted
-    world = Together(site=site, seed=seed)
+    world = LockstepWorld(site=site, seed=seed)
     eyes = world.open_eyes()
     camera = world.scene.robot.camera
     if not by_truth():
@@ -155,7 +155,7 @@ def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path)
     began_s, goal = world.now_s, world.say(words)
     late = False
     try:
-        world.run_until(lambda _: goal.ended, LIMIT_S)
+        world.run_until(lambda _: goal.has_ended, LIMIT_S)
     except TooLong:
         late = True
     record = goal.record

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import made_home
 from tools.lockstep.hostile import HostilePlanner, Person
 from tools.lockstep.judge import Judge
@@ -36,7 +36,7 @@ def site_of(seed: int, folder: Path) -> Path | str:
 def attack(seed: int, run_s: float = RUN_S) -> dict[str, Any]:
     """Run one script; return what broke, how far it drove and how long it was in each mode."""
     with TemporaryDirectory(prefix="pb-") as folder:
-        world = Together(site=site_of(seed, Path(folder)), seed=seed + 1)
+        world = LockstepWorld(site=site_of(seed, Path(folder)), seed=seed + 1)
         hostile, person, judge = HostilePlanner(world, seed), Person(world), Judge(world)
         for _ in range(round(run_s * 100)):
             world.tick()

@@ -24,7 +24,7 @@ from maps import load_map
 from pons.settings import CHECKOUT
 from sim import Hardware, SimRobot
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from wire import Pose2, RobotDescription, SimFault, compose, wrap
 from wire.robot import LocalizationConfig
 
@@ -90,10 +90,10 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     return rows
 
 
-def scans_world(seed: int, hardware: Hardware) -> Together:
+def scans_world(seed: int, hardware: Hardware) -> LockstepWorld:
     """Return a world in the home whose robot localizes by scans."""
     robot = RobotDescription(localization=LocalizationConfig(kind="scans"))
-    return Together(site=SITE, seed=seed, robot=robot, hardware=hardware)
+    return LockstepWorld(site=SITE, seed=seed, robot=robot, hardware=hardware)
 
 
 def drive(case: str, seed: int) -> DriveErrors:
@@ -104,7 +104,7 @@ def drive(case: str, seed: int) -> DriveErrors:
     errors_m: list[float] = []
     errors_deg: list[float] = []
     while world.now_s - began_s < DRIVE_S:
-        if goal.ended:
+        if goal.has_ended:
             goal = world.say(f"go to the {random.choice(ROOMS)}")
         _disturb(case, world, random, world.now_s - began_s)
         world.run(0.1)
@@ -122,7 +122,7 @@ def _drive_record(case: str, seed: int) -> dict[str, object]:
     return asdict(drive(case, seed))
 
 
-def _disturb(case: str, world: Together, random: Random, elapsed_s: float) -> None:
+def _disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) -> None:
     if case == "ice":
         slips = 10.0 <= elapsed_s % 30.0 < 13.0
         world.sim.break_down(*([SimFault.SLIP] if slips else []))
@@ -136,7 +136,7 @@ def _draw_beside(pose: Pose2, random: Random, near_m: float, far_m: float) -> Po
     return Pose2(pose.x_m + far * float(np.cos(angle)), pose.y_m + far * float(np.sin(angle)), 0.0)
 
 
-def _errors(world: Together) -> tuple[float, float]:
+def _errors(world: LockstepWorld) -> tuple[float, float]:
     """Return how far off the said pose is [m, degrees], where the bridge now thinks it is."""
     said = world.localizer.said if world.localizer is not None else None
     if said is None:
@@ -166,11 +166,11 @@ def kidnappings(seed: int) -> list[tuple[float, float]]:
     return found
 
 
-def _is_lost(core: Localizer, _: Together) -> bool:
+def _is_lost(core: Localizer, _: LockstepWorld) -> bool:
     return core.state is LocalizerState.LOST
 
 
-def _is_right(core: Localizer, world: Together) -> bool:
+def _is_right(core: Localizer, world: LockstepWorld) -> bool:
     return core.state is LocalizerState.TRACKING and _errors(world)[0] < RIGHT_M
 
 

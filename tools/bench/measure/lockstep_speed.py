@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 
 if TYPE_CHECKING:
     from tools.bench.context import BenchLab
@@ -40,12 +40,12 @@ def _pair(index: int) -> dict[str, tuple[float, float]]:
 
 def _factors(site: str, text: str, index: int) -> tuple[float, float]:
     """Return simulated seconds per second of wall clock and of this process's CPU time."""
-    world = Together(site=site, seed=index + 1)
+    world = LockstepWorld(site=site, seed=index + 1)
     goal = world.say(text)
     began_s, began_cpu_s = time.perf_counter(), time.process_time()
     began_tick = world.tick_count
     end_tick = began_tick + round(LIMIT_S / world.bridge.config.period_s)
-    while not goal.ended and world.tick_count < end_tick:
+    while not goal.has_ended and world.tick_count < end_tick:
         world.tick()
     simulated_s = (world.tick_count - began_tick) * world.bridge.config.period_s
     wall_s, cpu_s = time.perf_counter() - began_s, time.process_time() - began_cpu_s

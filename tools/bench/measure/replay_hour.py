@@ -18,7 +18,7 @@ from bridge.recording.recorder import Recorder
 from bridge.recording.writer_process import Sizes
 from bridge.replay import replay
 from tools.bench.report import ReportRow
-from tools.lockstep import Together
+from tools.lockstep import LockstepWorld
 from wire import Mode
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def _drive(lab: BenchLab, index: int) -> dict[str, float]:
     """Record one slice and replay its files as one run."""
     with lab.folder() as folder:
         taken = RecordedStep(folder)
-        world = Together(site="home", seed=100 + index, step=taken)
+        world = LockstepWorld(site="home", seed=100 + index, step=taken)
         tours = cycle(TOURS[index % len(TOURS) :] + TOURS[: index % len(TOURS)])
         goal: Any = None
         while world.tick_count < SLICE_TICKS:

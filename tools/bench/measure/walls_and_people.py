@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.geometry.odometry import along_arc
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import Together, TooLong
+from tools.lockstep import LockstepWorld, TooLong
 from tools.lockstep.constant_drive import ConstantDrive
 from tools.lockstep.homes import HALL_M, hall
 from tools.lockstep.hostile import Person
@@ -51,7 +51,7 @@ class WalkTrial:
     """Nearest that it came, in clearance."""
 
 
-def needed_m(world: Together, v_mps: float, w_radps: float) -> tuple[float, float, float]:
+def needed_m(world: LockstepWorld, v_mps: float, w_radps: float) -> tuple[float, float, float]:
     """Return the stopping distance plus one scan, what goes before braking [s], deceleration."""
     robot = world.scene.robot
     limits = robot.limits
@@ -89,7 +89,7 @@ class Trials:
 
     def __init__(self, folder: Path, seed: int) -> None:
         self.random = Random(f"walls {seed}")
-        self.world = Together(site=hall(folder), seed=seed + 1)
+        self.world = LockstepWorld(site=hall(folder), seed=seed + 1)
         self.driver, self.person = ConstantDrive(self.world), Person(self.world)
 
     def _run(self, ticks: int) -> None:

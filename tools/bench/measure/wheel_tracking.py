@@ -15,7 +15,7 @@ from bridge.core.geometry.kinematics import rim_speeds
 from bridge.core.geometry.odometry import roll
 from sim import Hardware
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import TICK_S, Together
+from tools.lockstep import TICK_S, LockstepWorld
 from wire import IDENTITY, Mode, Pose2, RobotDescription, compose, inverse
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class TrackedDrive:
 
 def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START) -> TrackedDrive:
     """Drive to the living room once."""
-    world = Together(
+    world = LockstepWorld(
         seed=seed, start=start, robot=describe_robot(control=control), hardware=hardware
     )
     base = world.scene.robot.base
@@ -66,7 +66,7 @@ def drive(hardware: Hardware, seed: int, *, control: bool, start: Pose2 = START)
     odom_began = world.bridge.state.odometry.base_in_odom
     meant_to = IDENTITY
     squares, count, metres = 0.0, 0, 0.0
-    while not goal.ended and world.now_s - began_s < LIMIT_S:
+    while not goal.has_ended and world.now_s - began_s < LIMIT_S:
         world.tick()
         sent = world.bridge.state.motion.limiter.sent
         left, right = rim_speeds(sent, base.wheel_separation_m)

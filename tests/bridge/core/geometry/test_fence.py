@@ -14,7 +14,7 @@ from bridge.core.geometry import fence as fences
 from bridge.core.geometry.fence import SIGHT_M, FenceCell, Zone, build_fence
 from bridge.core.geometry.polygon import Edge, Polygon, nearest_m, permits
 from bridge.fence_file import load_fence, parse_fence
-from wire.errors import Misconfigured
+from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
 
 MAP = "0123456789abcdef"
@@ -124,7 +124,7 @@ def test_a_file_becomes_a_fence_and_its_hash(tmp_path: Path) -> None:
     ],
 )
 def test_a_wrong_file_is_refused(data: bytes, code: str) -> None:
-    with pytest.raises(Misconfigured) as caught:
+    with pytest.raises(ConfigError) as caught:
         parse_fence(data)
     assert caught.value.code == code
 
@@ -135,7 +135,7 @@ def test_a_fence_that_leaves_a_strip_is_none_that_leaves_nothing() -> None:
 
 
 def test_a_missing_file_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured, match="fence_missing"):
+    with pytest.raises(ConfigError, match="fence_missing"):
         load_fence(tmp_path / "none.json")
 
 

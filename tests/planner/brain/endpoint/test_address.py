@@ -12,7 +12,7 @@ from planner.brain import BrainDown
 from planner.brain.endpoint.address import Address, Names, refused_among
 from planner.plan import Vocabulary
 from tests.planner.brain.endpoint.servers import GO, KEY, Server, brain, think, wrote
-from wire import Misconfigured
+from wire import ConfigError
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_a_base_url_becomes_the_one_url(base: str, url: str, local: bool) -> Non
     ],
 )
 def test_where_no_model_may_be_refuses_to_start(base: str) -> None:
-    with pytest.raises(Misconfigured) as refused:
+    with pytest.raises(ConfigError) as refused:
         Address.parse(base)
     assert refused.value.code == "model_url"
     assert "secret" not in str(refused.value)

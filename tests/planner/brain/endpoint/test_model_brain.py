@@ -26,7 +26,7 @@ from tests.planner.brain.endpoint.servers import (
     think,
     wrote,
 )
-from wire import Misconfigured
+from wire import ConfigError
 
 BAD = '{"kind":"plan","steps":[{"kind":"go_to","place":"wine_cellar"}]}'
 
@@ -168,7 +168,7 @@ def test_a_generation_that_the_server_refuses_is_repaired(home: Vocabulary, tmp_
 
 
 def test_a_host_elsewhere_needs_a_second_yes(tmp_path: Path) -> None:
-    with pytest.raises(Misconfigured) as wrong:
+    with pytest.raises(ConfigError) as wrong:
         EndpointBrain(settings(url="https://api.example.com/v1"), tmp_path)
     assert wrong.value.code == "model_offhost"
     assert KEY not in str(wrong.value)

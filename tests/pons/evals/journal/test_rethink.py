@@ -35,7 +35,7 @@ from pons.evals.journal.show import verdict
 from pons.evals.journal.think import DriveResult, SecondThought
 from pons.settings import CHECKOUT
 from tests.pons.mock_llm.mocks import running_mock
-from wire import Misconfigured
+from wire import ConfigError
 
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
@@ -192,7 +192,7 @@ def test_as_many_calls_are_allowed_as_were_agreed_to(
 
     def refused(budget: BudgetSettings, *_: object, **__: object) -> None:
         allowed.append(budget.goal.calls)
-        raise Misconfigured("budget_unreadable", "as this test wants it")
+        raise ConfigError("budget_unreadable", "as this test wants it")
 
     home = journal(tmp_path / "h", *(mission(g, "go to the kitchen", KITCHEN) for g in "abc"))
     monkeypatch.setenv("PONS_HOME", str(tmp_path / "mine"))

@@ -37,7 +37,7 @@ from pons.evals.quick.eyes import DISC, PICTURE, examine_eyes
 from pons.evals.quick.grade import grade
 from pons.evals.quick.questions import QUESTIONS, WORLD, ExamPart
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
-from wire import Misconfigured
+from wire import ConfigError
 
 STRICT = (ModeResult("json_schema", taken=True, right=True),)
 
@@ -298,6 +298,6 @@ def test_a_model_is_chosen_by_name_and_url(word: str, name: str, url: str, tmp_p
 def test_without_any_model_the_choice_says_what_to_give(tmp_path: Path) -> None:
     assert load_settings(tmp_path, {}).model is None
     for word in ("", "m", "http://127.0.0.1:1/v1"):
-        with pytest.raises(Misconfigured, match=r"NAME@URL") as wrong:
+        with pytest.raises(ConfigError, match=r"NAME@URL") as wrong:
             choose_model(word, tmp_path, {})
         assert wrong.value.code == "model_not_set"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pons.settings import CHECKOUT, Settings
+from pons.settings import CHECKOUT, LaunchSettings
 from pons.up import children
 from processes.parent_death import child_command, worker_command
 from tools.bench.chaos.draw import OWNER_OF, PROCESSES
@@ -19,7 +19,7 @@ WORKER = list(worker_command("MODULE"))[:-1]
 
 def test_every_child_of_pons_up_has_a_name_of_ours() -> None:
     robot = CHECKOUT / "robot.toml"
-    settings = Settings(Path("/h"), robot, CHECKOUT / "sites" / "home", "127.0.0.1", 1)
+    settings = LaunchSettings(Path("/h"), robot, CHECKOUT / "sites" / "home", "127.0.0.1", 1)
     told = [
         role([*child_command(*child.arguments)]) for child in children(settings, load_robot(robot))
     ]
